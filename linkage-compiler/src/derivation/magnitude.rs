@@ -1,0 +1,65 @@
+//! How large an expression could be at these lengths: the yardstick that makes verdicts scale-free.
+
+use crate::graph::{Function, Graph, Node, NodeId, Number};
+
+/// The sum of the absolute values of the terms, with every sine and cosine replaced by 1.
+///
+/// It has the unit of the expression itself, so a quotient of the two is a pure number: scaling all
+/// lengths by a power of two changes no bit of it.
+pub(super) fn of(graph: &mut Graph, id: NodeId) -> NodeId {
+    match graph.node(id).clone() {
+        Node::Constant(value) => graph.number(value.absolute()),
+        Node::Sum { constant, terms } => {
+            let constant = graph.number(constant.absolute());
+            let mut sum = vec![(Number::ONE, constant)];
+            for (coefficient, term) in terms {
+                sum.push((coefficient.absolute(), of_product(graph, term)));
+            }
+            graph.sum(&sum)
+        }
+        _ => of_product(graph, id),
+    }
+}
+
+fn of_product(graph: &mut Graph, id: NodeId) -> NodeId {
+    let (coefficient, factors) = match graph.node(id).clone() {
+        Node::Product { coefficient, factors } => (coefficient.absolute(), factors),
+        _ => (Number::ONE, vec![(id, 1)]),
+    };
+    let mut product = vec![(graph.number(coefficient), 1)];
+    for (base, exponent) in factors {
+        let bounded = matches!(graph.node(base), Node::Call(Function::Sin | Function::Cos, _));
+        if bounded && exponent > 0 {
+            continue;
+        }
+        if exponent > 0 && matches!(graph.node(base), Node::Sum { .. }) {
+            let inner = of_sum_once(graph, base);
+            product.push((inner, exponent));
+        } else {
+            product.push((graph.call(Function::Abs, &[base]), exponent));
+        }
+    }
+    graph.product(&product)
+}
+
+/// The terms of a sum inside a product, each by its absolute value as it stands.
+fn of_sum_once(graph: &mut Graph, id: NodeId) -> NodeId {
+    let Node::Sum { constant, terms } = graph.node(id).clone() else { return id };
+    let constant = graph.number(constant.absolute());
+    let mut sum = vec![(Number::ONE, constant)];
+    for (coefficient, term) in terms {
+        let factors = match graph.node(term).clone() {
+            Node::Product { factors, .. } => factors,
+            _ => vec![(term, 1)],
+        };
+        let mut product = Vec::new();
+        for (base, exponent) in factors {
+            let bounded = matches!(graph.node(base), Node::Call(Function::Sin | Function::Cos, _)) && exponent > 0;
+            if !bounded {
+                product.push((graph.call(Function::Abs, &[base]), exponent));
+            }
+        }
+        sum.push((coefficient.absolute(), graph.product(&product)));
+    }
+    graph.sum(&sum)
+}

@@ -1,0 +1,85 @@
+//! Mistakes of the user, collected per stage, each on the user's own tokens.
+
+use proc_macro2::{Span, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
+
+/// The tokens from `first` to `last`.
+#[derive(Debug, Clone, Copy)]
+pub struct Region {
+    pub first: Span,
+    pub last: Span,
+}
+
+impl From<Span> for Region {
+    fn from(span: Span) -> Self {
+        Self { first: span, last: span }
+    }
+}
+
+impl Region {
+    #[must_use]
+    pub fn to(self, end: Self) -> Self {
+        Self { first: self.first, last: end.last }
+    }
+}
+
+// `syn::Error::new_spanned` underlines from the first token to the last.
+impl ToTokens for Region {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        for span in [self.first, self.last] {
+            let mut mark = TokenTree::Punct(proc_macro2::Punct::new(';', proc_macro2::Spacing::Alone));
+            mark.set_span(span);
+            tokens.extend([mark]);
+        }
+    }
+}
+
+/// The messages of one stage.
+#[derive(Debug, Default)]
+pub struct Diagnostics {
+    errors: Vec<syn::Error>,
+}
+
+impl Diagnostics {
+    pub fn error(&mut self, at: impl Into<Region>, message: impl std::fmt::Display) {
+        self.errors.push(syn::Error::new_spanned(at.into(), message));
+    }
+
+    pub fn push(&mut self, error: syn::Error) {
+        self.errors.push(error);
+    }
+
+    pub fn append(&mut self, mut other: Self) {
+        self.errors.append(&mut other.errors);
+    }
+
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.errors.is_empty()
+    }
+
+    /// The messages as text, in the order found.
+    #[must_use]
+    pub fn messages(&self) -> Vec<String> {
+        self.errors.iter().map(ToString::to_string).collect()
+    }
+
+    /// One `compile_error!` a message.
+    #[must_use]
+    pub fn to_tokens(&self) -> TokenStream {
+        let errors = self.errors.iter().map(syn::Error::to_compile_error);
+        quote! { #(#errors)* }
+    }
+}
+
+/// ", did you mean `…`?" if one of the candidates is near enough to `name`.
+pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    // Half the letters may differ, and at least one.
+    let limit = (name.chars().count() / 2).clamp(1, 3);
+    candidates
+        .into_iter()
+        .map(|candidate| (strsim::osa_distance(name, candidate), candidate))
+        .filter(|(distance, _)| *distance <= limit)
+        .min_by_key(|(distance, _)| *distance)
+        .map_or_else(String::new, |(_, candidate)| format!(", did you mean `{candidate}`?"))
+}

@@ -1,0 +1,40 @@
+//! The interpreter: the oracle that emitted code is compared with.
+
+use super::{Graph, Node, NodeId, SymbolId};
+
+impl Graph {
+    /// The values of `roots` where `bind` gives the value of each symbol.
+    #[must_use]
+    pub fn evaluate(&self, roots: &[NodeId], bind: impl Fn(SymbolId) -> f64) -> Vec<f64> {
+        let last = roots.iter().max().map_or(0, |root| root.index() + 1);
+        let mut values: Vec<Option<f64>> = vec![None; last];
+        for id in self.reachable(roots) {
+            values[id.index()] =
+                node_value(self.node(id), |symbol| Some(bind(symbol)), |child| values[child.index()]);
+        }
+        roots.iter().map(|root| values[root.index()].unwrap_or(f64::NAN)).collect()
+    }
+}
+
+/// The value of one node, given those of its symbols and children; `None` if one is missing.
+pub(super) fn node_value(
+    node: &Node,
+    bind: impl Fn(SymbolId) -> Option<f64>,
+    child: impl Fn(NodeId) -> Option<f64>,
+) -> Option<f64> {
+    match node {
+        Node::Constant(value) => Some(value.to_f64()),
+        Node::Pi => Some(std::f64::consts::PI),
+        Node::Symbol(symbol) => bind(*symbol),
+        Node::Sum { constant, terms } => terms
+            .iter()
+            .try_fold(constant.to_f64(), |sum, (factor, term)| Some(sum + factor.to_f64() * child(*term)?)),
+        Node::Product { coefficient, factors } => factors
+            .iter()
+            .try_fold(coefficient.to_f64(), |product, (base, exponent)| Some(product * child(*base)?.powi(*exponent))),
+        Node::Call(function, arguments) => {
+            let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
+            arguments.map(|arguments| (function.operation().value)(&arguments))
+        }
+    }
+}

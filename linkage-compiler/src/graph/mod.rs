@@ -1,0 +1,485 @@
+//! The expression graph: hash-consed nodes with exact constants and n-ary sums and products.
+//!
+//! Equal expressions are one node, so derivatives share what they have in common and no
+//! formula swells. Children always precede their parents, hence every traversal is a loop
+//! over ascending ids: nothing here recurses, whatever the depth of an expression.
+
+mod differentiate;
+mod function;
+mod interpret;
+mod number;
+mod print;
+
+use std::collections::{BTreeMap, HashMap};
+
+pub use function::{Function, OPERATIONS, Operation};
+pub use number::Number;
+
+/// An expression of a [`Graph`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(u32);
+
+/// A name of a [`Graph`]: parameter, coordinate, rate, or a quantity solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SymbolId(u32);
+
+/// What an expression is made of.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Node {
+    Constant(Number),
+    Pi,
+    Symbol(SymbolId),
+    /// constant + sum of coefficient * term; terms ascend, no coefficient is zero, no term is
+    /// itself a sum, a constant or a product with a coefficient.
+    Sum { constant: Number, terms: Vec<(Number, NodeId)> },
+    /// coefficient * product of base^exponent; bases ascend, no exponent is zero, no base is
+    /// itself a product.
+    Product { coefficient: Number, factors: Vec<(NodeId, i32)> },
+    Call(Function, Vec<NodeId>),
+}
+
+/// Why an expression has no value at all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    DivisionByZero,
+    NotFinite,
+    ExponentOverflow,
+}
+
+/// An arena of expressions.
+#[derive(Debug, Clone, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    ids: HashMap<Node, NodeId>,
+    /// The value of each node that holds no symbol.
+    values: Vec<Option<f64>>,
+    symbols: Vec<String>,
+    fault: Option<Fault>,
+}
+
+impl NodeId {
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Graph {
+    /// A new name; two symbols of one name are two symbols.
+    pub fn symbol(&mut self, name: impl Into<String>) -> SymbolId {
+        self.symbols.push(name.into());
+        SymbolId(u32::try_from(self.symbols.len() - 1).unwrap_or(u32::MAX))
+    }
+
+    #[must_use]
+    pub fn symbol_name(&self, symbol: SymbolId) -> &str {
+        &self.symbols[symbol.0 as usize]
+    }
+
+    #[must_use]
+    pub fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.index()]
+    }
+
+    /// The number of distinct expressions.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The value of an expression without symbols.
+    #[must_use]
+    pub fn constant_value(&self, id: NodeId) -> Option<f64> {
+        self.values[id.index()]
+    }
+
+    /// The exact value of a node that is a plain constant.
+    #[must_use]
+    pub fn as_number(&self, id: NodeId) -> Option<Number> {
+        match self.node(id) {
+            Node::Constant(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    #[must_use]
+    pub fn as_symbol(&self, id: NodeId) -> Option<SymbolId> {
+        match self.node(id) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        }
+    }
+
+    #[must_use]
+    pub fn is_zero(&self, id: NodeId) -> bool {
+        self.as_number(id).is_some_and(Number::is_zero)
+    }
+
+    /// What went wrong since the last call, if anything did.
+    pub fn take_fault(&mut self) -> Option<Fault> {
+        self.fault.take()
+    }
+
+    fn intern(&mut self, node: Node) -> NodeId {
+        if let Some(&id) = self.ids.get(&node) {
+            return id;
+        }
+        let value = interpret::node_value(&node, |_| None, |id| self.values[id.index()]);
+        if value.is_some_and(|value| !value.is_finite()) {
+            self.fault.get_or_insert(Fault::NotFinite);
+        }
+        let id = NodeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        self.values.push(value);
+        self.nodes.push(node.clone());
+        self.ids.insert(node, id);
+        id
+    }
+
+    pub fn number(&mut self, value: Number) -> NodeId {
+        self.intern(Node::Constant(value))
+    }
+
+    pub fn zero(&mut self) -> NodeId {
+        self.number(Number::ZERO)
+    }
+
+    pub fn one(&mut self) -> NodeId {
+        self.number(Number::ONE)
+    }
+
+    pub fn pi(&mut self) -> NodeId {
+        self.intern(Node::Pi)
+    }
+
+    pub fn variable(&mut self, symbol: SymbolId) -> NodeId {
+        self.intern(Node::Symbol(symbol))
+    }
+
+    pub fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.sum(&[(Number::ONE, a), (Number::ONE, b)])
+    }
+
+    pub fn subtract(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.sum(&[(Number::ONE, a), (Number::MINUS_ONE, b)])
+    }
+
+    pub fn negate(&mut self, a: NodeId) -> NodeId {
+        self.scale(Number::MINUS_ONE, a)
+    }
+
+    pub fn scale(&mut self, factor: Number, a: NodeId) -> NodeId {
+        let factor = self.number(factor);
+        self.multiply(factor, a)
+    }
+
+    pub fn multiply(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.product(&[(a, 1), (b, 1)])
+    }
+
+    pub fn divide(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.product(&[(a, 1), (b, -1)])
+    }
+
+    pub fn power(&mut self, base: NodeId, exponent: i32) -> NodeId {
+        self.product(&[(base, exponent)])
+    }
+
+    /// The sum of coefficient * item, like terms collected.
+    pub fn sum(&mut self, items: &[(Number, NodeId)]) -> NodeId {
+        let mut constant = Number::ZERO;
+        let mut terms: BTreeMap<NodeId, Number> = BTreeMap::new();
+        let mut collect = |coefficient: Number, term: NodeId| {
+            let entry = terms.entry(term).or_insert(Number::ZERO);
+            *entry = entry.add(coefficient);
+        };
+        for &(coefficient, item) in items {
+            match self.node(item).clone() {
+                Node::Constant(value) => constant = constant.add(coefficient.multiply(value)),
+                Node::Sum { constant: inner, terms } => {
+                    constant = constant.add(coefficient.multiply(inner));
+                    for (factor, term) in terms {
+                        collect(coefficient.multiply(factor), term);
+                    }
+                }
+                Node::Product { coefficient: inner, factors } if !inner.is_one() => {
+                    let monic = self.monic(factors);
+                    let total = coefficient.multiply(inner);
+                    // 2 * (a + b) is a product with a coefficient whose monic part is a sum.
+                    if let Node::Sum { constant: k, terms } = self.node(monic).clone() {
+                        constant = constant.add(total.multiply(k));
+                        for (factor, term) in terms {
+                            collect(total.multiply(factor), term);
+                        }
+                    } else {
+                        collect(total, monic);
+                    }
+                }
+                _ => collect(coefficient, item),
+            }
+        }
+        terms.retain(|_, coefficient| !coefficient.is_zero());
+        let terms: Vec<_> = terms.into_iter().map(|(term, coefficient)| (coefficient, term)).collect();
+        match terms.as_slice() {
+            [] => self.number(constant),
+            &[(coefficient, term)] if constant.is_zero() => self.scale(coefficient, term),
+            _ => self.intern(Node::Sum { constant, terms }),
+        }
+    }
+
+    fn monic(&mut self, factors: Vec<(NodeId, i32)>) -> NodeId {
+        match factors.as_slice() {
+            [] => self.one(),
+            &[(base, 1)] => base,
+            _ => self.intern(Node::Product { coefficient: Number::ONE, factors }),
+        }
+    }
+
+    /// The product of item^exponent, equal bases collected.
+    pub fn product(&mut self, items: &[(NodeId, i32)]) -> NodeId {
+        let mut coefficient = Number::ONE;
+        let mut factors: BTreeMap<NodeId, i32> = BTreeMap::new();
+        let mut overflow = false;
+        let mut collect = |base: NodeId, exponent: Option<i32>| {
+            let entry = factors.entry(base).or_insert(0);
+            match exponent.and_then(|exponent| entry.checked_add(exponent)) {
+                Some(total) => *entry = total,
+                None => overflow = true,
+            }
+        };
+        for &(item, exponent) in items {
+            match &self.nodes[item.index()] {
+                Node::Constant(value) => {
+                    if value.is_zero() && exponent <= 0 {
+                        self.fault.get_or_insert(Fault::DivisionByZero);
+                    }
+                    coefficient = coefficient.multiply(value.power(exponent));
+                }
+                Node::Product { coefficient: inner, factors } => {
+                    coefficient = coefficient.multiply(inner.power(exponent));
+                    for &(base, inner) in factors {
+                        collect(base, inner.checked_mul(exponent));
+                    }
+                }
+                _ => collect(item, Some(exponent)),
+            }
+        }
+        if overflow {
+            self.fault.get_or_insert(Fault::ExponentOverflow);
+        }
+        factors.retain(|_, exponent| *exponent != 0);
+        let factors: Vec<_> = factors.into_iter().collect();
+        if coefficient.is_zero() || factors.is_empty() {
+            return self.number(coefficient);
+        }
+        if coefficient.is_one() {
+            return self.monic(factors);
+        }
+        // A sign belongs inside a sum, so that -(a - b) and b - a are one node.
+        if let (true, &[(base, 1)]) = (coefficient == Number::MINUS_ONE, factors.as_slice())
+            && let Node::Sum { constant, terms } = self.node(base).clone()
+        {
+            let terms = terms.into_iter().map(|(factor, term)| (factor.negate(), term)).collect();
+            return self.intern(Node::Sum { constant: constant.negate(), terms });
+        }
+        self.intern(Node::Product { coefficient, factors })
+    }
+
+    /// `function(arguments)`; sines and cosines take out signs and quarter turns.
+    pub fn call(&mut self, function: Function, arguments: &[NodeId]) -> NodeId {
+        match (function, arguments) {
+            (Function::Sin | Function::Cos, &[angle]) => self.circular(function, angle),
+            (Function::Sqrt, &[x]) => {
+                let exact = self.as_number(x).and_then(square_root);
+                match exact {
+                    Some(root) => self.number(root),
+                    None => self.intern(Node::Call(function, vec![x])),
+                }
+            }
+            _ => self.intern(Node::Call(function, arguments.to_vec())),
+        }
+    }
+
+    /// sin(-x) = -sin x, cos(-x) = cos x, sin(x + pi/2) = cos x, cos(x + pi/2) = -sin x.
+    fn circular(&mut self, function: Function, angle: NodeId) -> NodeId {
+        let (turn, rest) = self.split_pi(angle);
+        let quarters = turn.multiply(Number::integer(2)).as_integer();
+        let (quarters, rest) = match quarters {
+            Some(quarters) => (quarters.rem_euclid(4), rest),
+            None => (0, angle),
+        };
+        let flip = self.leads_negative(rest);
+        let rest = if flip { self.negate(rest) } else { rest };
+        // cos x is sin(x + pi/2): both are a sine ahead by some quarters.
+        let ahead = quarters + i64::from(function == Function::Cos);
+        let (even, sign) = (ahead % 2 == 1, if ahead % 4 >= 2 { -1 } else { 1 });
+        let sign = if flip && !even { -sign } else { sign };
+        let base = if even { Function::Cos } else { Function::Sin };
+        let value = match exact_circular(base, self.split_pi(rest).0, self.is_pure_turn(rest)) {
+            Some(value) => self.number(value),
+            None => self.intern(Node::Call(base, vec![rest])),
+        };
+        self.scale(Number::integer(sign), value)
+    }
+
+    /// angle = turn * pi + rest, where `rest` has no term in pi.
+    fn split_pi(&mut self, angle: NodeId) -> (Number, NodeId) {
+        let pi = self.pi();
+        let turn = match self.node(angle) {
+            Node::Pi => Number::ONE,
+            Node::Product { coefficient, factors } if factors.as_slice() == [(pi, 1)] => *coefficient,
+            Node::Sum { terms, .. } => {
+                terms.iter().find(|(_, term)| *term == pi).map_or(Number::ZERO, |(factor, _)| *factor)
+            }
+            _ => Number::ZERO,
+        };
+        (turn, self.sum(&[(Number::ONE, angle), (turn.negate(), pi)]))
+    }
+
+    fn is_pure_turn(&mut self, angle: NodeId) -> bool {
+        let (_, rest) = self.split_pi(angle);
+        self.is_zero(rest)
+    }
+
+    /// Whether the first coefficient as written is negative: the sign to take out of an odd function.
+    #[must_use]
+    pub fn leads_negative(&self, id: NodeId) -> bool {
+        match self.node(id) {
+            Node::Constant(value) => value.is_negative(),
+            Node::Product { coefficient, .. } => coefficient.is_negative(),
+            Node::Sum { terms, .. } => terms.first().is_some_and(|(factor, _)| factor.is_negative()),
+            _ => false,
+        }
+    }
+
+    /// The direct parts of a node.
+    #[must_use]
+    pub fn children(&self, id: NodeId) -> Vec<NodeId> {
+        match self.node(id) {
+            Node::Constant(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
+            Node::Sum { terms, .. } => terms.iter().map(|(_, term)| *term).collect(),
+            Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
+            Node::Call(_, arguments) => arguments.clone(),
+        }
+    }
+
+    /// Every node that the roots are made of, children before parents.
+    #[must_use]
+    pub fn reachable(&self, roots: &[NodeId]) -> Vec<NodeId> {
+        let Some(last) = roots.iter().max() else { return Vec::new() };
+        let mut marked = vec![false; last.index() + 1];
+        for root in roots {
+            marked[root.index()] = true;
+        }
+        for index in (0..marked.len()).rev() {
+            if marked[index] {
+                for child in self.children(NodeId(u32::try_from(index).unwrap_or(u32::MAX))) {
+                    marked[child.index()] = true;
+                }
+            }
+        }
+        (0..=last.0).map(NodeId).filter(|id| marked[id.index()]).collect()
+    }
+
+    /// The symbols that the roots are made of.
+    #[must_use]
+    pub fn symbols_of(&self, roots: &[NodeId]) -> Vec<SymbolId> {
+        self.reachable(roots).into_iter().filter_map(|id| self.as_symbol(id)).collect()
+    }
+}
+
+/// The exact square root of a ratio of squares.
+fn square_root(value: Number) -> Option<Number> {
+    let root = |n: i64| u64::try_from(n).ok().map(u64::isqrt).filter(|r| r * r == n.unsigned_abs());
+    match value {
+        Number::Ratio(n, d) => Some(Number::ratio(i128::from(root(n)?), i128::from(root(d)?))),
+        Number::Float(_) => None,
+    }
+}
+
+/// The rational values of sine and cosine at `turn * pi`, quarter turns taken out: 0, 1/2 and 1 (Niven's theorem).
+fn exact_circular(function: Function, turn: Number, pure: bool) -> Option<Number> {
+    if !pure {
+        return None;
+    }
+    let half = Number::ratio(1, 2);
+    let table: &[(Number, Number)] = match function {
+        Function::Sin => &[
+            (Number::ZERO, Number::ZERO),
+            (Number::ratio(1, 6), half),
+            (Number::ratio(5, 6), half),
+            (Number::ratio(7, 6), half.negate()),
+            (Number::ratio(11, 6), half.negate()),
+        ],
+        _ => &[
+            (Number::ZERO, Number::ONE),
+            (Number::ratio(1, 3), half),
+            (Number::ratio(2, 3), half.negate()),
+            (Number::ratio(4, 3), half.negate()),
+            (Number::ratio(5, 3), half),
+        ],
+    };
+    table.iter().find(|(angle, _)| *angle == turn).map(|(_, value)| *value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn symbols(graph: &mut Graph) -> (NodeId, NodeId) {
+        let (a, b) = (graph.symbol("a"), graph.symbol("b"));
+        (graph.variable(a), graph.variable(b))
+    }
+
+    #[test]
+    fn equal_expressions_are_one_node() {
+        let mut g = Graph::default();
+        let (a, b) = symbols(&mut g);
+        let left = g.subtract(a, b);
+        let right = g.subtract(b, a);
+        let right = g.negate(right);
+        assert_eq!(left, right);
+        let twice = g.add(a, a);
+        assert_eq!(twice, g.scale(Number::integer(2), a));
+        let square = g.multiply(a, a);
+        assert_eq!(square, g.power(a, 2));
+        let one = g.divide(twice, twice);
+        assert_eq!(one, g.one());
+    }
+
+    #[test]
+    fn quarter_turns_and_signs_leave_the_circular_functions() {
+        let mut g = Graph::default();
+        let (a, _) = symbols(&mut g);
+        let pi = g.pi();
+        for sixths in -24..=24 {
+            let constant = g.scale(Number::ratio(sixths, 6), pi);
+            for shifted in [constant, g.add(a, constant), g.subtract(constant, a)] {
+                for function in [Function::Sin, Function::Cos] {
+                    let node = g.call(function, &[shifted]);
+                    let bind = |_| 0.7;
+                    let angle = g.evaluate(&[shifted], bind)[0];
+                    let expected = (function.operation().value)(&[angle]);
+                    let found = g.evaluate(&[node], bind)[0];
+                    assert!((found - expected).abs() < 1e-14, "{function:?} {}", g.text(shifted));
+                    if sixths % 3 == 0 {
+                        assert!(!g.text(node).contains("pi"), "{}", g.text(node));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn zero_divisors_are_faults() {
+        let mut g = Graph::default();
+        let (a, _) = symbols(&mut g);
+        let zero = g.zero();
+        g.divide(a, zero);
+        assert_eq!(g.take_fault(), Some(Fault::DivisionByZero));
+        assert_eq!(g.take_fault(), None);
+    }
+}

@@ -1,0 +1,234 @@
+//! Constants: exact ratios of integers, and `f64` where a ratio would overflow.
+
+use std::fmt;
+
+/// A constant: an exact ratio in lowest terms with a positive denominator, or a float.
+///
+/// Arithmetic on ratios is exact; a result whose numerator or denominator leaves `i64`
+/// becomes a float, never a wrapped integer.
+#[derive(Debug, Clone, Copy)]
+pub enum Number {
+    /// `numerator / denominator`.
+    Ratio(i64, i64),
+    /// A value that is not kept exactly.
+    Float(f64),
+}
+
+/// Integers up to this magnitude are exact in `f64`, so that the quotient of two is correctly rounded.
+const EXACT_IN_F64: i128 = 1 << 53;
+
+impl Number {
+    pub const ZERO: Self = Self::Ratio(0, 1);
+    pub const ONE: Self = Self::Ratio(1, 1);
+    pub const MINUS_ONE: Self = Self::Ratio(-1, 1);
+
+    #[must_use]
+    pub fn integer(value: i64) -> Self {
+        Self::ratio(i128::from(value), 1)
+    }
+
+    /// `numerator / denominator` in lowest terms; a zero denominator gives a non-finite float.
+    #[must_use]
+    pub fn ratio(numerator: i128, denominator: i128) -> Self {
+        if denominator == 0 {
+            return Self::Float(numerator as f64 / 0.0);
+        }
+        let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs());
+        let sign = denominator.signum();
+        let (n, d) = (sign * (numerator / divisor), sign * (denominator / divisor));
+        match (i64::try_from(n), i64::try_from(d)) {
+            // i64::MIN has no absolute value, so it is left to the floats.
+            (Ok(n), Ok(d)) if n != i64::MIN => Self::Ratio(n, d),
+            _ => Self::Float(n as f64 / d as f64),
+        }
+    }
+
+    /// A decimal literal such as `1.25e-3`, exact where its value as a ratio is the same `f64`
+    /// that the literal denotes.
+    #[must_use]
+    pub fn parse(digits: &str) -> Option<Self> {
+        let float: f64 = digits.parse().ok()?;
+        Some(Self::decimal(digits).unwrap_or(Self::Float(float)))
+    }
+
+    fn decimal(digits: &str) -> Option<Self> {
+        let (mantissa, exponent) = match digits.split_once(['e', 'E']) {
+            Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
+            None => (digits, 0),
+        };
+        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let places = exponent.checked_sub(i32::try_from(fraction.len()).ok()?)?;
+        let scale = 10_i128.checked_pow(places.unsigned_abs())?;
+        let integer: i128 = format!("{whole}{fraction}").parse().ok()?;
+        let (n, d) = if places < 0 { (integer, scale) } else { (integer.checked_mul(scale)?, 1) };
+        match Self::ratio(n, d) {
+            Self::Ratio(n, d) if exact_in_f64(n) && exact_in_f64(d) => Some(Self::Ratio(n, d)),
+            _ => None,
+        }
+    }
+
+    #[must_use]
+    pub fn to_f64(self) -> f64 {
+        match self {
+            Self::Ratio(n, d) => n as f64 / d as f64,
+            Self::Float(value) => value,
+        }
+    }
+
+    #[must_use]
+    pub fn is_zero(self) -> bool {
+        match self {
+            Self::Ratio(n, _) => n == 0,
+            Self::Float(value) => value == 0.0,
+        }
+    }
+
+    #[must_use]
+    pub fn is_one(self) -> bool {
+        self == Self::ONE
+    }
+
+    #[must_use]
+    pub fn is_negative(self) -> bool {
+        match self {
+            Self::Ratio(n, _) => n < 0,
+            Self::Float(value) => value < 0.0,
+        }
+    }
+
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.to_f64().is_finite()
+    }
+
+    /// The value as an integer, if it is one.
+    #[must_use]
+    pub fn as_integer(self) -> Option<i64> {
+        match self {
+            Self::Ratio(n, 1) => Some(n),
+            _ => None,
+        }
+    }
+
+    #[must_use]
+    pub fn add(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Ratio(a, b), Self::Ratio(c, d)) => {
+                let [a, b, c, d] = [a, b, c, d].map(i128::from);
+                match (a * d).checked_add(c * b) {
+                    Some(numerator) => Self::ratio(numerator, b * d),
+                    None => Self::Float(self.to_f64() + other.to_f64()),
+                }
+            }
+            _ => Self::Float(self.to_f64() + other.to_f64()),
+        }
+    }
+
+    #[must_use]
+    pub fn multiply(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Ratio(a, b), Self::Ratio(c, d)) => {
+                let [a, b, c, d] = [a, b, c, d].map(i128::from);
+                Self::ratio(a * c, b * d)
+            }
+            _ => Self::Float(self.to_f64() * other.to_f64()),
+        }
+    }
+
+    #[must_use]
+    pub fn negate(self) -> Self {
+        self.multiply(Self::MINUS_ONE)
+    }
+
+    #[must_use]
+    pub fn absolute(self) -> Self {
+        if self.is_negative() { self.negate() } else { self }
+    }
+
+    /// `self^exponent`; zero to a negative power is not finite.
+    #[must_use]
+    pub fn power(self, exponent: i32) -> Self {
+        let exact = match self {
+            Self::Ratio(n, d) => {
+                let (n, d) = if exponent < 0 { (d, n) } else { (n, d) };
+                let power = |base: i64| i128::from(base).checked_pow(exponent.unsigned_abs());
+                power(n).zip(power(d))
+            }
+            Self::Float(_) => None,
+        };
+        match exact {
+            Some((n, d)) => Self::ratio(n, d),
+            None => Self::Float(self.to_f64().powi(exponent)),
+        }
+    }
+}
+
+fn exact_in_f64(value: i64) -> bool {
+    i128::from(value).abs() >> value.trailing_zeros().min(63) <= EXACT_IN_F64
+}
+
+fn gcd(mut a: u128, mut b: u128) -> i128 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    i128::try_from(a).unwrap_or(1).max(1)
+}
+
+// Floats are compared by bits, so that equal nodes are equal keys.
+impl PartialEq for Number {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
+}
+
+impl Eq for Number {}
+
+impl std::hash::Hash for Number {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.key().hash(state);
+    }
+}
+
+impl Number {
+    fn key(self) -> (bool, i64, i64) {
+        match self {
+            Self::Ratio(n, d) => (true, n, d),
+            Self::Float(value) => (false, value.to_bits().cast_signed(), 0),
+        }
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Ratio(n, 1) => write!(f, "{n}"),
+            Self::Ratio(n, d) => write!(f, "{n}/{d}"),
+            Self::Float(value) => write!(f, "{value:?}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn overflow_falls_to_float() {
+        let large = Number::integer(i64::MAX);
+        assert_eq!(large.add(Number::ONE), Number::Float(i64::MAX as f64 + 1.0));
+        assert_eq!(large.multiply(large), Number::Float((i64::MAX as f64).powi(2)));
+        let tiny = Number::ratio(1, i128::from(i64::MAX));
+        assert_eq!(tiny.add(Number::ratio(1, i128::from(i64::MAX - 1))).to_f64(), 2.0 / i64::MAX as f64);
+        assert_eq!(Number::integer(3).power(60), Number::Float(3_f64.powi(60)));
+        assert!(!Number::ZERO.power(-1).is_finite());
+    }
+
+    #[test]
+    fn literals_keep_the_value_rust_gives_them() {
+        for text in ["0.1", "80.0", "1e300", "1e-300", "0.3490658503988659", "3.5e2", "123456789012345678901"] {
+            let parsed = Number::parse(text).map(Number::to_f64);
+            assert_eq!(parsed, text.parse().ok(), "{text}");
+        }
+        assert_eq!(Number::parse("1.25"), Some(Number::Ratio(5, 4)));
+    }
+}

@@ -1,0 +1,102 @@
+//! What was meant: a mechanism with every name resolved, every expression in the graph
+//! and every check made. No later stage meets a mistake of the user, but for singular structure.
+
+mod kind;
+mod lower;
+mod name;
+mod scope;
+
+use proc_macro2::{Ident, Span};
+use syn::{Attribute, Visibility};
+
+use crate::diagnostics::Diagnostics;
+use crate::graph::{Graph, NodeId, SymbolId};
+use crate::syntax;
+pub use kind::Kind;
+pub use name::Name;
+
+/// A mechanism as meant.
+pub struct Mechanism {
+    pub attributes: Vec<Attribute>,
+    pub visibility: Visibility,
+    pub name: Ident,
+    pub graph: Graph,
+    pub parameters: Vec<Parameter>,
+    pub coordinates: Vec<Coordinate>,
+    pub closures: Vec<Closure>,
+    pub drivers: Vec<Driver>,
+    pub points: Vec<Point>,
+    pub outputs: Vec<Output>,
+    /// Expressions that the user named with `let`.
+    pub named: Vec<(NodeId, String)>,
+}
+
+/// Geometric or physical data.
+pub struct Parameter {
+    pub name: Name,
+    pub attributes: Vec<Attribute>,
+    pub symbol: SymbolId,
+    pub default: Option<NodeId>,
+    pub kind: Kind,
+}
+
+/// A coordinate of q.
+pub struct Coordinate {
+    pub name: Name,
+    pub attributes: Vec<Attribute>,
+    pub symbol: SymbolId,
+    pub kind: Kind,
+}
+
+/// A closure: two rows if a `loop`, one if an `equation`; each row is zero when closed.
+pub struct Closure {
+    pub span: Span,
+    pub rows: Vec<NodeId>,
+}
+
+/// A choice of independent coordinates, by index into [`Mechanism::coordinates`].
+pub struct Driver {
+    pub name: Ident,
+    pub attributes: Vec<Attribute>,
+    pub inputs: Vec<usize>,
+    pub unknowns: Vec<usize>,
+}
+
+/// A named point of the plane.
+pub struct Point {
+    pub name: Name,
+    pub attributes: Vec<Attribute>,
+    pub x: NodeId,
+    pub y: NodeId,
+}
+
+/// A named scalar quantity.
+pub struct Output {
+    pub name: Name,
+    pub attributes: Vec<Attribute>,
+    pub value: NodeId,
+}
+
+impl Mechanism {
+    /// Whether the mechanism leaves the choice of input to `drive` statements.
+    #[must_use]
+    pub fn is_driven_by_choice(&self) -> bool {
+        !matches!(self.drivers.as_slice(), [only] if only.name == self.name)
+    }
+
+    /// The coordinates in the order of q: as declared if the driver is a choice, else u before v.
+    #[must_use]
+    pub fn coordinate_order(&self, driver: &Driver) -> Vec<usize> {
+        if self.is_driven_by_choice() {
+            (0..self.coordinates.len()).collect()
+        } else {
+            driver.unknowns.iter().chain(&driver.inputs).copied().collect()
+        }
+    }
+}
+
+/// Resolves one mechanism. What could be understood is returned even when there are errors, so
+/// that a stub with the right names can stand in for it.
+pub fn resolve(mechanism: syntax::Mechanism, diagnostics: &mut Diagnostics) -> Mechanism {
+    lower::mechanism(mechanism, diagnostics)
+}

@@ -1,0 +1,48 @@
+//! Names as the user wrote them and as Rust wants fields to be written.
+
+use proc_macro2::{Ident, Span};
+
+/// A name of the mechanism.
+#[derive(Debug, Clone)]
+pub struct Name {
+    /// As written.
+    pub text: String,
+    /// In snake case: the point `G3` is the field `g3`.
+    pub field: String,
+    pub span: Span,
+}
+
+impl Name {
+    pub(super) fn new(ident: &Ident) -> Self {
+        let text = ident.to_string();
+        Self { field: snake_case(&text), text, span: ident.span() }
+    }
+}
+
+/// `G3` is `g3`, `CouplerPoint` is `coupler_point`, `AB` is `ab`.
+fn snake_case(text: &str) -> String {
+    let mut field = String::new();
+    let mut after_lower = false;
+    for letter in text.chars() {
+        if letter.is_uppercase() && after_lower {
+            field.push('_');
+        }
+        after_lower = letter.is_lowercase();
+        field.extend(letter.to_lowercase());
+    }
+    field
+}
+
+#[cfg(test)]
+mod tests {
+    use super::snake_case;
+
+    #[test]
+    fn fields_are_snake_case() {
+        for (text, field) in
+            [("G3", "g3"), ("CouplerPoint", "coupler_point"), ("AB", "ab"), ("theta2", "theta2"), ("_x", "_x")]
+        {
+            assert_eq!(snake_case(text), field);
+        }
+    }
+}

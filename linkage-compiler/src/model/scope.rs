@@ -1,0 +1,88 @@
+//! The names of one mechanism: parameters, coordinates, `let`s and points share one space.
+
+use std::collections::BTreeMap;
+
+use proc_macro2::Ident;
+
+use crate::diagnostics::{Diagnostics, suggestion};
+use crate::graph::{NodeId, SymbolId};
+
+/// What an expression is worth: `Poison` stands for one already reported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Value {
+    Scalar(NodeId),
+    Vector(NodeId, NodeId),
+    Poison,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Entry {
+    Symbol(SymbolId, NodeId),
+    Value(Value),
+    /// Declared further down.
+    Later,
+}
+
+#[derive(Debug, Default)]
+pub(super) struct Scope {
+    entries: BTreeMap<String, Entry>,
+    used: Vec<SymbolId>,
+}
+
+/// Words that are values of the language itself.
+const VALUES: [&str; 2] = ["pi", "t"];
+
+impl Scope {
+    /// Claims a name; a second claim is reported and refused.
+    pub(super) fn claim(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> bool {
+        let text = name.to_string();
+        if VALUES.contains(&text.as_str()) {
+            diagnostics.error(name.span(), format_args!("`{text}` is a word of the language; choose another name"));
+            return false;
+        }
+        if self.entries.contains_key(&text) {
+            diagnostics.error(name.span(), format_args!("`{text}` is already the name of something else here"));
+            return false;
+        }
+        self.entries.insert(text, Entry::Later);
+        true
+    }
+
+    pub(super) fn define_symbol(&mut self, name: &Ident, symbol: SymbolId, node: NodeId) {
+        self.entries.insert(name.to_string(), Entry::Symbol(symbol, node));
+    }
+
+    pub(super) fn define(&mut self, name: &Ident, value: Value) {
+        self.entries.insert(name.to_string(), Entry::Value(value));
+    }
+
+    /// The value of a name; an unknown one is reported.
+    pub(super) fn look_up(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> Value {
+        let text = name.to_string();
+        match self.entries.get(&text) {
+            Some(Entry::Symbol(symbol, node)) => {
+                self.used.push(*symbol);
+                Value::Scalar(*node)
+            }
+            Some(Entry::Value(value)) => *value,
+            Some(Entry::Later) => {
+                diagnostics
+                    .error(name.span(), format_args!("`{text}` is used before it is defined; move its statement up"));
+                Value::Poison
+            }
+            None if text == "t" => {
+                diagnostics.error(name.span(), "`t`, time, has a meaning only in the forces of a scene");
+                Value::Poison
+            }
+            None => {
+                let hint = suggestion(&text, self.entries.keys().map(String::as_str));
+                diagnostics.error(name.span(), format_args!("nothing is called `{text}` here{hint}"));
+                Value::Poison
+            }
+        }
+    }
+
+    pub(super) fn is_used(&self, symbol: SymbolId) -> bool {
+        self.used.contains(&symbol)
+    }
+}

@@ -1,0 +1,239 @@
+//! Expressions, in an arena whose ids ascend from the leaves to the root.
+//!
+//! From loose to tight: `+ -`, then `@`, then `* /`, then unary `-`, then `^`.
+
+use proc_macro2::{Delimiter, Ident, Span};
+use syn::ext::IdentExt;
+use syn::parse::{Parse, ParseStream};
+use syn::{Lit, Token};
+
+use crate::diagnostics::Region;
+
+/// An expression of an [`Expressions`] arena.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExpressionId(usize);
+
+/// What was written.
+#[derive(Debug)]
+pub enum Expression {
+    /// The digits of a literal, and whether `deg` follows.
+    Number { digits: String, degrees: bool },
+    Name(Ident),
+    Vector(ExpressionId, ExpressionId),
+    /// `magnitude @ angle`, where the magnitude may be a vector by components.
+    At(ExpressionId, ExpressionId),
+    Sum(Vec<(Operator, ExpressionId)>),
+    Product(Vec<(Operator, ExpressionId)>),
+    Negate(ExpressionId),
+    Power(ExpressionId, ExpressionId),
+    Call(Ident, Vec<ExpressionId>),
+}
+
+/// How an operand joins a sum or a product; the first one joins with `Direct`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Operator {
+    /// `+` or `*`.
+    Direct,
+    /// `-` or `/`.
+    Inverse,
+}
+
+/// The expressions of one mechanism.
+#[derive(Debug, Default)]
+pub struct Expressions {
+    nodes: Vec<(Expression, Region)>,
+}
+
+impl Expressions {
+    fn push(&mut self, expression: Expression, region: Region) -> ExpressionId {
+        self.nodes.push((expression, region));
+        ExpressionId(self.nodes.len() - 1)
+    }
+
+    #[must_use]
+    pub fn region(&self, id: ExpressionId) -> Region {
+        self.nodes[id.0].1
+    }
+
+    /// The expressions in the order of their ids: operands before what they are part of.
+    pub fn iter(&self) -> impl Iterator<Item = (&Expression, Region)> {
+        self.nodes.iter().map(|(expression, region)| (expression, *region))
+    }
+}
+
+impl ExpressionId {
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+pub(super) fn parse(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    chain(stream, arena, at, |stream| {
+        Ok(if stream.parse::<Option<Token![+]>>()?.is_some() {
+            Some(Operator::Direct)
+        } else {
+            stream.parse::<Option<Token![-]>>()?.map(|_| Operator::Inverse)
+        })
+    }, Expression::Sum)
+}
+
+fn product(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    chain(stream, arena, signed, |stream| {
+        Ok(if stream.parse::<Option<Token![*]>>()?.is_some() {
+            Some(Operator::Direct)
+        } else {
+            stream.parse::<Option<Token![/]>>()?.map(|_| Operator::Inverse)
+        })
+    }, Expression::Product)
+}
+
+type Part = fn(ParseStream, &mut Expressions) -> syn::Result<ExpressionId>;
+
+fn chain(
+    stream: ParseStream,
+    arena: &mut Expressions,
+    part: Part,
+    operator: fn(ParseStream) -> syn::Result<Option<Operator>>,
+    build: fn(Vec<(Operator, ExpressionId)>) -> Expression,
+) -> syn::Result<ExpressionId> {
+    let first = part(stream, arena)?;
+    let mut operands = vec![(Operator::Direct, first)];
+    let mut last = first;
+    while let Some(operator) = operator(stream)? {
+        last = part(stream, arena)?;
+        operands.push((operator, last));
+    }
+    if operands.len() == 1 {
+        return Ok(first);
+    }
+    let region = arena.region(first).to(arena.region(last));
+    Ok(arena.push(build(operands), region))
+}
+
+fn at(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let magnitude = product(stream, arena)?;
+    if stream.parse::<Option<Token![@]>>()?.is_none() {
+        return Ok(magnitude);
+    }
+    let angle = product(stream, arena)?;
+    if stream.peek(Token![@]) {
+        return Err(syn::Error::new(stream.span(), "a vector has one angle: write `r@(phi + psi)`"));
+    }
+    let region = arena.region(magnitude).to(arena.region(angle));
+    Ok(arena.push(Expression::At(magnitude, angle), region))
+}
+
+fn signed(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let start = stream.span();
+    let mut negative = false;
+    while stream.parse::<Option<Token![-]>>()?.is_some() {
+        negative = !negative;
+    }
+    let value = power(stream, arena)?;
+    if !negative {
+        return Ok(value);
+    }
+    let region = Region::from(start).to(arena.region(value));
+    Ok(arena.push(Expression::Negate(value), region))
+}
+
+fn power(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let base = postfix(stream, arena)?;
+    if stream.parse::<Option<Token![^]>>()?.is_none() {
+        return Ok(base);
+    }
+    let start = stream.span();
+    let negative = stream.parse::<Option<Token![-]>>()?.is_some();
+    let mut exponent = postfix(stream, arena)?;
+    if negative {
+        let region = Region::from(start).to(arena.region(exponent));
+        exponent = arena.push(Expression::Negate(exponent), region);
+    }
+    let region = arena.region(base).to(arena.region(exponent));
+    Ok(arena.push(Expression::Power(base, exponent), region))
+}
+
+fn postfix(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let mut value = primary(stream, arena)?;
+    while stream.parse::<Option<Token![.]>>()?.is_some() {
+        let method: Ident = stream.call(Ident::parse_any)?;
+        let (mut arguments, close) = arguments(stream, arena)?;
+        arguments.insert(0, value);
+        let region = arena.region(value).to(close.into());
+        value = arena.push(Expression::Call(method, arguments), region);
+    }
+    Ok(value)
+}
+
+fn arguments(stream: ParseStream, arena: &mut Expressions) -> syn::Result<(Vec<ExpressionId>, Span)> {
+    let content;
+    let parentheses = syn::parenthesized!(content in stream);
+    let mut arguments = Vec::new();
+    while !content.is_empty() {
+        arguments.push(parse(&content, arena)?);
+        if content.is_empty() {
+            break;
+        }
+        comma(&content)?;
+    }
+    Ok((arguments, parentheses.span.close()))
+}
+
+fn comma(stream: ParseStream) -> syn::Result<()> {
+    let found = stream.span();
+    stream.parse::<Token![,]>().map(drop).map_err(|_| syn::Error::new(found, "expected `,` or `)`"))
+}
+
+fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let start = stream.span();
+    let missing = |_| syn::Error::new(start, "expected an expression");
+    if stream.is_empty() || stream.peek(Token![;]) {
+        return Err(missing(()));
+    }
+    if let Ok(literal) = stream.fork().parse::<Lit>() {
+        Lit::parse(stream)?;
+        return number(&literal, arena);
+    }
+    if stream.peek(syn::token::Paren) {
+        let (items, close) = arguments(stream, arena)?;
+        let region = Region::from(start).to(close.into());
+        return match items.as_slice() {
+            &[inner] => Ok(inner),
+            &[x, y] => Ok(arena.push(Expression::Vector(x, y), region)),
+            _ => Err(syn::Error::new_spanned(region, "expected `(expression)` or a vector `(x, y)`")),
+        };
+    }
+    // What another macro passed on as `$x:expr` arrives in invisible delimiters.
+    if let Ok(proc_macro2::TokenTree::Group(group)) = stream.fork().parse()
+        && group.delimiter() == Delimiter::None
+    {
+        stream.parse::<proc_macro2::TokenTree>()?;
+        return syn::parse::Parser::parse2(|inner: ParseStream| parse(inner, arena), group.stream());
+    }
+    let name = stream.call(Ident::parse_any).map_err(|error| missing(drop(error)))?;
+    if stream.peek(syn::token::Paren) {
+        let (arguments, close) = arguments(stream, arena)?;
+        let region = Region::from(name.span()).to(close.into());
+        return Ok(arena.push(Expression::Call(name, arguments), region));
+    }
+    let region = name.span().into();
+    Ok(arena.push(Expression::Name(name), region))
+}
+
+fn number(literal: &Lit, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let (digits, suffix) = match literal {
+        Lit::Int(integer) => (integer.base10_digits().to_owned(), integer.suffix().to_owned()),
+        Lit::Float(float) => (float.base10_digits().to_owned(), float.suffix().to_owned()),
+        other => return Err(syn::Error::new(other.span(), "expected a number")),
+    };
+    let degrees = match suffix.as_str() {
+        "" => false,
+        "deg" => true,
+        other => {
+            let message = format!("no unit `{other}`: write a plain number, or `deg` for degrees");
+            return Err(syn::Error::new(literal.span(), message));
+        }
+    };
+    Ok(arena.push(Expression::Number { digits, degrees }, literal.span().into()))
+}

@@ -1,0 +1,91 @@
+//! What was written: a faithful tree of the `linkage!` language, with spans.
+//!
+//! A statement that does not parse is reported and skipped, so that one mistake costs one
+//! message and the rest of the mechanism is still understood.
+
+mod expression;
+mod statement;
+
+use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
+use syn::parse::{ParseStream, Parser};
+
+use crate::diagnostics::Diagnostics;
+pub use expression::{Expression, ExpressionId, Expressions, Operator};
+pub use statement::{Statement, StatementKind};
+
+/// One `mechanism NAME { … }`.
+pub struct Mechanism {
+    pub attributes: Vec<syn::Attribute>,
+    pub visibility: syn::Visibility,
+    pub name: Ident,
+    pub statements: Vec<Statement>,
+    pub expressions: Expressions,
+}
+
+/// Parentheses deeper than this are refused; everything else in the parser is a loop.
+pub const DEEPEST_NESTING: usize = 64;
+
+/// Reads every mechanism of one invocation.
+pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism> {
+    if let Some(token) = too_deep(input.clone()) {
+        diagnostics.error(
+            token.span(),
+            format_args!("nested deeper than {DEEPEST_NESTING} levels; name the inner parts with `let`"),
+        );
+        return Vec::new();
+    }
+    let parser = |stream: ParseStream| {
+        let mut mechanisms = Vec::new();
+        while !stream.is_empty() {
+            match mechanism(stream, diagnostics) {
+                Ok(mechanism) => mechanisms.push(mechanism),
+                Err(error) => {
+                    diagnostics.push(error);
+                    skip_to_brace(stream);
+                }
+            }
+        }
+        Ok(mechanisms)
+    };
+    parser.parse2(input).unwrap_or_default()
+}
+
+fn mechanism(stream: ParseStream, diagnostics: &mut Diagnostics) -> syn::Result<Mechanism> {
+    let attributes = stream.call(syn::Attribute::parse_outer)?;
+    let visibility = stream.parse()?;
+    let keyword: Ident = stream.call(syn::ext::IdentExt::parse_any).map_err(|error| {
+        syn::Error::new(error.span(), "expected `mechanism NAME { … }`")
+    })?;
+    if keyword != "mechanism" {
+        return Err(syn::Error::new(keyword.span(), "expected `mechanism NAME { … }`"));
+    }
+    let name = stream.parse()?;
+    let content;
+    syn::braced!(content in stream);
+    let mut expressions = Expressions::default();
+    let statements = statement::statements(&content, &mut expressions, diagnostics);
+    Ok(Mechanism { attributes, visibility, name, statements, expressions })
+}
+
+fn skip_to_brace(stream: ParseStream) {
+    while let Ok(token) = stream.parse::<TokenTree>() {
+        if matches!(&token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace) {
+            return;
+        }
+    }
+}
+
+/// The first token below the deepest level allowed.
+fn too_deep(input: TokenStream) -> Option<TokenTree> {
+    let mut levels = vec![input.into_iter()];
+    while let Some(level) = levels.last_mut() {
+        match level.next() {
+            None => drop(levels.pop()),
+            // The braces of the mechanism are a level of their own.
+            Some(token) if levels.len() > DEEPEST_NESTING + 1 => return Some(token),
+            Some(TokenTree::Group(group)) => levels.push(group.stream().into_iter()),
+            Some(_) => {}
+        }
+    }
+    None
+}

@@ -1,0 +1,189 @@
+//! Statements: one a line of the language, each ended by `;`.
+
+use proc_macro2::{Ident, TokenTree};
+use syn::ext::IdentExt;
+use syn::parse::ParseStream;
+use syn::{Attribute, Token};
+
+use super::expression::{self, ExpressionId, Expressions};
+use crate::diagnostics::{Diagnostics, suggestion};
+
+/// A statement and the doc comments above it.
+pub struct Statement {
+    pub attributes: Vec<Attribute>,
+    pub kind: StatementKind,
+}
+
+/// What a statement says.
+pub enum StatementKind {
+    Parameters(Vec<(Ident, Option<ExpressionId>)>),
+    Inputs(Vec<Ident>),
+    Unknowns(Vec<Ident>),
+    Coordinates(Vec<Ident>),
+    Drive { name: Ident, by: Vec<Ident> },
+    Loop { left: ExpressionId, right: ExpressionId },
+    Equation { left: ExpressionId, right: ExpressionId },
+    Let { name: Ident, value: ExpressionId },
+    Point { name: Ident, value: ExpressionId },
+    Output { name: Ident, value: ExpressionId },
+}
+
+const KEYWORDS: [&str; 10] =
+    ["param", "input", "unknown", "coordinate", "drive", "loop", "equation", "let", "point", "output"];
+
+/// Words of the language that this version does not understand yet.
+const RESERVED: [&str; 3] = ["body", "scene", "extern"];
+
+/// Every statement up to the end of the braces.
+pub(super) fn statements(
+    stream: ParseStream,
+    expressions: &mut Expressions,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Statement> {
+    let mut statements = Vec::new();
+    while !stream.is_empty() {
+        let attributes = match stream.call(Attribute::parse_outer) {
+            Ok(attributes) => attributes,
+            Err(error) => {
+                diagnostics.push(error);
+                skip_statement(stream);
+                continue;
+            }
+        };
+        match kind(stream, expressions) {
+            Ok(kind) => {
+                statements.push(Statement { attributes, kind });
+                if let Err(error) = end(stream) {
+                    diagnostics.push(error);
+                    if !at_keyword(stream) {
+                        skip_statement(stream);
+                    }
+                }
+            }
+            Err(error) => {
+                diagnostics.push(error);
+                skip_statement(stream);
+            }
+        }
+    }
+    statements
+}
+
+fn kind(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<StatementKind> {
+    let keyword: Ident = stream
+        .call(Ident::parse_any)
+        .map_err(|error| syn::Error::new(error.span(), format!("expected a statement: {}", KEYWORDS.join(", "))))?;
+    let word = keyword.to_string();
+    Ok(match word.as_str() {
+        "param" => {
+            let mut parameters = Vec::new();
+            loop {
+                let name = name(stream)?;
+                let default = if stream.parse::<Option<Token![=]>>()?.is_some() {
+                    Some(expression::parse(stream, expressions)?)
+                } else {
+                    None
+                };
+                parameters.push((name, default));
+                if stream.parse::<Option<Token![,]>>()?.is_none() {
+                    break StatementKind::Parameters(parameters);
+                }
+            }
+        }
+        "input" => StatementKind::Inputs(names(stream)?),
+        "unknown" => StatementKind::Unknowns(names(stream)?),
+        "coordinate" => StatementKind::Coordinates(names(stream)?),
+        "drive" => {
+            let name = name(stream)?;
+            let by: Ident = stream.call(Ident::parse_any)?;
+            if by != "by" {
+                return Err(syn::Error::new(by.span(), "expected `by`: `drive NAME by COORDINATE;`"));
+            }
+            StatementKind::Drive { name, by: names(stream)? }
+        }
+        "loop" => {
+            let (left, right) = sides(stream, expressions)?;
+            StatementKind::Loop { left, right }
+        }
+        "equation" => {
+            let (left, right) = sides(stream, expressions)?;
+            StatementKind::Equation { left, right }
+        }
+        "let" | "point" | "output" => {
+            let name = name(stream)?;
+            equals(stream)?;
+            let value = expression::parse(stream, expressions)?;
+            match word.as_str() {
+                "let" => StatementKind::Let { name, value },
+                "point" => StatementKind::Point { name, value },
+                _ => StatementKind::Output { name, value },
+            }
+        }
+        reserved if RESERVED.contains(&reserved) => {
+            return Err(syn::Error::new(keyword.span(), format!("`{reserved}` is not understood by this version yet")));
+        }
+        unknown => {
+            let hint = suggestion(unknown, KEYWORDS);
+            return Err(syn::Error::new(
+                keyword.span(),
+                format!("no statement begins with `{unknown}`{hint}\nstatements: {}", KEYWORDS.join(", ")),
+            ));
+        }
+    })
+}
+
+fn name(stream: ParseStream) -> syn::Result<Ident> {
+    let name = stream.call(Ident::parse_any).map_err(|error| syn::Error::new(error.span(), "expected a name"))?;
+    let text = name.to_string();
+    if syn::parse_str::<Ident>(&text).is_err() || text.starts_with("r#") {
+        return Err(syn::Error::new(name.span(), format!("`{text}` is a word of Rust; choose another name")));
+    }
+    Ok(name)
+}
+
+fn names(stream: ParseStream) -> syn::Result<Vec<Ident>> {
+    let mut names = vec![name(stream)?];
+    while stream.parse::<Option<Token![,]>>()?.is_some() {
+        names.push(name(stream)?);
+    }
+    Ok(names)
+}
+
+fn equals(stream: ParseStream) -> syn::Result<()> {
+    let found = stream.span();
+    stream.parse::<Token![=]>().map(drop).map_err(|_| syn::Error::new(found, "expected `=`"))
+}
+
+fn sides(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(ExpressionId, ExpressionId)> {
+    let left = expression::parse(stream, expressions)?;
+    equals(stream)?;
+    Ok((left, expression::parse(stream, expressions)?))
+}
+
+fn end(stream: ParseStream) -> syn::Result<()> {
+    if stream.is_empty() {
+        return Err(syn::Error::new(stream.span(), "expected `;` at the end of this statement"));
+    }
+    let found = stream.span();
+    stream.parse::<Token![;]>().map(drop).map_err(|_| syn::Error::new(found, "expected `;` before this"))
+}
+
+fn at_keyword(stream: ParseStream) -> bool {
+    stream.peek(Token![#])
+        || stream
+            .fork()
+            .call(Ident::parse_any)
+            .is_ok_and(|word| KEYWORDS.iter().chain(&RESERVED).any(|keyword| word == *keyword))
+}
+
+fn skip_statement(stream: ParseStream) {
+    let mut moved = false;
+    while !stream.is_empty() && !(moved && at_keyword(stream)) {
+        moved = true;
+        match stream.parse::<TokenTree>() {
+            Ok(TokenTree::Punct(punct)) if punct.as_char() == ';' => return,
+            Ok(_) => {}
+            Err(_) => return,
+        }
+    }
+}
