@@ -1,9 +1,69 @@
 //! The compiler behind `linkage!`: tokens in, tokens out.
+//!
+//! [`expand`] is the whole of it in one paragraph; the stages stand in this order, and none looks
+//! back at an earlier one's types but through the model:
+//! syntax, model, graph, derivation, structure, simplify, emit.
 
+// Formulas and counts are converted between integers and floats on purpose.
 pub mod derivation;
 pub mod diagnostics;
+pub mod emit;
 pub mod graph;
 pub mod model;
 pub mod simplify;
 pub mod structure;
 pub mod syntax;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use derivation::Derivation;
+use diagnostics::Diagnostics;
+use model::Mechanism;
+
+/// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
+///
+/// Mistakes come out as `compile_error!`s on the tokens that made them, beside stubs that have the
+/// names and types of what was meant, so that one mistake is one message.
+#[must_use]
+pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
+    let mut diagnostics = Diagnostics::default();
+    let trees = syntax::parse(input, &mut diagnostics);
+    let mechanisms: Vec<Mechanism> = trees.into_iter().map(|tree| model::resolve(tree, &mut diagnostics)).collect();
+    if !diagnostics.is_empty() {
+        let errors = diagnostics.to_tokens();
+        let stubs = mechanisms.iter().map(|mechanism| emit::mechanism(mechanism, None, root));
+        return quote! { #errors #(#stubs)* };
+    }
+    mechanisms
+        .iter()
+        .map(|mechanism| {
+            let mut derivations = derive(mechanism);
+            emit::mechanism(mechanism, Some(&mut derivations), root)
+        })
+        .collect()
+}
+
+/// The derivations of a checked mechanism, one for each driver.
+#[must_use]
+pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
+    mechanism
+        .drivers
+        .iter()
+        .filter_map(|driver| {
+            let block = structure::order(&mechanism.incidence(driver), driver.unknowns.len()).ok()?;
+            Some(derivation::derive(mechanism, driver, block))
+        })
+        .collect()
+}
+
+/// Reads mechanisms without expanding them, for tests and tools.
+///
+/// # Errors
+/// The messages, if there are mistakes.
+pub fn read(input: TokenStream) -> Result<Vec<Mechanism>, Vec<String>> {
+    let mut diagnostics = Diagnostics::default();
+    let trees = syntax::parse(input, &mut diagnostics);
+    let mechanisms = trees.into_iter().map(|tree| model::resolve(tree, &mut diagnostics)).collect();
+    if diagnostics.is_empty() { Ok(mechanisms) } else { Err(diagnostics.messages()) }
+}

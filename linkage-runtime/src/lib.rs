@@ -1,1 +1,26 @@
-//! x
+//! What the code emitted by `linkage!` stands on.
+//!
+//! - [`Mechanism`]: the trait that general algorithms take;
+//! - [`position`]: Newton's method with damping and honest failure;
+//! - [`Error`]: which mechanism, what residual, how near singular;
+//! - [`drawing`]: the linkage as SVG.
+
+#![cfg_attr(not(feature = "std"), no_std)]
+#![warn(missing_docs)]
+
+#[cfg(feature = "drawing")]
+pub mod drawing;
+mod error;
+mod linear;
+mod mechanism;
+mod motion;
+pub mod position;
+mod scalar;
+
+pub use error::{Error, finite, finite_matrix};
+pub use linear::{Factorization, product_of_pivots, regular};
+pub use mechanism::Mechanism;
+pub use motion::{OutputMotion, PointMotion};
+pub use nalgebra;
+pub use position::{Solution, newton};
+pub use scalar::{Real, direction, real};

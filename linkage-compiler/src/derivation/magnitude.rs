@@ -2,6 +2,20 @@
 
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 
+/// The largest value that a determinant could take, up to its sign: of a plain product the product
+/// itself without its sines, which costs nothing beside the determinant.
+pub(super) fn of_determinant(graph: &mut Graph, id: NodeId) -> NodeId {
+    let Node::Product { coefficient, factors } = graph.node(id).clone() else { return of(graph, id) };
+    if factors.iter().any(|(base, _)| matches!(graph.node(*base), Node::Sum { .. })) {
+        return of(graph, id);
+    }
+    let mut product = vec![(graph.number(coefficient.absolute()), 1)];
+    product.extend(factors.into_iter().filter(|(base, exponent)| {
+        *exponent < 0 || !matches!(graph.node(*base), Node::Call(Function::Sin | Function::Cos, _))
+    }));
+    graph.product(&product)
+}
+
 /// The sum of the absolute values of the terms, with every sine and cosine replaced by 1.
 ///
 /// It has the unit of the expression itself, so a quotient of the two is a pure number: scaling all

@@ -102,7 +102,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, block: Block) -> Derivatio
             1 => entry(0, 0),
             _ => crate::simplify::determinant(&mut graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
         };
-        let size = magnitude::of(&mut graph, value);
+        let size = magnitude::of_determinant(&mut graph, value);
         Determinant { value, symbol: graph.symbol("determinant"), size }
     });
     let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates);

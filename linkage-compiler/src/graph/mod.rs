@@ -57,6 +57,11 @@ pub struct Graph {
     fault: Option<Fault>,
 }
 
+impl SymbolId {
+    /// No symbol at all.
+    pub const NONE: Self = Self(u32::MAX);
+}
+
 impl NodeId {
     fn index(self) -> usize {
         self.0 as usize

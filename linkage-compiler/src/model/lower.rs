@@ -273,7 +273,8 @@ impl Lowering<'_> {
     /// The value of an expression and of all that it is made of.
     fn value(&mut self, id: ExpressionId) -> Value {
         let expressions = self.expressions;
-        for (expression, region) in expressions.iter().skip(self.values.len()).take(id.index() + 1 - self.values.len()) {
+        let missing = (id.index() + 1).saturating_sub(self.values.len());
+        for (expression, region) in expressions.iter().skip(self.values.len()).take(missing) {
             let value = self.lower(expression, region);
             let value = match self.graph.take_fault() {
                 Some(fault) => {
@@ -617,7 +618,7 @@ fn check_closures(mechanism: &Mechanism, choice: Choice, diagnostics: &mut Diagn
                 diagnostics.error(closure.span, format_args!("nothing unknown appears in this closure of `{}`", driver.name));
             }
         }
-        let incidence = incidence(mechanism, &symbols);
+        let incidence = mechanism.incidence(driver);
         if before && diagnostics.is_empty()
             && let Err(singular) = crate::structure::order(&incidence, symbols.len())
         {
@@ -641,13 +642,4 @@ fn check_closures(mechanism: &Mechanism, choice: Choice, diagnostics: &mut Diagn
             );
         }
     }
-}
-
-fn incidence(mechanism: &Mechanism, unknowns: &[SymbolId]) -> Vec<Vec<usize>> {
-    let rows = mechanism.closures.iter().flat_map(|closure| &closure.rows);
-    rows.map(|&row| {
-        let found = mechanism.graph.symbols_of(&[row]);
-        (0..unknowns.len()).filter(|&index| found.contains(&unknowns[index])).collect()
-    })
-    .collect()
 }

@@ -84,6 +84,18 @@ impl Mechanism {
         !matches!(self.drivers.as_slice(), [only] if only.name == self.name)
     }
 
+    /// The unknowns of `driver` that each closure row holds.
+    #[must_use]
+    pub fn incidence(&self, driver: &Driver) -> Vec<Vec<usize>> {
+        let rows = self.closures.iter().flat_map(|closure| &closure.rows);
+        rows.map(|&row| {
+            let found = self.graph.symbols_of(&[row]);
+            let unknowns = driver.unknowns.iter().enumerate();
+            unknowns.filter(|(_, index)| found.contains(&self.coordinates[**index].symbol)).map(|(place, _)| place).collect()
+        })
+        .collect()
+    }
+
     /// The coordinates in the order of q: as declared if the driver is a choice, else u before v.
     #[must_use]
     pub fn coordinate_order(&self, driver: &Driver) -> Vec<usize> {

@@ -133,7 +133,7 @@ impl Builder<'_> {
         let mut ordered = Vec::new();
         while let Some(id) = wanted.pop_last() {
             ordered.push(id);
-            if self.leaf(id).is_none() {
+            if !self.is_leaf(id) {
                 wanted.extend(self.graph.children(id));
             }
         }
@@ -146,6 +146,14 @@ impl Builder<'_> {
             };
             self.of.insert(id, signed);
         }
+    }
+
+    fn is_leaf(&self, id: NodeId) -> bool {
+        let given = match self.graph.node(id) {
+            Node::Call(Function::Sin | Function::Cos, angle) => self.directions.contains(&angle[0]),
+            _ => false,
+        };
+        given || self.graph.constant_value(id).is_some()
     }
 
     /// Constants, symbols and given directions need nothing else.
@@ -217,10 +225,8 @@ impl Builder<'_> {
         for term in &mut terms {
             term.negative ^= flip;
         }
-        // Nothing starts with a minus: the first positive term leads.
-        if let Some(first) = terms.iter().position(|term| !term.negative) {
-            terms[..=first].rotate_right(1);
-        }
+        // What is added stands before what is taken away, so that nothing starts with a minus.
+        terms.sort_by_key(|term| term.negative);
         Signed { negative: flip, value: self.intern(Value::Sum(terms)) }
     }
 
@@ -267,7 +273,7 @@ impl Builder<'_> {
         match factors.as_slice() {
             &[only] => only,
             _ => {
-                factors.sort_unstable();
+                factors.sort_unstable_by_key(|&id| (self.values[id.0].rank(), id));
                 self.intern(Value::Product(factors))
             }
         }
@@ -301,6 +307,15 @@ impl Value {
             Self::Quotient(above, below) => vec![*above, *below],
             Self::Power(base, _) => vec![*base],
             Self::Call(_, arguments) => arguments.iter().map(|argument| argument.value).collect(),
+        }
+    }
+
+    /// Numbers stand before names, and names before what is made of them.
+    fn rank(&self) -> usize {
+        match self {
+            Self::Constant(_) => 0,
+            Self::Symbol(_) => 1,
+            _ => 2,
         }
     }
 
@@ -425,6 +440,7 @@ impl Schedule {
                 Value::Power(_, exponent) => {
                     total.multiplications += (exponent.ilog2() + exponent.count_ones() - 1) as usize;
                 }
+                Value::Call(Function::Abs, _) => {}
                 Value::Call(..) => total.functions += 1,
                 Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {}
             }

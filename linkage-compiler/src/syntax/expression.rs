@@ -51,6 +51,21 @@ impl Expressions {
     }
 
     #[must_use]
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Forgets what a statement that did not parse has left.
+    pub(super) fn truncate(&mut self, length: usize) {
+        self.nodes.truncate(length);
+    }
+
+    #[must_use]
     pub fn region(&self, id: ExpressionId) -> Region {
         self.nodes[id.0].1
     }

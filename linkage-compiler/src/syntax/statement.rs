@@ -50,6 +50,7 @@ pub(super) fn statements(
                 continue;
             }
         };
+        let before = expressions.len();
         match kind(stream, expressions) {
             Ok(kind) => {
                 statements.push(Statement { attributes, kind });
@@ -62,6 +63,7 @@ pub(super) fn statements(
             }
             Err(error) => {
                 diagnostics.push(error);
+                expressions.truncate(before);
                 skip_statement(stream);
             }
         }

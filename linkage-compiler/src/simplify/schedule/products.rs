@@ -29,12 +29,12 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[ValueId]) {
         holders.iter().filter(|(_, of)| of.len() > 1).max_by_key(|(pair, of)| (of.len(), std::cmp::Reverse(**pair)))
     {
         let of = holders.remove(&(a, b)).unwrap_or_default();
-        let whole = of.iter().copied().find(|product| products[product] == [a, b]);
+        let whole = of.iter().copied().find(|product| products[product].len() == 2);
         let shared = whole.unwrap_or_else(|| {
             values.push(Value::Product(vec![a, b]));
             ValueId(values.len() - 1)
         });
-        products.insert(shared, vec![a, b]);
+        products.entry(shared).or_insert_with(|| vec![a, b]);
         for product in of.into_iter().filter(|product| *product != shared) {
             let before = products[&product].clone();
             for pair in pairs(&before) {
@@ -48,8 +48,8 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[ValueId]) {
                     after.remove(index);
                 }
             }
-            after.push(shared);
-            after.sort_unstable();
+            // The shared part leads, where its first factor stood.
+            after.insert(0, shared);
             for pair in pairs(&after) {
                 holders.entry(pair).or_default().insert(product);
             }

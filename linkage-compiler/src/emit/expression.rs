@@ -1,0 +1,141 @@
+//! Values of a schedule as Rust expressions.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::names::{Names, ident};
+use crate::graph::{Function, Number};
+use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Prefix,
+    Atom,
+}
+
+/// A value, by its name if it has one.
+pub(super) fn signed(names: &mut Names, schedule: &Schedule, value: Signed) -> TokenStream {
+    operand(names, schedule, value, Binding::Sum)
+}
+
+/// How a value is computed, even if it has a name.
+pub(super) fn definition(names: &mut Names, schedule: &Schedule, value: ValueId) -> TokenStream {
+    compute(names, schedule, value).0
+}
+
+fn operand(names: &mut Names, schedule: &Schedule, value: Signed, at_least: Binding) -> TokenStream {
+    let (tokens, binding) = match names.get(schedule, value.value) {
+        Some(name) => {
+            let name = ident(&name);
+            (quote!(#name), Binding::Atom)
+        }
+        None => compute(names, schedule, value.value),
+    };
+    let (tokens, binding) = match (value.negative, schedule.value(value.value)) {
+        (false, _) => (tokens, binding),
+        (true, Value::Constant(number)) if number.is_zero() => (tokens, binding),
+        // -a * b is (-a) * b: a minus binds tighter than a product and costs the same.
+        (true, _) if binding >= Binding::Product => (quote!(-#tokens), binding.min(Binding::Prefix)),
+        (true, _) => (quote!(-(#tokens)), Binding::Prefix),
+    };
+    if binding < at_least { quote!((#tokens)) } else { tokens }
+}
+
+fn compute(names: &mut Names, schedule: &Schedule, value: ValueId) -> (TokenStream, Binding) {
+    let plain = |value: ValueId| Signed { negative: false, value };
+    match schedule.value(value) {
+        Value::Constant(number) => (constant(*number), Binding::Atom),
+        Value::Symbol(symbol) => {
+            let name = ident(&names.symbol(*symbol));
+            (quote!(#name), Binding::Atom)
+        }
+        // Given directions are named before any expression is written.
+        Value::Direction(..) => (quote!(direction), Binding::Atom),
+        Value::Sum(terms) => {
+            let mut tokens = operand(names, schedule, terms[0], Binding::Sum);
+            for term in &terms[1..] {
+                let body = operand(names, schedule, plain(term.value), Binding::Product);
+                tokens = if term.negative { quote!(#tokens - #body) } else { quote!(#tokens + #body) };
+            }
+            (tokens, Binding::Sum)
+        }
+        Value::Product(factors) => {
+            let mut tokens = operand(names, schedule, plain(factors[0]), Binding::Product);
+            for factor in &factors[1..] {
+                let body = operand(names, schedule, plain(*factor), Binding::Prefix);
+                tokens = quote!(#tokens * #body);
+            }
+            (tokens, Binding::Product)
+        }
+        Value::Quotient(above, below) => {
+            let above = operand(names, schedule, plain(*above), Binding::Product);
+            let below = operand(names, schedule, plain(*below), Binding::Prefix);
+            (quote!(#above / #below), Binding::Product)
+        }
+        Value::Power(base, exponent) => {
+            let named = names.get(schedule, *base).is_some();
+            let base = operand(names, schedule, plain(*base), Binding::Atom);
+            if *exponent == 2 && named {
+                (quote!(#base * #base), Binding::Product)
+            } else {
+                let exponent = Literal::u32_unsuffixed(*exponent);
+                (quote!(#base.powi(#exponent)), Binding::Atom)
+            }
+        }
+        Value::Call(function, arguments) => {
+            let receiver = operand(names, schedule, arguments[0], Binding::Atom);
+            let method = ident(function.operation().method);
+            let rest: Vec<_> =
+                arguments[1..].iter().map(|argument| operand(names, schedule, *argument, Binding::Sum)).collect();
+            (quote!(#receiver.#method(#(#rest),*)), Binding::Atom)
+        }
+    }
+}
+
+/// A constant as a scalar of any type.
+pub(super) fn constant(number: Number) -> TokenStream {
+    match number {
+        Number::Ratio(0, _) => quote!(T::zero()),
+        Number::Ratio(1, 1) => quote!(T::one()),
+        Number::Ratio(n, d) => {
+            let value = n as f64 / d as f64;
+            // A ratio that is not a short decimal is written as the ratio it is.
+            let short = format!("{value}").len() <= 8;
+            let (n, d) = (Literal::f64_unsuffixed(n as f64), Literal::f64_unsuffixed(d as f64));
+            if short {
+                let value = Literal::f64_unsuffixed(value);
+                quote!(real::<T>(#value))
+            } else {
+                quote!(real::<T>(#n / #d))
+            }
+        }
+        Number::Float(value) => {
+            let literal = separated(value);
+            quote!(real::<T>(#literal))
+        }
+    }
+}
+
+/// A float with its digits in groups of three, as people read them.
+fn separated(value: f64) -> TokenStream {
+    let text = format!("{value:?}");
+    let grouped = match text.split_once('.') {
+        Some((whole, fraction)) if !text.contains('e') => {
+            let groups: Vec<String> =
+                fraction.as_bytes().chunks(3).map(|group| String::from_utf8_lossy(group).into_owned()).collect();
+            format!("{whole}.{}", groups.join("_"))
+        }
+        _ => text,
+    };
+    grouped.parse().unwrap_or_else(|_| {
+        let literal = Literal::f64_unsuffixed(value);
+        quote!(#literal)
+    })
+}
+
+/// The name of the sine or cosine of a direction.
+pub(super) fn direction_name(function: Function, angle: &str) -> String {
+    format!("{}_{angle}", function.operation().name)
+}

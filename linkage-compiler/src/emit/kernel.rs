@@ -1,0 +1,175 @@
+//! One kernel: what it is given, its stages, and the Rust that carries them out.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::expression::{definition, direction_name, signed};
+use super::names::{Names, ident};
+use super::pose::PosePlan;
+use crate::derivation::Derivation;
+use crate::graph::{Function, NodeId, SymbolId};
+use crate::simplify::schedule::{Line, Operations, Schedule, Stage, Value, schedule};
+
+/// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
+/// fields is used.
+pub(super) struct Source {
+    /// The expression taken apart, such as `*rate`.
+    pub from: TokenStream,
+    /// The type whose fields are bound.
+    pub of: TokenStream,
+    /// The fields, and the symbols they are known by.
+    pub fields: Vec<(String, SymbolId)>,
+}
+
+/// What a kernel starts from.
+pub(super) struct Given<'a> {
+    pub sources: Vec<Source>,
+    /// The pose, if sines and cosines are given by one.
+    pub pose: Option<&'a PosePlan>,
+}
+
+/// The lines of a kernel, the names of what it returns and the number of operations.
+pub(super) struct Code {
+    pub body: TokenStream,
+    pub results: Vec<TokenStream>,
+    pub operations: Operations,
+}
+
+/// Writes a kernel. The last stage is the `Return`, whose values are given back as expressions.
+pub(super) fn write(derivation: &Derivation, given: &Given, stages: &[Stage], named: &[(NodeId, String)], reserved: &[String]) -> Code {
+    let directions: BTreeSet<NodeId> = given.pose.map(|pose| pose.angles().collect()).unwrap_or_default();
+    let schedule = schedule(&derivation.graph, stages, &directions, named);
+    let own: BTreeSet<SymbolId> = stages.iter().flat_map(introduced).collect();
+    let symbols: BTreeSet<SymbolId> = schedule
+        .used()
+        .into_iter()
+        .filter_map(|id| match schedule.value(id) {
+            Value::Symbol(symbol) if !own.contains(symbol) => Some(*symbol),
+            _ => None,
+        })
+        .collect();
+    let given_names = symbols.iter().map(|symbol| derivation.graph.symbol_name(*symbol).to_owned());
+    let mut names = Names::new(&derivation.graph, given_names.chain(reserved.iter().cloned()));
+    let sources = given.sources.iter().filter_map(|source| pattern(source, &symbols, &derivation.graph));
+    let mut body: TokenStream = sources.collect();
+    if let Some(pose) = given.pose {
+        body.extend(take_directions(pose, &schedule, &mut names));
+    }
+    let mut results = Vec::new();
+    for line in &schedule.lines {
+        body.extend(write_line(line, &schedule, &mut names, &mut results));
+    }
+    Code { body, results, operations: schedule.operations() }
+}
+
+fn introduced(stage: &Stage) -> Vec<SymbolId> {
+    match stage {
+        Stage::Let { symbol, .. } => vec![*symbol],
+        Stage::Solve { targets, .. } => targets.clone(),
+        _ => Vec::new(),
+    }
+}
+
+/// `let Type { field, other: name, .. } = *value;` with the fields that are used.
+fn pattern(source: &Source, used: &BTreeSet<SymbolId>, graph: &crate::graph::Graph) -> Option<TokenStream> {
+    let fields: Vec<TokenStream> = source
+        .fields
+        .iter()
+        .filter(|(_, symbol)| used.contains(symbol))
+        .map(|(field, symbol)| {
+            let name = graph.symbol_name(*symbol);
+            let (field_ident, name_ident) = (ident(field), ident(name));
+            if field == name { quote!(#name_ident) } else { quote!(#field_ident: #name_ident) }
+        })
+        .collect();
+    if fields.is_empty() {
+        return None;
+    }
+    let rest = (fields.len() < source.fields.len()).then(|| quote!(..));
+    let (from, of) = (&source.from, &source.of);
+    Some(quote!(let #of { #(#fields,)* #rest } = #from;))
+}
+
+/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
+fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> TokenStream {
+    let mut used: BTreeMap<NodeId, Vec<(Function, _)>> = BTreeMap::new();
+    for id in schedule.used() {
+        if let Value::Direction(function, angle) = schedule.value(id) {
+            used.entry(*angle).or_default().push((*function, id));
+        }
+    }
+    let argument = ident(&pose.argument);
+    let mut tokens = TokenStream::new();
+    for (angle, mut parts) in used {
+        parts.sort_by_key(|(function, _)| *function);
+        let field = pose.direction(angle);
+        let field_ident = ident(field);
+        let (mut left, mut right) = (Vec::new(), Vec::new());
+        for (function, id) in parts {
+            let name = names.unique(&direction_name(function, field));
+            left.push(ident(&name));
+            let part = if function == Function::Sin { quote!(im) } else { quote!(re) };
+            right.push(quote!(#argument.#field_ident.#part));
+            names.set(id, name);
+        }
+        tokens.extend(match (left.as_slice(), right.as_slice()) {
+            ([name], [value]) => quote!(let #name = #value;),
+            _ => quote!(let (#(#left),*) = (#(#right),*);),
+        });
+    }
+    tokens
+}
+
+fn write_line(line: &Line, schedule: &Schedule, names: &mut Names, results: &mut Vec<TokenStream>) -> TokenStream {
+    match line {
+        Line::Let(id) => {
+            let value = definition(names, schedule, *id);
+            let name = ident(&names.invent(schedule, *id));
+            quote!(let #name = #value;)
+        }
+        Line::SineCosine { sine, cosine, angle } => {
+            let argument = signed(names, schedule, *angle);
+            let argument = if names.get(schedule, angle.value).is_some() { argument } else { quote!((#argument)) };
+            let (sine, cosine) = (names.invent(schedule, *sine), names.invent(schedule, *cosine));
+            let (sine, cosine) = (ident(&sine), ident(&cosine));
+            quote!(let (#sine, #cosine) = #argument.sin_cos();)
+        }
+        Line::Name { symbol, value } => {
+            let tokens = signed(names, schedule, *value);
+            let fresh = !value.negative && names.get(schedule, value.value).is_none();
+            let text = names.introduce(*symbol);
+            let name = ident(&text);
+            if fresh {
+                names.set(value.value, text);
+            }
+            quote!(let #name = #tokens;)
+        }
+        Line::Guard { determinant, size } => {
+            let (determinant, size) = (signed(names, schedule, *determinant), signed(names, schedule, *size));
+            quote!(regular(Self::NAME, #determinant, #size)?;)
+        }
+        Line::Factor { matrix, sizes } => {
+            let columns = (0..matrix.len()).map(|column| {
+                let entries: Vec<_> = matrix.iter().map(|row| signed(names, schedule, row[column])).collect();
+                quote!([#(#entries),*])
+            });
+            let columns: Vec<_> = columns.collect();
+            let sizes: Vec<_> = sizes.iter().map(|size| signed(names, schedule, *size)).collect();
+            names.factors = names.unique("factors");
+            let factors = ident(&names.factors);
+            quote!(let #factors = Factorization::new(Self::NAME, [#(#columns),*], [#(#sizes),*])?;)
+        }
+        Line::Solve { targets, right } => {
+            let right: Vec<_> = right.iter().map(|value| signed(names, schedule, *value)).collect();
+            let targets: Vec<_> = targets.iter().map(|target| ident(&names.introduce(*target))).collect();
+            let factors = ident(&names.factors);
+            quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);)
+        }
+        Line::Return(values) => {
+            *results = values.iter().map(|value| signed(names, schedule, *value)).collect();
+            TokenStream::new()
+        }
+    }
+}

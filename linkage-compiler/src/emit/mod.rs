@@ -1,0 +1,66 @@
+//! Rust that could have been written by hand: the user's names, the formula in the doc comment.
+
+mod expression;
+mod kernel;
+mod methods;
+mod names;
+mod pose;
+mod types;
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::derivation::Derivation;
+use crate::model::{Driver, Mechanism};
+
+/// The names of the types of one driver of a mechanism.
+struct Types {
+    /// The type that the functions belong to.
+    driver: Ident,
+    inputs: Ident,
+    unknowns: Ident,
+    pose: Ident,
+    coordinates: Ident,
+    points: Ident,
+    outputs: Ident,
+    motion: Ident,
+}
+
+impl Types {
+    fn new(mechanism: &Mechanism, driver: &Driver) -> Self {
+        // Types keep their place in the user's source but resolve where the macro is called.
+        let named = |stem: &Ident, suffix: &str| {
+            let mut ident = format_ident!("{stem}{suffix}");
+            ident.set_span(Span::call_site());
+            ident
+        };
+        let (own, shared) = (&driver.name, &mechanism.name);
+        Self {
+            driver: own.clone(),
+            inputs: named(own, "Inputs"),
+            unknowns: named(own, "Unknowns"),
+            pose: named(own, "Pose"),
+            coordinates: named(shared, "Coordinates"),
+            points: named(shared, "Points"),
+            outputs: named(shared, "Outputs"),
+            motion: named(own, "Motion"),
+        }
+    }
+}
+
+/// Everything emitted for one mechanism; `derivations` holds one for each driver, or none for a
+/// stub that only has the right names and types. `root` is the path of the `linkage` crate.
+#[must_use]
+pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, root: &TokenStream) -> TokenStream {
+    let private = quote!(#root::__private);
+    let mut tokens = types::shared(mechanism, &private);
+    let mut derivations = derivations.map(|derivations| derivations.iter_mut());
+    for driver in &mechanism.drivers {
+        let names = Types::new(mechanism, driver);
+        let derivation = derivations.as_mut().and_then(Iterator::next);
+        let plan = derivation.as_deref().map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
+        tokens.extend(types::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref(), &private));
+        tokens.extend(methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation, &private));
+    }
+    tokens
+}

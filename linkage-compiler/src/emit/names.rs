@@ -1,0 +1,186 @@
+//! Names of the emitted code: the user's own, and fresh ones beside them.
+
+use std::collections::{BTreeSet, HashMap};
+
+use proc_macro2::{Ident, Span};
+
+use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
+
+/// A name longer than this says less than a number.
+const LONGEST: usize = 36;
+
+/// Gives every value of one kernel a name of its own.
+pub(super) struct Names<'a> {
+    graph: &'a Graph,
+    taken: BTreeSet<String>,
+    values: HashMap<ValueId, String>,
+    symbols: HashMap<SymbolId, String>,
+    /// The factorisation in use.
+    pub(super) factors: String,
+}
+
+impl<'a> Names<'a> {
+    /// `reserved` are names already in scope: arguments of the function and the user's names.
+    pub(super) fn new(graph: &'a Graph, reserved: impl IntoIterator<Item = String>) -> Self {
+        let taken = reserved.into_iter().collect();
+        Self { graph, taken, values: HashMap::new(), symbols: HashMap::new(), factors: String::new() }
+    }
+
+    /// A name not yet taken.
+    pub(super) fn unique(&mut self, wish: &str) -> String {
+        let mut name = wish.to_owned();
+        let mut number = 2;
+        while !self.taken.insert(name.clone()) {
+            name = format!("{wish}_{number}");
+            number += 1;
+        }
+        name
+    }
+
+    /// Symbols keep their name, which the caller has reserved.
+    pub(super) fn symbol(&mut self, symbol: SymbolId) -> String {
+        self.symbols.entry(symbol).or_insert_with(|| self.graph.symbol_name(symbol).to_owned()).clone()
+    }
+
+    /// A symbol that this kernel itself introduces.
+    pub(super) fn introduce(&mut self, symbol: SymbolId) -> String {
+        let name = self.unique(&self.graph.symbol_name(symbol).to_owned());
+        self.symbols.insert(symbol, name.clone());
+        name
+    }
+
+    pub(super) fn set(&mut self, value: ValueId, name: String) {
+        self.values.insert(value, name);
+    }
+
+    /// The name of a value that has one.
+    pub(super) fn get(&mut self, schedule: &Schedule, value: ValueId) -> Option<String> {
+        if let Some(name) = self.values.get(&value) {
+            return Some(name.clone());
+        }
+        match schedule.value(value) {
+            Value::Symbol(symbol) => Some(self.symbol(*symbol)),
+            _ => None,
+        }
+    }
+
+    /// Names a value after what it is made of.
+    pub(super) fn invent(&mut self, schedule: &Schedule, value: ValueId) -> String {
+        let wish = schedule
+            .name(value)
+            .map(str::to_owned)
+            .or_else(|| self.describe(schedule, value))
+            .filter(|name| name.len() <= LONGEST)
+            .unwrap_or_else(|| match schedule.value(value) {
+                Value::Sum(_) => "sum_1".to_owned(),
+                Value::Product(_) => "product_1".to_owned(),
+                Value::Quotient(..) => "quotient_1".to_owned(),
+                Value::Power(..) => "power_1".to_owned(),
+                Value::Call(function, _) => format!("{}_1", function.operation().name),
+                _ => "value_1".to_owned(),
+            });
+        let name = match wish.strip_suffix("_1") {
+            Some(stem) => self.numbered(stem),
+            None => self.unique(&wish),
+        };
+        self.values.insert(value, name.clone());
+        name
+    }
+
+    fn numbered(&mut self, stem: &str) -> String {
+        let mut number = 1;
+        while !self.taken.insert(format!("{stem}_{number}")) {
+            number += 1;
+        }
+        format!("{stem}_{number}")
+    }
+
+    /// A name made of the names of the parts.
+    fn describe(&mut self, schedule: &Schedule, value: ValueId) -> Option<String> {
+        match schedule.value(value) {
+            Value::Product(factors) => {
+                let names: Option<Vec<String>> = factors.iter().map(|&factor| self.part(schedule, factor)).collect();
+                Some(names?.join("_"))
+            }
+            Value::Sum(terms) => match terms.as_slice() {
+                &[Signed { value: a, .. }, Signed { negative, value: b }] => {
+                    let joint = if negative { "minus" } else { "plus" };
+                    Some(format!("{}_{joint}_{}", self.part(schedule, a)?, self.part(schedule, b)?))
+                }
+                _ => None,
+            },
+            Value::Quotient(above, below) if is_one(schedule, *above) => {
+                Some(format!("inverse_{}", self.get(schedule, *below)?))
+            }
+            Value::Quotient(above, below) => {
+                Some(format!("{}_by_{}", self.part(schedule, *above)?, self.part(schedule, *below)?))
+            }
+            Value::Power(base, 2) => Some(format!("{}_squared", self.get(schedule, *base)?)),
+            Value::Power(base, 3) => Some(format!("{}_cubed", self.get(schedule, *base)?)),
+            Value::Call(function, arguments) => match arguments.as_slice() {
+                &[argument] => Some(format!("{}_{}", function.operation().name, self.get(schedule, argument.value)?)),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// A part by its name, or by a word for the small things that are written inline.
+    fn part(&mut self, schedule: &Schedule, value: ValueId) -> Option<String> {
+        let small = |value: &ValueId| self.values.contains_key(value) || matches!(schedule.value(*value), Value::Symbol(_));
+        match schedule.value(value) {
+            Value::Constant(Number::Ratio(1, 2)) => Some("half".to_owned()),
+            Value::Constant(Number::Ratio(2, 1)) => Some("twice".to_owned()),
+            Value::Power(base, 2 | 3) if small(base) => self.describe(schedule, value),
+            Value::Quotient(above, below) if is_one(schedule, *above) && small(below) => self.describe(schedule, value),
+            Value::Product(factors) if factors.iter().all(small) => {
+                self.get(schedule, value).or_else(|| self.describe(schedule, value))
+            }
+            _ => self.get(schedule, value),
+        }
+    }
+}
+
+fn is_one(schedule: &Schedule, value: ValueId) -> bool {
+    matches!(schedule.value(value), Value::Constant(number) if number.is_one())
+}
+
+/// What to call the direction of an angle: after the coordinate, or after a short sum such as
+/// `phi2 - delta`.
+pub(super) fn angle_name(graph: &Graph, angle: NodeId) -> String {
+    let mut name = String::new();
+    let text = graph.text(angle);
+    let mut separate = false;
+    for letter in text.chars() {
+        let word = match letter {
+            '-' => "minus",
+            '+' => "plus",
+            '*' => "times",
+            '/' => "over",
+            letter if letter.is_alphanumeric() || letter == '_' => {
+                if separate && !name.is_empty() {
+                    name.push('_');
+                }
+                separate = false;
+                name.push(letter);
+                continue;
+            }
+            _ => {
+                separate = true;
+                continue;
+            }
+        };
+        if !name.is_empty() {
+            name.push('_');
+        }
+        name.push_str(word);
+        separate = true;
+    }
+    let starts_well = name.chars().next().is_some_and(|first| first.is_alphabetic() || first == '_');
+    if starts_well && name.len() <= LONGEST { name } else { "angle".to_owned() }
+}
+
+pub(super) fn ident(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}

@@ -1,0 +1,89 @@
+//! What a pose carries: the direction of every angle that a formula takes a sine or cosine of, the
+//! coordinates that formulas use as they are, and the determinant.
+
+use std::collections::BTreeSet;
+
+use crate::derivation::Derivation;
+use crate::graph::{Function, Node, NodeId, SymbolId};
+
+use super::names::angle_name;
+
+/// The fields of a pose.
+pub(super) struct PosePlan {
+    /// What functions call their pose.
+    pub argument: String,
+    /// Angles and the fields that hold their directions.
+    pub directions: Vec<(NodeId, String)>,
+    /// Coordinates held as numbers: index, field, symbol.
+    pub values: Vec<(usize, String, SymbolId)>,
+}
+
+impl PosePlan {
+    pub(super) fn new(derivation: &Derivation, argument: String) -> Self {
+        let formulas = formulas(derivation);
+        let graph = &derivation.graph;
+        // Sines inside the determinant alone are taken when the pose is made.
+        let mut wanted: BTreeSet<NodeId> = formulas.iter().copied().collect();
+        let mut angles = BTreeSet::new();
+        let mut bare = BTreeSet::new();
+        while let Some(id) = wanted.pop_last() {
+            match graph.node(id) {
+                _ if graph.constant_value(id).is_some() => {}
+                Node::Call(Function::Sin | Function::Cos, angle) => {
+                    angles.insert(angle[0]);
+                }
+                Node::Symbol(symbol) => {
+                    bare.insert(*symbol);
+                }
+                _ => wanted.extend(graph.children(id)),
+            }
+        }
+        let mut taken = BTreeSet::new();
+        let mut unique = |wish: String| {
+            let mut name = wish.clone();
+            let mut number = 2;
+            while !taken.insert(name.clone()) {
+                name = format!("{wish}_{number}");
+                number += 1;
+            }
+            name
+        };
+        let determinant_field = "determinant".to_owned();
+        unique(determinant_field);
+        let directions: Vec<_> = angles.iter().map(|&angle| (angle, unique(angle_name(graph, angle)))).collect();
+        let mut values = Vec::new();
+        for (index, coordinate) in derivation.coordinates.iter().enumerate() {
+            let has_direction = angles.iter().any(|&angle| graph.as_symbol(angle) == Some(coordinate.value));
+            if has_direction && bare.contains(&coordinate.value) {
+                values.push((index, unique(format!("{}_angle", coordinate.name)), coordinate.value));
+            } else if !has_direction {
+                values.push((index, unique(coordinate.name.clone()), coordinate.value));
+            }
+        }
+        Self { argument, directions, values }
+    }
+
+    /// The angles whose directions a pose holds.
+    pub(super) fn angles(&self) -> impl Iterator<Item = NodeId> {
+        self.directions.iter().map(|(angle, _)| *angle)
+    }
+
+    pub(super) fn direction(&self, angle: NodeId) -> &str {
+        self.directions.iter().find(|(other, _)| *other == angle).map_or("", |(_, field)| field)
+    }
+}
+
+fn formulas(derivation: &Derivation) -> Vec<NodeId> {
+    let mut formulas: Vec<NodeId> = derivation.residual.clone();
+    formulas.extend(&derivation.sizes);
+    formulas.extend(derivation.jacobian.iter().flatten());
+    formulas.extend(&derivation.gamma);
+    formulas.extend(derivation.determinant.iter().map(|determinant| determinant.size));
+    for quantity in derivation.points.iter().chain(&derivation.outputs) {
+        formulas.extend(&quantity.value);
+        formulas.extend(quantity.jacobian.iter().flatten());
+        formulas.extend(&quantity.rate);
+        formulas.extend(&quantity.acceleration);
+    }
+    formulas
+}

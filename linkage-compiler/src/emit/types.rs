@@ -1,0 +1,312 @@
+//! The types of a mechanism: parameters, coordinates, inputs, unknowns, points, outputs, pose, motion.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use syn::Attribute;
+
+use super::names::ident;
+use super::pose::PosePlan;
+use super::{Types, expression};
+use crate::derivation::Derivation;
+use crate::graph::Number;
+use crate::model::{Coordinate, Driver, Mechanism, Name};
+
+/// A field name with the user's span, so that editors lead from one to the other.
+pub(super) fn field(name: &Name) -> Ident {
+    Ident::new(&name.field, proc_macro2::Span::call_site().located_at(name.span))
+}
+
+/// The user's doc comment, or else `text`.
+fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
+    let own: Vec<&Attribute> = attributes.iter().filter(|attribute| attribute.path().is_ident("doc")).collect();
+    if own.is_empty() {
+        let text = format!(" {text}");
+        quote!(#[doc = #text])
+    } else { quote!(#(#own)*) }
+}
+
+fn derives() -> TokenStream {
+    quote!(#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)])
+}
+
+/// The types that all drivers of a mechanism share.
+pub(super) fn shared(mechanism: &Mechanism, private: &TokenStream) -> TokenStream {
+    let visibility = &mechanism.visibility;
+    let derives = derives();
+    let name = &mechanism.name;
+    let mut tokens = TokenStream::new();
+    if mechanism.is_driven_by_choice() {
+        tokens.extend(parameters(mechanism, name, &mechanism.attributes, private));
+        for driver in &mechanism.drivers {
+            let other = &driver.name;
+            let fields: Vec<Ident> = mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect();
+            for (from, to) in [(name, other), (other, name)] {
+                tokens.extend(quote! {
+                    impl<T> ::core::convert::From<#from<T>> for #to<T> {
+                        fn from(parameters: #from<T>) -> Self {
+                            let #from { #(#fields),* } = parameters;
+                            Self { #(#fields),* }
+                        }
+                    }
+                });
+            }
+        }
+    }
+    let coordinates = format_ident!("{name}Coordinates", span = proc_macro2::Span::call_site());
+    let order = mechanism.drivers.first().map(|driver| mechanism.coordinate_order(driver)).unwrap_or_default();
+    let members: Vec<&Coordinate> = order.iter().map(|&index| &mechanism.coordinates[index]).collect();
+    let title = format!(" The coordinates q of [`{name}`] by name; their rates and accelerations as well.");
+    tokens.extend(coordinate_struct(mechanism, &coordinates, &title, &members, private));
+    for (suffix, what, names) in [
+        ("Points", "points", mechanism.points.iter().map(|p| (&p.name, &p.attributes)).collect::<Vec<_>>()),
+        ("Outputs", "outputs", mechanism.outputs.iter().map(|o| (&o.name, &o.attributes)).collect()),
+    ] {
+        if names.is_empty() {
+            continue;
+        }
+        let ident = format_ident!("{name}{suffix}", span = proc_macro2::Span::call_site());
+        let count = Literal::usize_unsuffixed(names.len());
+        let fields: Vec<Ident> = names.iter().map(|(name, _)| field(name)).collect();
+        let texts: Vec<&String> = names.iter().map(|(name, _)| &name.text).collect();
+        let kind = &what[..what.len() - 1];
+        let members = names.iter().zip(&fields).map(|((name, attributes), field)| {
+            let docs = docs(attributes, &format!("The {kind} `{}`.", name.text));
+            quote!(#docs pub #field: Q)
+        });
+        let title = format!(" One quantity for each of the {what} of [`{name}`].");
+        let named = format!(" The {what} as they were declared, in order.");
+        tokens.extend(quote! {
+            #[doc = #title]
+            #derives
+            #visibility struct #ident<Q> { #(#members),* }
+            impl<Q> #ident<Q> {
+                #[doc = #named]
+                pub const NAMES: [&'static str; #count] = [#(#texts),*];
+            }
+            impl<Q> ::core::convert::From<#ident<Q>> for [Q; #count] {
+                fn from(named: #ident<Q>) -> Self {
+                    [#(named.#fields),*]
+                }
+            }
+        });
+    }
+    tokens
+}
+
+/// The types of one driver, and its parameters.
+pub(super) fn of_driver(
+    mechanism: &Mechanism,
+    driver: &Driver,
+    types: &Types,
+    plan: Option<&PosePlan>,
+    derivation: Option<&Derivation>,
+    private: &TokenStream,
+) -> TokenStream {
+    let Types { driver: name, inputs, unknowns, pose, coordinates, points, outputs, motion, .. } = types;
+    let visibility = &mechanism.visibility;
+    let derives = derives();
+    let attributes: Vec<Attribute> = if mechanism.is_driven_by_choice() {
+        let forwarded = mechanism.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
+        driver.attributes.iter().chain(forwarded).cloned().collect()
+    } else {
+        mechanism.attributes.clone()
+    };
+    let mut tokens = parameters(mechanism, name, &attributes, private);
+    for (ident, what, indices) in
+        [(inputs, "independent coordinates v", &driver.inputs), (unknowns, "dependent coordinates u", &driver.unknowns)]
+    {
+        let members: Vec<&Coordinate> = indices.iter().map(|&index| &mechanism.coordinates[index]).collect();
+        let fields: Vec<Ident> = members.iter().map(|member| field(&member.name)).collect();
+        let title = format!(" The {what} of [`{name}`] by name; their rates and accelerations as well.");
+        tokens.extend(coordinate_struct(mechanism, ident, &title, &members, private));
+        tokens.extend(quote! {
+            impl<T: #private::Real> ::core::convert::From<&#coordinates<T>> for #ident<T> {
+                fn from(q: &#coordinates<T>) -> Self {
+                    Self { #(#fields: q.#fields),* }
+                }
+            }
+        });
+    }
+    if let &[only] = driver.inputs.as_slice() {
+        let field = field(&mechanism.coordinates[only].name);
+        tokens.extend(quote! {
+            impl<T: #private::Real> ::core::convert::From<T> for #inputs<T> {
+                fn from(#field: T) -> Self {
+                    Self { #field }
+                }
+            }
+        });
+    }
+    let members = plan.map_or_else(
+        || quote!(scalar: ::core::marker::PhantomData<T>),
+        |plan| pose_fields(plan, derivation, private),
+    );
+    let title = format!(
+        " A position of [`{name}`] ready for use: each angle as its direction (cos, sin), so that whatever follows needs no trigonometry."
+    );
+    tokens.extend(quote! {
+        #[doc = #title]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+        #visibility struct #pose<T = f64> { #members }
+    });
+    let (position_type, mut rest) = (quote!(#coordinates<T>), TokenStream::new());
+    if !mechanism.points.is_empty() {
+        rest.extend(quote!(/// Position, velocity and acceleration of the points.
+ pub points: #points<#private::PointMotion<T>>,));
+    }
+    if !mechanism.outputs.is_empty() {
+        rest.extend(quote!(/// Value, rate and acceleration of the outputs.
+ pub outputs: #outputs<#private::OutputMotion<T>>,));
+    }
+    let title = format!(" A position of [`{name}`] with its velocity and acceleration.");
+    tokens.extend(quote! {
+        #[doc = #title]
+        #derives
+        #visibility struct #motion<T = f64> {
+            /// The position q.
+
+            pub position: #position_type,
+            /// The velocity q'.
+
+            pub velocity: #position_type,
+            /// The acceleration q''.
+
+            pub acceleration: #position_type,
+            #rest
+        }
+    });
+    tokens
+}
+
+fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &TokenStream) -> TokenStream {
+    let Some(derivation) = derivation else { return TokenStream::new() };
+    let mut members = TokenStream::new();
+    for (angle, name) in &plan.directions {
+        let ident = ident(name);
+        let text = format!(" The direction of `{}`.", derivation.graph.text(*angle));
+        members.extend(quote!(#[doc = #text] pub #ident: #private::UnitComplex<T>,));
+    }
+    for (index, name, _) in &plan.values {
+        let ident = ident(name);
+        let text = format!(" `{}` itself.", derivation.coordinates[*index].name);
+        members.extend(quote!(#[doc = #text] pub #ident: T,));
+    }
+    if let Some(determinant) = &derivation.determinant {
+        let text = format!(" det J = `{}`, from the angles themselves.", derivation.graph.text(determinant.value));
+        members.extend(quote!(#[doc = #text] pub determinant: T,));
+    }
+    members
+}
+
+fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], private: &TokenStream) -> TokenStream {
+    let visibility = &mechanism.visibility;
+    let fields: Vec<Ident> = mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect();
+    let number = fields.len();
+    let count = Literal::usize_unsuffixed(number);
+    let members = mechanism.parameters.iter().zip(&fields).map(|(parameter, field)| {
+        let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
+        let other = parameter.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
+        quote!(#docs #(#other)* pub #field: T)
+    });
+    let own_docs = attributes.iter().any(|attribute| attribute.path().is_ident("doc"));
+    let title = (!own_docs).then(|| {
+        let text = format!(" The parameters of the mechanism `{name}`.");
+        quote!(#[doc = #text])
+    });
+    let texts: Vec<&String> = mechanism.parameters.iter().map(|parameter| &parameter.name.text).collect();
+    let mut tokens = quote! {
+        #title
+        #(#attributes)*
+        #visibility struct #name<T = f64> { #(#members),* }
+        impl<T> ::core::convert::From<[T; #count]> for #name<T> {
+            fn from([#(#fields),*]: [T; #count]) -> Self {
+                Self { #(#fields),* }
+            }
+        }
+        impl<T> ::core::convert::From<#name<T>> for [T; #count] {
+            fn from(parameters: #name<T>) -> Self {
+                [#(parameters.#fields),*]
+            }
+        }
+    };
+    // More arguments than this are told apart by nobody: there the literal with its names is better.
+    const MOST_ARGUMENTS: usize = 7;
+    let new = (1..=MOST_ARGUMENTS).contains(&number).then(|| {
+        quote! {
+            /// The mechanism with these parameters.
+
+            #[must_use]
+            pub const fn new(#(#fields: T),*) -> Self {
+                Self { #(#fields),* }
+            }
+        }
+    });
+    tokens.extend(quote! {
+        impl<T: #private::Real> #name<T> {
+            /// The parameters as they were declared, in order.
+
+            pub const PARAMETERS: [&'static str; #count] = [#(#texts),*];
+            #new
+        }
+    });
+    let defaults: Option<Vec<TokenStream>> = mechanism
+        .parameters
+        .iter()
+        .map(|parameter| {
+            let node = parameter.default?;
+            let number = mechanism.graph.as_number(node).or_else(|| mechanism.graph.constant_value(node).map(Number::Float))?;
+            let magnitude = expression::constant(number.absolute());
+            Some(if number.is_negative() { quote!(-#magnitude) } else { magnitude })
+        })
+        .collect();
+    if let Some(defaults) = defaults.filter(|_| number > 0) {
+        tokens.extend(quote! {
+            impl<T: #private::Real> ::core::default::Default for #name<T> {
+                fn default() -> Self {
+                    use #private::real;
+                    Self { #(#fields: #defaults),* }
+                }
+            }
+        });
+    }
+    tokens
+}
+
+fn coordinate_struct(
+    mechanism: &Mechanism,
+    name: &Ident,
+    title: &str,
+    coordinates: &[&Coordinate],
+    private: &TokenStream,
+) -> TokenStream {
+    let visibility = &mechanism.visibility;
+    let derives = derives();
+    let count = Literal::usize_unsuffixed(coordinates.len());
+    let fields: Vec<Ident> = coordinates.iter().map(|coordinate| field(&coordinate.name)).collect();
+    let texts: Vec<&String> = coordinates.iter().map(|coordinate| &coordinate.name.text).collect();
+    let members = coordinates.iter().zip(&fields).map(|(coordinate, field)| {
+        let docs = docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind));
+        quote!(#docs pub #field: T)
+    });
+    quote! {
+        #[doc = #title]
+        #derives
+        #visibility struct #name<T = f64> { #(#members),* }
+        impl<T> #name<T> {
+            /// The coordinates as they were declared, in order.
+
+            pub const NAMES: [&'static str; #count] = [#(#texts),*];
+        }
+        impl<T: #private::Real> ::core::convert::From<#private::SVector<T, #count>> for #name<T> {
+            fn from(vector: #private::SVector<T, #count>) -> Self {
+                let [[#(#fields),*]] = vector.data.0;
+                Self { #(#fields),* }
+            }
+        }
+        impl<T: #private::Real> ::core::convert::From<#name<T>> for #private::SVector<T, #count> {
+            fn from(coordinates: #name<T>) -> Self {
+                Self::from([#(coordinates.#fields),*])
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Why there is no result.
+
+use core::fmt;
+
+use nalgebra::SMatrix;
+
+use crate::Real;
+
+/// Why a computation has no result. All measures are pure numbers: scaling all lengths of a
+/// mechanism changes none of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The constraint Jacobian has no inverse here: the input cannot drive the mechanism.
+    Singular {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// How regular the Jacobian is: its determinant beside the largest value that its formula
+        /// could take at these lengths; of more than two unknowns the smallest pivot of the
+        /// equilibrated Jacobian. 1 is far from singular, 0 is singular.
+        regularity: f64,
+    },
+    /// Newton's method found no position: the mechanism cannot be assembled at this input, or the
+    /// guess is too far.
+    NotConverged {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// Newton steps taken.
+        iterations: usize,
+        /// The largest residual that was left, beside the sum of the magnitudes of its terms.
+        residual: f64,
+        /// How regular the Jacobian is where the search ended, as in [`Error::Singular`].
+        regularity: f64,
+    },
+    /// A number given or computed is infinite or not a number.
+    NotFinite {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// What is not finite.
+        quantity: &'static str,
+    },
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Singular { mechanism, regularity } => {
+                write!(f, "{mechanism} is in a singular configuration: its Jacobian is regular to {regularity:.1e} only")
+            }
+            Self::NotConverged { mechanism, iterations, residual, regularity } => write!(
+                f,
+                "no position of {mechanism} found in {iterations} Newton steps: relative residual {residual:.1e}, \
+                 Jacobian regular to {regularity:.1e}"
+            ),
+            Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// Refuses values that are infinite or not numbers.
+///
+/// # Errors
+/// [`Error::NotFinite`] with these names.
+#[inline]
+pub fn finite<T: Real, const N: usize>(
+    mechanism: &'static str,
+    quantity: &'static str,
+    values: [T; N],
+) -> Result<(), Error> {
+    if values.iter().all(T::is_finite) { Ok(()) } else { Err(Error::NotFinite { mechanism, quantity }) }
+}
+
+/// Refuses a matrix with an entry that is infinite or not a number.
+///
+/// # Errors
+/// [`Error::NotFinite`] with these names.
+#[inline]
+pub fn finite_matrix<T: Real, const R: usize, const C: usize>(
+    mechanism: &'static str,
+    quantity: &'static str,
+    matrix: &SMatrix<T, R, C>,
+) -> Result<(), Error> {
+    if matrix.iter().all(T::is_finite) { Ok(()) } else { Err(Error::NotFinite { mechanism, quantity }) }
+}

@@ -1,0 +1,43 @@
+//! The trait that general algorithms take.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::{Error, Real};
+
+/// A mechanism with `U` dependent and `V` independent coordinates, closed where Psi(q) = 0.
+///
+/// `linkage!` implements it for every mechanism and every driver of one.
+pub trait Mechanism<T: Real, const U: usize, const V: usize> {
+    /// The name of the mechanism, as errors give it.
+    const NAME: &'static str;
+    /// The coordinates q by name.
+    type Coordinates: Copy;
+    /// The independent coordinates v by name.
+    type Inputs: Copy;
+    /// The dependent coordinates u by name.
+    type Unknowns: Copy;
+    /// A position ready for use.
+    type Pose;
+
+    /// u, taken out of q.
+    fn unknowns(q: &Self::Coordinates) -> SVector<T, U>;
+    /// q with other values of u.
+    fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, U>) -> Self::Coordinates;
+    /// The position at these coordinates.
+    fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose;
+    /// Psi.
+    fn residual(&self, pose: &Self::Pose) -> SVector<T, U>;
+    /// The sum of the magnitudes of the terms of each closure.
+    fn closure_sizes(&self, pose: &Self::Pose) -> SVector<T, U>;
+    /// J, the derivative of Psi by u.
+    fn jacobian_unknowns(&self, pose: &Self::Pose) -> SMatrix<T, U, U>;
+    /// A, the derivative of Psi by v.
+    fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, U, V>;
+    /// det J.
+    fn determinant(&self, pose: &Self::Pose) -> T;
+    /// The x of J x = `right`.
+    ///
+    /// # Errors
+    /// [`Error::Singular`] where J has no inverse.
+    fn solve_jacobian(&self, pose: &Self::Pose, right: &SVector<T, U>) -> Result<SVector<T, U>, Error>;
+}
