@@ -21,6 +21,8 @@ struct Lowering<'a> {
     values: Vec<Value>,
     expressions: &'a Expressions,
     kinds: Vec<(SymbolId, Kind)>,
+    /// Names that are lengths if nothing else is known.
+    supposed: Vec<SymbolId>,
     diagnostics: &'a mut Diagnostics,
 }
 
@@ -32,6 +34,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         values: Vec::new(),
         expressions: &expressions,
         kinds: Vec::new(),
+        supposed: Vec::new(),
         diagnostics,
     };
     let complete = lowering.diagnostics.is_empty();
@@ -52,9 +55,13 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
     lowering.declare(&statements, &mut result, &mut roles);
     lowering.define(&statements, &mut result);
     let choice = lowering.drivers(&statements, &mut result, roles);
-    let Lowering { graph, scope, kinds, diagnostics, .. } = lowering;
+    let Lowering { graph, scope, kinds, supposed, diagnostics, .. } = lowering;
     result.graph = graph;
-    let kind_of = |symbol| kinds.iter().find(|(other, _)| *other == symbol).map_or(Kind::Number, |(_, kind)| *kind);
+    let kind_of = |symbol| match kinds.iter().find(|(other, _)| *other == symbol) {
+        Some((_, kind)) => *kind,
+        None if supposed.contains(&symbol) => Kind::Length,
+        None => Kind::Number,
+    };
     for parameter in &mut result.parameters {
         parameter.kind = kind_of(parameter.symbol);
     }
@@ -350,8 +357,7 @@ impl Lowering<'_> {
             Expression::Name(name) => self.scope.look_up(name, self.diagnostics),
             &Expression::Vector(x, y) => match (self.scalar(x), self.scalar(y)) {
                 (Some(x), Some(y)) => {
-                    self.mark(x, Kind::Length, region);
-                    self.mark(y, Kind::Length, region);
+                    self.suppose_lengths([x, y]);
                     Value::Vector(x, y)
                 }
                 _ => Value::Poison,
@@ -530,6 +536,15 @@ impl Lowering<'_> {
             }
             _ => return Value::Poison,
         })
+    }
+
+    /// A component is a length unless it is known to be something else: an angle may be plotted.
+    fn suppose_lengths(&mut self, components: [NodeId; 2]) {
+        for symbol in components.into_iter().flat_map(|node| bare_symbols(&self.graph, node)) {
+            if !self.kinds.iter().any(|(other, _)| *other == symbol) {
+                self.supposed.push(symbol);
+            }
+        }
     }
 
     /// Records that the names standing alone in an expression measure this kind of thing.
