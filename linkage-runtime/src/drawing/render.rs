@@ -1,0 +1,214 @@
+//! The SVG itself.
+
+use nalgebra::Vector2;
+use svg::Document;
+use svg::node::element::{Circle, Description, Group, Line, Path, Polyline, Rectangle, Style, Text, Title};
+
+use super::axes::{label, ticks};
+use super::frame::{Frame, LEFT, TOP, WIDTH};
+use super::{Drawing, Mark, Quantity};
+
+const STYLE: &str = "
+.paper{fill:#fff}.frame{fill:none;stroke:#888}.grid{stroke:#ddd}.tick{fill:#444;font-size:12px}
+.title{fill:#111;font-size:15px;font-weight:600}.bar{stroke:#d9822b;stroke-width:4;stroke-linecap:round}
+.joint{fill:#fff;stroke:#0b7285;stroke-width:2.5}.ground{fill:#0b7285;fill-opacity:.35;stroke:#0b7285;stroke-width:1.5}
+.point{fill:#333}.path{fill:none;stroke:#6741d9;stroke-width:1.5;stroke-dasharray:5 3}
+.velocity{stroke:#188038;fill:#188038}.acceleration{stroke:#d11a2a;fill:#d11a2a}.vector{stroke-width:2.5}
+.name{fill:#111;font-size:14px;font-style:italic;paint-order:stroke;stroke:#fff;stroke-width:4px;stroke-linejoin:round}
+text{font-family:sans-serif}
+@media (prefers-color-scheme:dark){.paper{fill:#16181c}.frame{stroke:#777}.grid{stroke:#33373d}.tick{fill:#bbb}
+.title{fill:#eee}.joint{fill:#16181c;stroke:#3bc9db}.ground{fill:#3bc9db;stroke:#3bc9db}.point{fill:#ddd}
+.path{stroke:#b197fc}.velocity{stroke:#51cf66;fill:#51cf66}.acceleration{stroke:#ff6b6b;fill:#ff6b6b}
+.name{fill:#eee;stroke:#16181c}}
+";
+
+/// Length of an arrow head.
+const HEAD: f64 = 10.0;
+
+/// Names stand this far from their points.
+const NAME_DISTANCE: f64 = 17.0;
+
+/// The picture of a drawing that has been checked.
+pub(super) fn svg(drawing: &Drawing) -> String {
+    let tips = drawing.arrows.iter().map(|arrow| drawing.tip(arrow));
+    let all: Vec<Vector2<f64>> =
+        drawing.places.iter().map(|place| place.at).chain(tips).chain(drawing.paths.iter().flatten().copied()).collect();
+    let frame = Frame::around(&all);
+    let legend = legend(drawing);
+    let bottom = TOP + frame.height() + 30.0;
+    let (width, height) = (LEFT + WIDTH + 18.0, bottom + 24.0 * f64::from(u8::from(!legend.is_empty())) + 6.0);
+    let mut document = Document::new()
+        .set("viewBox", (0, 0, width, height.ceil()))
+        .set("role", "img")
+        .add(Title::new(drawing.title.as_str()))
+        .add(Description::new().add(svg::node::Text::new(describe(drawing))))
+        .add(Style::new(STYLE))
+        .add(Rectangle::new().set("class", "paper").set("width", "100%").set("height", "100%"))
+        .add(text(&drawing.title, "title", Vector2::new(LEFT, 27.0), "start"))
+        .add(axes(&frame));
+    for path in &drawing.paths {
+        let points: Vec<String> = path.iter().map(|at| frame.pixel(*at)).map(|p| format!("{},{}", p.x, p.y)).collect();
+        document = document.add(Polyline::new().set("class", "path").set("points", points.join(" ")));
+    }
+    let mut segments = Vec::new();
+    for (from, to) in &drawing.bars {
+        let ends = [from, to].map(|name| frame.pixel(drawing.at(name).unwrap_or_default()));
+        segments.push(ends);
+        document = document.add(line(ends, "bar"));
+    }
+    for arrow in &drawing.arrows {
+        let ends = [frame.pixel(drawing.at(&arrow.from).unwrap_or_default()), frame.pixel(drawing.tip(arrow))];
+        segments.push(ends);
+        document = document.add(vector(ends, arrow.quantity));
+    }
+    for place in &drawing.places {
+        document = document.add(mark(frame.pixel(place.at), place.mark));
+    }
+    let mut taken: Vec<Vector2<f64>> = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
+    for place in &drawing.places {
+        let at = name_position(frame.pixel(place.at), &segments, &taken);
+        taken.push(at);
+        document = document.add(text(&place.name, "name", at + Vector2::new(0.0, 5.0), "middle"));
+    }
+    let mut x = LEFT;
+    for (class, words) in legend {
+        let y = bottom + 12.0;
+        document = document
+            .add(line([Vector2::new(x, y), Vector2::new(x + 26.0, y)], &format!("{class} vector")))
+            .add(text(&words, "tick", Vector2::new(x + 34.0, y + 4.0), "start"));
+        x += 300.0;
+    }
+    document.to_string()
+}
+
+fn legend(drawing: &Drawing) -> Vec<(&'static str, String)> {
+    [
+        (Quantity::Velocity, "velocity", drawing.velocity_scale),
+        (Quantity::Acceleration, "acceleration", drawing.acceleration_scale),
+    ]
+    .into_iter()
+    .filter(|(quantity, ..)| drawing.arrows.iter().any(|arrow| arrow.quantity == *quantity))
+    .map(|(_, name, scale)| (name, format!("{name}: {scale} drawn for 1")))
+    .collect()
+}
+
+fn describe(drawing: &Drawing) -> String {
+    let names: Vec<&str> = drawing.places.iter().map(|place| place.name.as_str()).collect();
+    format!("Linkage with the points {}", names.join(", "))
+}
+
+fn text(words: &str, class: &str, at: Vector2<f64>, anchor: &str) -> Text {
+    Text::new(words).set("class", class).set("x", round(at.x)).set("y", round(at.y)).set("text-anchor", anchor)
+}
+
+fn round(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0
+}
+
+fn line([from, to]: [Vector2<f64>; 2], class: &str) -> Line {
+    Line::new()
+        .set("class", class)
+        .set("x1", round(from.x))
+        .set("y1", round(from.y))
+        .set("x2", round(to.x))
+        .set("y2", round(to.y))
+}
+
+fn axes(frame: &Frame) -> Group {
+    let bottom = TOP + frame.height();
+    let mut group = Group::new();
+    for value in ticks(frame.low.x, frame.high.x) {
+        let x = frame.pixel(Vector2::new(value, frame.low.y)).x;
+        group = group
+            .add(line([Vector2::new(x, TOP), Vector2::new(x, bottom)], "grid"))
+            .add(text(&label(value, frame.low.x, frame.high.x), "tick", Vector2::new(x, bottom + 17.0), "middle"));
+    }
+    for value in ticks(frame.low.y, frame.high.y) {
+        let y = frame.pixel(Vector2::new(frame.low.x, value)).y;
+        group = group
+            .add(line([Vector2::new(LEFT, y), Vector2::new(LEFT + WIDTH, y)], "grid"))
+            .add(text(&label(value, frame.low.y, frame.high.y), "tick", Vector2::new(LEFT - 7.0, y + 4.0), "end"));
+    }
+    group.add(
+        Rectangle::new()
+            .set("class", "frame")
+            .set("x", LEFT)
+            .set("y", TOP)
+            .set("width", WIDTH)
+            .set("height", round(frame.height())),
+    )
+}
+
+/// A shaft and a head; of a vector too short for a head the shaft alone.
+fn vector(ends: [Vector2<f64>; 2], quantity: Quantity) -> Group {
+    let class = match quantity {
+        Quantity::Velocity => "velocity",
+        Quantity::Acceleration => "acceleration",
+    };
+    let [from, to] = ends;
+    let along = to - from;
+    let mut group = Group::new().set("class", class).add(line(ends, "vector"));
+    if along.norm() > HEAD {
+        let (unit, across) = (along.normalize(), Vector2::new(-along.y, along.x).normalize());
+        let (left, right) = (to - unit * HEAD + across * 4.0, to - unit * HEAD - across * 4.0);
+        let corners = [to, left, right].map(|p| format!("{} {}", round(p.x), round(p.y)));
+        group = group.add(Path::new().set("d", format!("M{}L{}L{}Z", corners[0], corners[1], corners[2])));
+    }
+    group
+}
+
+fn mark(at: Vector2<f64>, mark: Mark) -> Group {
+    let circle = |radius: f64, class: &str| Circle::new().set("class", class).set("cx", at.x).set("cy", at.y).set("r", radius);
+    match mark {
+        Mark::Ground => Group::new()
+            .add(Path::new().set("class", "ground").set("d", format!("M{} {}l-11 17h22Z", at.x, at.y)))
+            .add(circle(5.0, "joint")),
+        Mark::Joint => Group::new().add(circle(5.0, "joint")),
+        Mark::Point => Group::new().add(circle(3.2, "point")),
+    }
+}
+
+/// The one of eight places around a point that is farthest from bars, vectors and other names.
+fn name_position(at: Vector2<f64>, segments: &[[Vector2<f64>; 2]], taken: &[Vector2<f64>]) -> Vector2<f64> {
+    let mut best = (f64::NEG_INFINITY, at);
+    for step in 0..8_u32 {
+        let angle = std::f64::consts::FRAC_PI_4 * f64::from(step) + std::f64::consts::FRAC_PI_8;
+        let candidate = at + Vector2::new(angle.cos(), -angle.sin()) * NAME_DISTANCE;
+        let lines = segments.iter().map(|ends| distance(candidate, *ends));
+        let names = taken.iter().filter(|other| **other != at).map(|other| (candidate - other).norm());
+        let room = lines.chain(names).fold(f64::INFINITY, f64::min);
+        if room > best.0 + 1e-9 {
+            best = (room, candidate);
+        }
+    }
+    best.1
+}
+
+fn distance(point: Vector2<f64>, [from, to]: [Vector2<f64>; 2]) -> f64 {
+    let along = to - from;
+    let length = along.norm_squared();
+    let fraction = if length > 0.0 { ((point - from).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (point - from - along * fraction).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_are_drawn_to_scale() {
+        let mut drawing = Drawing::new("scale");
+        drawing.ground("A", [0.0, 0.0]).joint("B", [10.0, 0.0]).bar("A", "B");
+        drawing.velocity_scale(0.02).velocity("B", [0.0, 100.0]);
+        let svg = svg(&drawing);
+        let read = |class: &str| -> Vec<f64> {
+            let element = svg.split('<').find(|element| element.contains(&format!("class=\"{class}\""))).unwrap_or("");
+            ["x1", "y1", "x2", "y2"]
+                .map(|name| element.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()?.parse().ok()).unwrap_or(f64::NAN))
+                .to_vec()
+        };
+        let (bar, arrow) = (read("bar"), read("vector"));
+        let (ten, two) = (bar[2] - bar[0], arrow[1] - arrow[3]);
+        assert!((two / ten - 0.2).abs() < 1e-3, "{ten} {two}");
+    }
+}
