@@ -9,8 +9,6 @@ use nalgebra::DMatrix;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-pub use linkage::nalgebra;
-
 /// One driver of one mechanism, read from its file under `tests/mechanisms`.
 pub struct Oracle {
     mechanism: Mechanism,

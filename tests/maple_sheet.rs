@@ -1,0 +1,141 @@
+//! Every value of the Maple sheet in 40-digit arithmetic, and its printed digits.
+//!
+//! Source: "Analisi cinematica mediante il metodo delle equazioni di vincolo", La Sapienza, 2009-2010, a
+//! four-bar l = (80, 20, 50, 70) at theta2 = 20 deg, 400 rpm. The sheet's arithmetic has ten digits; the
+//! references below are the same formulas in 40-digit arithmetic.
+
+use linkage::{PointMotion, linkage, position};
+
+include!("mechanisms/four_bar.rs");
+
+/// A result agrees with exact arithmetic to this.
+const EXACT: f64 = 1e-13;
+
+/// The sheet agrees with exact arithmetic to this.
+const PRINTED: f64 = 1e-8;
+
+#[track_caller]
+fn close(found: f64, expected: f64, tolerance: f64) {
+    let error = (found - expected).abs() / expected.abs();
+    assert!(error <= tolerance, "{found:?} is not {expected:?}: {error:e}");
+}
+
+const THETA2: f64 = 0.349_065_850_398_865_915_384_738_2;
+const OMEGA2: f64 = 41.887_902_047_863_909_846_168_58;
+
+fn start() -> FourBarCoordinates {
+    FourBarCoordinates { theta2: 20_f64.to_radians(), theta3: 70_f64.to_radians(), theta4: (-50_f64).to_radians() }
+}
+
+fn solved() -> FourBarCoordinates {
+    FourBar::default().solve(&start()).unwrap().coordinates
+}
+
+#[test]
+fn newton_iterates() {
+    let iterates = [
+        [1.221_730_476_396_030_703_846_584, -0.872_664_625_997_164_788_461_845_4],
+        [1.231_369_780_041_541_814_557_017, -0.880_815_834_058_365_923_252_075_2],
+        [1.231_343_147_333_649_922_007_532, -0.880_796_908_781_316_478_307_240_4],
+        [1.231_343_147_254_347_320_338_337, -0.880_796_908_593_408_272_168_423],
+        [1.231_343_147_254_347_320_311_388, -0.880_796_908_593_408_272_176_417_3],
+    ];
+    let four_bar = FourBar::default();
+    let mut q = start();
+    for (step, [theta3, theta4]) in iterates.into_iter().enumerate() {
+        if step > 0 {
+            q = position::newton_step(&four_bar, &q).unwrap();
+        }
+        close(q.theta3, theta3, EXACT);
+        close(q.theta4, theta4, EXACT);
+        close(q.theta2, THETA2, EXACT);
+    }
+    let solution = four_bar.solve(&start()).unwrap();
+    close(solution.coordinates.theta3, iterates[4][0], EXACT);
+    close(solution.coordinates.theta4, iterates[4][1], EXACT);
+    assert!(solution.residual < 1e-15 && solution.iterations <= 5 && solution.same_branch);
+    close(solution.coordinates.theta3, 1.231_343_146_814_298_8, PRINTED);
+    close(solution.coordinates.theta4, -0.880_796_908_651_079_8, PRINTED);
+}
+
+#[test]
+fn ratios_velocities_accelerations() {
+    let four_bar = FourBar::default();
+    let pose = four_bar.pose_at(&solved());
+    let ratios = four_bar.velocity_ratios(&pose).unwrap();
+    close(ratios[0], -0.439_871_260_155_995_963_848_495_5, EXACT);
+    close(ratios[1], -0.257_433_739_305_081_983_958_513_8, EXACT);
+    let velocity = four_bar.velocity(&pose, OMEGA2).unwrap();
+    close(velocity.theta3, -18.425_284_259_084_821_986_108_48, EXACT);
+    close(velocity.theta4, -10.783_359_255_826_607_535_480_31, EXACT);
+    close(velocity.theta3, -18.425_284_25, PRINTED);
+    close(velocity.theta4, -10.783_359_24, PRINTED);
+    let acceleration = four_bar.acceleration(&pose, &velocity, 0.0).unwrap();
+    close(acceleration.theta3, -259.655_463_740_964_962_158_802_9, EXACT);
+    close(acceleration.theta4, 584.710_757_984_326_278_225_010_5, EXACT);
+    close(acceleration.theta3, -259.655_463_7, PRINTED);
+    close(acceleration.theta4, 584.710_757_2, PRINTED);
+}
+
+/// Position, velocity and acceleration in exact arithmetic.
+const POINTS: [(&str, [f64; 2], [f64; 2], [f64; 2]); 5] = [
+    (
+        "B",
+        [18.793_852_415_718_167_681_082_19, 6.840_402_866_513_374_660_881_992],
+        [-286.530_125_240_439_745_598_577_4, 787.235_049_091_613_125_132_869_8],
+        [-32_975.624_624_994_827_024_944_45, -12_002.145_819_833_718_583_257_94],
+    ),
+    (
+        "C",
+        [35.442_428_654_154_640_372_840_31, 53.987_246_973_335_291_077_766_73],
+        [582.163_879_346_512_114_429_55, 480.480_299_389_375_988_771_512_9],
+        [-26_385.732_415_603_135_692_454_76, -32_330.973_572_329_073_212_790_9],
+    ),
+    (
+        "G2",
+        [9.396_926_207_859_083_840_541_093, 3.420_201_433_256_687_330_440_996],
+        [-143.265_062_620_219_872_799_288_7, 393.617_524_545_806_562_566_434_9],
+        [-16_487.812_312_497_413_512_472_23, -6_001.072_909_916_859_291_628_971],
+    ),
+    (
+        "G3",
+        [27.118_140_534_936_404_026_961_25, 30.413_824_919_924_332_869_324_36],
+        [147.816_877_053_036_184_415_486_3, 633.857_674_240_494_556_952_191_4],
+        [-29_680.678_520_298_981_358_699_61, -22_166.559_696_081_395_898_024_42],
+    ),
+    (
+        "G4",
+        [57.721_214_327_077_320_186_420_15, 26.993_623_486_667_645_538_883_36],
+        [291.081_939_673_256_057_214_775, 240.240_149_694_687_994_385_756_5],
+        [-13_192.866_207_801_567_846_227_38, -16_165.486_786_164_536_606_395_45],
+    ),
+];
+
+/// Velocity and acceleration as the sheet prints them.
+const SHEET: [(&str, [f64; 2], [f64; 2]); 3] = [
+    ("G2", [-143.265_062_582_571_63, 393.617_524_561_588_5], [-16_487.812_310_063_113, -6_001.072_907_213_23]),
+    ("G3", [147.816_876_851_324_48, 633.857_674_241_152_4], [-29_680.678_516_457_79, -22_166.559_682_784_482]),
+    ("G4", [291.081_939_585_819_6, 240.240_150_048_553_77], [-13_192.866_189_499_306, -16_165.486_750_680_546]),
+];
+
+#[test]
+fn points() {
+    let motion = FourBar::default().motion(&solved(), OMEGA2, 0.0).unwrap();
+    let found: [PointMotion; 5] = motion.points.into();
+    for ((name, position, velocity, acceleration), (label, found)) in
+        POINTS.into_iter().zip(FourBarPoints::<()>::NAMES.into_iter().zip(found))
+    {
+        assert_eq!(name, label);
+        for axis in 0..2 {
+            close(found.position[axis], position[axis], EXACT);
+            close(found.velocity[axis], velocity[axis], EXACT);
+            close(found.acceleration[axis], acceleration[axis], EXACT);
+        }
+        for (_, velocity, acceleration) in SHEET.into_iter().filter(|(printed, ..)| *printed == name) {
+            for axis in 0..2 {
+                close(found.velocity[axis], velocity[axis], PRINTED);
+                close(found.acceleration[axis], acceleration[axis], PRINTED);
+            }
+        }
+    }
+}
