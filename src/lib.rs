@@ -2,9 +2,9 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
 
-pub use linkage_runtime::{Error, Mechanism, OutputMotion, PointMotion, Solution, nalgebra, position};
 #[cfg(feature = "drawing")]
 pub use linkage_runtime::drawing;
+pub use linkage_runtime::{Error, Mechanism, OutputMotion, PointMotion, Solution, nalgebra, position};
 
 /// Mechanisms from their closure equations; the manual is that of [`linkage_macros::linkage`].
 #[macro_export]
@@ -18,9 +18,9 @@ macro_rules! linkage {
 #[doc(hidden)]
 pub mod __private {
     pub use linkage_macros::linkage;
+    pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
         Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Solution, direction, finite, finite_matrix,
         newton, product_of_pivots, real, regular,
     };
-    pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
 }

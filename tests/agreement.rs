@@ -2,6 +2,7 @@
 //! the emitted derivatives against dual numbers, at random poses.
 
 mod oracle;
+mod source;
 
 /// Poses per mechanism.
 const POSES: usize = 1000;
@@ -80,7 +81,13 @@ macro_rules! agreement {
                     close("determinant", m.determinant(&pose), j.determinant(), size, TOLERANCE);
 
                     let points: Vec<_> = d.points.iter().flat_map(|point| point.value.clone()).collect();
-                    all_close("points", &flat(m.points(&pose).unwrap()), &oracle.values(&sample, &points), 0.0, TOLERANCE);
+                    all_close(
+                        "points",
+                        &flat(m.points(&pose).unwrap()),
+                        &oracle.values(&sample, &points),
+                        0.0,
+                        TOLERANCE,
+                    );
                     let points: Vec<_> = d.points.iter().flat_map(|point| point.rate.clone()).collect();
                     let found = flat(m.point_velocities(&pose, &rate).unwrap());
                     all_close("point velocities", &found, &oracle.values(&sample, &points), 0.0, TOLERANCE);
@@ -108,7 +115,13 @@ macro_rules! agreement {
                     regular += 1;
                     let w = DMatrix::from_column_slice(j.nrows(), a.ncols(), ratios.as_slice());
                     let left = &j * &w + &a;
-                    all_close("J W + A", left.as_slice(), &vec![0.0; left.len()], j.norm() * w.norm() + a.norm(), TOLERANCE);
+                    all_close(
+                        "J W + A",
+                        left.as_slice(),
+                        &vec![0.0; left.len()],
+                        j.norm() * w.norm() + a.norm(),
+                        TOLERANCE,
+                    );
                     let pick = |q: &[f64], of: &[usize]| DVector::from_iterator(of.len(), of.iter().map(|&i| q[i]));
                     let velocity = m.velocity(&pose, $Inputs::from(&rate)).unwrap();
                     let found = array(velocity);
@@ -152,7 +165,8 @@ macro_rules! agreement {
                     all_close("motion acceleration", &array(motion.acceleration), &expected, 0.0, 1e2 * TOLERANCE);
                     let moving: [_; POINTS] = motion.points.into();
                     let expected = flat(m.point_velocities(&pose, &motion.velocity).unwrap());
-                    let found: Vec<f64> = moving.iter().flat_map(|point| [point.velocity.x, point.velocity.y]).collect();
+                    let found: Vec<f64> =
+                        moving.iter().flat_map(|point| [point.velocity.x, point.velocity.y]).collect();
                     let scale = array(motion.velocity).iter().fold(0.0, |a: f64, b| a.max(b.abs())) * full.amax();
                     all_close("motion point velocities", &found, &expected, scale, TOLERANCE);
                     let expected = flat(m.point_accelerations(&pose, &motion.velocity, &motion.acceleration).unwrap());
@@ -160,14 +174,22 @@ macro_rules! agreement {
                         moving.iter().flat_map(|point| [point.acceleration.x, point.acceleration.y]).collect();
                     let scale = array(motion.acceleration).iter().fold(0.0, |a: f64, b| a.max(b.abs())) * full.amax();
                     all_close("motion point accelerations", &found, &expected, scale, TOLERANCE);
-                    let found: Vec<f64> = moving.iter().flat_map(|point| [point.position.x, point.position.y]).collect();
+                    let found: Vec<f64> =
+                        moving.iter().flat_map(|point| [point.position.x, point.position.y]).collect();
                     all_close("motion points", &found, &flat(m.points(&pose).unwrap()), 0.0, TOLERANCE);
                     let moving = listed(motion.outputs);
-                    let expected = listed(m.output_accelerations(&pose, &motion.velocity, &motion.acceleration).unwrap());
+                    let expected =
+                        listed(m.output_accelerations(&pose, &motion.velocity, &motion.acceleration).unwrap());
                     let terms = scale + array(motion.velocity).iter().map(|rate| rate * rate).sum::<f64>();
                     for index in 0..OUTPUTS {
                         close("motion output", moving[index].value, values[index], values[index].abs(), TOLERANCE);
-                        close("motion output acceleration", moving[index].acceleration, expected[index], terms, TOLERANCE);
+                        close(
+                            "motion output acceleration",
+                            moving[index].acceleration,
+                            expected[index],
+                            terms,
+                            TOLERANCE,
+                        );
                     }
                 }
                 assert!(regular > POSES / 2, "{regular}");
@@ -196,15 +218,26 @@ macro_rules! agreement {
                     let dual = mechanism(&sample, Dual2_64::from_re);
                     let along = |second: bool| {
                         coordinates(|i| {
-                            Dual2_64::new(sample.q[i], sample.rate[i], if second { sample.acceleration[i] } else { 0.0 })
+                            Dual2_64::new(
+                                sample.q[i],
+                                sample.rate[i],
+                                if second { sample.acceleration[i] } else { 0.0 },
+                            )
                         })
                     };
-                    let gamma: Vec<f64> = dual.residual(&dual.pose_at(&along(false))).iter().map(|psi| psi.v2).collect();
+                    let gamma: Vec<f64> =
+                        dual.residual(&dual.pose_at(&along(false))).iter().map(|psi| psi.v2).collect();
                     all_close("gamma", m.gamma(&pose, &rate).as_slice(), &gamma, 0.0, TOLERANCE);
                     let moving = dual.pose_at(&along(true));
                     let points: [Vector2<Dual2_64>; POINTS] = dual.points(&moving).unwrap().into();
                     let expected: Vec<f64> = points.iter().flat_map(|point| [point.x.v1, point.y.v1]).collect();
-                    all_close("velocities", &flat(m.point_velocities(&pose, &rate).unwrap()), &expected, 0.0, TOLERANCE);
+                    all_close(
+                        "velocities",
+                        &flat(m.point_velocities(&pose, &rate).unwrap()),
+                        &expected,
+                        0.0,
+                        TOLERANCE,
+                    );
                     let expected: Vec<f64> = points.iter().flat_map(|point| [point.x.v2, point.y.v2]).collect();
                     let found = flat(m.point_accelerations(&pose, &rate, &acceleration).unwrap());
                     all_close("accelerations", &found, &expected, 0.0, TOLERANCE);
@@ -223,15 +256,115 @@ macro_rules! agreement {
     };
 }
 
-agreement!(four_bar, "mechanisms/four_bar.rs", "four_bar", 0, FourBar, FourBarCoordinates, FourBarInputs, FourBarPoints, FourBarOutputs);
-agreement!(components, "mechanisms/components.rs", "components", 0, Components, ComponentsCoordinates, ComponentsInputs, ComponentsPoints, ComponentsOutputs);
-agreement!(introductory, "mechanisms/introductory.rs", "introductory", 0, Introductory, IntroductoryCoordinates, IntroductoryInputs, IntroductoryPoints, IntroductoryOutputs);
-agreement!(engine, "mechanisms/slider_crank.rs", "slider_crank", 0, Engine, SliderCrankCoordinates, EngineInputs, SliderCrankPoints, SliderCrankOutputs);
-agreement!(compressor, "mechanisms/slider_crank.rs", "slider_crank", 1, Compressor, SliderCrankCoordinates, CompressorInputs, SliderCrankPoints, SliderCrankOutputs);
+agreement!(
+    four_bar,
+    "mechanisms/four_bar.rs",
+    "four_bar",
+    0,
+    FourBar,
+    FourBarCoordinates,
+    FourBarInputs,
+    FourBarPoints,
+    FourBarOutputs
+);
+agreement!(
+    components,
+    "mechanisms/components.rs",
+    "components",
+    0,
+    Components,
+    ComponentsCoordinates,
+    ComponentsInputs,
+    ComponentsPoints,
+    ComponentsOutputs
+);
+agreement!(
+    introductory,
+    "mechanisms/introductory.rs",
+    "introductory",
+    0,
+    Introductory,
+    IntroductoryCoordinates,
+    IntroductoryInputs,
+    IntroductoryPoints,
+    IntroductoryOutputs
+);
+agreement!(
+    engine,
+    "mechanisms/slider_crank.rs",
+    "slider_crank",
+    0,
+    Engine,
+    SliderCrankCoordinates,
+    EngineInputs,
+    SliderCrankPoints,
+    SliderCrankOutputs
+);
+agreement!(
+    compressor,
+    "mechanisms/slider_crank.rs",
+    "slider_crank",
+    1,
+    Compressor,
+    SliderCrankCoordinates,
+    CompressorInputs,
+    SliderCrankPoints,
+    SliderCrankOutputs
+);
 agreement!(rrr, "mechanisms/rrr.rs", "rrr", 0, Rrr, RrrCoordinates, RrrInputs, RrrPoints, RrrOutputs);
 agreement!(rpr, "mechanisms/rpr.rs", "rpr", 0, Rpr, RprCoordinates, RprInputs, RprPoints, RprOutputs);
-agreement!(six_bar, "mechanisms/six_bar.rs", "six_bar", 0, SixBar, SixBarCoordinates, SixBarInputs, SixBarPoints, SixBarOutputs);
-agreement!(five_bar, "mechanisms/five_bar.rs", "five_bar", 0, FiveBar, FiveBarCoordinates, FiveBarInputs, FiveBarPoints, FiveBarOutputs);
-agreement!(geared_five_bar, "mechanisms/geared_five_bar.rs", "geared_five_bar", 0, GearedFiveBar, GearedFiveBarCoordinates, GearedFiveBarInputs, GearedFiveBarPoints, GearedFiveBarOutputs);
-agreement!(scotch_yoke, "mechanisms/scotch_yoke.rs", "scotch_yoke", 0, ScotchYoke, ScotchYokeCoordinates, ScotchYokeInputs, ScotchYokePoints, ScotchYokeOutputs);
-agreement!(every_function, "mechanisms/every_function.rs", "every_function", 0, EveryFunction, EveryFunctionCoordinates, EveryFunctionInputs, EveryFunctionPoints, EveryFunctionOutputs);
+agreement!(
+    six_bar,
+    "mechanisms/six_bar.rs",
+    "six_bar",
+    0,
+    SixBar,
+    SixBarCoordinates,
+    SixBarInputs,
+    SixBarPoints,
+    SixBarOutputs
+);
+agreement!(
+    five_bar,
+    "mechanisms/five_bar.rs",
+    "five_bar",
+    0,
+    FiveBar,
+    FiveBarCoordinates,
+    FiveBarInputs,
+    FiveBarPoints,
+    FiveBarOutputs
+);
+agreement!(
+    geared_five_bar,
+    "mechanisms/geared_five_bar.rs",
+    "geared_five_bar",
+    0,
+    GearedFiveBar,
+    GearedFiveBarCoordinates,
+    GearedFiveBarInputs,
+    GearedFiveBarPoints,
+    GearedFiveBarOutputs
+);
+agreement!(
+    scotch_yoke,
+    "mechanisms/scotch_yoke.rs",
+    "scotch_yoke",
+    0,
+    ScotchYoke,
+    ScotchYokeCoordinates,
+    ScotchYokeInputs,
+    ScotchYokePoints,
+    ScotchYokeOutputs
+);
+agreement!(
+    every_function,
+    "mechanisms/every_function.rs",
+    "every_function",
+    0,
+    EveryFunction,
+    EveryFunctionCoordinates,
+    EveryFunctionInputs,
+    EveryFunctionPoints,
+    EveryFunctionOutputs
+);

@@ -74,7 +74,8 @@ fn equation_1_3() {
         let [delta, phi1, phi2] = [(); 3].map(|()| angle(&mut random));
         let m = Introductory::new(z1, z3, z4, delta);
         let pose = m.pose_at(&IntroductoryCoordinates { phi2, z2, phi1 });
-        let rate = m.velocity(&pose, length(&mut random)).unwrap_or(IntroductoryCoordinates { phi1: 1.0, phi2: 2.0, z2: 3.0 });
+        let rate =
+            m.velocity(&pose, length(&mut random)).unwrap_or(IntroductoryCoordinates { phi1: 1.0, phi2: 2.0, z2: 3.0 });
         let expected = block(z1, phi1) * vector![0.0, rate.phi1] + block(z2, phi2) * vector![rate.z2, rate.phi2];
         let found = m.point_velocities(&pose, &rate).unwrap().p;
         close(found.as_slice(), expected.as_slice(), z1 * rate.phi1.abs() + z2 * rate.phi2.abs() + rate.z2.abs());
@@ -117,7 +118,8 @@ fn singular_configurations() {
         other => panic!("{other:?}"),
     }
     let compressor = Compressor::new(1.0, 1.0);
-    let upright = SliderCrankCoordinates { z3: 0.0, phi1: -std::f64::consts::FRAC_PI_2, phi2: std::f64::consts::FRAC_PI_2 };
+    let upright =
+        SliderCrankCoordinates { z3: 0.0, phi1: -std::f64::consts::FRAC_PI_2, phi2: std::f64::consts::FRAC_PI_2 };
     match compressor.velocity_ratios(&compressor.pose_at(&upright)) {
         Err(linkage::Error::Singular { mechanism: "Compressor", regularity }) => {
             assert!(regularity < 1e-16, "{regularity}");
@@ -181,7 +183,9 @@ fn columns_of_the_velocity_ratios() {
     let pose = m.pose_at(&m.solve(&guess).unwrap().coordinates);
     let w = m.velocity_ratios(&pose).unwrap();
     assert_eq!(w.shape(), (2, 2));
-    for (column, rate) in [FiveBarInputs { theta1: 1.0, theta4: 0.0 }, FiveBarInputs { theta1: 0.0, theta4: 1.0 }].into_iter().enumerate() {
+    for (column, rate) in
+        [FiveBarInputs { theta1: 1.0, theta4: 0.0 }, FiveBarInputs { theta1: 0.0, theta4: 1.0 }].into_iter().enumerate()
+    {
         let velocity = m.velocity(&pose, rate).unwrap();
         close(&[velocity.theta2, velocity.theta3], w.column(column).as_slice(), 0.0);
     }
@@ -190,7 +194,11 @@ fn columns_of_the_velocity_ratios() {
     for column in 0..2 {
         let at = |sign: f64| {
             let mut q = m.solve(&guess).unwrap().coordinates;
-            if column == 0 { q.theta1 += sign * step } else { q.theta4 += sign * step }
+            if column == 0 {
+                q.theta1 += sign * step
+            } else {
+                q.theta4 += sign * step
+            }
             let q = m.solve(&q).unwrap().coordinates;
             vector![q.theta2, q.theta3]
         };

@@ -45,7 +45,10 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular { mechanism, regularity } => {
-                write!(f, "{mechanism} is in a singular configuration: its Jacobian is regular to {regularity:.1e} only")
+                write!(
+                    f,
+                    "{mechanism} is in a singular configuration: its Jacobian is regular to {regularity:.1e} only"
+                )
             }
             Self::NotConverged { mechanism, iterations, residual, regularity } => write!(
                 f,

@@ -40,7 +40,10 @@ struct Iterate<Q, P, T, const U: usize> {
 ///
 /// # Errors
 /// [`Error::Singular`] where J has no inverse.
-pub fn newton_step<T, M, const U: usize, const V: usize>(mechanism: &M, q: &M::Coordinates) -> Result<M::Coordinates, Error>
+pub fn newton_step<T, M, const U: usize, const V: usize>(
+    mechanism: &M,
+    q: &M::Coordinates,
+) -> Result<M::Coordinates, Error>
 where
     T: Real,
     M: Mechanism<T, U, V>,

@@ -26,7 +26,7 @@ pub struct Sample {
 
 impl Oracle {
     pub fn read(file: &str, driver: usize) -> Self {
-        let mut mechanisms = linkage_compiler::read(tokens_of(file)).expect(file);
+        let mut mechanisms = linkage_compiler::read(crate::source::tokens_of(file)).expect(file);
         let mechanism = mechanisms.remove(0);
         let derivation = linkage_compiler::derive(&mechanism).remove(driver);
         Self { mechanism, derivation }
@@ -70,17 +70,6 @@ impl Oracle {
     pub fn matrix(&self, sample: &Sample, rows: &[Vec<NodeId>]) -> DMatrix<f64> {
         let flat: Vec<NodeId> = rows.iter().flatten().copied().collect();
         DMatrix::from_row_slice(rows.len(), rows[0].len(), &self.values(sample, &flat))
-    }
-}
-
-/// The tokens between the braces of the one `linkage!` of a file.
-pub fn tokens_of(file: &str) -> proc_macro2::TokenStream {
-    let path = format!("{}/tests/mechanisms/{file}.rs", env!("CARGO_MANIFEST_DIR"));
-    let source = std::fs::read_to_string(&path).expect(&path);
-    let parsed: syn::File = syn::parse_str(&source).expect(&path);
-    match parsed.items.as_slice() {
-        [syn::Item::Macro(item)] => item.mac.tokens.clone(),
-        _ => panic!("{path} holds one linkage! and nothing else"),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Values of a schedule as Rust expressions.
 
+use std::f64::consts::PI;
+
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -46,7 +48,10 @@ fn operand(names: &mut Names, schedule: &Schedule, value: Signed, at_least: Bind
 fn compute(names: &mut Names, schedule: &Schedule, value: ValueId) -> (TokenStream, Binding) {
     let plain = |value: ValueId| Signed { negative: false, value };
     match schedule.value(value) {
-        Value::Constant(number) => (constant(*number), Binding::Atom),
+        Value::Constant(number) => match turn(*number) {
+            Some(angle) => (angle, Binding::Product),
+            None => (constant(*number), Binding::Atom),
+        },
         Value::Symbol(symbol) => {
             let name = ident(&names.symbol(*symbol));
             (quote!(#name), Binding::Atom)
@@ -92,6 +97,23 @@ fn compute(names: &mut Names, schedule: &Schedule, value: ValueId) -> (TokenStre
             (quote!(#receiver.#method(#(#rest),*)), Binding::Atom)
         }
     }
+}
+
+/// A multiple of pi, as people write it: pi / 2, not 1.5707….
+pub(super) fn turn(number: Number) -> Option<TokenStream> {
+    let Number::Float(value) = number else { return None };
+    // Finer than a degree nobody writes an angle as a part of pi.
+    (1..=180_u32).map(f64::from).find_map(|parts| {
+        let count = (value / PI * parts).round();
+        let same = count != 0.0 && (count * PI / parts - value).abs() <= 4.0 * f64::EPSILON * value.abs();
+        let (n, d) = (Literal::f64_unsuffixed(count), Literal::f64_unsuffixed(parts));
+        same.then(|| match (count == 1.0, parts == 1.0) {
+            (true, true) => quote!(T::pi()),
+            (true, false) => quote!(T::pi() / real::<T>(#d)),
+            (false, true) => quote!(T::pi() * real::<T>(#n)),
+            (false, false) => quote!(T::pi() * real::<T>(#n) / real::<T>(#d)),
+        })
+    })
 }
 
 /// A constant as a scalar of any type.

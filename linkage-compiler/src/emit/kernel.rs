@@ -17,8 +17,8 @@ use crate::simplify::schedule::{Line, Operations, Schedule, Stage, Value, schedu
 pub(super) struct Source {
     /// The expression taken apart, such as `*rate`.
     pub from: TokenStream,
-    /// The type whose fields are bound.
-    pub of: TokenStream,
+    /// The type whose fields are bound; without one it is a column vector.
+    pub of: Option<TokenStream>,
     /// The fields, and the symbols they are known by.
     pub fields: Vec<(String, SymbolId)>,
 }
@@ -35,10 +35,18 @@ pub(super) struct Code {
     pub body: TokenStream,
     pub results: Vec<TokenStream>,
     pub operations: Operations,
+    /// The names that the body has given.
+    pub taken: BTreeSet<String>,
 }
 
 /// Writes a kernel. The last stage is the `Return`, whose values are given back as expressions.
-pub(super) fn write(derivation: &Derivation, given: &Given, stages: &[Stage], named: &[(NodeId, String)], reserved: &[String]) -> Code {
+pub(super) fn write(
+    derivation: &Derivation,
+    given: &Given,
+    stages: &[Stage],
+    named: &[(NodeId, String)],
+    reserved: &[String],
+) -> Code {
     let directions: BTreeSet<NodeId> = given.pose.map(|pose| pose.angles().collect()).unwrap_or_default();
     let schedule = schedule(&derivation.graph, stages, &directions, named);
     let own: BTreeSet<SymbolId> = stages.iter().flat_map(introduced).collect();
@@ -50,9 +58,12 @@ pub(super) fn write(derivation: &Derivation, given: &Given, stages: &[Stage], na
             _ => None,
         })
         .collect();
-    let given_names = symbols.iter().map(|symbol| derivation.graph.symbol_name(*symbol).to_owned());
-    let mut names = Names::new(&derivation.graph, given_names.chain(reserved.iter().cloned()));
-    let sources = given.sources.iter().filter_map(|source| pattern(source, &symbols, &derivation.graph));
+    let mut names = Names::new(&derivation.graph, reserved.iter().cloned());
+    // In the order of their making: the user's own names come first and stay as they are.
+    for &symbol in &symbols {
+        names.introduce(symbol);
+    }
+    let sources = given.sources.iter().filter_map(|source| pattern(source, &symbols, &mut names));
     let mut body: TokenStream = sources.collect();
     if let Some(pose) = given.pose {
         body.extend(take_directions(pose, &schedule, &mut names));
@@ -61,7 +72,7 @@ pub(super) fn write(derivation: &Derivation, given: &Given, stages: &[Stage], na
     for line in &schedule.lines {
         body.extend(write_line(line, &schedule, &mut names, &mut results));
     }
-    Code { body, results, operations: schedule.operations() }
+    Code { body, results, operations: schedule.operations(), taken: names.into_taken() }
 }
 
 fn introduced(stage: &Stage) -> Vec<SymbolId> {
@@ -73,22 +84,23 @@ fn introduced(stage: &Stage) -> Vec<SymbolId> {
 }
 
 /// `let Type { field, other: name, .. } = *value;` with the fields that are used.
-fn pattern(source: &Source, used: &BTreeSet<SymbolId>, graph: &crate::graph::Graph) -> Option<TokenStream> {
-    let fields: Vec<TokenStream> = source
-        .fields
-        .iter()
-        .filter(|(_, symbol)| used.contains(symbol))
-        .map(|(field, symbol)| {
-            let name = graph.symbol_name(*symbol);
-            let (field_ident, name_ident) = (ident(field), ident(name));
-            if field == name { quote!(#name_ident) } else { quote!(#field_ident: #name_ident) }
-        })
-        .collect();
+fn pattern(source: &Source, used: &BTreeSet<SymbolId>, names: &mut Names) -> Option<TokenStream> {
+    let from = &source.from;
+    let mut local = |symbol: &SymbolId| used.contains(symbol).then(|| names.symbol(*symbol));
+    let Some(of) = &source.of else {
+        let parts = source.fields.iter().map(|(_, symbol)| ident(&local(symbol).unwrap_or_else(|| "_".to_owned())));
+        return Some(quote!(let [[#(#parts),*]] = #from;));
+    };
+    let fields = source.fields.iter().filter_map(|(field, symbol)| {
+        let name = local(symbol)?;
+        let (field_ident, name_ident) = (ident(field), ident(&name));
+        Some(if *field == name { quote!(#name_ident) } else { quote!(#field_ident: #name_ident) })
+    });
+    let fields: Vec<TokenStream> = fields.collect();
     if fields.is_empty() {
         return None;
     }
     let rest = (fields.len() < source.fields.len()).then(|| quote!(..));
-    let (from, of) = (&source.from, &source.of);
     Some(quote!(let #of { #(#fields,)* #rest } = #from;))
 }
 

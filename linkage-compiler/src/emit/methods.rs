@@ -7,7 +7,7 @@ use quote::quote;
 
 use super::Types;
 use super::kernel::{self, Code, Given, Source};
-use super::names::ident;
+use super::names::{RUNTIME_FUNCTIONS, ident, unique};
 use super::pose::PosePlan;
 use super::types::field;
 use crate::derivation::{Derivation, Quantity, solve_closed};
@@ -19,7 +19,8 @@ use crate::simplify::schedule::{Operations, Stage};
 pub(super) fn argument(mechanism: &Mechanism, wish: &str) -> String {
     let mut name = wish.to_owned();
     let parameters = mechanism.parameters.iter().map(|parameter| &parameter.name.field);
-    let all: Vec<&String> = parameters.chain(mechanism.coordinates.iter().map(|coordinate| &coordinate.name.field)).collect();
+    let all: Vec<&String> =
+        parameters.chain(mechanism.coordinates.iter().map(|coordinate| &coordinate.name.field)).collect();
     while all.contains(&&name) {
         name.push('_');
     }
@@ -66,8 +67,15 @@ pub(super) fn of_driver(
     let reserved = [&arguments.pose, &arguments.q, &arguments.rate, &arguments.acceleration, &arguments.right]
         .map(ToString::to_string)
         .to_vec();
-    let mut methods =
-        Methods { mechanism, driver, types, arguments, reserved, named: mechanism.named.clone(), functions: TokenStream::new() };
+    let mut methods = Methods {
+        mechanism,
+        driver,
+        types,
+        arguments,
+        reserved,
+        named: mechanism.named.clone(),
+        functions: TokenStream::new(),
+    };
     let mut kernels = derivation.zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
     if let Some(kernels) = &kernels {
         methods.name_points(kernels.derivation);
@@ -179,7 +187,8 @@ impl Methods<'_> {
             name(&quantity.rate, declared, "_rate");
             name(&quantity.acceleration, declared, "_acceleration");
         }
-        for (quantity, declared) in derivation.outputs.iter().zip(self.mechanism.outputs.iter().map(|o| &o.name.field)) {
+        for (quantity, declared) in derivation.outputs.iter().zip(self.mechanism.outputs.iter().map(|o| &o.name.field))
+        {
             name(&quantity.value, declared, "");
             name(&quantity.rate, declared, "_rate");
         }
@@ -189,26 +198,38 @@ impl Methods<'_> {
 
     fn parameters(&self) -> Source {
         let fields = self.mechanism.parameters.iter().map(|p| (p.name.field.clone(), p.symbol)).collect();
-        Source { from: quote!(*self), of: quote!(Self), fields }
+        Source { from: quote!(*self), of: Some(quote!(Self)), fields }
     }
 
     fn pose_source(&self, kernels: &Kernels) -> Source {
         let mut fields: Vec<_> =
             kernels.plan.values.iter().map(|(_, field, symbol)| (field.clone(), *symbol)).collect();
-        fields.extend(kernels.derivation.determinant.iter().map(|determinant| ("determinant".to_owned(), determinant.symbol)));
+        fields.extend(
+            kernels.derivation.determinant.iter().map(|determinant| ("determinant".to_owned(), determinant.symbol)),
+        );
         // Directions are fields as well, so that the pattern is never complete.
         fields.extend(kernels.plan.directions.iter().map(|(_, field)| (field.clone(), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
-        Source { from: quote!(*#pose), of: quote!(#of), fields }
+        Source { from: quote!(*#pose), of: Some(quote!(#of)), fields }
     }
 
-    fn coordinates(&self, kernels: &Kernels, from: &TokenStream, symbol: fn(&crate::derivation::Coordinate) -> SymbolId) -> Source {
+    fn coordinates(
+        &self,
+        kernels: &Kernels,
+        from: &TokenStream,
+        symbol: fn(&crate::derivation::Coordinate) -> SymbolId,
+    ) -> Source {
         let fields = kernels.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c))).collect();
         let of = &self.types.coordinates;
-        Source { from: from.clone(), of: quote!(#of), fields }
+        Source { from: from.clone(), of: Some(quote!(#of)), fields }
     }
 
-    fn inputs(&self, kernels: &Kernels, from: &Ident, symbol: fn(&crate::derivation::Coordinate) -> SymbolId) -> Source {
+    fn inputs(
+        &self,
+        kernels: &Kernels,
+        from: &Ident,
+        symbol: fn(&crate::derivation::Coordinate) -> SymbolId,
+    ) -> Source {
         let fields = kernels
             .derivation
             .inputs
@@ -217,7 +238,7 @@ impl Methods<'_> {
             .map(|c| (c.name.clone(), symbol(c)))
             .collect();
         let of = &self.types.inputs;
-        Source { from: quote!(#from.into()), of: quote!(#of), fields }
+        Source { from: quote!(#from.into()), of: Some(quote!(#of)), fields }
     }
 
     /// A kernel on a pose and what else it is given.
@@ -230,8 +251,15 @@ impl Methods<'_> {
 
     // Functions.
 
-    fn function(&mut self, docs: &[String], operations: Option<Operations>, signature: &TokenStream, body: Option<TokenStream>) {
-        let mut lines: Vec<String> = docs.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") }).collect();
+    fn function(
+        &mut self,
+        docs: &[String],
+        operations: Option<Operations>,
+        signature: &TokenStream,
+        body: Option<TokenStream>,
+    ) {
+        let mut lines: Vec<String> =
+            docs.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") }).collect();
         if let Some(operations) = operations.filter(|operations| *operations != Operations::default()) {
             lines.push(String::new());
             lines.push(format!(" Operations: {}.", count(operations)));
@@ -251,7 +279,8 @@ impl Methods<'_> {
         let mut operations = None;
         let body = kernels.map(|kernels| {
             let mut stages = Vec::new();
-            let values: Vec<NodeId> = kernels.derivation.determinant.iter().map(|determinant| determinant.value).collect();
+            let values: Vec<NodeId> =
+                kernels.derivation.determinant.iter().map(|determinant| determinant.value).collect();
             let angles: Vec<NodeId> = kernels.plan.angles().collect();
             let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
             let bare = kernels.variables(&bare);
@@ -259,7 +288,8 @@ impl Methods<'_> {
             let sources = vec![self.parameters(), self.coordinates(kernels, &quote!(*#q), |c| c.value)];
             let given = Given { sources, pose: None };
             let code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
-            operations = Some(code.operations);
+            let circular = code.operations.functions + kernels.plan.directions.len();
+            operations = Some(Operations { functions: circular, ..code.operations });
             let mut results = code.results.into_iter();
             let mut fields = TokenStream::new();
             if let (true, Some(value)) = (kernels.is_closed(), if values.is_empty() { None } else { results.next() }) {
@@ -296,7 +326,14 @@ impl Methods<'_> {
         );
     }
 
-    fn matrix_function(&mut self, kernels: Option<&Kernels>, name: &str, docs: &[String], of: &TokenStream, rows: Option<Vec<Vec<NodeId>>>) {
+    fn matrix_function(
+        &mut self,
+        kernels: Option<&Kernels>,
+        name: &str,
+        docs: &[String],
+        of: &TokenStream,
+        rows: Option<Vec<Vec<NodeId>>>,
+    ) {
         let (pose, pose_type) = (&self.arguments.pose, &self.types.pose);
         let function = ident(name);
         let signature = quote!(#[must_use] pub fn #function(&self, #pose: &#pose_type<T>) -> #of);
@@ -320,7 +357,8 @@ impl Methods<'_> {
         let rows = |nodes: Option<&Vec<NodeId>>| nodes.map(|nodes| nodes.iter().map(|&node| vec![node]).collect());
         let formula = |nodes: Option<&Vec<NodeId>>, symbol: &str| -> Vec<String> {
             let (Some(kernels), Some(nodes)) = (kernels, nodes) else { return Vec::new() };
-            let lines = nodes.iter().enumerate().map(|(row, &node)| format!("{symbol}_{} = {}", row + 1, kernels.text(node)));
+            let lines =
+                nodes.iter().enumerate().map(|(row, &node)| format!("{symbol}_{} = {}", row + 1, kernels.text(node)));
             fenced(lines)
         };
         let derivation = kernels.map(|kernels| &*kernels.derivation);
@@ -328,16 +366,25 @@ impl Methods<'_> {
         let mut docs = vec!["The closures Psi(q), zero where the mechanism is closed.".to_owned()];
         docs.extend(formula(residual, "Psi"));
         self.matrix_function(kernels, "residual", &docs, &quote!(SVector<T, #nu>), rows(residual));
-        let docs = ["The sum of the magnitudes of each closure's terms: what makes a residual small or large.".to_owned()];
-        self.matrix_function(kernels, "closure_sizes", &docs, &quote!(SVector<T, #nu>), rows(derivation.map(|d| &d.sizes)));
+        let docs =
+            ["The sum of the magnitudes of each closure's terms: what makes a residual small or large.".to_owned()];
+        self.matrix_function(
+            kernels,
+            "closure_sizes",
+            &docs,
+            &quote!(SVector<T, #nu>),
+            rows(derivation.map(|d| &d.sizes)),
+        );
 
         let matrix = |kernels: &Kernels, rows: &[Vec<NodeId>], symbol: &str| -> Vec<String> {
-            let entries = rows.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, &node)| (i, j, node)));
+            let entries =
+                rows.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, &node)| (i, j, node)));
             let shown = entries.filter(|(_, _, node)| !kernels.derivation.graph.is_zero(*node));
             fenced(shown.map(|(i, j, node)| format!("{symbol}_{}{} = {}", i + 1, j + 1, kernels.text(node))))
         };
         let list = |indices: &[usize]| -> String {
-            let names: Vec<String> = indices.iter().map(|&index| format!("`{}`", self.mechanism.coordinates[index].name.text)).collect();
+            let names: Vec<String> =
+                indices.iter().map(|&index| format!("`{}`", self.mechanism.coordinates[index].name.text)).collect();
             names.join(", ")
         };
         let order = self.mechanism.coordinate_order(self.driver);
@@ -383,18 +430,26 @@ impl Methods<'_> {
         let (inputs, coordinates) = (self.types.inputs.clone(), self.types.coordinates.clone());
 
         let code = kernels.as_deref_mut().map(|kernels| {
-            let symbols: Vec<SymbolId> = kernels.derivation.unknowns.clone().iter().map(|&index| {
-                let name = format!("{}_part", kernels.derivation.coordinates[index].name);
-                kernels.derivation.graph.symbol(name)
-            }).collect();
-            let sides: Vec<SymbolId> = (0..u).map(|row| kernels.derivation.graph.symbol(format!("right_{}", row + 1))).collect();
+            let symbols: Vec<SymbolId> = kernels
+                .derivation
+                .unknowns
+                .clone()
+                .iter()
+                .map(|&index| {
+                    let name = format!("{}_part", kernels.derivation.coordinates[index].name);
+                    kernels.derivation.graph.symbol(name)
+                })
+                .collect();
+            let sides: Vec<SymbolId> =
+                (0..u).map(|row| kernels.derivation.graph.symbol(format!("right_{}", row + 1))).collect();
             let side = kernels.variables(&sides);
             let mut stages = kernels.solve(&[(side, symbols.clone())]);
             stages.push(Stage::Return(kernels.variables(&symbols)));
-            let code = self.on_pose(kernels, Vec::new(), &stages);
-            let names: Vec<Ident> = sides.iter().map(|&side| ident(kernels.derivation.graph.symbol_name(side))).collect();
+            let fields = sides.iter().map(|&side| (String::new(), side)).collect();
+            let source = Source { from: quote!(#right.data.0), of: None, fields };
+            let code = self.on_pose(kernels, vec![source], &stages);
             let (results, body) = (code.results, code.body);
-            (quote!(let [[#(#names),*]] = #right.data.0; #body Ok(SVector::from([#(#results),*]))), code.operations)
+            (quote!(#body Ok(SVector::from([#(#results),*]))), code.operations)
         });
         let (body, operations) = code.unzip();
         let docs = lines(["The x of J x = `right`.", "", "# Errors", "`Singular` where J has no inverse."]);
@@ -416,7 +471,8 @@ impl Methods<'_> {
             "The velocity ratios W = -J^-1 A with u' = W v': the rate of each unknown for a unit rate of each input."
         };
         let docs = lines([meaning, "", "# Errors", "`Singular` where J has no inverse."]);
-        let signature = quote!(pub fn velocity_ratios(&self, #pose: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
+        let signature =
+            quote!(pub fn velocity_ratios(&self, #pose: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
         self.function(&docs, operations, &signature, body);
 
         let code = kernels.map(|kernels| {
@@ -432,7 +488,12 @@ impl Methods<'_> {
             (quote!(#body #finite Ok(#coordinates { #(#fields: #results),* })), code.operations)
         });
         let (body, operations) = code.unzip();
-        let docs = lines(["The velocity q' at the input rates v'.", "", "# Errors", "`Singular` where J has no inverse, `NotFinite` if a rate is not finite."]);
+        let docs = lines([
+            "The velocity q' at the input rates v'.",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
+        ]);
         let signature = quote!(pub fn velocity(&self, #pose: &#pose_type<T>, #rate: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
         self.function(&docs, operations, &signature, body);
     }
@@ -453,8 +514,11 @@ impl Methods<'_> {
         let mut code = None;
         if let Some(kernels) = kernels {
             let nodes = kernels.derivation.gamma.clone();
-            docs.extend(fenced(nodes.iter().enumerate().map(|(row, &node)| format!("gamma_{} = {}", row + 1, kernels.text(node)))));
-            let rates = |methods: &Self, kernels: &Kernels| vec![methods.coordinates(kernels, &quote!(*#rate), |c| c.rate)];
+            docs.extend(fenced(
+                nodes.iter().enumerate().map(|(row, &node)| format!("gamma_{} = {}", row + 1, kernels.text(node))),
+            ));
+            let rates =
+                |methods: &Self, kernels: &Kernels| vec![methods.coordinates(kernels, &quote!(*#rate), |c| c.rate)];
             let written = self.on_pose(kernels, rates(self, kernels), &[Stage::Return(nodes)]);
             let (results, body) = (written.results, written.body);
             gamma = Some((quote!(#body SVector::from([#(#results),*])), written.operations));
@@ -472,7 +536,8 @@ impl Methods<'_> {
             code = Some((quote!(#body #finite Ok(#coordinates { #(#fields: #results),* })), written.operations));
         }
         let (body, operations) = gamma.unzip();
-        let signature = quote!(#[must_use] pub fn gamma(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>) -> SVector<T, #nu>);
+        let signature =
+            quote!(#[must_use] pub fn gamma(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>) -> SVector<T, #nu>);
         self.function(&docs, operations, &signature, body);
         let (body, operations) = code.unzip();
         let docs = lines([
@@ -485,10 +550,16 @@ impl Methods<'_> {
         self.function(&docs, operations, &signature, body);
     }
 
-    fn quantities(&mut self, mut kernels: Option<&mut Kernels>, family: Family) {
+    fn quantities(&mut self, kernels: Option<&mut Kernels>, family: Family) {
         let (names, group, word) = match family {
-            Family::Points => (self.mechanism.points.iter().map(|p| field(&p.name)).collect::<Vec<_>>(), self.types.points.clone(), "point"),
-            Family::Outputs => (self.mechanism.outputs.iter().map(|o| field(&o.name)).collect(), self.types.outputs.clone(), "output"),
+            Family::Points => (
+                self.mechanism.points.iter().map(|p| field(&p.name)).collect::<Vec<_>>(),
+                self.types.points.clone(),
+                "point",
+            ),
+            Family::Outputs => {
+                (self.mechanism.outputs.iter().map(|o| field(&o.name)).collect(), self.types.outputs.clone(), "output")
+            }
         };
         if names.is_empty() {
             return;
@@ -519,7 +590,9 @@ impl Methods<'_> {
         type Part = fn(&Quantity) -> &Vec<NodeId>;
         let kinds: [(String, String, usize, Part); 3] = [
             (format!("{word}s"), format!("The {what}."), 0, |quantity| &quantity.value),
-            (format!("{word}_velocities"), format!("The rates of the {word}s at the velocity q'."), 1, |quantity| &quantity.rate),
+            (format!("{word}_velocities"), format!("The rates of the {word}s at the velocity q'."), 1, |quantity| {
+                &quantity.rate
+            }),
             (
                 format!("{word}_accelerations"),
                 format!("The accelerations of the {word}s at the velocity q' and the acceleration q''."),
@@ -529,7 +602,8 @@ impl Methods<'_> {
         ];
         for (name, meaning, order, part) in kinds {
             let code = kernels.as_deref().map(|kernels| {
-                let nodes: Vec<NodeId> = quantities(kernels).iter().flat_map(|quantity| part(quantity).clone()).collect();
+                let nodes: Vec<NodeId> =
+                    quantities(kernels).iter().flat_map(|quantity| part(quantity).clone()).collect();
                 let mut sources = Vec::new();
                 if order > 0 {
                     sources.push(self.coordinates(kernels, &quote!(*#rate), |c| c.rate));
@@ -537,14 +611,20 @@ impl Methods<'_> {
                 if order > 1 {
                     sources.push(self.coordinates(kernels, &quote!(*#acceleration), |c| c.acceleration));
                 }
-                let code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
-                let (bindings, results) = bind(&code.results, &component_names(&names, dimension, &["", "_rate", "_acceleration"][order..=order]));
+                let mut code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
+                let (bindings, results) = bind(
+                    &code.results,
+                    &component_names(&names, dimension, &["", "_rate", "_acceleration"][order..=order]),
+                    &mut code.taken,
+                );
                 let (body, built) = (code.body, build(&results));
                 (quote!(#body #bindings finite(Self::NAME, #name, [#(#results),*])?; Ok(#built)), code.operations)
             });
             let (body, operations) = code.unzip();
             let mut docs = vec![meaning];
-            if order == 0 && let Some(kernels) = kernels.as_deref() {
+            if order == 0
+                && let Some(kernels) = kernels.as_deref()
+            {
                 let axes: &[&str] = if dimension == 2 { &[".x", ".y"] } else { &[""] };
                 let list = quantities(kernels);
                 let formulas = names.iter().zip(&list).flat_map(|(name, quantity)| {
@@ -556,11 +636,12 @@ impl Methods<'_> {
             let function = ident(&name);
             let more = [quote!(, #rate: &#coordinates<T>), quote!(, #acceleration: &#coordinates<T>)];
             let more = &more[..order];
-            let signature = quote!(pub fn #function(&self, #pose: &#pose_type<T> #(#more)*) -> Result<#group<#item>, Error>);
+            let signature =
+                quote!(pub fn #function(&self, #pose: &#pose_type<T> #(#more)*) -> Result<#group<#item>, Error>);
             self.function(&docs, operations, &signature, body);
         }
         // W_l = l_u W + l_v.
-        let code = kernels.as_deref_mut().map(|kernels| {
+        let code = kernels.map(|kernels| {
             let (mut stages, symbols) = kernels.ratio_stages();
             let mut nodes = Vec::new();
             for quantity in quantities(kernels) {
@@ -580,11 +661,11 @@ impl Methods<'_> {
             let used = kernels.derivation.graph.symbols_of(&nodes);
             stages.retain(|stage| !matches!(stage, Stage::Let { symbol, .. } if !used.contains(symbol)));
             stages.push(Stage::Return(nodes));
-            let code = self.on_pose(kernels, Vec::new(), &stages);
+            let mut code = self.on_pose(kernels, Vec::new(), &stages);
             let (mut values, mut bindings, mut flat) = (Vec::new(), TokenStream::new(), Vec::new());
             for (name, parts) in names.iter().zip(code.results.chunks(dimension * v)) {
                 let matrix = columns_of(parts, dimension);
-                let ratio = ident(&format!("{name}_ratios"));
+                let ratio = ident(&unique(&mut code.taken, &format!("{name}_ratios")));
                 bindings.extend(quote!(let #ratio = #matrix;));
                 values.push(ratio.clone());
                 flat.push(ratio);
@@ -601,7 +682,8 @@ impl Methods<'_> {
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
         ]);
-        let signature = quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
+        let signature =
+            quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
         self.function(&docs, operations, &signature, body);
     }
 
@@ -633,7 +715,7 @@ impl Methods<'_> {
                 self.inputs(kernels, acceleration, |c| c.acceleration),
             ];
             let given = Given { sources, pose: None };
-            let code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
+            let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
             let fields = self.coordinate_fields();
             let count = fields.len();
             let (rates, rest) = code.results.split_at(count);
@@ -644,7 +726,7 @@ impl Methods<'_> {
             let mut members = TokenStream::new();
             if !names.is_empty() {
                 let wishes = component_names(&names, 2, &["", "_rate", "_acceleration"]);
-                let (tokens, parts) = bind(point_parts, &wishes);
+                let (tokens, parts) = bind(point_parts, &wishes, &mut code.taken);
                 bindings.extend(tokens);
                 let values = parts.chunks(6).map(|p| {
                     let [x, y, u, v, a, b] = [0, 1, 2, 3, 4, 5].map(|index| &p[index]);
@@ -656,7 +738,7 @@ impl Methods<'_> {
             let names: Vec<Ident> = self.mechanism.outputs.iter().map(|o| field(&o.name)).collect();
             if !names.is_empty() {
                 let wishes = component_names(&names, 1, &["", "_rate", "_acceleration"]);
-                let (tokens, parts) = bind(output_parts, &wishes);
+                let (tokens, parts) = bind(output_parts, &wishes, &mut code.taken);
                 bindings.extend(tokens);
                 let values = parts.chunks(3).map(|p| {
                     let [value, rate, acceleration] = [0, 1, 2].map(|index| &p[index]);
@@ -703,7 +785,8 @@ impl Methods<'_> {
         let functions = &self.functions;
         let written = identifiers(functions);
         let imports = imports(&written);
-        let members: Vec<Ident> = self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
+        let members: Vec<Ident> =
+            self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
         let pose_coordinates = derivation.map(|derivation| self.pose_coordinates(derivation));
         quote! {
             const _: () = {
@@ -767,7 +850,10 @@ impl Methods<'_> {
                     quote!(self.#field)
                 }
                 None => {
-                    let angle = plan.directions.iter().find(|(angle, _)| derivation.graph.as_symbol(*angle) == Some(coordinate.value));
+                    let angle = plan
+                        .directions
+                        .iter()
+                        .find(|(angle, _)| derivation.graph.as_symbol(*angle) == Some(coordinate.value));
                     let field = ident(angle.map_or("", |(_, field)| field));
                     quote!(self.#field.angle())
                 }
@@ -791,11 +877,10 @@ impl Methods<'_> {
 fn imports(written: &BTreeSet<String>) -> Vec<Ident> {
     let always = ["Error", "Mechanism", "Real", "SMatrix", "SVector", "Solution"];
     let types = ["Factorization", "OutputMotion", "PointMotion", "Vector2"];
-    let functions = ["direction", "finite", "finite_matrix", "newton", "product_of_pivots", "real", "regular"];
     let mut names: Vec<&str> = always.to_vec();
     names.extend(types.iter().filter(|name| written.contains(**name)));
     names.sort_unstable();
-    names.extend(functions.iter().filter(|name| written.contains(**name)));
+    names.extend(RUNTIME_FUNCTIONS.iter().filter(|name| written.contains(**name)));
     names.into_iter().map(ident).collect()
 }
 
@@ -822,7 +907,7 @@ fn literal(count: usize) -> Literal {
 
 /// `name: value`, or `name` alone if the value is called so.
 fn member(name: &Ident, value: &TokenStream) -> TokenStream {
-    if value.to_string() == name.to_string() { quote!(#name) } else { quote!(#name: #value) }
+    if *name == value.to_string() { quote!(#name) } else { quote!(#name: #value) }
 }
 
 fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
@@ -871,7 +956,7 @@ fn component_names(names: &[Ident], dimension: usize, orders: &[&str]) -> Vec<St
 }
 
 /// Gives a name to every result that is not one already.
-fn bind(results: &[TokenStream], wishes: &[String]) -> (TokenStream, Vec<TokenStream>) {
+fn bind(results: &[TokenStream], wishes: &[String], taken: &mut BTreeSet<String>) -> (TokenStream, Vec<TokenStream>) {
     let mut bindings = TokenStream::new();
     let mut names = Vec::new();
     for (result, wish) in results.iter().zip(wishes) {
@@ -879,7 +964,7 @@ fn bind(results: &[TokenStream], wishes: &[String]) -> (TokenStream, Vec<TokenSt
         if syn::parse_str::<Ident>(&text).is_ok() {
             names.push(result.clone());
         } else {
-            let name = ident(wish);
+            let name = ident(&unique(taken, wish));
             bindings.extend(quote!(let #name = #result;));
             names.push(quote!(#name));
         }

@@ -58,7 +58,9 @@ pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, 
     for driver in &mechanism.drivers {
         let names = Types::new(mechanism, driver);
         let derivation = derivations.as_mut().and_then(Iterator::next);
-        let plan = derivation.as_deref().map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
+        let plan = derivation
+            .as_deref()
+            .map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
         tokens.extend(types::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref(), &private));
         tokens.extend(methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation, &private));
     }

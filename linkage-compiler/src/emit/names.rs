@@ -7,6 +7,10 @@ use proc_macro2::{Ident, Span};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
+/// The functions of the runtime that emitted code calls, in alphabetical order.
+pub(super) const RUNTIME_FUNCTIONS: [&str; 7] =
+    ["direction", "finite", "finite_matrix", "newton", "product_of_pivots", "real", "regular"];
+
 /// A name longer than this says less than a number.
 const LONGEST: usize = 36;
 
@@ -23,29 +27,27 @@ pub(super) struct Names<'a> {
 impl<'a> Names<'a> {
     /// `reserved` are names already in scope: arguments of the function and the user's names.
     pub(super) fn new(graph: &'a Graph, reserved: impl IntoIterator<Item = String>) -> Self {
-        let taken = reserved.into_iter().collect();
+        let taken = reserved.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)).collect();
         Self { graph, taken, values: HashMap::new(), symbols: HashMap::new(), factors: String::new() }
     }
 
     /// A name not yet taken.
     pub(super) fn unique(&mut self, wish: &str) -> String {
-        let mut name = wish.to_owned();
-        let mut number = 2;
-        while !self.taken.insert(name.clone()) {
-            name = format!("{wish}_{number}");
-            number += 1;
-        }
-        name
+        unique(&mut self.taken, wish)
     }
 
-    /// Symbols keep their name, which the caller has reserved.
+    pub(super) fn into_taken(self) -> BTreeSet<String> {
+        self.taken
+    }
+
+    /// The local name of a symbol.
     pub(super) fn symbol(&mut self, symbol: SymbolId) -> String {
         self.symbols.entry(symbol).or_insert_with(|| self.graph.symbol_name(symbol).to_owned()).clone()
     }
 
-    /// A symbol that this kernel itself introduces.
+    /// Gives a symbol its own name, or one like it if that is taken.
     pub(super) fn introduce(&mut self, symbol: SymbolId) -> String {
-        let name = self.unique(&self.graph.symbol_name(symbol).to_owned());
+        let name = self.unique(self.graph.symbol_name(symbol));
         self.symbols.insert(symbol, name.clone());
         name
     }
@@ -128,7 +130,8 @@ impl<'a> Names<'a> {
 
     /// A part by its name, or by a word for the small things that are written inline.
     fn part(&mut self, schedule: &Schedule, value: ValueId) -> Option<String> {
-        let small = |value: &ValueId| self.values.contains_key(value) || matches!(schedule.value(*value), Value::Symbol(_));
+        let small =
+            |value: &ValueId| self.values.contains_key(value) || matches!(schedule.value(*value), Value::Symbol(_));
         match schedule.value(value) {
             Value::Constant(Number::Ratio(1, 2)) => Some("half".to_owned()),
             Value::Constant(Number::Ratio(2, 1)) => Some("twice".to_owned()),
@@ -140,6 +143,17 @@ impl<'a> Names<'a> {
             _ => self.get(schedule, value),
         }
     }
+}
+
+/// The name wished for, or one like it that is not taken.
+pub(super) fn unique(taken: &mut BTreeSet<String>, wish: &str) -> String {
+    let mut name = wish.to_owned();
+    let mut number = 2;
+    while !taken.insert(name.clone()) {
+        name = format!("{wish}_{number}");
+        number += 1;
+    }
+    name
 }
 
 fn is_one(schedule: &Schedule, value: ValueId) -> bool {

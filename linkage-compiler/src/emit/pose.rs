@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use crate::derivation::Derivation;
 use crate::graph::{Function, Node, NodeId, SymbolId};
 
-use super::names::angle_name;
+use super::names::{angle_name, unique};
 
 /// The fields of a pose.
 pub(super) struct PosePlan {
@@ -39,17 +39,8 @@ impl PosePlan {
             }
         }
         let mut taken = BTreeSet::new();
-        let mut unique = |wish: String| {
-            let mut name = wish.clone();
-            let mut number = 2;
-            while !taken.insert(name.clone()) {
-                name = format!("{wish}_{number}");
-                number += 1;
-            }
-            name
-        };
-        let determinant_field = "determinant".to_owned();
-        unique(determinant_field);
+        let mut unique = |wish: String| unique(&mut taken, &wish);
+        unique("determinant".to_owned());
         let directions: Vec<_> = angles.iter().map(|&angle| (angle, unique(angle_name(graph, angle)))).collect();
         let mut values = Vec::new();
         for (index, coordinate) in derivation.coordinates.iter().enumerate() {

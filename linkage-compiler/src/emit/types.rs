@@ -22,7 +22,18 @@ fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
     if own.is_empty() {
         let text = format!(" {text}");
         quote!(#[doc = #text])
-    } else { quote!(#(#own)*) }
+    } else {
+        quote!(#(#own)*)
+    }
+}
+
+/// A struct without fields still has its scalar: the member, and its value.
+fn phantom(fields: &[Ident]) -> (Option<TokenStream>, Option<TokenStream>) {
+    let empty = fields.is_empty();
+    (
+        empty.then(|| quote!(scalar: ::core::marker::PhantomData<T>)),
+        empty.then(|| quote!(scalar: ::core::marker::PhantomData)),
+    )
 }
 
 fn derives() -> TokenStream {
@@ -40,12 +51,13 @@ pub(super) fn shared(mechanism: &Mechanism, private: &TokenStream) -> TokenStrea
         for driver in &mechanism.drivers {
             let other = &driver.name;
             let fields: Vec<Ident> = mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect();
+            let (_, no_scalar) = phantom(&fields);
             for (from, to) in [(name, other), (other, name)] {
                 tokens.extend(quote! {
                     impl<T> ::core::convert::From<#from<T>> for #to<T> {
                         fn from(parameters: #from<T>) -> Self {
-                            let #from { #(#fields),* } = parameters;
-                            Self { #(#fields),* }
+                            let #from { #(#fields,)* .. } = parameters;
+                            Self { #(#fields,)* #no_scalar }
                         }
                     }
                 });
@@ -117,12 +129,13 @@ pub(super) fn of_driver(
     {
         let members: Vec<&Coordinate> = indices.iter().map(|&index| &mechanism.coordinates[index]).collect();
         let fields: Vec<Ident> = members.iter().map(|member| field(&member.name)).collect();
+        let (_, no_scalar) = phantom(&fields);
         let title = format!(" The {what} of [`{name}`] by name; their rates and accelerations as well.");
         tokens.extend(coordinate_struct(mechanism, ident, &title, &members, private));
         tokens.extend(quote! {
             impl<T: #private::Real> ::core::convert::From<&#coordinates<T>> for #ident<T> {
                 fn from(q: &#coordinates<T>) -> Self {
-                    Self { #(#fields: q.#fields),* }
+                    Self { #(#fields: q.#fields,)* #no_scalar }
                 }
             }
         });
@@ -137,10 +150,8 @@ pub(super) fn of_driver(
             }
         });
     }
-    let members = plan.map_or_else(
-        || quote!(scalar: ::core::marker::PhantomData<T>),
-        |plan| pose_fields(plan, derivation, private),
-    );
+    let members = plan
+        .map_or_else(|| quote!(scalar: ::core::marker::PhantomData<T>), |plan| pose_fields(plan, derivation, private));
     let title = format!(
         " A position of [`{name}`] ready for use: each angle as its direction (cos, sin), so that whatever follows needs no trigonometry."
     );
@@ -201,6 +212,7 @@ fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &Token
 fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], private: &TokenStream) -> TokenStream {
     let visibility = &mechanism.visibility;
     let fields: Vec<Ident> = mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect();
+    let (scalar, no_scalar) = phantom(&fields);
     let number = fields.len();
     let count = Literal::usize_unsuffixed(number);
     let members = mechanism.parameters.iter().zip(&fields).map(|(parameter, field)| {
@@ -217,10 +229,10 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
     let mut tokens = quote! {
         #title
         #(#attributes)*
-        #visibility struct #name<T = f64> { #(#members),* }
+        #visibility struct #name<T = f64> { #(#members,)* #scalar }
         impl<T> ::core::convert::From<[T; #count]> for #name<T> {
             fn from([#(#fields),*]: [T; #count]) -> Self {
-                Self { #(#fields),* }
+                Self { #(#fields,)* #no_scalar }
             }
         }
         impl<T> ::core::convert::From<#name<T>> for [T; #count] {
@@ -231,13 +243,13 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
     };
     // More arguments than this are told apart by nobody: there the literal with its names is better.
     const MOST_ARGUMENTS: usize = 7;
-    let new = (1..=MOST_ARGUMENTS).contains(&number).then(|| {
+    let new = (0..=MOST_ARGUMENTS).contains(&number).then(|| {
         quote! {
             /// The mechanism with these parameters.
 
             #[must_use]
             pub const fn new(#(#fields: T),*) -> Self {
-                Self { #(#fields),* }
+                Self { #(#fields,)* #no_scalar }
             }
         }
     });
@@ -254,17 +266,20 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
         .iter()
         .map(|parameter| {
             let node = parameter.default?;
-            let number = mechanism.graph.as_number(node).or_else(|| mechanism.graph.constant_value(node).map(Number::Float))?;
-            let magnitude = expression::constant(number.absolute());
+            let number =
+                mechanism.graph.as_number(node).or_else(|| mechanism.graph.constant_value(node).map(Number::Float))?;
+            let magnitude = number.absolute();
+            let magnitude = expression::turn(magnitude).unwrap_or_else(|| expression::constant(magnitude));
             Some(if number.is_negative() { quote!(-#magnitude) } else { magnitude })
         })
         .collect();
-    if let Some(defaults) = defaults.filter(|_| number > 0) {
+    if let Some(defaults) = defaults {
+        let real = (number > 0).then(|| quote!(use #private::real;));
         tokens.extend(quote! {
             impl<T: #private::Real> ::core::default::Default for #name<T> {
                 fn default() -> Self {
-                    use #private::real;
-                    Self { #(#fields: #defaults),* }
+                    #real
+                    Self { #(#fields: #defaults,)* #no_scalar }
                 }
             }
         });
@@ -283,6 +298,7 @@ fn coordinate_struct(
     let derives = derives();
     let count = Literal::usize_unsuffixed(coordinates.len());
     let fields: Vec<Ident> = coordinates.iter().map(|coordinate| field(&coordinate.name)).collect();
+    let (scalar, no_scalar) = phantom(&fields);
     let texts: Vec<&String> = coordinates.iter().map(|coordinate| &coordinate.name.text).collect();
     let members = coordinates.iter().zip(&fields).map(|(coordinate, field)| {
         let docs = docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind));
@@ -291,7 +307,7 @@ fn coordinate_struct(
     quote! {
         #[doc = #title]
         #derives
-        #visibility struct #name<T = f64> { #(#members),* }
+        #visibility struct #name<T = f64> { #(#members,)* #scalar }
         impl<T> #name<T> {
             /// The coordinates as they were declared, in order.
 
@@ -300,7 +316,7 @@ fn coordinate_struct(
         impl<T: #private::Real> ::core::convert::From<#private::SVector<T, #count>> for #name<T> {
             fn from(vector: #private::SVector<T, #count>) -> Self {
                 let [[#(#fields),*]] = vector.data.0;
-                Self { #(#fields),* }
+                Self { #(#fields,)* #no_scalar }
             }
         }
         impl<T: #private::Real> ::core::convert::From<#name<T>> for #private::SVector<T, #count> {

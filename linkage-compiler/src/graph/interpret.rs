@@ -9,8 +9,7 @@ impl Graph {
         let last = roots.iter().max().map_or(0, |root| root.index() + 1);
         let mut values: Vec<Option<f64>> = vec![None; last];
         for id in self.reachable(roots) {
-            values[id.index()] =
-                node_value(self.node(id), |symbol| Some(bind(symbol)), |child| values[child.index()]);
+            values[id.index()] = node_value(self.node(id), |symbol| Some(bind(symbol)), |child| values[child.index()]);
         }
         roots.iter().map(|root| values[root.index()].unwrap_or(f64::NAN)).collect()
     }
@@ -26,9 +25,9 @@ pub(super) fn node_value(
         Node::Constant(value) => Some(value.to_f64()),
         Node::Pi => Some(std::f64::consts::PI),
         Node::Symbol(symbol) => bind(*symbol),
-        Node::Sum { constant, terms } => terms
-            .iter()
-            .try_fold(constant.to_f64(), |sum, (factor, term)| Some(sum + factor.to_f64() * child(*term)?)),
+        Node::Sum { constant, terms } => {
+            terms.iter().try_fold(constant.to_f64(), |sum, (factor, term)| Some(sum + factor.to_f64() * child(*term)?))
+        }
         Node::Product { coefficient, factors } => factors
             .iter()
             .try_fold(coefficient.to_f64(), |product, (base, exponent)| Some(product * child(*base)?.powi(*exponent))),

@@ -31,10 +31,16 @@ pub enum Node {
     Symbol(SymbolId),
     /// constant + sum of coefficient * term; terms ascend, no coefficient is zero, no term is
     /// itself a sum, a constant or a product with a coefficient.
-    Sum { constant: Number, terms: Vec<(Number, NodeId)> },
+    Sum {
+        constant: Number,
+        terms: Vec<(Number, NodeId)>,
+    },
     /// coefficient * product of base^exponent; bases ascend, no exponent is zero, no base is
     /// itself a product.
-    Product { coefficient: Number, factors: Vec<(NodeId, i32)> },
+    Product {
+        coefficient: Number,
+        factors: Vec<(NodeId, i32)>,
+    },
     Call(Function, Vec<NodeId>),
 }
 
@@ -199,13 +205,13 @@ impl Graph {
         let mut terms: BTreeMap<NodeId, Number> = BTreeMap::new();
         let mut collect = |coefficient: Number, term: NodeId| {
             let entry = terms.entry(term).or_insert(Number::ZERO);
-            *entry = entry.add(coefficient);
+            *entry = entry.plus(coefficient);
         };
         for &(coefficient, item) in items {
             match self.node(item).clone() {
-                Node::Constant(value) => constant = constant.add(coefficient.multiply(value)),
+                Node::Constant(value) => constant = constant.plus(coefficient.multiply(value)),
                 Node::Sum { constant: inner, terms } => {
-                    constant = constant.add(coefficient.multiply(inner));
+                    constant = constant.plus(coefficient.multiply(inner));
                     for (factor, term) in terms {
                         collect(coefficient.multiply(factor), term);
                     }
@@ -215,7 +221,7 @@ impl Graph {
                     let total = coefficient.multiply(inner);
                     // 2 * (a + b) is a product with a coefficient whose monic part is a sum.
                     if let Node::Sum { constant: k, terms } = self.node(monic).clone() {
-                        constant = constant.add(total.multiply(k));
+                        constant = constant.plus(total.multiply(k));
                         for (factor, term) in terms {
                             collect(total.multiply(factor), term);
                         }

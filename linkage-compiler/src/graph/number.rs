@@ -111,7 +111,7 @@ impl Number {
     }
 
     #[must_use]
-    pub fn add(self, other: Self) -> Self {
+    pub fn plus(self, other: Self) -> Self {
         match (self, other) {
             (Self::Ratio(a, b), Self::Ratio(c, d)) => {
                 let [a, b, c, d] = [a, b, c, d].map(i128::from);
@@ -215,10 +215,10 @@ mod tests {
     #[test]
     fn overflow_falls_to_float() {
         let large = Number::integer(i64::MAX);
-        assert_eq!(large.add(Number::ONE), Number::Float(i64::MAX as f64 + 1.0));
+        assert_eq!(large.plus(Number::ONE), Number::Float(i64::MAX as f64 + 1.0));
         assert_eq!(large.multiply(large), Number::Float((i64::MAX as f64).powi(2)));
         let tiny = Number::ratio(1, i128::from(i64::MAX));
-        assert_eq!(tiny.add(Number::ratio(1, i128::from(i64::MAX - 1))).to_f64(), 2.0 / i64::MAX as f64);
+        assert_eq!(tiny.plus(Number::ratio(1, i128::from(i64::MAX - 1))).to_f64(), 2.0 / i64::MAX as f64);
         assert_eq!(Number::integer(3).power(60), Number::Float(3_f64.powi(60)));
         assert!(!Number::ZERO.power(-1).is_finite());
     }

@@ -88,34 +88,33 @@ struct Roles {
 impl Lowering<'_> {
     /// Every name of the mechanism, so that statements may stand in any order that reads well.
     fn declare(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: &mut Roles) {
+        // Coordinates come first in the canonical order of a sum: phi2 - delta, not -(delta - phi2).
+        for statement in statements {
+            let (names, role) = match &statement.kind {
+                StatementKind::Inputs(names) => (names, &mut roles.inputs),
+                StatementKind::Unknowns(names) => (names, &mut roles.unknowns),
+                StatementKind::Coordinates(names) => (names, &mut roles.open),
+                _ => continue,
+            };
+            for name in names {
+                if let Some((name, symbol)) = self.new_symbol(name) {
+                    role.push(result.coordinates.len());
+                    let attributes = statement.attributes.clone();
+                    result.coordinates.push(Coordinate { name, attributes, symbol, kind: Kind::Number });
+                }
+            }
+        }
         for statement in statements {
             match &statement.kind {
                 StatementKind::Parameters(parameters) => {
                     for (name, _) in parameters {
                         if let Some((name, symbol)) = self.new_symbol(name) {
+                            let attributes = statement.attributes.clone();
                             result.parameters.push(Parameter {
                                 name,
-                                attributes: statement.attributes.clone(),
+                                attributes,
                                 symbol,
                                 default: None,
-                                kind: Kind::Number,
-                            });
-                        }
-                    }
-                }
-                StatementKind::Inputs(names) | StatementKind::Unknowns(names) | StatementKind::Coordinates(names) => {
-                    for name in names {
-                        if let Some((name, symbol)) = self.new_symbol(name) {
-                            match &statement.kind {
-                                StatementKind::Inputs(_) => &mut roles.inputs,
-                                StatementKind::Unknowns(_) => &mut roles.unknowns,
-                                _ => &mut roles.open,
-                            }
-                            .push(result.coordinates.len());
-                            result.coordinates.push(Coordinate {
-                                name,
-                                attributes: statement.attributes.clone(),
-                                symbol,
                                 kind: Kind::Number,
                             });
                         }
@@ -126,7 +125,7 @@ impl Lowering<'_> {
                 | StatementKind::Output { name, .. } => {
                     self.scope.claim(name, self.diagnostics);
                 }
-                StatementKind::Drive { .. } | StatementKind::Loop { .. } | StatementKind::Equation { .. } => {}
+                _ => {}
             }
         }
     }
@@ -210,7 +209,8 @@ impl Lowering<'_> {
                 self.close(left, right, vec![x, y], result);
             }
             (Value::Scalar(_), Value::Scalar(_)) => {
-                self.diagnostics.error(region, "both sides are scalars: a `loop` closes vectors; write `equation` instead");
+                self.diagnostics
+                    .error(region, "both sides are scalars: a `loop` closes vectors; write `equation` instead");
             }
             (Value::Scalar(_), Value::Vector(..)) => self.expect_vector(left),
             (Value::Vector(..), Value::Scalar(_)) => self.expect_vector(right),
@@ -253,7 +253,8 @@ impl Lowering<'_> {
                 self.diagnostics.error(name.span(), format_args!("the type `{name}` is declared twice"));
                 continue;
             }
-            let unknowns = unknowns.iter().chain(open.iter().filter(|index| !driven.contains(index))).copied().collect();
+            let unknowns =
+                unknowns.iter().chain(open.iter().filter(|index| !driven.contains(index))).copied().collect();
             result.drivers.push(Driver {
                 name: name.clone(),
                 attributes: statement.attributes.clone(),
@@ -270,6 +271,7 @@ impl Lowering<'_> {
                 );
             }
             let name = result.name.clone();
+            let unknowns = unknowns.into_iter().chain(open).collect();
             result.drivers.push(Driver { name, attributes: Vec::new(), inputs, unknowns });
         }
         choice
@@ -285,11 +287,14 @@ impl Lowering<'_> {
             let value = self.lower(expression, region);
             let value = match self.graph.take_fault() {
                 Some(fault) => {
-                    self.diagnostics.error(region, match fault {
-                        Fault::DivisionByZero => "this divides by zero",
-                        Fault::NotFinite => "this constant is not a finite number",
-                        Fault::ExponentOverflow => "this exponent is too large",
-                    });
+                    self.diagnostics.error(
+                        region,
+                        match fault {
+                            Fault::DivisionByZero => "this divides by zero",
+                            Fault::NotFinite => "this constant is not a finite number",
+                            Fault::ExponentOverflow => "this exponent is too large",
+                        },
+                    );
                     Value::Poison
                 }
                 None => value,
@@ -327,7 +332,8 @@ impl Lowering<'_> {
     }
 
     fn expect_scalar(&mut self, region: Region) {
-        self.diagnostics.error(region, "this is a vector; a scalar belongs here: take `x(…)`, `y(…)`, `norm(…)` or `angle(…)`");
+        self.diagnostics
+            .error(region, "this is a vector; a scalar belongs here: take `x(…)`, `y(…)`, `norm(…)` or `angle(…)`");
     }
 
     /// A number known now: the default of a parameter.
@@ -422,7 +428,10 @@ impl Lowering<'_> {
             let expected = *first_is_vector.get_or_insert(is_vector);
             if expected != is_vector {
                 if expected {
-                    self.diagnostics.error(self.expressions.region(id), "a scalar cannot be added to a vector: did you mean `r@phi`?");
+                    self.diagnostics.error(
+                        self.expressions.region(id),
+                        "a scalar cannot be added to a vector: did you mean `r@phi`?",
+                    );
                 } else {
                     self.diagnostics.error(self.expressions.region(id), "a vector cannot be added to a scalar");
                 }
@@ -452,8 +461,10 @@ impl Lowering<'_> {
                 }
                 (Value::Vector(x, y), Operator::Direct) if vector.is_none() => vector = Some((x, y)),
                 (Value::Vector(..), Operator::Direct) => {
-                    self.diagnostics
-                        .error(self.expressions.region(id), "two vectors have no plain product: use `dot(…)` or `cross(…)`");
+                    self.diagnostics.error(
+                        self.expressions.region(id),
+                        "two vectors have no plain product: use `dot(…)` or `cross(…)`",
+                    );
                     return Value::Poison;
                 }
                 (Value::Vector(..), Operator::Inverse) => {
@@ -487,9 +498,9 @@ impl Lowering<'_> {
     fn call(&mut self, name: &Ident, arguments: &[ExpressionId], region: Region) -> Value {
         let text = name.to_string();
         let function = Function::named(&text);
-        let arity = function.map(|function| function.operation().arity).or_else(|| {
-            VECTOR_FUNCTIONS.iter().find(|(other, _)| *other == text).map(|(_, arity)| *arity)
-        });
+        let arity = function
+            .map(|function| function.operation().arity)
+            .or_else(|| VECTOR_FUNCTIONS.iter().find(|(other, _)| *other == text).map(|(_, arity)| *arity));
         let Some(arity) = arity else {
             if text == "rate" {
                 self.diagnostics.error(region, "`rate(…)` has a meaning only in the forces of a scene");
@@ -502,7 +513,8 @@ impl Lowering<'_> {
         };
         if arguments.len() != arity {
             let plural = if arity == 1 { "argument" } else { "arguments" };
-            self.diagnostics.error(region, format_args!("`{text}` takes {arity} {plural}, here are {}", arguments.len()));
+            self.diagnostics
+                .error(region, format_args!("`{text}` takes {arity} {plural}, here are {}", arguments.len()));
             return Value::Poison;
         }
         if let Some(function) = function {
@@ -576,7 +588,8 @@ fn check_use(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diagnostics
     for (what, name, symbol) in parameters.chain(coordinates) {
         if !scope.is_used(symbol) && !name.text.starts_with('_') {
             let text = &name.text;
-            diagnostics.error(name.span, format_args!("the {what} `{text}` is never used; remove it, or call it `_{text}`"));
+            diagnostics
+                .error(name.span, format_args!("the {what} `{text}` is never used; remove it, or call it `_{text}`"));
         }
     }
 }
@@ -610,11 +623,15 @@ fn check_closures(mechanism: &Mechanism, choice: Choice, diagnostics: &mut Diagn
             let equations = mechanism.closures.len() - loops;
             let last = driver.unknowns.last().map(|&index| mechanism.coordinates[index].name.span);
             let span = if choice == Choice::Open { at(driver) } else { last.unwrap_or_else(|| at(driver)) };
-            let advice = if rows < unknowns { "close another loop, or make unknowns inputs" } else { "a closure is too many, or an unknown is missing" };
+            let advice = if rows < unknowns {
+                "close another loop, or make unknowns inputs"
+            } else {
+                "a closure is too many, or an unknown is missing"
+            };
             diagnostics.error(
                 span,
                 format_args!(
-                    "{unknowns} unknowns, but {rows} closure rows ({loops} loops of 2 and {equations} equations of 1): {advice}"
+                    "{unknowns} unknowns, but {rows} closure rows (2 for each of {loops} `loop`, 1 for each of {equations} `equation`): {advice}"
                 ),
             );
             continue;
@@ -630,11 +647,13 @@ fn check_closures(mechanism: &Mechanism, choice: Choice, diagnostics: &mut Diagn
         for closure in &mechanism.closures {
             let found = mechanism.graph.symbols_of(&closure.rows);
             if !symbols.iter().any(|symbol| found.contains(symbol)) {
-                diagnostics.error(closure.span, format_args!("nothing unknown appears in this closure of `{}`", driver.name));
+                diagnostics
+                    .error(closure.span, format_args!("nothing unknown appears in this closure of `{}`", driver.name));
             }
         }
         let incidence = mechanism.incidence(driver);
-        if before && diagnostics.is_empty()
+        if before
+            && diagnostics.is_empty()
             && let Err(singular) = crate::structure::order(&incidence, symbols.len())
         {
             let names: Vec<_> = singular
@@ -642,13 +661,14 @@ fn check_closures(mechanism: &Mechanism, choice: Choice, diagnostics: &mut Diagn
                 .iter()
                 .map(|&unknown| format!("`{}`", mechanism.coordinates[driver.unknowns[unknown]].name.text))
                 .collect();
-            let span = singular.unknowns.first().map_or_else(|| at(driver), |&unknown| {
-                mechanism.coordinates[driver.unknowns[unknown]].name.span
-            });
+            let span = singular
+                .unknowns
+                .first()
+                .map_or_else(|| at(driver), |&unknown| mechanism.coordinates[driver.unknowns[unknown]].name.span);
             diagnostics.error(
                 span,
                 format_args!(
-                    "`{}` cannot be solved at any position: the unknowns {} appear in {} closure row{} only",
+                    "`{}` cannot be solved at any position: {} appear in {} closure row{} together",
                     driver.name,
                     names.join(", "),
                     singular.equations.len(),

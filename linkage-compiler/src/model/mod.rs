@@ -91,7 +91,10 @@ impl Mechanism {
         rows.map(|&row| {
             let found = self.graph.symbols_of(&[row]);
             let unknowns = driver.unknowns.iter().enumerate();
-            unknowns.filter(|(_, index)| found.contains(&self.coordinates[**index].symbol)).map(|(place, _)| place).collect()
+            unknowns
+                .filter(|(_, index)| found.contains(&self.coordinates[**index].symbol))
+                .map(|(place, _)| place)
+                .collect()
         })
         .collect()
     }

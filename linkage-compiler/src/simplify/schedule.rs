@@ -87,7 +87,9 @@ pub fn schedule(
     products::share(&mut values, &roots.iter().map(|root| of[root].value).collect::<Vec<_>>());
     let names = named
         .iter()
-        .filter_map(|(node, name)| of.get(node).filter(|signed| !signed.negative).map(|signed| (signed.value, name.clone())))
+        .filter_map(|(node, name)| {
+            of.get(node).filter(|signed| !signed.negative).map(|signed| (signed.value, name.clone()))
+        })
         .collect();
     let mut ordering = Ordering::new(values, &roots.iter().map(|root| of[root]).collect::<Vec<_>>());
     let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| of[node]).collect() };
@@ -177,7 +179,11 @@ impl Builder<'_> {
                 *count.entry(divisor(factors)).or_default() += 1;
             }
         }
-        count.into_iter().filter(|(divisor, uses)| *uses > 1 && !divisor.is_empty()).map(|(divisor, _)| divisor).collect()
+        count
+            .into_iter()
+            .filter(|(divisor, uses)| *uses > 1 && !divisor.is_empty())
+            .map(|(divisor, _)| divisor)
+            .collect()
     }
 
     fn intern(&mut self, value: Value) -> ValueId {
@@ -230,7 +236,12 @@ impl Builder<'_> {
         Signed { negative: flip, value: self.intern(Value::Sum(terms)) }
     }
 
-    fn product(&mut self, coefficient: Number, factors: &[(NodeId, i32)], shared: &BTreeSet<Vec<(NodeId, i32)>>) -> Signed {
+    fn product(
+        &mut self,
+        coefficient: Number,
+        factors: &[(NodeId, i32)],
+        shared: &BTreeSet<Vec<(NodeId, i32)>>,
+    ) -> Signed {
         let mut constant = coefficient;
         let mut negative = false;
         let (mut above, mut below) = (Vec::new(), Vec::new());
@@ -284,6 +295,7 @@ impl Builder<'_> {
             return value;
         }
         match self.values[value.0].clone() {
+            Value::Constant(number) => self.constant(number.multiply(factor)).value,
             Value::Product(factors) => self.multiply(factor, factors),
             Value::Quotient(above, below) => {
                 let above = self.scaled(factor, above);

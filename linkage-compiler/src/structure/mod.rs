@@ -47,11 +47,7 @@ pub fn order(incidence: &[Vec<usize>], unknowns: usize) -> Result<Block, Structu
 }
 
 /// Finds an equation for `start` along an alternating path, breadth first.
-fn augment(
-    start: usize,
-    equations_of: &[Vec<usize>],
-    owner: &mut [Option<usize>],
-) -> Result<(), StructurallySingular> {
+fn augment(start: usize, equations_of: &[Vec<usize>], owner: &mut [Option<usize>]) -> Result<(), StructurallySingular> {
     let mut reached_from: Vec<Option<usize>> = vec![None; owner.len()];
     let mut queue = vec![start];
     let mut next = 0;

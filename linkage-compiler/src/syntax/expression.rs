@@ -17,7 +17,10 @@ pub struct ExpressionId(usize);
 #[derive(Debug)]
 pub enum Expression {
     /// The digits of a literal, and whether `deg` follows.
-    Number { digits: String, degrees: bool },
+    Number {
+        digits: String,
+        degrees: bool,
+    },
     Name(Ident),
     Vector(ExpressionId, ExpressionId),
     /// `magnitude @ angle`, where the magnitude may be a vector by components.
@@ -84,23 +87,35 @@ impl ExpressionId {
 }
 
 pub(super) fn parse(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
-    chain(stream, arena, at, |stream| {
-        Ok(if stream.parse::<Option<Token![+]>>()?.is_some() {
-            Some(Operator::Direct)
-        } else {
-            stream.parse::<Option<Token![-]>>()?.map(|_| Operator::Inverse)
-        })
-    }, Expression::Sum)
+    chain(
+        stream,
+        arena,
+        at,
+        |stream| {
+            Ok(if stream.parse::<Option<Token![+]>>()?.is_some() {
+                Some(Operator::Direct)
+            } else {
+                stream.parse::<Option<Token![-]>>()?.map(|_| Operator::Inverse)
+            })
+        },
+        Expression::Sum,
+    )
 }
 
 fn product(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
-    chain(stream, arena, signed, |stream| {
-        Ok(if stream.parse::<Option<Token![*]>>()?.is_some() {
-            Some(Operator::Direct)
-        } else {
-            stream.parse::<Option<Token![/]>>()?.map(|_| Operator::Inverse)
-        })
-    }, Expression::Product)
+    chain(
+        stream,
+        arena,
+        signed,
+        |stream| {
+            Ok(if stream.parse::<Option<Token![*]>>()?.is_some() {
+                Some(Operator::Direct)
+            } else {
+                stream.parse::<Option<Token![/]>>()?.map(|_| Operator::Inverse)
+            })
+        },
+        Expression::Product,
+    )
 }
 
 type Part = fn(ParseStream, &mut Expressions) -> syn::Result<ExpressionId>;
@@ -202,9 +217,9 @@ fn comma(stream: ParseStream) -> syn::Result<()> {
 
 fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
     let start = stream.span();
-    let missing = |_| syn::Error::new(start, "expected an expression");
+    let missing = || syn::Error::new(start, "expected an expression");
     if stream.is_empty() || stream.peek(Token![;]) {
-        return Err(missing(()));
+        return Err(missing());
     }
     if let Ok(literal) = stream.fork().parse::<Lit>() {
         Lit::parse(stream)?;
@@ -213,9 +228,9 @@ fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
     if stream.peek(syn::token::Paren) {
         let (items, close) = arguments(stream, arena)?;
         let region = Region::from(start).to(close.into());
-        return match items.as_slice() {
-            &[inner] => Ok(inner),
-            &[x, y] => Ok(arena.push(Expression::Vector(x, y), region)),
+        return match *items.as_slice() {
+            [inner] => Ok(inner),
+            [x, y] => Ok(arena.push(Expression::Vector(x, y), region)),
             _ => Err(syn::Error::new_spanned(region, "expected `(expression)` or a vector `(x, y)`")),
         };
     }
@@ -226,7 +241,7 @@ fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
         stream.parse::<proc_macro2::TokenTree>()?;
         return syn::parse::Parser::parse2(|inner: ParseStream| parse(inner, arena), group.stream());
     }
-    let name = stream.call(Ident::parse_any).map_err(|error| missing(drop(error)))?;
+    let name = stream.call(Ident::parse_any).map_err(|_| missing())?;
     if stream.peek(syn::token::Paren) {
         let (arguments, close) = arguments(stream, arena)?;
         let region = Region::from(name.span()).to(close.into());

@@ -53,9 +53,9 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
 fn mechanism(stream: ParseStream, diagnostics: &mut Diagnostics) -> syn::Result<Mechanism> {
     let attributes = stream.call(syn::Attribute::parse_outer)?;
     let visibility = stream.parse()?;
-    let keyword: Ident = stream.call(syn::ext::IdentExt::parse_any).map_err(|error| {
-        syn::Error::new(error.span(), "expected `mechanism NAME { … }`")
-    })?;
+    let keyword: Ident = stream
+        .call(syn::ext::IdentExt::parse_any)
+        .map_err(|error| syn::Error::new(error.span(), "expected `mechanism NAME { … }`"))?;
     if keyword != "mechanism" {
         return Err(syn::Error::new(keyword.span(), "expected `mechanism NAME { … }`"));
     }

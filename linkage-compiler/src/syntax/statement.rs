@@ -180,7 +180,10 @@ fn at_keyword(stream: ParseStream) -> bool {
 
 fn skip_statement(stream: ParseStream) {
     let mut moved = false;
-    while !stream.is_empty() && !(moved && at_keyword(stream)) {
+    while !stream.is_empty() {
+        if moved && at_keyword(stream) {
+            return;
+        }
         moved = true;
         match stream.parse::<TokenTree>() {
             Ok(TokenTree::Punct(punct)) if punct.as_char() == ';' => return,

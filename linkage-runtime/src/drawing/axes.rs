@@ -21,7 +21,7 @@ fn round_step(rough: f64) -> f64 {
 pub(super) fn label(value: f64, low: f64, high: f64) -> String {
     let step = round_step((high - low) / 6.0);
     let largest = low.abs().max(high.abs());
-    if largest >= 1e5 || largest < 1e-3 {
+    if !(1e-3..1e5).contains(&largest) {
         return format!("{value:.1e}");
     }
     let mut decimals = 0;

@@ -189,7 +189,9 @@ impl Drawing {
         if !self.paths.iter().flatten().all(finite) {
             return Err(DrawingError::NotFinite("a path".to_owned()));
         }
-        for name in self.bars.iter().flat_map(|(from, to)| [from, to]).chain(self.arrows.iter().map(|arrow| &arrow.from)) {
+        for name in
+            self.bars.iter().flat_map(|(from, to)| [from, to]).chain(self.arrows.iter().map(|arrow| &arrow.from))
+        {
             if self.at(name).is_none() {
                 return Err(DrawingError::UnknownPoint(name.clone()));
             }

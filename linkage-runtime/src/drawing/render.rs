@@ -26,13 +26,21 @@ text{font-family:sans-serif}
 const HEAD: f64 = 10.0;
 
 /// Names stand this far from their points.
-const NAME_DISTANCE: f64 = 17.0;
+const NAME_DISTANCE: f64 = 18.0;
+
+/// Half the width of a letter of a name.
+const HALF_LETTER: f64 = 4.0;
 
 /// The picture of a drawing that has been checked.
 pub(super) fn svg(drawing: &Drawing) -> String {
     let tips = drawing.arrows.iter().map(|arrow| drawing.tip(arrow));
-    let all: Vec<Vector2<f64>> =
-        drawing.places.iter().map(|place| place.at).chain(tips).chain(drawing.paths.iter().flatten().copied()).collect();
+    let all: Vec<Vector2<f64>> = drawing
+        .places
+        .iter()
+        .map(|place| place.at)
+        .chain(tips)
+        .chain(drawing.paths.iter().flatten().copied())
+        .collect();
     let frame = Frame::around(&all);
     let legend = legend(drawing);
     let bottom = TOP + frame.height() + 30.0;
@@ -66,7 +74,7 @@ pub(super) fn svg(drawing: &Drawing) -> String {
     }
     let mut taken: Vec<Vector2<f64>> = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
     for place in &drawing.places {
-        let at = name_position(frame.pixel(place.at), &segments, &taken);
+        let at = name_position(frame.pixel(place.at), &place.name, &segments, &taken);
         taken.push(at);
         document = document.add(text(&place.name, "name", at + Vector2::new(0.0, 5.0), "middle"));
     }
@@ -76,7 +84,7 @@ pub(super) fn svg(drawing: &Drawing) -> String {
         document = document
             .add(line([Vector2::new(x, y), Vector2::new(x + 26.0, y)], &format!("{class} vector")))
             .add(text(&words, "tick", Vector2::new(x + 34.0, y + 4.0), "start"));
-        x += 300.0;
+        x += 200.0;
     }
     document.to_string()
 }
@@ -88,7 +96,7 @@ fn legend(drawing: &Drawing) -> Vec<(&'static str, String)> {
     ]
     .into_iter()
     .filter(|(quantity, ..)| drawing.arrows.iter().any(|arrow| arrow.quantity == *quantity))
-    .map(|(_, name, scale)| (name, format!("{name}: {scale} drawn for 1")))
+    .map(|(_, name, scale)| (name, format!("{name} × {scale}")))
     .collect()
 }
 
@@ -119,15 +127,21 @@ fn axes(frame: &Frame) -> Group {
     let mut group = Group::new();
     for value in ticks(frame.low.x, frame.high.x) {
         let x = frame.pixel(Vector2::new(value, frame.low.y)).x;
-        group = group
-            .add(line([Vector2::new(x, TOP), Vector2::new(x, bottom)], "grid"))
-            .add(text(&label(value, frame.low.x, frame.high.x), "tick", Vector2::new(x, bottom + 17.0), "middle"));
+        group = group.add(line([Vector2::new(x, TOP), Vector2::new(x, bottom)], "grid")).add(text(
+            &label(value, frame.low.x, frame.high.x),
+            "tick",
+            Vector2::new(x, bottom + 17.0),
+            "middle",
+        ));
     }
     for value in ticks(frame.low.y, frame.high.y) {
         let y = frame.pixel(Vector2::new(frame.low.x, value)).y;
-        group = group
-            .add(line([Vector2::new(LEFT, y), Vector2::new(LEFT + WIDTH, y)], "grid"))
-            .add(text(&label(value, frame.low.y, frame.high.y), "tick", Vector2::new(LEFT - 7.0, y + 4.0), "end"));
+        group = group.add(line([Vector2::new(LEFT, y), Vector2::new(LEFT + WIDTH, y)], "grid")).add(text(
+            &label(value, frame.low.y, frame.high.y),
+            "tick",
+            Vector2::new(LEFT - 7.0, y + 4.0),
+            "end",
+        ));
     }
     group.add(
         Rectangle::new()
@@ -158,7 +172,8 @@ fn vector(ends: [Vector2<f64>; 2], quantity: Quantity) -> Group {
 }
 
 fn mark(at: Vector2<f64>, mark: Mark) -> Group {
-    let circle = |radius: f64, class: &str| Circle::new().set("class", class).set("cx", at.x).set("cy", at.y).set("r", radius);
+    let circle =
+        |radius: f64, class: &str| Circle::new().set("class", class).set("cx", at.x).set("cy", at.y).set("r", radius);
     match mark {
         Mark::Ground => Group::new()
             .add(Path::new().set("class", "ground").set("d", format!("M{} {}l-11 17h22Z", at.x, at.y)))
@@ -168,13 +183,17 @@ fn mark(at: Vector2<f64>, mark: Mark) -> Group {
     }
 }
 
-/// The one of eight places around a point that is farthest from bars, vectors and other names.
-fn name_position(at: Vector2<f64>, segments: &[[Vector2<f64>; 2]], taken: &[Vector2<f64>]) -> Vector2<f64> {
+/// The one of sixteen places around a point that is farthest from bars, vectors and other names.
+fn name_position(at: Vector2<f64>, name: &str, segments: &[[Vector2<f64>; 2]], taken: &[Vector2<f64>]) -> Vector2<f64> {
+    let letters = u32::try_from(name.chars().count()).map_or(1.0, f64::from);
+    let half = Vector2::new(HALF_LETTER * letters, 0.0);
     let mut best = (f64::NEG_INFINITY, at);
-    for step in 0..8_u32 {
-        let angle = std::f64::consts::FRAC_PI_4 * f64::from(step) + std::f64::consts::FRAC_PI_8;
-        let candidate = at + Vector2::new(angle.cos(), -angle.sin()) * NAME_DISTANCE;
-        let lines = segments.iter().map(|ends| distance(candidate, *ends));
+    for step in 0..16_u32 {
+        let angle = std::f64::consts::TAU / 16.0 * (f64::from(step) + 0.5);
+        let direction = Vector2::new(angle.cos(), -angle.sin());
+        let candidate = at + direction * NAME_DISTANCE + half * 0.5 * direction.x;
+        let parts = [candidate - half, candidate, candidate + half];
+        let lines = segments.iter().flat_map(|ends| parts.map(|part| distance(part, *ends)));
         let names = taken.iter().filter(|other| **other != at).map(|other| (candidate - other).norm());
         let room = lines.chain(names).fold(f64::INFINITY, f64::min);
         if room > best.0 + 1e-9 {
@@ -204,7 +223,13 @@ mod tests {
         let read = |class: &str| -> Vec<f64> {
             let element = svg.split('<').find(|element| element.contains(&format!("class=\"{class}\""))).unwrap_or("");
             ["x1", "y1", "x2", "y2"]
-                .map(|name| element.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()?.parse().ok()).unwrap_or(f64::NAN))
+                .map(|name| {
+                    element
+                        .split(&format!("{name}=\""))
+                        .nth(1)
+                        .and_then(|rest| rest.split('"').next()?.parse().ok())
+                        .unwrap_or(f64::NAN)
+                })
                 .to_vec()
         };
         let (bar, arrow) = (read("bar"), read("vector"));

@@ -1,0 +1,129 @@
+//! Newton's honesty: what cannot be assembled is said to be so, with the residual, and never as NaN.
+
+use linkage::{Error, linkage};
+
+include!("mechanisms/four_bar.rs");
+include!("mechanisms/six_bar.rs");
+
+fn guess() -> FourBarCoordinates {
+    FourBarCoordinates { theta2: 0.35, theta3: 1.2, theta4: -0.9 }
+}
+
+#[test]
+fn unassemblable_lengths() {
+    // The crank's end is 60 to 100 from D, and 10 + 20 do not reach.
+    for theta2 in [0.0, 0.35, 1.0, 3.0] {
+        let result = FourBar::new(80.0, 20.0, 10.0, 20.0).solve(&FourBarCoordinates { theta2, ..guess() });
+        let Err(Error::NotConverged { mechanism, iterations, residual, regularity }) = result else {
+            panic!("{result:?}");
+        };
+        assert_eq!(mechanism, "FourBar");
+        assert!(iterations > 0 && residual > 0.1 && residual < 1.0 && (0.0..=1.0).contains(&regularity), "{result:?}");
+    }
+    let far = SixBar { h: 100.0, ..SixBar::default() };
+    let guess = SixBarCoordinates { theta1: 1.0, theta2: 0.6, theta3: 1.4, theta4: 0.2, theta5: 2.0 };
+    assert!(matches!(far.solve(&guess), Err(Error::NotConverged { residual, .. }) if residual.is_finite()));
+}
+
+#[test]
+fn numbers_that_are_none() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let broken = FourBar::new(80.0, bad, 50.0, 70.0);
+        assert!(matches!(broken.solve(&guess()), Err(Error::NotFinite { mechanism: "FourBar", .. })));
+        let q = FourBarCoordinates { theta3: bad, ..guess() };
+        let four_bar = FourBar::default();
+        assert!(matches!(four_bar.solve(&q), Err(Error::NotFinite { .. })));
+        assert!(four_bar.velocity_ratios(&four_bar.pose_at(&q)).is_err());
+        assert!(four_bar.motion(&q, 1.0, 0.0).is_err());
+        assert!(four_bar.points(&four_bar.pose_at(&q)).is_err());
+        let q = four_bar.solve(&guess()).unwrap().coordinates;
+        assert!(four_bar.velocity(&four_bar.pose_at(&q), bad).is_err());
+    }
+}
+
+#[test]
+fn zero_lengths() {
+    let nothing = FourBar::new(0.0, 0.0, 0.0, 0.0);
+    let pose = nothing.pose_at(&guess());
+    assert!(matches!(nothing.velocity_ratios(&pose), Err(Error::Singular { regularity: 0.0, .. })));
+    let none = SixBar::from([0.0; 9]);
+    let q = SixBarCoordinates { theta1: 1.0, theta2: 0.6, theta3: 1.4, theta4: 0.2, theta5: 2.0 };
+    assert!(matches!(none.velocity_ratios(&none.pose_at(&q)), Err(Error::Singular { regularity: 0.0, .. })));
+}
+
+#[test]
+fn every_guess_converges_or_says_why() {
+    let four_bar = FourBar::default();
+    let (mut found, mut other_branch) = (0, 0);
+    for i in 0..60 {
+        for j in 0..60 {
+            let angle = |k: i32| f64::from(k) / 60.0 * std::f64::consts::TAU - std::f64::consts::PI;
+            let guess = FourBarCoordinates { theta2: 0.35, theta3: angle(i), theta4: angle(j) };
+            match four_bar.solve(&guess) {
+                Ok(solution) => {
+                    assert!(solution.residual <= 1e-15);
+                    let pose = four_bar.pose_at(&solution.coordinates);
+                    let before = four_bar.determinant(&four_bar.pose_at(&guess));
+                    assert_eq!(solution.same_branch, (before >= 0.0) == (four_bar.determinant(&pose) >= 0.0));
+                    found += 1;
+                    other_branch += i32::from(!solution.same_branch);
+                }
+                Err(Error::NotConverged { residual, regularity, .. }) => {
+                    assert!(residual.is_finite() && regularity.is_finite());
+                }
+                Err(other) => panic!("{other}"),
+            }
+        }
+    }
+    println!("{found} of 3600 guesses converge, {other_branch} to the other branch");
+    assert!(found > 3000, "{found}");
+}
+
+/// Scaling all lengths by a power of two changes exponents only.
+#[test]
+fn scale_free() {
+    let four_bar = FourBar::default();
+    let q = four_bar.solve(&guess()).unwrap();
+    let six_bar = SixBar::default();
+    let start = SixBarCoordinates { theta1: 1.0, theta2: 0.6, theta3: 1.4, theta4: 0.2, theta5: 2.0 };
+    let s = six_bar.solve(&start).unwrap();
+    for k in [-300, -40, 13, 300] {
+        let scale = 2_f64.powi(k);
+        let lengths: [f64; 4] = four_bar.clone().into();
+        let scaled = FourBar::from(lengths.map(|length| length * scale));
+        assert_eq!(scaled.solve(&guess()).unwrap(), q);
+        let (pose, other) = (four_bar.pose_at(&q.coordinates), scaled.pose_at(&q.coordinates));
+        assert_eq!(four_bar.velocity_ratios(&pose), scaled.velocity_ratios(&other));
+        let SixBar { delta, .. } = six_bar;
+        let lengths: [f64; 9] = six_bar.clone().into();
+        let mut scaled = SixBar::from(lengths.map(|length| length * scale));
+        scaled.delta = delta;
+        assert_eq!(scaled.solve(&start).unwrap(), s);
+        let (pose, other) = (six_bar.pose_at(&s.coordinates), scaled.pose_at(&s.coordinates));
+        assert_eq!(six_bar.velocity_ratios(&pose), scaled.velocity_ratios(&other));
+    }
+}
+
+/// A pose gives its coordinates back.
+#[test]
+fn angles_on_request() {
+    let six_bar = SixBar::default();
+    let q = SixBarCoordinates::<f64> { theta1: 1.0, theta2: 0.6, theta3: 7.4, theta4: 0.2, theta5: -2.0 };
+    let back = six_bar.pose_at(&q).coordinates();
+    // Held as a number because an output uses it, so its turns are kept.
+    assert_eq!(back.theta3, q.theta3);
+    for (found, expected) in [(back.theta1, q.theta1), (back.theta2, q.theta2), (back.theta4, q.theta4)] {
+        assert!((found - expected).abs() < 1e-15);
+    }
+}
+
+/// The same emitted code in single precision.
+#[test]
+fn single_precision() {
+    let four_bar = FourBar::<f32>::default();
+    let guess = FourBarCoordinates { theta2: 0.349_065_85_f32, theta3: 1.2, theta4: -0.9 };
+    let q = four_bar.solve(&guess).unwrap().coordinates;
+    assert!((q.theta3 - 1.231_343_1).abs() < 1e-6);
+    let ratios = four_bar.velocity_ratios(&four_bar.pose_at(&q)).unwrap();
+    assert!((ratios[0] + 0.439_871_26).abs() < 1e-6);
+}

@@ -1,0 +1,24 @@
+use linkage::linkage;
+
+linkage! {
+    pub mechanism Gears {
+        param n = 3;
+        input phi1;
+        unknown phi2, phi3;
+        equation phi2 = n * phi1;
+        equation phi2 + phi1 = 0;
+        output both = phi2 + phi3;
+    }
+}
+
+linkage! {
+    pub mechanism Closed {
+        param a = 3;
+        input phi1;
+        unknown phi2;
+        equation a = 2 * phi1;
+        output both = phi2 + phi1;
+    }
+}
+
+fn main() {}
