@@ -1,4 +1,4 @@
-//! tour
+#![doc = include_str!("../README.md")]
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
 
@@ -6,10 +6,13 @@
 pub use linkage_runtime::drawing;
 pub use linkage_runtime::{Error, Mechanism, OutputMotion, PointMotion, Solution, nalgebra, position};
 
-/// Mechanisms from their closure equations; the manual is that of [`linkage_macros::linkage`].
+/// Mechanisms from their closure equations.
+///
+/// The manual of the language is that of the [procedural macro](__private::linkage).
 #[macro_export]
 macro_rules! linkage {
     ($($mechanisms:tt)*) => {
+        // The crate hands its own path on, so that it may be renamed or re-exported.
         $crate::__private::linkage! { $crate $($mechanisms)* }
     };
 }

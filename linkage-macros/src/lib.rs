@@ -1,9 +1,190 @@
-//! manual
+//! The `linkage!` macro: closure equations in, specialised Rust out.
+//!
+//! Use it through the `linkage` crate. [`linkage!`] is the manual of the language.
+
 #![warn(missing_docs)]
 
 use proc_macro::TokenStream;
 
-/// Mechanisms.
+/// A mechanism from its closure equations.
+///
+/// The macro differentiates the closures symbolically at compile time and emits functions for the
+/// constraint Jacobian, the velocity ratios, velocities, accelerations, points and outputs.
+///
+/// # A mechanism
+///
+/// ```
+/// use linkage::linkage;
+///
+/// linkage! {
+///     /// Four-bar linkage; the closure runs A-B-C-D with l4 from C to D.
+///     #[derive(Debug, Clone, PartialEq)]
+///     pub mechanism FourBar {
+///         param l1 = 80.0, l2 = 20.0, l3 = 50.0, l4 = 70.0;
+///         input   theta2;
+///         unknown theta3, theta4;
+///
+///         loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+///
+///         point B  = l2@theta2;
+///         point C  = B + l3@theta3;
+///         /// Middle of the coupler.
+///         point G3 = B + (l3/2)@theta3;
+///         output mu = theta3 - theta4;
+///     }
+/// }
+///
+/// let four_bar = FourBar::default();
+/// let guess = FourBarCoordinates { theta2: 0.35, theta3: 1.2, theta4: -0.9 };
+/// let solution = four_bar.solve(&guess)?;
+/// let motion = four_bar.motion(&solution.coordinates, 41.9, 0.0)?;
+/// assert!((motion.velocity.theta3 + 18.4).abs() < 0.1);
+/// assert!(motion.points.g3.position.y > 30.0);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
+/// `mechanism NAME { statements }`: attributes, doc comments and visibility go to the type of the
+/// parameters. Several mechanisms may stand in one invocation, and an invocation may stand in a module,
+/// a function body or a test. Statements may stand in any order, but for `let`, `point` and `output`,
+/// which use only what is above them. Doc comments on a statement reach the fields it declares.
+///
+/// | statement | meaning |
+/// |---|---|
+/// | `param a = 1, b;` | geometric and physical data; a default is a number. With defaults for all there is `Default` |
+/// | `input v;` | independent coordinates, one per degree of freedom |
+/// | `unknown u;` | dependent coordinates, as many as there are closure rows |
+/// | `loop VECTOR = VECTOR;` | a vector closure, two rows; the right side may be `0` |
+/// | `equation SCALAR = SCALAR;` | a scalar closure, one row: gears, rolling, cams, loops by component |
+/// | `let NAME = EXPRESSION;` | a named subexpression, scalar or vector |
+/// | `point NAME = VECTOR;` | a point whose position, velocity and acceleration are wanted |
+/// | `output NAME = SCALAR;` | any scalar quantity of interest |
+/// | `coordinate q;` and `drive NAME by q;` | the same mechanism with a choice of input, see below |
+///
+/// Fields are snake case: the point `G3` is the field `g3`.
+///
+/// # Expressions
+///
+/// | form | meaning |
+/// |---|---|
+/// | `r@phi` | the vector of modulus `r` at the angle `phi`: (r cos phi, r sin phi) |
+/// | `(x, y)` | a vector by components |
+/// | `(x, y)@phi` | the local vector (x, y) rotated by `phi` |
+/// | `+ - * /`, unary `-` | as usual; vector plus vector, scalar times vector |
+/// | `x^n`, `powi(x, n)`, `x.powi(n)` | whole powers |
+/// | `sin cos tan asin acos atan atan2 sqrt abs exp ln hypot` | scalar functions; `x.sqrt()` is `sqrt(x)` |
+/// | `x(P) y(P) norm(V) angle(V) dot(A, B) cross(A, B)` | of vectors |
+/// | `pi`, `20deg`, `1.5`, `3` | constants; integers, decimals and their ratios stay exact |
+///
+/// `@` binds tighter than `+ -` and looser than `* /`, so `l3/2 @ phi + s @ (phi - delta)` needs no
+/// more parentheses than these. Angles are in radians. Whether a name is an angle or a length follows
+/// from its use, and stands in the documentation of its field.
+///
+/// ```
+/// linkage::linkage! {
+///     /// A slider on an arm, with an offset, and a point off the line of the arm.
+///     pub mechanism Arm {
+///         param z1 = 1, z3 = 0.5, z4 = 3, delta = 60deg;
+///         input phi1;
+///         unknown phi2, z2;
+///         let arm = z2@phi2 + z3@(phi2 - delta);
+///         loop z1@phi1 + arm = (z4, 0);
+///         point P = z1@phi1 + (z2 / 2, 0.25)@phi2;
+///         output reach = norm(arm);
+///     }
+/// }
+/// let arm = Arm::default();
+/// let q = arm.solve(&ArmCoordinates { phi1: 1.0, phi2: -0.2, z2: 2.0 })?.coordinates;
+/// let pose = arm.pose_at(&q);
+/// // Equation 1.1 of the lecture notes: J is singular where z2 + z3 cos(delta) = 0.
+/// assert!((arm.determinant(&pose) + q.z2 + 0.25).abs() < 1e-15);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
+/// A scalar closure where there is no loop to close:
+///
+/// ```
+/// linkage::linkage! {
+///     mechanism Gears {
+///         param teeth1 = 20, teeth2 = 45;
+///         input phi1;
+///         unknown phi2;
+///         equation teeth1 * phi1 + teeth2 * phi2 = 0;
+///     }
+/// }
+/// let gears = Gears::default();
+/// let pose = gears.pose_at(&GearsCoordinates { phi1: 0.0, phi2: 0.0 });
+/// assert_eq!(gears.velocity_ratios(&pose)?[0], -20.0 / 45.0);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
+/// # Driven by another coordinate
+///
+/// Which configurations are singular depends on the coordinate that drives. A mechanism may leave the
+/// choice open; each `drive` is a type of its own with the same parameters, and the coordinates are the
+/// same for all, so that a position found with one driver is good for every other.
+///
+/// ```
+/// linkage::linkage! {
+///     #[derive(Clone)]
+///     pub mechanism SliderCrank {
+///         param r, l;
+///         coordinate phi1, phi2, z3;
+///         loop r@phi1 + l@phi2 = z3@0;
+///         drive Compressor by phi1;
+///         drive Engine     by z3;
+///     }
+/// }
+/// let slider_crank = SliderCrank::new(1.0, 3.0);
+/// let (compressor, engine) = (Compressor::from(slider_crank.clone()), Engine::from(slider_crank));
+/// let dead_centre = SliderCrankCoordinates { phi1: 0.0, phi2: 0.0, z3: 4.0 };
+/// assert!(compressor.velocity_ratios(&compressor.pose_at(&dead_centre)).is_ok());
+/// assert!(engine.velocity_ratios(&engine.pose_at(&dead_centre)).is_err());
+/// ```
+///
+/// # What is emitted for `mechanism FourBar`
+///
+/// q are all coordinates, v the inputs, u the unknowns, Psi(q) = 0 the closures, J = `Psi_u`,
+/// A = `Psi_v`, W = -J^-1 A and gamma = `(Psi_q q')_q q'`, so that u' = W v' and J u'' = -(A v'' + gamma).
+///
+/// | item | what |
+/// |---|---|
+/// | `FourBar<T = f64>` | the parameters; `new` up to seven of them, `Default`, conversions from and to arrays |
+/// | `FourBarCoordinates<T>` | q by name, also q' and q''; u before v; conversions from and to `SVector` |
+/// | `FourBarInputs<T>`, `FourBarUnknowns<T>` | v and u by name; a single input also from the bare number |
+/// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | the points and outputs by name |
+/// | `FourBarPose<T>`, `pose_at(&q)` | directions and determinant: what follows takes a pose and needs no trigonometry; `coordinates()` gives the angles back |
+/// | `residual`, `closure_sizes` | Psi, and the sum of the magnitudes of its terms |
+/// | `jacobian_unknowns`, `jacobian_inputs`, `jacobian` | J, A and the whole of `Psi_q` |
+/// | `determinant` | det J |
+/// | `solve_jacobian`, `velocity_ratios` | J^-1 r, and W |
+/// | `velocity`, `gamma`, `acceleration` | q', the quadratic velocity term, q'' |
+/// | `points`, `point_velocities`, `point_accelerations`, `point_ratios` | of all points; the ratios are W_l |
+/// | `outputs`, `output_velocities`, `output_accelerations`, `output_ratios` | of all outputs |
+/// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
+/// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once |
+///
+/// `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates nothing, cannot panic and
+/// needs no standard library.
+///
+/// # What is rejected
+///
+/// Every mistake is reported on the token that made it, all at once, with what to do about it: unknown
+/// names, names used twice, unused parameters and coordinates (unless they begin with `_`), rows and
+/// unknowns that do not match, closures in which nothing unknown appears, unknowns that compete for too
+/// few closures, vectors where scalars belong and scalars where vectors belong, a name used as an angle
+/// and as a modulus, division by zero, constants that are not finite, and parentheses nested deeper than
+/// 64 levels.
+///
+/// ```compile_fail
+/// linkage::linkage! {
+///     mechanism Wrong {
+///         param r = 1;
+///         input phi;
+///         unknown x;
+///         equation x = r@phi; // a vector where a scalar belongs
+///     }
+/// }
+/// ```
 #[proc_macro]
 pub fn linkage(input: TokenStream) -> TokenStream {
     // The facade's macro hands its own path over as the first token.

@@ -787,6 +787,7 @@ impl Methods<'_> {
         let imports = imports(&written);
         let members: Vec<Ident> =
             self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
+        let rest = members.is_empty().then(|| quote!(..));
         let pose_coordinates = derivation.map(|derivation| self.pose_coordinates(derivation));
         quote! {
             const _: () = {
@@ -809,7 +810,7 @@ impl Methods<'_> {
                         #unknowns::from(q).into()
                     }
                     fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, #nu>) -> Self::Coordinates {
-                        let #unknowns { #(#members),* } = unknowns.into();
+                        let #unknowns { #(#members,)* #rest } = unknowns.into();
                         #coordinates { #(#members,)* ..*q }
                     }
                     fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose {
