@@ -148,7 +148,7 @@ use proc_macro::TokenStream;
 ///
 /// | item | what |
 /// |---|---|
-/// | `FourBar<T = f64>` | the parameters; `new` up to seven of them, `Default`, conversions from and to arrays |
+/// | `FourBar<T = f64>` | the parameters; `new` up to seven of them, `Default` for `f64`, `map` to another scalar, conversions from and to arrays |
 /// | `FourBarCoordinates<T>` | q by name, also q' and q''; u before v; conversions from and to `SVector` |
 /// | `FourBarInputs<T>`, `FourBarUnknowns<T>` | v and u by name; a single input also from the bare number |
 /// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | the points and outputs by name |

@@ -99,21 +99,40 @@ fn compute(names: &mut Names, schedule: &Schedule, value: ValueId) -> (TokenStre
     }
 }
 
-/// A multiple of pi, as people write it: pi / 2, not 1.5707….
-pub(super) fn turn(number: Number) -> Option<TokenStream> {
+/// count * pi / parts, if the number is a multiple of pi that somebody would write.
+fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
     let Number::Float(value) = number else { return None };
     // Finer than a degree nobody writes an angle as a part of pi.
     (1..=180_u32).map(f64::from).find_map(|parts| {
         let count = (value / PI * parts).round();
         let same = count != 0.0 && (count * PI / parts - value).abs() <= 4.0 * f64::EPSILON * value.abs();
-        let (n, d) = (Literal::f64_unsuffixed(count), Literal::f64_unsuffixed(parts));
-        same.then(|| match (count == 1.0, parts == 1.0) {
-            (true, true) => quote!(T::pi()),
-            (true, false) => quote!(T::pi() / real::<T>(#d)),
-            (false, true) => quote!(T::pi() * real::<T>(#n)),
-            (false, false) => quote!(T::pi() * real::<T>(#n) / real::<T>(#d)),
-        })
+        same.then_some((count, parts))
     })
+}
+
+/// A multiple of pi, as people write it: pi / 2, not 1.5707….
+fn turn(number: Number) -> Option<TokenStream> {
+    let (count, parts) = parts_of_pi(number)?;
+    let (n, d) = (Literal::f64_unsuffixed(count), Literal::f64_unsuffixed(parts));
+    Some(match (count == 1.0, parts == 1.0) {
+        (true, true) => quote!(T::pi()),
+        (true, false) => quote!(T::pi() / real::<T>(#d)),
+        (false, true) => quote!(T::pi() * real::<T>(#n)),
+        (false, false) => quote!(T::pi() * real::<T>(#n) / real::<T>(#d)),
+    })
+}
+
+/// A constant as an `f64`.
+pub(super) fn plain(number: Number) -> TokenStream {
+    let magnitude = number.absolute();
+    let tokens = match parts_of_pi(magnitude) {
+        Some((count, parts)) => {
+            let (n, d) = (Literal::f64_unsuffixed(count), Literal::f64_unsuffixed(parts));
+            quote!(::core::f64::consts::PI * #n / #d)
+        }
+        None => separated(magnitude.to_f64()),
+    };
+    if number.is_negative() { quote!(-#tokens) } else { tokens }
 }
 
 /// A constant as a scalar of any type.

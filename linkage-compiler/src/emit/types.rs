@@ -259,6 +259,11 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
 
             pub const PARAMETERS: [&'static str; #count] = [#(#texts),*];
             #new
+            /// The same mechanism with another scalar.
+            #[must_use]
+            pub fn map<S>(self, scalar: impl ::core::ops::Fn(T) -> S) -> #name<S> {
+                #name { #(#fields: scalar(self.#fields),)* #no_scalar }
+            }
         }
     });
     let defaults: Option<Vec<TokenStream>> = mechanism
@@ -268,17 +273,14 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
             let node = parameter.default?;
             let number =
                 mechanism.graph.as_number(node).or_else(|| mechanism.graph.constant_value(node).map(Number::Float))?;
-            let magnitude = number.absolute();
-            let magnitude = expression::turn(magnitude).unwrap_or_else(|| expression::constant(magnitude));
-            Some(if number.is_negative() { quote!(-#magnitude) } else { magnitude })
+            Some(expression::plain(number))
         })
         .collect();
     if let Some(defaults) = defaults {
-        let real = (number > 0).then(|| quote!(use #private::real;));
         tokens.extend(quote! {
-            impl<T: #private::Real> ::core::default::Default for #name<T> {
+            // Of one scalar only, so that it need not be named.
+            impl ::core::default::Default for #name {
                 fn default() -> Self {
-                    #real
                     Self { #(#fields: #defaults,)* #no_scalar }
                 }
             }
