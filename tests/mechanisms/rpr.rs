@@ -1,5 +1,5 @@
 linkage! {
-    /// The dyad RPR of the lecture notes (1.3): z1 - z2 - z3 + z_t = 0 with phi1, phi2, phi3 turning as one.
+    /// The dyad RPR of the lecture notes (1.3): `z1 - z2 - z3 + z_t = 0` with phi1, phi2, phi3 turning as one.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism Rpr {
         param z1 = 0.4, z3 = 0.3, alpha = 90deg, beta = 0.2;

@@ -1,5 +1,5 @@
 linkage! {
-    /// The dyad RRR of the lecture notes (1.3) between two moving points A and B: z_t - z2 + z1 = 0.
+    /// The dyad RRR of the lecture notes (1.3) between two moving points A and B: `z_t - z2 + z1 = 0`.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism Rrr {
         param z1 = 2, z2 = 1.5;

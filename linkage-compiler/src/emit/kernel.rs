@@ -150,7 +150,8 @@ fn write_line(line: &Line, schedule: &Schedule, names: &mut Names, results: &mut
         }
         Line::Name { symbol, value } => {
             let tokens = signed(names, schedule, *value);
-            let fresh = !value.negative && names.get(schedule, value.value).is_none();
+            let number = matches!(schedule.value(value.value), Value::Constant(_));
+            let fresh = !value.negative && !number && names.get(schedule, value.value).is_none();
             let text = names.introduce(*symbol);
             let name = ident(&text);
             if fresh {
@@ -175,7 +176,12 @@ fn write_line(line: &Line, schedule: &Schedule, names: &mut Names, results: &mut
         }
         Line::Solve { targets, right } => {
             let right: Vec<_> = right.iter().map(|value| signed(names, schedule, *value)).collect();
-            let targets: Vec<_> = targets.iter().map(|target| ident(&names.introduce(*target))).collect();
+            let used = schedule.used();
+            let is_used = |target: &SymbolId| used.iter().any(|id| *schedule.value(*id) == Value::Symbol(*target));
+            let targets: Vec<_> = targets
+                .iter()
+                .map(|target| if is_used(target) { ident(&names.introduce(*target)) } else { ident("_") })
+                .collect();
             let factors = ident(&names.factors);
             quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);)
         }

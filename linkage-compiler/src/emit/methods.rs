@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
 use quote::quote;
 
 use super::Types;
@@ -121,8 +121,14 @@ impl<'a> Kernels<'a> {
             );
             return stages;
         };
-        let node = self.derivation.graph.variable(determinant.symbol);
-        let mut stages = vec![Stage::Guard { determinant: node, size: determinant.size }];
+        // A determinant that is a number other than zero needs no verdict.
+        let constant = self.derivation.graph.constant_value(determinant.value).is_some_and(|value| value != 0.0);
+        let (node, mut stages) = if constant {
+            (determinant.value, Vec::new())
+        } else {
+            let node = self.derivation.graph.variable(determinant.symbol);
+            (node, vec![Stage::Guard { determinant: node, size: determinant.size }])
+        };
         for (right, targets) in systems {
             let solution = solve_closed(&mut self.derivation.graph, &jacobian, node, right);
             stages.extend(targets.iter().zip(solution).map(|(&symbol, node)| Stage::Let { symbol, node }));
@@ -265,6 +271,7 @@ impl Methods<'_> {
             lines.push(format!(" Operations: {}.", count(operations)));
         }
         let body = body.unwrap_or_else(|| quote!(::core::unimplemented!()));
+        let signature = without_unused(signature, &identifiers(&body), &self.reserved);
         self.functions.extend(quote! {
             #(#[doc = #lines])*
             #signature { #body }
@@ -677,7 +684,7 @@ impl Methods<'_> {
         let (body, operations) = code.unzip();
         let name = ident(&format!("{word}_ratios"));
         let docs = lines([
-            &format!("The velocity ratios W_l of the {word}s: l' = W_l v'."),
+            &format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'."),
             "",
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
@@ -698,9 +705,10 @@ impl Methods<'_> {
                 (kernels.derivation.velocity_side(), kernels.rates(&unknowns)),
                 (kernels.derivation.acceleration_side(), kernels.accelerations(&unknowns)),
             ];
-            let mut stages: Vec<Stage> =
-                kernels.derivation.determinant.iter().map(|d| Stage::Let { symbol: d.symbol, node: d.value }).collect();
-            stages.extend(kernels.solve(&sides));
+            let mut stages = kernels.solve(&sides);
+            if let (Some(Stage::Guard { .. }), Some(d)) = (stages.first(), kernels.derivation.determinant) {
+                stages.insert(0, Stage::Let { symbol: d.symbol, node: d.value });
+            }
             let mut nodes = kernels.variables(&kernels.rates(&all));
             nodes.extend(kernels.variables(&kernels.accelerations(&all)));
             let quantities: Vec<Quantity> = kernels.derivation.points.iter().chain(&kernels.derivation.outputs).cloned().collect();
@@ -883,6 +891,23 @@ fn imports(written: &BTreeSet<String>) -> Vec<Ident> {
     names.sort_unstable();
     names.extend(RUNTIME_FUNCTIONS.iter().filter(|name| written.contains(**name)));
     names.into_iter().map(ident).collect()
+}
+
+/// A signature whose arguments are marked as unused where they are.
+fn without_unused(signature: &TokenStream, used: &BTreeSet<String>, arguments: &[String]) -> TokenStream {
+    let tokens = signature.clone().into_iter().map(|token| match token {
+        TokenTree::Group(group) if group.delimiter() == Delimiter::Parenthesis => {
+            let inside = group.stream().into_iter().map(|token| match token {
+                TokenTree::Ident(name) if arguments.iter().any(|a| name == a) && !used.contains(&name.to_string()) => {
+                    TokenTree::Ident(ident(&format!("_{name}")))
+                }
+                token => token,
+            });
+            TokenTree::Group(Group::new(Delimiter::Parenthesis, inside.collect()))
+        }
+        token => token,
+    });
+    tokens.collect()
 }
 
 /// Every identifier of emitted code.
