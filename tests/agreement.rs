@@ -368,3 +368,12 @@ agreement!(
     EveryFunctionPoints,
     EveryFunctionOutputs
 );
+
+/// The mechanism of all functions has them all.
+#[test]
+fn every_operation_is_under_test() {
+    let text = source::tokens_of("every_function").to_string();
+    for operation in &linkage_compiler::graph::OPERATIONS {
+        assert!(text.contains(&format!("f_{} =", operation.name)), "{}", operation.name);
+    }
+}

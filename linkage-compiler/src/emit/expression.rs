@@ -28,7 +28,18 @@ pub(super) fn definition(names: &mut Names, schedule: &Schedule, value: ValueId)
 }
 
 fn operand(names: &mut Names, schedule: &Schedule, value: Signed, at_least: Binding) -> TokenStream {
-    let (tokens, binding) = match names.get(schedule, value.value) {
+    let name = names.get(schedule, value.value);
+    // -(a - b) is b - a.
+    if let (true, None, Value::Sum(terms)) = (value.negative, &name, schedule.value(value.value))
+        && terms.iter().any(|term| term.negative)
+    {
+        let mut terms: Vec<Signed> =
+            terms.iter().map(|term| Signed { negative: !term.negative, value: term.value }).collect();
+        terms.sort_by_key(|term| term.negative);
+        let tokens = sum(names, schedule, &terms);
+        return if at_least > Binding::Sum { quote!((#tokens)) } else { tokens };
+    }
+    let (tokens, binding) = match name {
         Some(name) => {
             let name = ident(&name);
             (quote!(#name), Binding::Atom)
@@ -45,6 +56,15 @@ fn operand(names: &mut Names, schedule: &Schedule, value: Signed, at_least: Bind
     if binding < at_least { quote!((#tokens)) } else { tokens }
 }
 
+fn sum(names: &mut Names, schedule: &Schedule, terms: &[Signed]) -> TokenStream {
+    let mut tokens = operand(names, schedule, terms[0], Binding::Sum);
+    for term in &terms[1..] {
+        let body = operand(names, schedule, Signed { negative: false, value: term.value }, Binding::Product);
+        tokens = if term.negative { quote!(#tokens - #body) } else { quote!(#tokens + #body) };
+    }
+    tokens
+}
+
 fn compute(names: &mut Names, schedule: &Schedule, value: ValueId) -> (TokenStream, Binding) {
     let plain = |value: ValueId| Signed { negative: false, value };
     match schedule.value(value) {
@@ -58,14 +78,7 @@ fn compute(names: &mut Names, schedule: &Schedule, value: ValueId) -> (TokenStre
         }
         // Given directions are named before any expression is written.
         Value::Direction(..) => (quote!(direction), Binding::Atom),
-        Value::Sum(terms) => {
-            let mut tokens = operand(names, schedule, terms[0], Binding::Sum);
-            for term in &terms[1..] {
-                let body = operand(names, schedule, plain(term.value), Binding::Product);
-                tokens = if term.negative { quote!(#tokens - #body) } else { quote!(#tokens + #body) };
-            }
-            (tokens, Binding::Sum)
-        }
+        Value::Sum(terms) => (sum(names, schedule, terms), Binding::Sum),
         Value::Product(factors) => {
             let mut tokens = operand(names, schedule, plain(factors[0]), Binding::Product);
             for factor in &factors[1..] {

@@ -491,7 +491,7 @@ impl Methods<'_> {
             let code = self.on_pose(kernels, sources, &stages);
             let (fields, results, body) = (self.coordinate_fields(), code.results, code.body);
             let solved: Vec<_> = unknowns.iter().map(|&index| results[index].clone()).collect();
-            let finite = quote!(finite(Self::NAME, "velocity", [#(#solved),*])?;);
+            let finite = check_finite("velocity", &solved);
             (quote!(#body #finite Ok(#coordinates { #(#fields: #results),* })), code.operations)
         });
         let (body, operations) = code.unzip();
@@ -539,7 +539,7 @@ impl Methods<'_> {
             let written = self.on_pose(kernels, sources, &stages);
             let (fields, results, body) = (self.coordinate_fields(), written.results, written.body);
             let solved: Vec<_> = unknowns.iter().map(|&index| results[index].clone()).collect();
-            let finite = quote!(finite(Self::NAME, "acceleration", [#(#solved),*])?;);
+            let finite = check_finite("acceleration", &solved);
             code = Some((quote!(#body #finite Ok(#coordinates { #(#fields: #results),* })), written.operations));
         }
         let (body, operations) = gamma.unzip();
@@ -624,8 +624,8 @@ impl Methods<'_> {
                     &component_names(&names, dimension, &["", "_rate", "_acceleration"][order..=order]),
                     &mut code.taken,
                 );
-                let (body, built) = (code.body, build(&results));
-                (quote!(#body #bindings finite(Self::NAME, #name, [#(#results),*])?; Ok(#built)), code.operations)
+                let (body, built, verdict) = (code.body, build(&results), check_finite(&name, &results));
+                (quote!(#body #bindings #verdict Ok(#built)), code.operations)
             });
             let (body, operations) = code.unzip();
             let mut docs = vec![meaning];
@@ -757,12 +757,13 @@ impl Methods<'_> {
             }
             let mut finite: Vec<TokenStream> = unknowns.iter().flat_map(|&index| [rates[index].clone(), accelerations[index].clone()]).collect();
             finite.extend(checked);
+            let verdict = check_finite("motion", &finite);
             let body = code.body;
             (
                 quote! {
                     #body
                     #bindings
-                    finite(Self::NAME, "motion", [#(#finite),*])?;
+                    #verdict
                     Ok(#motion {
                         position: *#q,
                         velocity: #coordinates { #(#fields: #rates),* },
@@ -981,13 +982,26 @@ fn component_names(names: &[Ident], dimension: usize, orders: &[&str]) -> Vec<St
     all
 }
 
+/// Whether an expression is nought or one.
+fn is_constant(value: &TokenStream) -> bool {
+    let text = value.to_string();
+    [quote!(T::zero()), quote!(T::one())].iter().any(|constant| constant.to_string() == text)
+}
+
+/// `finite(NAME, what, [values])?;`, each value once.
+fn check_finite(what: &str, values: &[TokenStream]) -> TokenStream {
+    let mut seen = BTreeSet::new();
+    let values = values.iter().filter(|value| !is_constant(value) && seen.insert(value.to_string()));
+    quote!(finite(Self::NAME, #what, [#(#values),*])?;)
+}
+
 /// Gives a name to every result that is not one already.
 fn bind(results: &[TokenStream], wishes: &[String], taken: &mut BTreeSet<String>) -> (TokenStream, Vec<TokenStream>) {
     let mut bindings = TokenStream::new();
     let mut names = Vec::new();
     for (result, wish) in results.iter().zip(wishes) {
         let text = result.to_string();
-        if syn::parse_str::<Ident>(&text).is_ok() {
+        if syn::parse_str::<Ident>(&text).is_ok() || is_constant(result) {
             names.push(result.clone());
         } else {
             let name = ident(&unique(taken, wish));
