@@ -991,7 +991,10 @@ fn is_constant(value: &TokenStream) -> bool {
 /// `finite(NAME, what, [values])?;`, each value once.
 fn check_finite(what: &str, values: &[TokenStream]) -> TokenStream {
     let mut seen = BTreeSet::new();
-    let values = values.iter().filter(|value| !is_constant(value) && seen.insert(value.to_string()));
+    let values: Vec<_> = values.iter().filter(|value| !is_constant(value) && seen.insert(value.to_string())).collect();
+    if values.is_empty() {
+        return TokenStream::new();
+    }
     quote!(finite(Self::NAME, #what, [#(#values),*])?;)
 }
 

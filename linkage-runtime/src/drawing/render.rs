@@ -70,7 +70,13 @@ pub(super) fn svg(drawing: &Drawing) -> String {
         document = document.add(vector(ends, arrow.quantity));
     }
     for place in &drawing.places {
-        document = document.add(mark(frame.pixel(place.at), place.mark));
+        let at = frame.pixel(place.at);
+        if place.mark == Mark::Ground {
+            // Names keep clear of the triangle as of a bar.
+            segments.extend([-11.0, 11.0].map(|side| [at, at + Vector2::new(side, 17.0)]));
+            segments.push([at + Vector2::new(-11.0, 17.0), at + Vector2::new(11.0, 17.0)]);
+        }
+        document = document.add(mark(at, place.mark));
     }
     let mut taken: Vec<Vector2<f64>> = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
     for place in &drawing.places {
