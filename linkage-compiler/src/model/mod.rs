@@ -1,6 +1,8 @@
 //! What was meant: a mechanism with every name resolved, every expression in the graph
 //! and every check made. No later stage meets a mistake of the user, but for singular structure.
 
+mod check;
+mod expression;
 mod kind;
 mod lower;
 mod name;

@@ -63,6 +63,12 @@ impl Expressions {
         self.nodes.is_empty()
     }
 
+    /// Where the expression stands that was read last.
+    #[must_use]
+    pub fn last_region(&self) -> Option<Region> {
+        self.nodes.last().map(|(_, region)| *region)
+    }
+
     /// Forgets what a statement that did not parse has left.
     pub(super) fn truncate(&mut self, length: usize) {
         self.nodes.truncate(length);

@@ -6,7 +6,7 @@ use syn::parse::ParseStream;
 use syn::{Attribute, Token};
 
 use super::expression::{self, ExpressionId, Expressions};
-use crate::diagnostics::{Diagnostics, suggestion};
+use crate::diagnostics::{Diagnostics, Region, suggestion};
 
 /// A statement and the doc comments above it.
 pub struct Statement {
@@ -54,7 +54,8 @@ pub(super) fn statements(
         match kind(stream, expressions) {
             Ok(kind) => {
                 statements.push(Statement { attributes, kind });
-                if let Err(error) = end(stream) {
+                let last = expressions.last_region().filter(|_| expressions.len() > before);
+                if let Err(error) = end(stream, last) {
                     diagnostics.push(error);
                     if !at_keyword(stream) {
                         skip_statement(stream);
@@ -162,9 +163,11 @@ fn sides(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(Exp
     Ok((left, expression::parse(stream, expressions)?))
 }
 
-fn end(stream: ParseStream) -> syn::Result<()> {
+/// The `;`; at the end of the braces its absence is reported on the last token that was written.
+fn end(stream: ParseStream, last: Option<Region>) -> syn::Result<()> {
     if stream.is_empty() {
-        return Err(syn::Error::new(stream.span(), "expected `;` at the end of this statement"));
+        let span = last.map_or_else(|| stream.span(), |region| region.last);
+        return Err(syn::Error::new(span, "expected `;` after this"));
     }
     let found = stream.span();
     stream.parse::<Token![;]>().map(drop).map_err(|_| syn::Error::new(found, "expected `;` before this"))

@@ -1,0 +1,108 @@
+//! What is checked of a mechanism as a whole.
+
+use proc_macro2::Span;
+
+use super::lower::Choice;
+use super::scope::Scope;
+use super::{Driver, Mechanism};
+use crate::diagnostics::Diagnostics;
+use crate::graph::SymbolId;
+
+/// Everything that is declared is used.
+pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
+    let parameters = mechanism.parameters.iter().map(|p| ("parameter", &p.name, p.symbol));
+    let coordinates = mechanism.coordinates.iter().map(|c| ("coordinate", &c.name, c.symbol));
+    for (what, name, symbol) in parameters.chain(coordinates) {
+        if !scope.is_used(symbol) && !name.text.starts_with('_') {
+            let text = &name.text;
+            diagnostics
+                .error(name.span, format_args!("the {what} `{text}` is never used; remove it, or call it `_{text}`"));
+        }
+    }
+}
+
+/// Two names may differ only in case, their fields may not.
+pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
+    let parameters: Vec<_> = mechanism.parameters.iter().map(|p| &p.name).collect();
+    let coordinates: Vec<_> = mechanism.coordinates.iter().map(|c| &c.name).collect();
+    let symbols: Vec<_> = parameters.into_iter().chain(coordinates).collect();
+    let points: Vec<_> = mechanism.points.iter().map(|p| &p.name).collect();
+    let outputs: Vec<_> = mechanism.outputs.iter().map(|o| &o.name).collect();
+    for names in [symbols, points, outputs] {
+        for (index, name) in names.iter().enumerate() {
+            if let Some(first) = names[..index].iter().find(|other| other.field == name.field) {
+                diagnostics.error(
+                    name.span,
+                    format_args!("`{}` and `{}` both become the field `{}`", first.text, name.text, name.field),
+                );
+            }
+        }
+    }
+}
+
+/// Closures and unknowns are as many, and every unknown can be solved for.
+pub(super) fn closures(mechanism: &Mechanism, choice: Choice, diagnostics: &mut Diagnostics) {
+    let rows: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
+    let at = |driver: &Driver| -> Span { driver.name.span() };
+    for driver in &mechanism.drivers {
+        let unknowns = driver.unknowns.len();
+        if rows != unknowns {
+            let loops = mechanism.closures.iter().filter(|closure| closure.rows.len() == 2).count();
+            let equations = mechanism.closures.len() - loops;
+            let last = driver.unknowns.last().map(|&index| mechanism.coordinates[index].name.span);
+            let span = if choice == Choice::Open { at(driver) } else { last.unwrap_or_else(|| at(driver)) };
+            let advice = if rows < unknowns {
+                "close another loop, or make unknowns inputs"
+            } else {
+                "a closure is too many, or an unknown is missing"
+            };
+            diagnostics.error(
+                span,
+                format_args!(
+                    "{unknowns} unknowns, but {rows} closure rows (2 for each of {loops} `loop`, 1 for each of {equations} `equation`): {advice}"
+                ),
+            );
+            continue;
+        }
+        if driver.inputs.is_empty() {
+            diagnostics.error(at(driver), "nothing drives this mechanism: declare an `input`");
+        }
+        if rows == 0 {
+            diagnostics.error(at(driver), "a mechanism needs at least one `loop` or `equation`");
+        }
+        let symbols: Vec<SymbolId> = driver.unknowns.iter().map(|&index| mechanism.coordinates[index].symbol).collect();
+        let before = diagnostics.is_empty();
+        for closure in &mechanism.closures {
+            let found = mechanism.graph.symbols_of(&closure.rows);
+            if !symbols.iter().any(|symbol| found.contains(symbol)) {
+                diagnostics
+                    .error(closure.span, format_args!("nothing unknown appears in this closure of `{}`", driver.name));
+            }
+        }
+        let incidence = mechanism.incidence(driver);
+        if before
+            && diagnostics.is_empty()
+            && let Err(singular) = crate::structure::order(&incidence, symbols.len())
+        {
+            let names: Vec<_> = singular
+                .unknowns
+                .iter()
+                .map(|&unknown| format!("`{}`", mechanism.coordinates[driver.unknowns[unknown]].name.text))
+                .collect();
+            let span = singular
+                .unknowns
+                .first()
+                .map_or_else(|| at(driver), |&unknown| mechanism.coordinates[driver.unknowns[unknown]].name.span);
+            diagnostics.error(
+                span,
+                format_args!(
+                    "`{}` cannot be solved at any position: {} appear in {} closure row{} together",
+                    driver.name,
+                    names.join(", "),
+                    singular.equations.len(),
+                    if singular.equations.len() == 1 { "" } else { "s" },
+                ),
+            );
+        }
+    }
+}

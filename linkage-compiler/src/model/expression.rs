@@ -1,0 +1,323 @@
+//! Expressions: from the tree to nodes of the graph, scalars and vectors told apart.
+
+use proc_macro2::Ident;
+
+use super::kind::{Kind, bare_symbols};
+use super::scope::{Scope, Value};
+use crate::diagnostics::{Diagnostics, Region, suggestion};
+use crate::graph::{Fault, Function, Graph, NodeId, Number, SymbolId};
+use crate::syntax::{Expression, ExpressionId, Expressions, Operator};
+
+/// What the language calls besides the op table.
+const VECTOR_FUNCTIONS: [(&str, usize); 7] =
+    [("x", 1), ("y", 1), ("norm", 1), ("angle", 1), ("dot", 2), ("cross", 2), ("powi", 2)];
+
+/// The names and values of one mechanism while its statements are read.
+pub(super) struct Lowering<'a> {
+    pub(super) graph: Graph,
+    pub(super) scope: Scope,
+    /// The value of each expression, by id; expressions are lowered in ascending order.
+    pub(super) values: Vec<Value>,
+    pub(super) expressions: &'a Expressions,
+    pub(super) kinds: Vec<(SymbolId, Kind)>,
+    /// Names that are lengths if nothing else is known.
+    pub(super) supposed: Vec<SymbolId>,
+    pub(super) diagnostics: &'a mut Diagnostics,
+}
+
+impl Lowering<'_> {
+    /// The value of an expression and of all that it is made of.
+    pub(super) fn value(&mut self, id: ExpressionId) -> Value {
+        let expressions = self.expressions;
+        let missing = (id.index() + 1).saturating_sub(self.values.len());
+        for (expression, region) in expressions.iter().skip(self.values.len()).take(missing) {
+            let value = self.lower(expression, region);
+            let value = match self.graph.take_fault() {
+                Some(fault) => {
+                    self.diagnostics.error(
+                        region,
+                        match fault {
+                            Fault::DivisionByZero => "this divides by zero",
+                            Fault::NotFinite => "this constant is not a finite number",
+                            Fault::ExponentOverflow => "this exponent is too large",
+                        },
+                    );
+                    Value::Poison
+                }
+                None => value,
+            };
+            self.values.push(value);
+        }
+        self.values[id.index()]
+    }
+
+    pub(super) fn scalar(&mut self, id: ExpressionId) -> Option<NodeId> {
+        match self.value(id) {
+            Value::Scalar(node) => Some(node),
+            Value::Vector(..) => {
+                self.expect_scalar(self.expressions.region(id));
+                None
+            }
+            Value::Poison => None,
+        }
+    }
+
+    pub(super) fn vector(&mut self, id: ExpressionId) -> Option<(NodeId, NodeId)> {
+        match self.value(id) {
+            Value::Vector(x, y) => Some((x, y)),
+            Value::Scalar(_) => {
+                self.expect_vector(id);
+                None
+            }
+            Value::Poison => None,
+        }
+    }
+
+    pub(super) fn expect_vector(&mut self, id: ExpressionId) {
+        let region = self.expressions.region(id);
+        self.diagnostics.error(region, "this is a scalar; a vector belongs here: `r@phi` or `(x, y)`");
+    }
+
+    fn expect_scalar(&mut self, region: Region) {
+        self.diagnostics
+            .error(region, "this is a vector; a scalar belongs here: take `x(…)`, `y(…)`, `norm(…)` or `angle(…)`");
+    }
+
+    /// A number known now: the default of a parameter.
+    pub(super) fn constant(&mut self, id: ExpressionId) -> Option<NodeId> {
+        let node = self.scalar(id)?;
+        if self.graph.constant_value(node).is_some() {
+            return Some(node);
+        }
+        self.diagnostics.error(self.expressions.region(id), "a default is a number: it cannot depend on other names");
+        None
+    }
+
+    fn lower(&mut self, expression: &Expression, region: Region) -> Value {
+        match expression {
+            Expression::Number { digits, degrees } => match Number::parse(digits) {
+                Some(number) if *degrees => {
+                    let pi = self.graph.pi();
+                    Value::Scalar(self.graph.scale(number.multiply(Number::ratio(1, 180)), pi))
+                }
+                Some(number) => Value::Scalar(self.graph.number(number)),
+                None => {
+                    self.diagnostics.error(region, "this is not a number");
+                    Value::Poison
+                }
+            },
+            Expression::Name(name) if name == "pi" => Value::Scalar(self.graph.pi()),
+            Expression::Name(name) => self.scope.look_up(name, self.diagnostics),
+            &Expression::Vector(x, y) => match (self.scalar(x), self.scalar(y)) {
+                (Some(x), Some(y)) => {
+                    self.suppose_lengths([x, y]);
+                    Value::Vector(x, y)
+                }
+                _ => Value::Poison,
+            },
+            &Expression::At(magnitude, angle) => self.at(magnitude, angle),
+            Expression::Sum(operands) => self.sum(operands),
+            Expression::Product(operands) => self.product(operands),
+            &Expression::Negate(inner) => match self.value(inner) {
+                Value::Scalar(node) => Value::Scalar(self.graph.negate(node)),
+                Value::Vector(x, y) => Value::Vector(self.graph.negate(x), self.graph.negate(y)),
+                Value::Poison => Value::Poison,
+            },
+            &Expression::Power(base, exponent) => self.power(base, exponent),
+            Expression::Call(name, arguments) => self.call(name, arguments, region),
+        }
+    }
+
+    /// r@phi = (r cos phi, r sin phi); (x, y)@phi = (x cos phi - y sin phi, x sin phi + y cos phi).
+    fn at(&mut self, magnitude: ExpressionId, angle: ExpressionId) -> Value {
+        let region = self.expressions.region(magnitude);
+        let angle_region = self.expressions.region(angle);
+        let (value, Some(angle)) = (self.value(magnitude), self.scalar(angle)) else { return Value::Poison };
+        self.mark(angle, Kind::Angle, angle_region);
+        let g = &mut self.graph;
+        let (cosine, sine) = (g.call(Function::Cos, &[angle]), g.call(Function::Sin, &[angle]));
+        match value {
+            Value::Scalar(r) => {
+                self.mark(r, Kind::Length, region);
+                Value::Vector(self.graph.multiply(r, cosine), self.graph.multiply(r, sine))
+            }
+            Value::Vector(x, y) => {
+                let (xc, ys) = (g.multiply(x, cosine), g.multiply(y, sine));
+                let (xs, yc) = (g.multiply(x, sine), g.multiply(y, cosine));
+                Value::Vector(g.subtract(xc, ys), g.add(xs, yc))
+            }
+            Value::Poison => Value::Poison,
+        }
+    }
+
+    fn sum(&mut self, operands: &[(Operator, ExpressionId)]) -> Value {
+        let (mut xs, mut ys) = (Vec::new(), Vec::new());
+        let mut poisoned = false;
+        let mut first_is_vector = None;
+        for &(operator, id) in operands {
+            let sign = if operator == Operator::Direct { Number::ONE } else { Number::MINUS_ONE };
+            let value = self.value(id);
+            let is_vector = match value {
+                Value::Scalar(node) => {
+                    xs.push((sign, node));
+                    false
+                }
+                Value::Vector(x, y) => {
+                    xs.push((sign, x));
+                    ys.push((sign, y));
+                    true
+                }
+                Value::Poison => {
+                    poisoned = true;
+                    continue;
+                }
+            };
+            let expected = *first_is_vector.get_or_insert(is_vector);
+            if expected != is_vector {
+                if expected {
+                    self.diagnostics.error(
+                        self.expressions.region(id),
+                        "a scalar cannot be added to a vector: did you mean `r@phi`?",
+                    );
+                } else {
+                    self.diagnostics.error(self.expressions.region(id), "a vector cannot be added to a scalar");
+                }
+                return Value::Poison;
+            }
+        }
+        match (poisoned, first_is_vector) {
+            (false, Some(true)) => Value::Vector(self.graph.sum(&xs), self.graph.sum(&ys)),
+            (false, Some(false)) => Value::Scalar(self.graph.sum(&xs)),
+            _ => Value::Poison,
+        }
+    }
+
+    fn product(&mut self, operands: &[(Operator, ExpressionId)]) -> Value {
+        let mut factors = Vec::new();
+        let mut vector = None;
+        let mut poisoned = false;
+        for &(operator, id) in operands {
+            match (self.value(id), operator) {
+                (Value::Scalar(node), Operator::Direct) => factors.push((node, 1)),
+                (Value::Scalar(node), Operator::Inverse) => {
+                    if self.graph.is_zero(node) {
+                        self.diagnostics.error(self.expressions.region(id), "this divides by zero");
+                        return Value::Poison;
+                    }
+                    factors.push((node, -1));
+                }
+                (Value::Vector(x, y), Operator::Direct) if vector.is_none() => vector = Some((x, y)),
+                (Value::Vector(..), Operator::Direct) => {
+                    self.diagnostics.error(
+                        self.expressions.region(id),
+                        "two vectors have no plain product: use `dot(…)` or `cross(…)`",
+                    );
+                    return Value::Poison;
+                }
+                (Value::Vector(..), Operator::Inverse) => {
+                    self.diagnostics.error(self.expressions.region(id), "a vector cannot be divided by");
+                    return Value::Poison;
+                }
+                (Value::Poison, _) => poisoned = true,
+            }
+        }
+        if poisoned {
+            return Value::Poison;
+        }
+        let scalar = self.graph.product(&factors);
+        match vector {
+            None => Value::Scalar(scalar),
+            Some((x, y)) => Value::Vector(self.graph.multiply(scalar, x), self.graph.multiply(scalar, y)),
+        }
+    }
+
+    fn power(&mut self, base: ExpressionId, exponent: ExpressionId) -> Value {
+        let (Some(base), Some(node)) = (self.scalar(base), self.scalar(exponent)) else { return Value::Poison };
+        let integer = self.graph.as_number(node).and_then(Number::as_integer).and_then(|n| i32::try_from(n).ok());
+        let Some(integer) = integer else {
+            let message = "an exponent is a whole number; write roots with `sqrt(…)`";
+            self.diagnostics.error(self.expressions.region(exponent), message);
+            return Value::Poison;
+        };
+        Value::Scalar(self.graph.power(base, integer))
+    }
+
+    fn call(&mut self, name: &Ident, arguments: &[ExpressionId], region: Region) -> Value {
+        let text = name.to_string();
+        let function = Function::named(&text);
+        let arity = function
+            .map(|function| function.operation().arity)
+            .or_else(|| VECTOR_FUNCTIONS.iter().find(|(other, _)| *other == text).map(|(_, arity)| *arity));
+        let Some(arity) = arity else {
+            if text == "rate" {
+                self.diagnostics.error(region, "`rate(…)` has a meaning only in the forces of a scene");
+            } else {
+                let known = crate::graph::OPERATIONS.iter().map(|row| row.name);
+                let hint = suggestion(&text, known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)));
+                self.diagnostics.error(name.span(), format_args!("no function is called `{text}`{hint}"));
+            }
+            return Value::Poison;
+        };
+        if arguments.len() != arity {
+            let plural = if arity == 1 { "argument" } else { "arguments" };
+            self.diagnostics
+                .error(region, format_args!("`{text}` takes {arity} {plural}, here are {}", arguments.len()));
+            return Value::Poison;
+        }
+        if let Some(function) = function {
+            let nodes: Option<Vec<NodeId>> = arguments.iter().map(|&argument| self.scalar(argument)).collect();
+            let Some(nodes) = nodes else { return Value::Poison };
+            if matches!(function, Function::Sin | Function::Cos | Function::Tan) {
+                self.mark(nodes[0], Kind::Angle, self.expressions.region(arguments[0]));
+            }
+            return Value::Scalar(self.graph.call(function, &nodes));
+        }
+        if text == "powi" {
+            return self.power(arguments[0], arguments[1]);
+        }
+        let vectors: Option<Vec<(NodeId, NodeId)>> = arguments.iter().map(|&argument| self.vector(argument)).collect();
+        let Some(vectors) = vectors else { return Value::Poison };
+        let (x, y) = vectors[0];
+        let g = &mut self.graph;
+        Value::Scalar(match (text.as_str(), vectors.get(1)) {
+            ("x", _) => x,
+            ("y", _) => y,
+            ("norm", _) => g.call(Function::Hypot, &[x, y]),
+            ("angle", _) => g.call(Function::Atan2, &[y, x]),
+            // dot = ax bx + ay by, cross = ax by - ay bx.
+            ("dot", Some(&(u, v))) => {
+                let (left, right) = (g.multiply(x, u), g.multiply(y, v));
+                g.add(left, right)
+            }
+            (_, Some(&(u, v))) => {
+                let (left, right) = (g.multiply(x, v), g.multiply(y, u));
+                g.subtract(left, right)
+            }
+            _ => return Value::Poison,
+        })
+    }
+
+    /// A component is a length unless it is known to be something else: an angle may be plotted.
+    fn suppose_lengths(&mut self, components: [NodeId; 2]) {
+        for symbol in components.into_iter().flat_map(|node| bare_symbols(&self.graph, node)) {
+            if !self.kinds.iter().any(|(other, _)| *other == symbol) {
+                self.supposed.push(symbol);
+            }
+        }
+    }
+
+    /// Records that the names standing alone in an expression measure this kind of thing.
+    fn mark(&mut self, node: NodeId, kind: Kind, region: Region) {
+        for symbol in bare_symbols(&self.graph, node) {
+            match self.kinds.iter().find(|(other, _)| *other == symbol) {
+                None => self.kinds.push((symbol, kind)),
+                Some((_, before)) if *before == kind => {}
+                Some((_, before)) => {
+                    let name = self.graph.symbol_name(symbol);
+                    let message = format!("`{name}` is a {kind} here, but a {before} before");
+                    self.diagnostics.error(region, message.replace("a angle", "an angle"));
+                }
+            }
+        }
+    }
+}
