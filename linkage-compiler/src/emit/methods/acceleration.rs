@@ -1,0 +1,55 @@
+//! gamma and accelerations.
+
+use quote::quote;
+
+use super::{Kernels, Methods, check_finite, fenced, lines, literal};
+use crate::simplify::schedule::Stage;
+
+impl Methods<'_> {
+    pub(super) fn acceleration(&mut self, kernels: Option<&mut Kernels>) {
+        let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
+        let nu = literal(u);
+        let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
+        let (rate, acceleration) = (self.arguments.rate.clone(), self.arguments.acceleration.clone());
+        let (inputs, coordinates) = (self.types.inputs.clone(), self.types.coordinates.clone());
+        let mut docs = vec!["The quadratic velocity term gamma = `(Psi_q q')_q q'`.".to_owned()];
+        let mut gamma = None;
+        let mut code = None;
+        if let Some(kernels) = kernels {
+            let nodes = kernels.derivation.gamma.clone();
+            docs.extend(fenced(
+                nodes.iter().enumerate().map(|(row, &node)| format!("gamma_{} = {}", row + 1, kernels.text(node))),
+            ));
+            let rates =
+                |methods: &Self, kernels: &Kernels| vec![methods.coordinates(kernels, &quote!(*#rate), |c| c.rate)];
+            let written = self.on_pose(kernels, rates(self, kernels), &[Stage::Return(nodes)]);
+            let (results, body) = (written.results, written.body);
+            gamma = Some((quote!(#body SVector::from([#(#results),*])), written.operations));
+
+            let (unknowns, all) = (kernels.derivation.unknowns.clone(), (0..u + v).collect::<Vec<_>>());
+            let side = kernels.derivation.acceleration_side();
+            let mut stages = kernels.solve(&[(side, kernels.accelerations(&unknowns))]);
+            stages.push(Stage::Return(kernels.variables(&kernels.accelerations(&all))));
+            let mut sources = rates(self, kernels);
+            sources.push(self.inputs(kernels, &acceleration, |c| c.acceleration));
+            let written = self.on_pose(kernels, sources, &stages);
+            let (fields, results, body) = (self.coordinate_fields(), written.results, written.body);
+            let solved: Vec<_> = unknowns.iter().map(|&index| results[index].clone()).collect();
+            let finite = check_finite("acceleration", &solved);
+            code = Some((quote!(#body #finite Ok(#coordinates { #(#fields: #results),* })), written.operations));
+        }
+        let (body, operations) = gamma.unzip();
+        let signature =
+            quote!(#[must_use] pub fn gamma(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>) -> SVector<T, #nu>);
+        self.function(&docs, operations, &signature, body);
+        let (body, operations) = code.unzip();
+        let docs = lines([
+            "The acceleration q'' at the velocity q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
+        ]);
+        let signature = quote!(pub fn acceleration(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>, #acceleration: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
+        self.function(&docs, operations, &signature, body);
+    }
+}

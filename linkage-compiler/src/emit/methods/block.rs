@@ -1,0 +1,110 @@
+//! The `impl` blocks that hold the functions.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::super::Types;
+use super::super::names::ident;
+use super::super::pose::PosePlan;
+use super::super::types::field;
+use super::{Methods, identifiers, imports, literal};
+use crate::derivation::Derivation;
+
+impl Methods<'_> {
+    /// The `impl` blocks, in a scope of their own for the names that they use.
+    pub(super) fn block(self, derivation: Option<&Derivation>, private: &TokenStream) -> TokenStream {
+        let Types { driver, inputs, unknowns, pose, coordinates, .. } = self.types;
+        let text = driver.to_string();
+        let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
+        let (nu, nv) = (literal(u), literal(v));
+        let functions = &self.functions;
+        let written = identifiers(functions);
+        let imports = imports(&written);
+        let members: Vec<Ident> =
+            self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
+        let rest = members.is_empty().then(|| quote!(..));
+        let pose_coordinates = derivation.map(|derivation| self.pose_coordinates(derivation));
+        quote! {
+            const _: () = {
+                use ::core::convert::{From, Into};
+                use ::core::result::Result::{self, Ok};
+                use #private::{#(#imports),*};
+                impl<T: Real> #driver<T> {
+                    /// The name of the mechanism, as errors give it.
+                    pub const NAME: &'static str = #text;
+                    #functions
+                }
+                #pose_coordinates
+                impl<T: Real> Mechanism<T, #nu, #nv> for #driver<T> {
+                    const NAME: &'static str = #text;
+                    type Coordinates = #coordinates<T>;
+                    type Inputs = #inputs<T>;
+                    type Unknowns = #unknowns<T>;
+                    type Pose = #pose<T>;
+                    fn unknowns(q: &Self::Coordinates) -> SVector<T, #nu> {
+                        #unknowns::from(q).into()
+                    }
+                    fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, #nu>) -> Self::Coordinates {
+                        let #unknowns { #(#members,)* #rest } = unknowns.into();
+                        #coordinates { #(#members,)* ..*q }
+                    }
+                    fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose {
+                        self.pose_at(q)
+                    }
+                    fn residual(&self, pose: &Self::Pose) -> SVector<T, #nu> {
+                        self.residual(pose)
+                    }
+                    fn closure_sizes(&self, pose: &Self::Pose) -> SVector<T, #nu> {
+                        self.closure_sizes(pose)
+                    }
+                    fn jacobian_unknowns(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nu> {
+                        self.jacobian_unknowns(pose)
+                    }
+                    fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nv> {
+                        self.jacobian_inputs(pose)
+                    }
+                    fn determinant(&self, pose: &Self::Pose) -> T {
+                        self.determinant(pose)
+                    }
+                    fn solve_jacobian(&self, pose: &Self::Pose, right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error> {
+                        self.solve_jacobian(pose, right)
+                    }
+                }
+            };
+        }
+    }
+
+    /// Angles on request: the coordinates of a pose.
+    pub(super) fn pose_coordinates(&self, derivation: &Derivation) -> TokenStream {
+        let plan = PosePlan::new(derivation, self.arguments.pose.to_string());
+        let Types { pose, coordinates, .. } = self.types;
+        let fields = self.coordinate_fields();
+        let values = derivation.coordinates.iter().enumerate().map(|(index, coordinate)| {
+            match plan.values.iter().find(|(other, _, _)| *other == index) {
+                Some((_, field, _)) => {
+                    let field = ident(field);
+                    quote!(self.#field)
+                }
+                None => {
+                    let angle = plan
+                        .directions
+                        .iter()
+                        .find(|(angle, _)| derivation.graph.as_symbol(*angle) == Some(coordinate.value));
+                    let field = ident(angle.map_or("", |(_, field)| field));
+                    quote!(self.#field.angle())
+                }
+            }
+        });
+        let values: Vec<_> = values.collect();
+        quote! {
+            impl<T: Real> #pose<T> {
+                #[doc = " The coordinates of this position; an angle that is held as its direction alone comes out"]
+                #[doc = " between -pi and pi, at the price of an arc tangent."]
+                #[must_use]
+                pub fn coordinates(&self) -> #coordinates<T> {
+                    #coordinates { #(#fields: #values),* }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! The pose of a position, and the position near a guess.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::super::kernel;
+use super::super::kernel::Given;
+use super::super::names::ident;
+use super::{Arguments, Kernels, Methods, member};
+use crate::graph::{NodeId, SymbolId};
+use crate::simplify::schedule::{Operations, Stage};
+
+impl Methods<'_> {
+    pub(super) fn position(&mut self, kernels: Option<&mut Kernels>) {
+        let Arguments { q, .. } = &self.arguments;
+        let q = q.clone();
+        let (coordinates, pose) = (&self.types.coordinates, &self.types.pose);
+        let signature = quote!(fn pose_at(&self, #q: &#coordinates<T>) -> #pose<T>);
+        let mut operations = None;
+        let body = kernels.map(|kernels| {
+            let mut stages = Vec::new();
+            let values: Vec<NodeId> =
+                kernels.derivation.determinant.iter().map(|determinant| determinant.value).collect();
+            let angles: Vec<NodeId> = kernels.plan.angles().collect();
+            let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
+            let bare = kernels.variables(&bare);
+            stages.push(Stage::Return(values.iter().chain(&angles).chain(&bare).copied().collect()));
+            let sources = vec![self.parameters(), self.coordinates(kernels, &quote!(*#q), |c| c.value)];
+            let given = Given { sources, pose: None };
+            let code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
+            let circular = code.operations.functions + kernels.plan.directions.len();
+            operations = Some(Operations { functions: circular, ..code.operations });
+            let mut results = code.results.into_iter();
+            let mut fields = TokenStream::new();
+            if let (true, Some(value)) = (kernels.is_closed(), if values.is_empty() { None } else { results.next() }) {
+                fields.extend(quote!(determinant: #value,));
+            }
+            for ((_, field), value) in kernels.plan.directions.iter().zip(results.by_ref()) {
+                let field = ident(field);
+                fields.extend(quote!(#field: direction(#value),));
+            }
+            for ((_, field, _), value) in kernels.plan.values.iter().zip(results) {
+                let field = ident(field);
+                let member = member(&field, &value);
+                fields.extend(quote!(#member,));
+            }
+            let body = code.body;
+            quote!(#body #pose { #fields })
+        });
+        let docs = ["The position at these coordinates, ready for use: one sine and cosine for each angle.".to_owned()];
+        self.function(&docs, operations, &quote!(#[must_use] pub #signature), body);
+
+        // The name of a function is never that of a `let`, so the trait's can be called beside it.
+        let (guess, solution) = (quote!(&#coordinates<T>), quote!(Solution<#coordinates<T>>));
+        let docs = [
+            "The position near `guess` whose inputs are those of `guess`, by Newton's method.".to_owned(),
+            String::new(),
+            "# Errors".to_owned(),
+            "`NotConverged` if no position is found, `NotFinite` if a number is not finite.".to_owned(),
+        ];
+        self.function(
+            &docs,
+            None,
+            &quote!(pub fn solve(&self, guess: #guess) -> Result<#solution, Error>),
+            Some(quote!(newton(self, guess))),
+        );
+    }
+}

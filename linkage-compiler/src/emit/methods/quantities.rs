@@ -1,0 +1,152 @@
+//! Points and outputs: value, rate, acceleration and their own velocity ratios.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::super::names::{ident, unique};
+use super::super::types::field;
+use super::{
+    Family, Kernels, Methods, bind, check_finite, columns_of, component_names, fenced, lines, literal, member,
+};
+use crate::derivation::Quantity;
+use crate::graph::{NodeId, Number};
+use crate::simplify::schedule::Stage;
+
+impl Methods<'_> {
+    pub(super) fn quantities(&mut self, kernels: Option<&mut Kernels>, family: Family) {
+        let (names, group, word) = match family {
+            Family::Points => (
+                self.mechanism.points.iter().map(|p| field(&p.name)).collect::<Vec<_>>(),
+                self.types.points.clone(),
+                "point",
+            ),
+            Family::Outputs => {
+                (self.mechanism.outputs.iter().map(|o| field(&o.name)).collect(), self.types.outputs.clone(), "output")
+            }
+        };
+        if names.is_empty() {
+            return;
+        }
+        let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
+        let (rate, acceleration) = (self.arguments.rate.clone(), self.arguments.acceleration.clone());
+        let coordinates = self.types.coordinates.clone();
+        let v = self.driver.inputs.len();
+        let nv = literal(v);
+        let item = if family == Family::Points { quote!(Vector2<T>) } else { quote!(T) };
+        let quantities = |kernels: &Kernels| -> Vec<Quantity> {
+            match family {
+                Family::Points => kernels.derivation.points.clone(),
+                Family::Outputs => kernels.derivation.outputs.clone(),
+            }
+        };
+        let dimension = if family == Family::Points { 2 } else { 1 };
+        let rows = literal(dimension);
+        let build = |results: &[TokenStream]| -> TokenStream {
+            let values = results.chunks(dimension).map(|parts| match parts {
+                [x, y] => quote!(Vector2::new(#x, #y)),
+                parts => quote!(#(#parts)*),
+            });
+            let members = names.iter().zip(values).map(|(name, value)| member(name, &value));
+            quote!(#group { #(#members),* })
+        };
+        let what = if family == Family::Points { "positions of the points" } else { "values of the outputs" };
+        type Part = fn(&Quantity) -> &Vec<NodeId>;
+        let kinds: [(String, String, usize, Part); 3] = [
+            (format!("{word}s"), format!("The {what}."), 0, |quantity| &quantity.value),
+            (format!("{word}_velocities"), format!("The rates of the {word}s at the velocity q'."), 1, |quantity| {
+                &quantity.rate
+            }),
+            (
+                format!("{word}_accelerations"),
+                format!("The accelerations of the {word}s at the velocity q' and the acceleration q''."),
+                2,
+                |quantity| &quantity.acceleration,
+            ),
+        ];
+        for (name, meaning, order, part) in kinds {
+            let code = kernels.as_deref().map(|kernels| {
+                let nodes: Vec<NodeId> =
+                    quantities(kernels).iter().flat_map(|quantity| part(quantity).clone()).collect();
+                let mut sources = Vec::new();
+                if order > 0 {
+                    sources.push(self.coordinates(kernels, &quote!(*#rate), |c| c.rate));
+                }
+                if order > 1 {
+                    sources.push(self.coordinates(kernels, &quote!(*#acceleration), |c| c.acceleration));
+                }
+                let mut code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
+                let (bindings, results) = bind(
+                    &code.results,
+                    &component_names(&names, dimension, &["", "_rate", "_acceleration"][order..=order]),
+                    &mut code.taken,
+                );
+                let (body, built, verdict) = (code.body, build(&results), check_finite(&name, &results));
+                (quote!(#body #bindings #verdict Ok(#built)), code.operations)
+            });
+            let (body, operations) = code.unzip();
+            let mut docs = vec![meaning];
+            if order == 0
+                && let Some(kernels) = kernels.as_deref()
+            {
+                let axes: &[&str] = if dimension == 2 { &[".x", ".y"] } else { &[""] };
+                let list = quantities(kernels);
+                let formulas = names.iter().zip(&list).flat_map(|(name, quantity)| {
+                    axes.iter().zip(&quantity.value).map(move |(axis, &node)| (format!("{name}{axis}"), node))
+                });
+                docs.extend(fenced(formulas.map(|(name, node)| format!("{name} = {}", kernels.text(node)))));
+            }
+            docs.extend(lines(["", "# Errors", "`NotFinite` where a formula has no finite value."]));
+            let function = ident(&name);
+            let more = [quote!(, #rate: &#coordinates<T>), quote!(, #acceleration: &#coordinates<T>)];
+            let more = &more[..order];
+            let signature =
+                quote!(pub fn #function(&self, #pose: &#pose_type<T> #(#more)*) -> Result<#group<#item>, Error>);
+            self.function(&docs, operations, &signature, body);
+        }
+        // W_l = l_u W + l_v.
+        let code = kernels.map(|kernels| {
+            let (mut stages, symbols) = kernels.ratio_stages();
+            let mut nodes = Vec::new();
+            for quantity in quantities(kernels) {
+                for (input, column) in symbols.iter().enumerate() {
+                    for row in &quantity.jacobian {
+                        let mut terms = vec![(Number::ONE, row[kernels.derivation.inputs[input]])];
+                        for (position, &symbol) in column.iter().enumerate() {
+                            let ratio = kernels.derivation.graph.variable(symbol);
+                            let entry = row[kernels.derivation.unknowns[position]];
+                            terms.push((Number::ONE, kernels.derivation.graph.multiply(entry, ratio)));
+                        }
+                        nodes.push(kernels.derivation.graph.sum(&terms));
+                    }
+                }
+            }
+            // Ratios that no point depends on need not be solved for in closed form.
+            let used = kernels.derivation.graph.symbols_of(&nodes);
+            stages.retain(|stage| !matches!(stage, Stage::Let { symbol, .. } if !used.contains(symbol)));
+            stages.push(Stage::Return(nodes));
+            let mut code = self.on_pose(kernels, Vec::new(), &stages);
+            let (mut values, mut bindings, mut flat) = (Vec::new(), TokenStream::new(), Vec::new());
+            for (name, parts) in names.iter().zip(code.results.chunks(dimension * v)) {
+                let matrix = columns_of(parts, dimension);
+                let ratio = ident(&unique(&mut code.taken, &format!("{name}_ratios")));
+                bindings.extend(quote!(let #ratio = #matrix;));
+                values.push(ratio.clone());
+                flat.push(ratio);
+            }
+            let body = code.body;
+            let checks = flat.iter().map(|ratio| quote!(finite_matrix(Self::NAME, #word, &#ratio)?;));
+            (quote!(#body #bindings #(#checks)* Ok(#group { #(#names: #values),* })), code.operations)
+        });
+        let (body, operations) = code.unzip();
+        let name = ident(&format!("{word}_ratios"));
+        let docs = lines([
+            &format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'."),
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
+        ]);
+        let signature =
+            quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
+        self.function(&docs, operations, &signature, body);
+    }
+}

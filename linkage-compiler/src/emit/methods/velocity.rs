@@ -1,0 +1,86 @@
+//! Linear systems in J: velocity ratios and velocities.
+
+use quote::quote;
+
+use super::super::kernel::Source;
+use super::{Kernels, Methods, check_finite, columns_of, lines, literal};
+use crate::graph::SymbolId;
+use crate::simplify::schedule::Stage;
+
+impl Methods<'_> {
+    pub(super) fn velocity(&mut self, mut kernels: Option<&mut Kernels>) {
+        let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
+        let (nu, nv) = (literal(u), literal(v));
+        let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
+        let (rate, right) = (self.arguments.rate.clone(), self.arguments.right.clone());
+        let (inputs, coordinates) = (self.types.inputs.clone(), self.types.coordinates.clone());
+
+        let code = kernels.as_deref_mut().map(|kernels| {
+            let symbols: Vec<SymbolId> = kernels
+                .derivation
+                .unknowns
+                .clone()
+                .iter()
+                .map(|&index| {
+                    let name = format!("{}_part", kernels.derivation.coordinates[index].name);
+                    kernels.derivation.graph.symbol(name)
+                })
+                .collect();
+            let sides: Vec<SymbolId> =
+                (0..u).map(|row| kernels.derivation.graph.symbol(format!("right_{}", row + 1))).collect();
+            let side = kernels.variables(&sides);
+            let mut stages = kernels.solve(&[(side, symbols.clone())]);
+            stages.push(Stage::Return(kernels.variables(&symbols)));
+            let fields = sides.iter().map(|&side| (String::new(), side)).collect();
+            let source = Source { from: quote!(#right.data.0), of: None, fields };
+            let code = self.on_pose(kernels, vec![source], &stages);
+            let (results, body) = (code.results, code.body);
+            (quote!(#body Ok(SVector::from([#(#results),*]))), code.operations)
+        });
+        let (body, operations) = code.unzip();
+        let docs = lines(["The x of J x = `right`.", "", "# Errors", "`Singular` where J has no inverse."]);
+        let signature = quote!(pub fn solve_jacobian(&self, #pose: &#pose_type<T>, #right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error>);
+        self.function(&docs, operations, &signature, body);
+
+        let code = kernels.as_deref_mut().map(|kernels| {
+            let (mut stages, symbols) = kernels.ratio_stages();
+            let flat: Vec<SymbolId> = symbols.into_iter().flatten().collect();
+            stages.push(Stage::Return(kernels.variables(&flat)));
+            let code = self.on_pose(kernels, Vec::new(), &stages);
+            let (matrix, body) = (columns_of(&code.results, u), code.body);
+            (quote!(#body Ok(#matrix)), code.operations)
+        });
+        let (body, operations) = code.unzip();
+        let meaning = if v == 1 {
+            "The velocity ratios W = -J^-1 A with u' = W v'; for one input they are the transmission ratios."
+        } else {
+            "The velocity ratios W = -J^-1 A with u' = W v': the rate of each unknown for a unit rate of each input."
+        };
+        let docs = lines([meaning, "", "# Errors", "`Singular` where J has no inverse."]);
+        let signature =
+            quote!(pub fn velocity_ratios(&self, #pose: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
+        self.function(&docs, operations, &signature, body);
+
+        let code = kernels.map(|kernels| {
+            let (unknowns, all) = (kernels.derivation.unknowns.clone(), (0..u + v).collect::<Vec<_>>());
+            let side = kernels.derivation.velocity_side();
+            let mut stages = kernels.solve(&[(side, kernels.rates(&unknowns))]);
+            stages.push(Stage::Return(kernels.variables(&kernels.rates(&all))));
+            let sources = vec![self.inputs(kernels, &rate, |c| c.rate)];
+            let code = self.on_pose(kernels, sources, &stages);
+            let (fields, results, body) = (self.coordinate_fields(), code.results, code.body);
+            let solved: Vec<_> = unknowns.iter().map(|&index| results[index].clone()).collect();
+            let finite = check_finite("velocity", &solved);
+            (quote!(#body #finite Ok(#coordinates { #(#fields: #results),* })), code.operations)
+        });
+        let (body, operations) = code.unzip();
+        let docs = lines([
+            "The velocity q' at the input rates v'.",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
+        ]);
+        let signature = quote!(pub fn velocity(&self, #pose: &#pose_type<T>, #rate: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
+        self.function(&docs, operations, &signature, body);
+    }
+}
