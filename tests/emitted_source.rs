@@ -63,7 +63,7 @@ fn passes_pedantic_lints() {
     fs::write(folder.join("src/lib.rs"), library).unwrap();
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let output = Command::new(cargo)
-        .args(["clippy", "--offline", "--quiet", "--color=never", "--target-dir"])
+        .args(["clippy", "--quiet", "--color=never", "--target-dir"])
         .arg(folder.join("target"))
         .current_dir(&folder)
         .env_remove("RUSTFLAGS")

@@ -7,6 +7,7 @@ linkage! {
         unknown theta2, theta3, theta4;
 
         loop a@theta1 + b@theta2 = e@0 + d@theta4 + c@theta3;
+        /// The gear train.
         equation theta4 = ratio * theta1 + phase;
 
         point P = a@theta1 + b@theta2;

@@ -2,7 +2,6 @@
 
 use proc_macro2::Span;
 
-use super::lower::Choice;
 use super::scope::Scope;
 use super::{Driver, Mechanism};
 use crate::diagnostics::Diagnostics;
@@ -41,7 +40,7 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// Closures and unknowns are as many, and every unknown can be solved for.
-pub(super) fn closures(mechanism: &Mechanism, choice: Choice, diagnostics: &mut Diagnostics) {
+pub(super) fn closures(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     let rows: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
     let at = |driver: &Driver| -> Span { driver.name.span() };
     for driver in &mechanism.drivers {
@@ -50,7 +49,7 @@ pub(super) fn closures(mechanism: &Mechanism, choice: Choice, diagnostics: &mut 
             let loops = mechanism.closures.iter().filter(|closure| closure.rows.len() == 2).count();
             let equations = mechanism.closures.len() - loops;
             let last = driver.unknowns.last().map(|&index| mechanism.coordinates[index].name.span);
-            let span = if choice == Choice::Open { at(driver) } else { last.unwrap_or_else(|| at(driver)) };
+            let span = if mechanism.is_driven_by_choice() { at(driver) } else { last.unwrap_or_else(|| at(driver)) };
             let advice = if rows < unknowns {
                 "close another loop, or make unknowns inputs"
             } else {

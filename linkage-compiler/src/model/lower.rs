@@ -1,6 +1,7 @@
 //! Statements: names first, then what they say, then the checks on the whole.
 
 use proc_macro2::Ident;
+use syn::Attribute;
 
 use super::expression::Lowering;
 use super::kind::Kind;
@@ -39,7 +40,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
     lowering.define(&statements, &mut result);
-    let choice = lowering.drivers(&statements, &mut result, roles);
+    lowering.drivers(&statements, &mut result, roles);
     let Lowering { graph, scope, kinds, supposed, diagnostics, .. } = lowering;
     result.graph = graph;
     let kind_of = |symbol| match kinds.iter().find(|(other, _)| *other == symbol) {
@@ -57,7 +58,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
     if complete && diagnostics.is_empty() {
         check::usage(&result, &scope, diagnostics);
         check::fields(&result, diagnostics);
-        check::closures(&result, choice, diagnostics);
+        check::closures(&result, diagnostics);
     }
     result
 }
@@ -140,12 +141,12 @@ impl Lowering<'_> {
                         }
                     }
                 }
-                StatementKind::Loop { left, right } => self.close_loop(*left, *right, result),
+                StatementKind::Loop { left, right } => self.close_loop(attributes, *left, *right, result),
                 StatementKind::Equation { left, right } => {
                     let (a, b) = (self.scalar(*left), self.scalar(*right));
                     if let (Some(a), Some(b)) = (a, b) {
                         let row = self.graph.subtract(a, b);
-                        self.close(*left, *right, vec![row], result);
+                        self.close(attributes, *left, *right, vec![row], result);
                     }
                 }
                 StatementKind::Let { name, value } => {
@@ -181,17 +182,23 @@ impl Lowering<'_> {
         }
     }
 
-    fn close_loop(&mut self, left: ExpressionId, right: ExpressionId, result: &mut Mechanism) {
+    fn close_loop(
+        &mut self,
+        attributes: Vec<Attribute>,
+        left: ExpressionId,
+        right: ExpressionId,
+        result: &mut Mechanism,
+    ) {
         let (a, b) = (self.value(left), self.value(right));
         let region = self.expressions.region(left).to(self.expressions.region(right));
         match (a, b) {
             (Value::Vector(ax, ay), Value::Vector(bx, by)) => {
                 let rows = vec![self.graph.subtract(ax, bx), self.graph.subtract(ay, by)];
-                self.close(left, right, rows, result);
+                self.close(attributes, left, right, rows, result);
             }
             // `loop … = 0`: the zero vector.
             (Value::Vector(x, y), Value::Scalar(zero)) if self.graph.is_zero(zero) => {
-                self.close(left, right, vec![x, y], result);
+                self.close(attributes, left, right, vec![x, y], result);
             }
             (Value::Scalar(_), Value::Scalar(_)) => {
                 self.diagnostics
@@ -203,21 +210,28 @@ impl Lowering<'_> {
         }
     }
 
-    fn close(&mut self, left: ExpressionId, right: ExpressionId, rows: Vec<NodeId>, result: &mut Mechanism) {
+    fn close(
+        &mut self,
+        attributes: Vec<Attribute>,
+        left: ExpressionId,
+        right: ExpressionId,
+        rows: Vec<NodeId>,
+        result: &mut Mechanism,
+    ) {
         let region = self.expressions.region(left).to(self.expressions.region(right));
         if rows.iter().all(|&row| self.graph.is_zero(row)) {
             self.diagnostics.error(region, "both sides are the same: this closes nothing");
             return;
         }
-        result.closures.push(Closure { span: region.first, rows });
+        result.closures.push(Closure { span: region.first, attributes, rows });
     }
 
-    fn drivers(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: Roles) -> Choice {
+    fn drivers(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: Roles) {
         let Roles { inputs, unknowns, open } = roles;
-        let mut choice = Choice::Fixed;
+        let mut chosen = false;
         for statement in statements {
             let StatementKind::Drive { name, by } = &statement.kind else { continue };
-            choice = Choice::Open;
+            chosen = true;
             let mut driven = inputs.clone();
             for coordinate in by {
                 let text = coordinate.to_string();
@@ -247,7 +261,7 @@ impl Lowering<'_> {
                 unknowns,
             });
         }
-        if choice == Choice::Fixed {
+        if !chosen {
             if let Some(&first) = open.first() {
                 let name = &result.coordinates[first].name;
                 self.diagnostics.error(
@@ -259,13 +273,5 @@ impl Lowering<'_> {
             let unknowns = unknowns.into_iter().chain(open).collect();
             result.drivers.push(Driver { name, attributes: Vec::new(), inputs, unknowns });
         }
-        choice
     }
-}
-
-/// Whether `drive` statements choose the inputs.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Choice {
-    Fixed,
-    Open,
 }

@@ -53,6 +53,7 @@ pub struct Coordinate {
 /// A closure: two rows if a `loop`, one if an `equation`; each row is zero when closed.
 pub struct Closure {
     pub span: Span,
+    pub attributes: Vec<Attribute>,
     pub rows: Vec<NodeId>,
 }
 

@@ -2,6 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
+use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use super::super::names::ident;
 use super::{Kernels, Methods, columns_of, fenced, literal};
@@ -49,6 +50,9 @@ impl Methods<'_> {
         let residual = derivation.map(|derivation| &derivation.residual);
         let mut docs = vec!["The closures Psi(q), zero where the mechanism is closed.".to_owned()];
         docs.extend(formula(residual, "Psi"));
+        for closure in &self.mechanism.closures {
+            docs.extend(words(&closure.attributes));
+        }
         self.matrix_function(kernels, "residual", &docs, &quote!(SVector<T, #nu>), rows(residual));
         let docs =
             ["The sum of the magnitudes of each closure's terms: what makes a residual small or large.".to_owned()];
@@ -105,4 +109,20 @@ impl Methods<'_> {
         };
         self.function(&docs, None, &signature, body);
     }
+}
+
+/// What the user said of a closure, as a paragraph.
+fn words(attributes: &[Attribute]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("doc")) {
+        if let Meta::NameValue(MetaNameValue { value: Expr::Lit(ExprLit { lit: Lit::Str(text), .. }), .. }) =
+            &attribute.meta
+        {
+            lines.push(text.value().trim().to_owned());
+        }
+    }
+    if !lines.is_empty() {
+        lines.insert(0, String::new());
+    }
+    lines
 }
