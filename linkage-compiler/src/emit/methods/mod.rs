@@ -278,7 +278,7 @@ impl Methods<'_> {
             lines.push(String::new());
             lines.push(format!(" Operations: {}.", count(operations)));
         }
-        let body = body.unwrap_or_else(|| quote!(::core::unimplemented!()));
+        let body = body.unwrap_or_else(|| quote!(::core::unreachable!()));
         let signature = without_unused(signature, &identifiers(&body), &self.reserved);
         self.functions.extend(quote! {
             #(#[doc = #lines])*
