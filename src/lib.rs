@@ -24,6 +24,6 @@ pub mod __private {
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
         Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Solution, direction, finite, finite_matrix,
-        newton, product_of_pivots, real, regular,
+        newton, product_of_pivots, real, regular, same_signs,
     };
 }

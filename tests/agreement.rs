@@ -68,11 +68,11 @@ macro_rules! agreement {
                     let scale = sizes.iter().copied().fold(0.0, f64::max);
                     let residual = oracle.values(&sample, &d.residual);
                     all_close("residual", m.residual(&pose).as_slice(), &residual, scale, TOLERANCE);
-                    let full = oracle.matrix(&sample, &d.jacobian);
+                    let full = oracle.matrix(&sample, &d.jacobian, d.coordinates.len());
                     all_close("jacobian", m.jacobian(&pose).as_slice(), full.as_slice(), 0.0, TOLERANCE);
-                    let j = oracle.matrix(&sample, &j_rows);
+                    let j = oracle.matrix(&sample, &j_rows, d.unknowns.len());
                     all_close("J", m.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0, TOLERANCE);
-                    let a = oracle.matrix(&sample, &a_rows);
+                    let a = oracle.matrix(&sample, &a_rows, d.inputs.len());
                     all_close("A", m.jacobian_inputs(&pose).as_slice(), a.as_slice(), 0.0, TOLERANCE);
                     let gamma = oracle.values(&sample, &d.gamma);
                     all_close("gamma", m.gamma(&pose, &rate).as_slice(), &gamma, 0.0, TOLERANCE);

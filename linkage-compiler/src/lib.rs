@@ -51,8 +51,8 @@ pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
         .drivers
         .iter()
         .filter_map(|driver| {
-            let block = structure::order(&mechanism.incidence(driver), driver.unknowns.len()).ok()?;
-            Some(derivation::derive(mechanism, driver, block))
+            let blocks = structure::order(&mechanism.incidence(driver), driver.unknowns.len()).ok()?;
+            Some(derivation::derive(mechanism, driver, blocks))
         })
         .collect()
 }

@@ -15,6 +15,8 @@ pub enum Error {
     Singular {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
+        /// The unknowns of the group that is singular; the groups before it are regular.
+        group: &'static str,
         /// How regular the Jacobian is: its determinant beside the largest value that its formula
         /// could take at these lengths; of more than two unknowns the smallest pivot of the
         /// equilibrated Jacobian. 1 is far from singular, 0 is singular.
@@ -44,12 +46,10 @@ pub enum Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Singular { mechanism, regularity } => {
-                write!(
-                    f,
-                    "{mechanism} is in a singular configuration: its Jacobian is regular to {regularity:.1e} only"
-                )
-            }
+            Self::Singular { mechanism, group, regularity } => write!(
+                f,
+                "{mechanism} is in a singular configuration: the Jacobian of {group} is regular to {regularity:.1e} only"
+            ),
             Self::NotConverged { mechanism, iterations, residual, regularity } => write!(
                 f,
                 "no position of {mechanism} found in {iterations} Newton steps: relative residual {residual:.1e}, \

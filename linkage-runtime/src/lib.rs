@@ -18,7 +18,7 @@ pub mod position;
 mod scalar;
 
 pub use error::{Error, finite, finite_matrix};
-pub use linear::{Factorization, product_of_pivots, regular};
+pub use linear::{Factorization, product_of_pivots, regular, same_signs};
 pub use mechanism::Mechanism;
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;

@@ -10,25 +10,36 @@ use crate::{Error, Real, real};
 /// rounding, a difference of two angles by two).
 const ROUNDINGS: f64 = 4.0;
 
-/// Refuses a determinant that is zero beside `size`, the largest value that its formula could take,
-/// whose sign does not matter.
+/// Refuses the determinant of a group of unknowns that is zero beside `size`, the largest value that
+/// its formula could take, whose sign does not matter.
 ///
 /// # Errors
 /// [`Error::Singular`], or [`Error::NotFinite`] if either is not a finite number.
 #[inline]
-pub fn regular<T: Real>(mechanism: &'static str, determinant: T, size: T) -> Result<(), Error> {
+pub fn regular<T: Real>(
+    mechanism: &'static str,
+    group: &'static str,
+    determinant: T,
+    size: T,
+) -> Result<(), Error> {
     if determinant.abs() > real::<T>(ROUNDINGS) * T::default_epsilon() * size.abs() && determinant.is_finite() {
         return Ok(());
     }
-    Err(singular(mechanism, determinant, size))
+    Err(singular(mechanism, group, determinant, size))
+}
+
+/// Whether numbers have the same signs, one by one; zero counts as positive.
+#[inline]
+pub fn same_signs<T: Real, const N: usize>(these: [T; N], those: [T; N]) -> bool {
+    these.into_iter().zip(those).all(|(this, that)| (this >= T::zero()) == (that >= T::zero()))
 }
 
 #[cold]
-fn singular<T: Real>(mechanism: &'static str, determinant: T, size: T) -> Error {
+fn singular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, size: T) -> Error {
     if determinant.is_finite() && size.is_finite() {
         // A formula that vanishes with its own size is singular through and through.
         let regularity = if size.is_zero() { 0.0 } else { to_f64((determinant / size).abs()) };
-        Error::Singular { mechanism, regularity }
+        Error::Singular { mechanism, group, regularity }
     } else {
         Error::NotFinite { mechanism, quantity: "the Jacobian" }
     }
@@ -57,7 +68,12 @@ where
     /// # Errors
     /// [`Error::Singular`] if the smallest pivot is no larger than its rounding error,
     /// [`Error::NotFinite`] if an entry is not a finite number.
-    pub fn new(mechanism: &'static str, columns: [[T; N]; N], sizes: [T; N]) -> Result<Self, Error> {
+    pub fn new(
+        mechanism: &'static str,
+        group: &'static str,
+        columns: [[T; N]; N],
+        sizes: [T; N],
+    ) -> Result<Self, Error> {
         let mut matrix = SMatrix::<T, N, N>::from(columns);
         let mut row_factors = [T::one(); N];
         for (row, (factor, size)) in row_factors.iter_mut().zip(sizes).enumerate() {
@@ -83,7 +99,7 @@ where
         if smallest > real::<T>(roundings) * T::default_epsilon() {
             Ok(Self { factors, rows: row_factors, columns: column_factors })
         } else {
-            Err(Error::Singular { mechanism, regularity: to_f64(smallest) })
+            Err(Error::Singular { mechanism, group, regularity: to_f64(smallest) })
         }
     }
 
@@ -124,11 +140,11 @@ where
     (0..N).map(|index| packed[(index, index)].abs()).fold(T::max_value().unwrap_or_else(T::one), |a, b| a.min(b))
 }
 
-/// det J of a block of more than two unknowns.
+/// The determinant of a block of more than two unknowns, given by columns.
 #[must_use]
-pub fn product_of_pivots<T: Real, const N: usize>(jacobian: SMatrix<T, N, N>) -> T
+pub fn product_of_pivots<T: Real, const N: usize>(columns: [[T; N]; N]) -> T
 where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
-    jacobian.lu().determinant()
+    SMatrix::<T, N, N>::from(columns).lu().determinant()
 }

@@ -35,6 +35,9 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, U, V>;
     /// det J.
     fn determinant(&self, pose: &Self::Pose) -> T;
+    /// Whether the determinant of each block of J has the same sign at both positions: if not, they
+    /// belong to different assembly branches.
+    fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool;
     /// The x of J x = `right`.
     ///
     /// # Errors

@@ -14,8 +14,8 @@ pub struct Solution<Q> {
     pub iterations: usize,
     /// The largest residual left, beside the sum of the magnitudes of its terms.
     pub residual: f64,
-    /// Whether det J has the sign it had at the guess: if not, the position belongs to another
-    /// assembly branch than the guess, or the guess lay beyond a dead point.
+    /// Whether the determinant of each block of J has the sign it had at the guess: if not, the
+    /// position belongs to another assembly branch than the guess, or the guess lay beyond a dead point.
     pub same_branch: bool,
 }
 
@@ -73,7 +73,7 @@ where
     if !here.size.is_finite() {
         return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the residual" });
     }
-    let start = mechanism.determinant(&here.pose);
+    let start = mechanism.pose_at(guess);
     let mut iterations = 0;
     while iterations < MOST_ITERATIONS {
         let arrived = here.size <= enough;
@@ -88,8 +88,7 @@ where
             if arrived {
                 break;
             }
-            let determinant = mechanism.determinant(&here.pose);
-            return Err(failure::<M, T, U, V>(iterations, here.size, measure(mechanism, &here.pose, determinant)));
+            return Err(failure::<M, T, U, V>(iterations, here.size, measure(mechanism, &here.pose)));
         };
         here = next;
         iterations += 1;
@@ -97,15 +96,14 @@ where
             break;
         }
     }
-    let determinant = mechanism.determinant(&here.pose);
     if here.size > enough {
-        return Err(failure::<M, T, U, V>(iterations, here.size, measure(mechanism, &here.pose, determinant)));
+        return Err(failure::<M, T, U, V>(iterations, here.size, measure(mechanism, &here.pose)));
     }
     Ok(Solution {
         coordinates: here.q,
         iterations,
         residual: to_f64(here.size),
-        same_branch: (start >= T::zero()) == (determinant >= T::zero()),
+        same_branch: mechanism.same_branch(&start, &here.pose),
     })
 }
 
@@ -171,8 +169,8 @@ fn regularity(error: &Error) -> f64 {
 fn measure<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
     mechanism: &M,
     pose: &M::Pose,
-    determinant: T,
 ) -> f64 {
+    let determinant = mechanism.determinant(pose);
     let jacobian = mechanism.jacobian_unknowns(pose);
     let product = jacobian.column_iter().fold(T::one(), |product, column| product * column.norm());
     if product > T::zero() { to_f64(determinant.abs() / product) } else { 0.0 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use linkage_compiler::derivation::Derivation;
+use linkage_compiler::derivation::{Derivation, Row};
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::model::{Kind, Mechanism};
 use nalgebra::DMatrix;
@@ -67,9 +67,16 @@ impl Oracle {
         graph.evaluate(nodes, |symbol| sample.values[graph.symbol_name(symbol)])
     }
 
-    pub fn matrix(&self, sample: &Sample, rows: &[Vec<NodeId>]) -> DMatrix<f64> {
-        let flat: Vec<NodeId> = rows.iter().flatten().copied().collect();
-        DMatrix::from_row_slice(rows.len(), rows[0].len(), &self.values(sample, &flat))
+    /// A matrix of `columns` columns.
+    pub fn matrix(&self, sample: &Sample, rows: &[Row], columns: usize) -> DMatrix<f64> {
+        let mut matrix = DMatrix::zeros(rows.len(), columns);
+        for (index, row) in rows.iter().enumerate() {
+            let nodes: Vec<NodeId> = row.values().copied().collect();
+            for (&column, value) in row.keys().zip(self.values(sample, &nodes)) {
+                matrix[(index, column)] = value;
+            }
+        }
+        matrix
     }
 }
 

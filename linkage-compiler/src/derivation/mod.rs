@@ -11,8 +11,11 @@ use std::collections::BTreeMap;
 
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism};
-use crate::structure::{Block, Method};
+use crate::structure::{self, Method};
 pub use linear::solve_closed;
+
+/// The derivatives of one scalar by the coordinates, by their place in q; those not named are zero.
+pub type Row = BTreeMap<usize, NodeId>;
 
 /// A coordinate with the names of its velocity and acceleration.
 #[derive(Debug, Clone)]
@@ -28,8 +31,8 @@ pub struct Coordinate {
 pub struct Quantity {
     /// x and y of a point, the one value of an output.
     pub value: Vec<NodeId>,
-    /// d value / d q, one row a component, one column a coordinate.
-    pub jacobian: Vec<Vec<NodeId>>,
+    /// d value / d q, one row a component.
+    pub jacobian: Vec<Row>,
     /// In terms of q and q'.
     pub rate: Vec<NodeId>,
     /// In terms of q, q' and q''.
@@ -46,6 +49,17 @@ pub struct Determinant {
     pub size: NodeId,
 }
 
+/// Unknowns that are solved together, once all blocks before are solved.
+#[derive(Debug, Clone)]
+pub struct Block {
+    /// Rows of Psi.
+    pub equations: Vec<usize>,
+    /// Places in [`Derivation::unknowns`].
+    pub unknowns: Vec<usize>,
+    /// Of a block in closed form.
+    pub determinant: Option<Determinant>,
+}
+
 /// Everything derived from one mechanism with one choice of independent coordinates.
 #[derive(Debug, Clone)]
 pub struct Derivation {
@@ -59,17 +73,20 @@ pub struct Derivation {
     /// The sum of the magnitudes of each closure's terms: what "small residual" is measured by.
     pub sizes: Vec<NodeId>,
     /// Psi_q.
-    pub jacobian: Vec<Vec<NodeId>>,
-    pub determinant: Option<Determinant>,
+    pub jacobian: Vec<Row>,
+    /// In the order in which they are solved.
+    pub blocks: Vec<Block>,
+    /// Whether det J is the negative of the product of the determinants of the blocks.
+    pub is_odd: bool,
     /// (Psi_q q')_q q'.
     pub gamma: Vec<NodeId>,
     pub points: Vec<Quantity>,
     pub outputs: Vec<Quantity>,
 }
 
-/// Derives a mechanism whose closures the structure stage found solvable as `block`.
+/// Derives a mechanism whose closures the structure stage found solvable in the order of `blocks`.
 #[must_use]
-pub fn derive(mechanism: &Mechanism, driver: &Driver, block: Block) -> Derivation {
+pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Block>) -> Derivation {
     let mut graph = mechanism.graph.clone();
     let order = mechanism.coordinate_order(driver);
     let coordinates: Vec<Coordinate> = order
@@ -84,36 +101,76 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, block: Block) -> Derivatio
             }
         })
         .collect();
-    let position = |index: &usize| order.iter().position(|other| other == index).unwrap_or(0);
-    let unknowns: Vec<usize> = driver.unknowns.iter().map(position).collect();
-    let inputs: Vec<usize> = driver.inputs.iter().map(position).collect();
+    let place: BTreeMap<usize, usize> = order.iter().enumerate().map(|(place, &index)| (index, place)).collect();
+    let unknowns: Vec<usize> = driver.unknowns.iter().map(|index| place[index]).collect();
+    let inputs: Vec<usize> = driver.inputs.iter().map(|index| place[index]).collect();
 
     let residual: Vec<NodeId> = mechanism.closures.iter().flat_map(|closure| closure.rows.clone()).collect();
-    let jacobian = jacobian(&mut graph, &residual, &coordinates);
+    let place_of: Places = coordinates.iter().enumerate().map(|(place, c)| (c.value, place)).collect();
+    let jacobian = jacobian(&mut graph, &residual, &place_of);
     let sizes = residual.iter().map(|&row| magnitude::of(&mut graph, row)).collect();
     // gamma = (Psi_q q')_q q': the derivative along q' of Psi' with q' held.
     let rates = along_rates(&mut graph, &coordinates);
     let psi_rate = graph.differentiate(&residual, &rates);
     let gamma = graph.differentiate(&psi_rate, &rates);
 
-    let determinant = (block.method == Method::ClosedForm).then(|| {
-        let entry = |row: usize, column: usize| jacobian[row][unknowns[column]];
-        let value = match block.size {
-            1 => entry(0, 0),
-            _ => crate::simplify::determinant(&mut graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
-        };
-        let size = magnitude::of_determinant(&mut graph, value);
-        Determinant { value, symbol: graph.symbol("determinant"), size }
-    });
-    let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates);
+    let is_odd = structure::is_odd(&blocks);
+    let mut blocks: Vec<Block> =
+        blocks.into_iter().map(|block| self::block(&mut graph, &jacobian, &unknowns, block)).collect();
+    name_determinants(&mut graph, &mut blocks);
+    let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates, &place_of);
     let points = mechanism.points.iter().map(|point| quantity(vec![point.x, point.y])).collect();
     let outputs = mechanism.outputs.iter().map(|output| quantity(vec![output.value])).collect();
-    Derivation { coordinates, unknowns, inputs, residual, sizes, jacobian, determinant, gamma, points, outputs, graph }
+    Derivation { coordinates, unknowns, inputs, residual, sizes, jacobian, blocks, is_odd, gamma, points, outputs, graph }
 }
 
-fn jacobian(graph: &mut Graph, rows: &[NodeId], coordinates: &[Coordinate]) -> Vec<Vec<NodeId>> {
-    let columns: Vec<_> = coordinates.iter().map(|coordinate| graph.partial(rows, coordinate.value)).collect();
-    (0..rows.len()).map(|row| columns.iter().map(|column| column[row]).collect()).collect()
+/// The place of each coordinate in q.
+type Places = BTreeMap<SymbolId, usize>;
+
+fn block(graph: &mut Graph, jacobian: &[Row], unknowns: &[usize], block: structure::Block) -> Block {
+    let method = block.method();
+    let structure::Block { equations, unknowns: places } = block;
+    let zero = graph.zero();
+    let entry = |row: usize, column: usize| {
+        jacobian[equations[row]].get(&unknowns[places[column]]).copied().unwrap_or(zero)
+    };
+    let determinant = (method == Method::ClosedForm).then(|| {
+        let value = match places.len() {
+            1 => entry(0, 0),
+            _ => crate::simplify::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
+        };
+        let size = magnitude::of_determinant(graph, value);
+        Determinant { value, symbol: SymbolId::NONE, size }
+    });
+    Block { equations, unknowns: places, determinant }
+}
+
+/// A mechanism with one determinant calls it so; of several each has the number of its block.
+fn name_determinants(graph: &mut Graph, blocks: &mut [Block]) {
+    let variable = |graph: &Graph, block: &Block| {
+        block.determinant.is_some_and(|determinant| graph.constant_value(determinant.value).is_none())
+    };
+    let single = blocks.iter().filter(|block| variable(graph, block)).count() == 1;
+    for (number, block) in blocks.iter_mut().enumerate() {
+        let name = match (single, variable(graph, block)) {
+            (true, true) => "determinant".to_owned(),
+            _ => format!("determinant_{}", number + 1),
+        };
+        if let Some(determinant) = &mut block.determinant {
+            determinant.symbol = graph.symbol(name);
+        }
+    }
+}
+
+fn jacobian(graph: &mut Graph, rows: &[NodeId], places: &Places) -> Vec<Row> {
+    rows.iter()
+        .map(|&row| {
+            let of = graph.symbols_of(&[row]);
+            let entries = of.into_iter().filter_map(|symbol| Some((*places.get(&symbol)?, graph.partial(&[row], symbol)[0])));
+            let entries: Vec<_> = entries.collect();
+            entries.into_iter().filter(|(_, entry)| !graph.is_zero(*entry)).collect()
+        })
+        .collect()
 }
 
 /// q -> q'.
@@ -121,8 +178,8 @@ fn along_rates(graph: &mut Graph, coordinates: &[Coordinate]) -> BTreeMap<Symbol
     coordinates.iter().map(|coordinate| (coordinate.value, graph.variable(coordinate.rate))).collect()
 }
 
-fn quantity(graph: &mut Graph, value: Vec<NodeId>, coordinates: &[Coordinate]) -> Quantity {
-    let jacobian = jacobian(graph, &value, coordinates);
+fn quantity(graph: &mut Graph, value: Vec<NodeId>, coordinates: &[Coordinate], places: &Places) -> Quantity {
+    let jacobian = jacobian(graph, &value, places);
     let mut seeds = along_rates(graph, coordinates);
     let rate = graph.differentiate(&value, &seeds);
     for coordinate in coordinates {
@@ -132,49 +189,90 @@ fn quantity(graph: &mut Graph, value: Vec<NodeId>, coordinates: &[Coordinate]) -
     Quantity { value, jacobian, rate, acceleration }
 }
 
+impl Block {
+    /// The block's part of J, row by row.
+    #[must_use]
+    pub fn matrix(&self, derivation: &Derivation) -> Vec<Vec<Option<NodeId>>> {
+        let columns: Vec<usize> = self.unknowns.iter().map(|&place| derivation.unknowns[place]).collect();
+        let row = |row: &Row| columns.iter().map(|column| row.get(column).copied()).collect();
+        self.equations.iter().map(|&equation| row(&derivation.jacobian[equation])).collect()
+    }
+
+    /// The names of the unknowns, by which errors name the block.
+    #[must_use]
+    pub fn names(&self, derivation: &Derivation) -> String {
+        let name = |&place: &usize| derivation.coordinates[derivation.unknowns[place]].name.as_str();
+        self.unknowns.iter().map(name).collect::<Vec<_>>().join(", ")
+    }
+}
+
 impl Derivation {
     /// J, the columns of the unknowns.
     #[must_use]
-    pub fn jacobian_unknowns(&self) -> Vec<Vec<NodeId>> {
+    pub fn jacobian_unknowns(&self) -> Vec<Row> {
         self.columns(&self.unknowns)
     }
 
     /// A, the columns of the inputs.
     #[must_use]
-    pub fn jacobian_inputs(&self) -> Vec<Vec<NodeId>> {
+    pub fn jacobian_inputs(&self) -> Vec<Row> {
         self.columns(&self.inputs)
     }
 
-    fn columns(&self, columns: &[usize]) -> Vec<Vec<NodeId>> {
-        self.jacobian.iter().map(|row| columns.iter().map(|&column| row[column]).collect()).collect()
+    fn columns(&self, columns: &[usize]) -> Vec<Row> {
+        let new: BTreeMap<usize, usize> = columns.iter().enumerate().map(|(new, &old)| (old, new)).collect();
+        let row = |row: &Row| row.iter().filter_map(|(old, &entry)| Some((*new.get(old)?, entry))).collect();
+        self.jacobian.iter().map(row).collect()
     }
 
     /// -A e_j: the right side of J W_j = -A e_j.
     pub fn ratio_side(&mut self, input: usize) -> Vec<NodeId> {
         let column = self.inputs[input];
-        let entries: Vec<_> = self.jacobian.iter().map(|row| row[column]).collect();
+        let zero = self.graph.zero();
+        let entries: Vec<_> = self.jacobian.iter().map(|row| row.get(&column).copied().unwrap_or(zero)).collect();
         entries.into_iter().map(|entry| self.graph.negate(entry)).collect()
     }
 
     /// -A v': the right side of J u' = -A v'.
     pub fn velocity_side(&mut self) -> Vec<NodeId> {
-        let rates = self.inputs.iter().map(|&input| self.coordinates[input].rate).collect::<Vec<_>>();
-        (0..self.residual.len()).map(|row| self.minus_inputs(row, &rates, None)).collect()
+        (0..self.residual.len()).map(|row| self.minus_inputs(row, |c| c.rate, None)).collect()
     }
 
     /// -(A v'' + gamma): the right side of J u'' = -(A v'' + gamma).
     pub fn acceleration_side(&mut self) -> Vec<NodeId> {
-        let rates = self.inputs.iter().map(|&input| self.coordinates[input].acceleration).collect::<Vec<_>>();
-        (0..self.residual.len()).map(|row| self.minus_inputs(row, &rates, Some(self.gamma[row]))).collect()
+        (0..self.residual.len()).map(|row| self.minus_inputs(row, |c| c.acceleration, Some(self.gamma[row]))).collect()
     }
 
-    fn minus_inputs(&mut self, row: usize, inputs: &[SymbolId], plus: Option<NodeId>) -> NodeId {
+    fn minus_inputs(&mut self, row: usize, symbol: fn(&Coordinate) -> SymbolId, plus: Option<NodeId>) -> NodeId {
         let mut terms: Vec<_> = plus.map(|term| (Number::MINUS_ONE, term)).into_iter().collect();
-        for (&column, &symbol) in self.inputs.iter().zip(inputs) {
-            let rate = self.graph.variable(symbol);
-            let term = self.graph.multiply(self.jacobian[row][column], rate);
-            terms.push((Number::MINUS_ONE, term));
+        for &column in &self.inputs {
+            if let Some(&entry) = self.jacobian[row].get(&column) {
+                let rate = self.graph.variable(symbol(&self.coordinates[column]));
+                terms.push((Number::MINUS_ONE, self.graph.multiply(entry, rate)));
+            }
         }
         self.graph.sum(&terms)
+    }
+
+    /// What stays on the right of a block once the unknowns before it are known:
+    /// r - J x, where `solved` holds x by the place of the unknown in q.
+    pub fn remainder(&mut self, equation: usize, right: NodeId, solved: &Row) -> NodeId {
+        let mut terms = vec![(Number::ONE, right)];
+        for (column, entry) in &self.jacobian[equation] {
+            if let Some(&x) = solved.get(column) {
+                terms.push((Number::MINUS_ONE, self.graph.multiply(*entry, x)));
+            }
+        }
+        self.graph.sum(&terms)
+    }
+
+    /// det J as the product of the determinants of the blocks, each by its formula; none if a block
+    /// is not solved in closed form.
+    pub fn determinant(&mut self) -> Option<NodeId> {
+        let values: Option<Vec<NodeId>> =
+            self.blocks.iter().map(|block| block.determinant.map(|determinant| determinant.value)).collect();
+        let product: Vec<_> = values?.into_iter().map(|value| (value, 1)).collect();
+        let product = self.graph.product(&product);
+        Some(if self.is_odd { self.graph.negate(product) } else { product })
     }
 }

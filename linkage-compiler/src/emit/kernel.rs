@@ -10,7 +10,7 @@ use super::names::{Names, ident};
 use super::pose::PosePlan;
 use crate::derivation::Derivation;
 use crate::graph::{Function, NodeId, SymbolId};
-use crate::simplify::schedule::{Line, Operations, Schedule, Stage, Value, schedule};
+use crate::simplify::schedule::{Line, Operations, Schedule, Signed, Stage, Value, schedule};
 
 /// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
 /// fields is used.
@@ -50,14 +50,15 @@ pub(super) fn write(
     let directions: BTreeSet<NodeId> = given.pose.map(|pose| pose.angles().collect()).unwrap_or_default();
     let schedule = schedule(&derivation.graph, stages, &directions, named);
     let own: BTreeSet<SymbolId> = stages.iter().flat_map(introduced).collect();
-    let symbols: BTreeSet<SymbolId> = schedule
+    let used: BTreeSet<SymbolId> = schedule
         .used()
         .into_iter()
         .filter_map(|id| match schedule.value(id) {
-            Value::Symbol(symbol) if !own.contains(symbol) => Some(*symbol),
+            Value::Symbol(symbol) => Some(*symbol),
             _ => None,
         })
         .collect();
+    let symbols: BTreeSet<SymbolId> = used.difference(&own).copied().collect();
     let mut names = Names::new(&derivation.graph, reserved.iter().cloned());
     // In the order of their making: the user's own names come first and stay as they are.
     for &symbol in &symbols {
@@ -70,7 +71,7 @@ pub(super) fn write(
     }
     let mut results = Vec::new();
     for line in &schedule.lines {
-        body.extend(write_line(line, &schedule, &mut names, &mut results));
+        body.extend(write_line(line, derivation, &schedule, &used, &mut names, &mut results));
     }
     Code { body, results, operations: schedule.operations(), taken: names.into_taken() }
 }
@@ -79,6 +80,7 @@ fn introduced(stage: &Stage) -> Vec<SymbolId> {
     match stage {
         Stage::Let { symbol, .. } => vec![*symbol],
         Stage::Solve { targets, .. } => targets.clone(),
+        Stage::Pivots { symbol, .. } => vec![*symbol],
         _ => Vec::new(),
     }
 }
@@ -134,7 +136,14 @@ fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> T
     tokens
 }
 
-fn write_line(line: &Line, schedule: &Schedule, names: &mut Names, results: &mut Vec<TokenStream>) -> TokenStream {
+fn write_line(
+    line: &Line,
+    derivation: &Derivation,
+    schedule: &Schedule,
+    used: &BTreeSet<SymbolId>,
+    names: &mut Names,
+    results: &mut Vec<TokenStream>,
+) -> TokenStream {
     match line {
         Line::Let(id) => {
             let value = definition(names, schedule, *id);
@@ -159,35 +168,46 @@ fn write_line(line: &Line, schedule: &Schedule, names: &mut Names, results: &mut
             }
             quote!(let #name = #tokens;)
         }
-        Line::Guard { determinant, size } => {
+        Line::Guard { block, determinant, size } => {
             let (determinant, size) = (signed(names, schedule, *determinant), signed(names, schedule, *size));
-            quote!(regular(Self::NAME, #determinant, #size)?;)
+            let group = derivation.blocks[*block].names(derivation);
+            quote!(regular(Self::NAME, #group, #determinant, #size)?;)
         }
-        Line::Factor { matrix, sizes } => {
-            let columns = (0..matrix.len()).map(|column| {
-                let entries: Vec<_> = matrix.iter().map(|row| signed(names, schedule, row[column])).collect();
-                quote!([#(#entries),*])
-            });
-            let columns: Vec<_> = columns.collect();
+        Line::Factor { block, matrix, sizes } => {
+            let columns = columns(matrix, schedule, names);
             let sizes: Vec<_> = sizes.iter().map(|size| signed(names, schedule, *size)).collect();
-            names.factors = names.unique("factors");
-            let factors = ident(&names.factors);
-            quote!(let #factors = Factorization::new(Self::NAME, [#(#columns),*], [#(#sizes),*])?;)
+            let factors = names.unique("factors");
+            let ident = ident(&factors);
+            names.factors.insert(*block, factors);
+            let group = derivation.blocks[*block].names(derivation);
+            quote!(let #ident = Factorization::new(Self::NAME, #group, [#(#columns),*], [#(#sizes),*])?;)
         }
-        Line::Solve { targets, right } => {
+        Line::Solve { block, targets, right } => {
             let right: Vec<_> = right.iter().map(|value| signed(names, schedule, *value)).collect();
-            let used = schedule.used();
-            let is_used = |target: &SymbolId| used.iter().any(|id| *schedule.value(*id) == Value::Symbol(*target));
             let targets: Vec<_> = targets
                 .iter()
-                .map(|target| if is_used(target) { ident(&names.introduce(*target)) } else { ident("_") })
+                .map(|target| if used.contains(target) { ident(&names.introduce(*target)) } else { ident("_") })
                 .collect();
-            let factors = ident(&names.factors);
+            let factors = ident(&names.factors[block]);
             quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);)
+        }
+        Line::Pivots { symbol, matrix } => {
+            let columns = columns(matrix, schedule, names);
+            let name = ident(&names.introduce(*symbol));
+            quote!(let #name = product_of_pivots([#(#columns),*]);)
         }
         Line::Return(values) => {
             *results = values.iter().map(|value| signed(names, schedule, *value)).collect();
             TokenStream::new()
         }
     }
+}
+
+/// The columns of a matrix given by rows.
+fn columns(matrix: &[Vec<Signed>], schedule: &Schedule, names: &mut Names) -> Vec<TokenStream> {
+    let column = |column: usize| {
+        let entries: Vec<_> = matrix.iter().map(|row| signed(names, schedule, row[column])).collect();
+        quote!([#(#entries),*])
+    };
+    (0..matrix.len()).map(column).collect()
 }

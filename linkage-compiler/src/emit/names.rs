@@ -8,8 +8,8 @@ use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 7] =
-    ["direction", "finite", "finite_matrix", "newton", "product_of_pivots", "real", "regular"];
+pub(super) const RUNTIME_FUNCTIONS: [&str; 8] =
+    ["direction", "finite", "finite_matrix", "newton", "product_of_pivots", "real", "regular", "same_signs"];
 
 /// A name longer than this says less than a number.
 const LONGEST: usize = 36;
@@ -20,15 +20,15 @@ pub(super) struct Names<'a> {
     taken: BTreeSet<String>,
     values: HashMap<ValueId, String>,
     symbols: HashMap<SymbolId, String>,
-    /// The factorisation in use.
-    pub(super) factors: String,
+    /// The factorisations, by block.
+    pub(super) factors: HashMap<usize, String>,
 }
 
 impl<'a> Names<'a> {
     /// `reserved` are names already in scope: arguments of the function and the user's names.
     pub(super) fn new(graph: &'a Graph, reserved: impl IntoIterator<Item = String>) -> Self {
         let taken = reserved.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)).collect();
-        Self { graph, taken, values: HashMap::new(), symbols: HashMap::new(), factors: String::new() }
+        Self { graph, taken, values: HashMap::new(), symbols: HashMap::new(), factors: HashMap::new() }
     }
 
     /// A name not yet taken.

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::derivation::Derivation;
+use crate::derivation::{Derivation, Row};
 use crate::graph::{Function, Node, NodeId, SymbolId};
 
 use super::names::{angle_name, unique};
@@ -16,6 +16,8 @@ pub(super) struct PosePlan {
     pub directions: Vec<(NodeId, String)>,
     /// Coordinates held as numbers: index, field, symbol.
     pub values: Vec<(usize, String, SymbolId)>,
+    /// Determinants that vary: block, field, symbol.
+    pub determinants: Vec<(usize, String, SymbolId)>,
 }
 
 impl PosePlan {
@@ -40,7 +42,15 @@ impl PosePlan {
         }
         let mut taken = BTreeSet::new();
         let mut unique = |wish: String| unique(&mut taken, &wish);
-        unique("determinant".to_owned());
+        let mut determinants = Vec::new();
+        for (number, block) in derivation.blocks.iter().enumerate() {
+            if let Some(determinant) = block.determinant
+                && graph.constant_value(determinant.value).is_none()
+            {
+                let name = graph.symbol_name(determinant.symbol).to_owned();
+                determinants.push((number, unique(name), determinant.symbol));
+            }
+        }
         let directions: Vec<_> = angles.iter().map(|&angle| (angle, unique(angle_name(graph, angle)))).collect();
         let mut values = Vec::new();
         for (index, coordinate) in derivation.coordinates.iter().enumerate() {
@@ -51,7 +61,7 @@ impl PosePlan {
                 values.push((index, unique(coordinate.name.clone()), coordinate.value));
             }
         }
-        Self { argument, directions, values }
+        Self { argument, directions, values, determinants }
     }
 
     /// The angles whose directions a pose holds.
@@ -67,12 +77,12 @@ impl PosePlan {
 fn formulas(derivation: &Derivation) -> Vec<NodeId> {
     let mut formulas: Vec<NodeId> = derivation.residual.clone();
     formulas.extend(&derivation.sizes);
-    formulas.extend(derivation.jacobian.iter().flatten());
+    formulas.extend(derivation.jacobian.iter().flat_map(Row::values));
     formulas.extend(&derivation.gamma);
-    formulas.extend(derivation.determinant.iter().map(|determinant| determinant.size));
+    formulas.extend(derivation.blocks.iter().filter_map(|block| Some(block.determinant?.size)));
     for quantity in derivation.points.iter().chain(&derivation.outputs) {
         formulas.extend(&quantity.value);
-        formulas.extend(quantity.jacobian.iter().flatten());
+        formulas.extend(quantity.jacobian.iter().flat_map(Row::values));
         formulas.extend(&quantity.rate);
         formulas.extend(&quantity.acceleration);
     }

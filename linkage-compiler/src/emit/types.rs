@@ -202,9 +202,16 @@ fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &Token
         let text = format!(" `{}` itself.", derivation.coordinates[*index].name);
         members.extend(quote!(#[doc = #text] pub #ident: T,));
     }
-    if let Some(determinant) = &derivation.determinant {
-        let text = format!(" det J = `{}`, from the angles themselves.", derivation.graph.text(determinant.value));
-        members.extend(quote!(#[doc = #text] pub determinant: T,));
+    for (block, name, _) in &plan.determinants {
+        let Some(determinant) = derivation.blocks[*block].determinant else { continue };
+        let of = if derivation.blocks.len() == 1 {
+            "det J".to_owned()
+        } else {
+            format!("The determinant of the block of {},", derivation.blocks[*block].names(derivation))
+        };
+        let text = format!(" {of} = `{}`, from the angles themselves.", derivation.graph.text(determinant.value));
+        let ident = ident(name);
+        members.extend(quote!(#[doc = #text] pub #ident: T,));
     }
     members
 }

@@ -8,6 +8,8 @@ mod lower;
 mod name;
 mod scope;
 
+use std::collections::BTreeMap;
+
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Visibility};
 
@@ -90,14 +92,14 @@ impl Mechanism {
     /// The unknowns of `driver` that each closure row holds.
     #[must_use]
     pub fn incidence(&self, driver: &Driver) -> Vec<Vec<usize>> {
+        let place: BTreeMap<SymbolId, usize> =
+            driver.unknowns.iter().enumerate().map(|(place, &index)| (self.coordinates[index].symbol, place)).collect();
         let rows = self.closures.iter().flat_map(|closure| &closure.rows);
         rows.map(|&row| {
-            let found = self.graph.symbols_of(&[row]);
-            let unknowns = driver.unknowns.iter().enumerate();
+            let mut unknowns: Vec<usize> =
+                self.graph.symbols_of(&[row]).iter().filter_map(|symbol| place.get(symbol).copied()).collect();
+            unknowns.sort_unstable();
             unknowns
-                .filter(|(_, index)| found.contains(&self.coordinates[**index].symbol))
-                .map(|(place, _)| place)
-                .collect()
         })
         .collect()
     }

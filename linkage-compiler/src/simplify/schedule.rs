@@ -13,13 +13,30 @@ pub enum Stage {
     /// Gives a value a name that later stages refer to by its symbol.
     Let { symbol: SymbolId, node: NodeId },
     /// Refuses a determinant that is zero beside `size`.
-    Guard { determinant: NodeId, size: NodeId },
-    /// Factorises a matrix given by rows, whose rows are of these sizes.
-    Factor { matrix: Vec<Vec<NodeId>>, sizes: Vec<NodeId> },
-    /// Solves the factorised system and names the solution.
-    Solve { targets: Vec<SymbolId>, right: Vec<NodeId> },
+    Guard { block: usize, determinant: NodeId, size: NodeId },
+    /// Factorises the matrix of a block given by rows, whose rows are of these sizes.
+    Factor { block: usize, matrix: Vec<Vec<NodeId>>, sizes: Vec<NodeId> },
+    /// Solves the factorised system of a block and names the solution.
+    Solve { block: usize, targets: Vec<SymbolId>, right: Vec<NodeId> },
+    /// Names the product of the pivots of a matrix given by rows.
+    Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
     /// The values that the kernel returns.
     Return(Vec<NodeId>),
+}
+
+impl Stage {
+    /// The expressions of a stage.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<NodeId> {
+        match self {
+            Self::Let { node, .. } => vec![*node],
+            Self::Guard { determinant, size, .. } => vec![*determinant, *size],
+            Self::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).copied().collect(),
+            Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
+            Self::Solve { right, .. } => right.clone(),
+            Self::Return(nodes) => nodes.clone(),
+    }
+    }
 }
 
 /// A value of a [`Schedule`].
@@ -53,9 +70,10 @@ pub enum Line {
     Let(ValueId),
     SineCosine { sine: ValueId, cosine: ValueId, angle: Signed },
     Name { symbol: SymbolId, value: Signed },
-    Guard { determinant: Signed, size: Signed },
-    Factor { matrix: Vec<Vec<Signed>>, sizes: Vec<Signed> },
-    Solve { targets: Vec<SymbolId>, right: Vec<Signed> },
+    Guard { block: usize, determinant: Signed, size: Signed },
+    Factor { block: usize, matrix: Vec<Vec<Signed>>, sizes: Vec<Signed> },
+    Solve { block: usize, targets: Vec<SymbolId>, right: Vec<Signed> },
+    Pivots { symbol: SymbolId, matrix: Vec<Vec<Signed>> },
     Return(Vec<Signed>),
 }
 
@@ -79,7 +97,7 @@ pub fn schedule(
     directions: &BTreeSet<NodeId>,
     named: &[(NodeId, String)],
 ) -> Schedule {
-    let roots: Vec<NodeId> = stages.iter().flat_map(stage_nodes).collect();
+    let roots: Vec<NodeId> = stages.iter().flat_map(Stage::nodes).collect();
     let mut builder = Builder { graph, directions, values: Vec::new(), ids: HashMap::new(), of: BTreeMap::new() };
     builder.build(&roots);
     let of = builder.of;
@@ -94,30 +112,28 @@ pub fn schedule(
     let mut ordering = Ordering::new(values, &roots.iter().map(|root| of[root]).collect::<Vec<_>>());
     let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| of[node]).collect() };
     for stage in stages {
-        for node in stage_nodes(stage) {
+        for node in stage.nodes() {
             ordering.require(of[&node].value, matches!(stage, Stage::Let { .. }));
         }
         ordering.lines.push(match stage {
             Stage::Let { symbol, node } => Line::Name { symbol: *symbol, value: of[node] },
-            Stage::Guard { determinant, size } => Line::Guard { determinant: of[determinant], size: of[size] },
-            Stage::Factor { matrix, sizes } => {
-                Line::Factor { matrix: matrix.iter().map(|row| signed(row)).collect(), sizes: signed(sizes) }
+            Stage::Guard { block, determinant, size } => {
+                Line::Guard { block: *block, determinant: of[determinant], size: of[size] }
             }
-            Stage::Solve { targets, right } => Line::Solve { targets: targets.clone(), right: signed(right) },
+            Stage::Factor { block, matrix, sizes } => {
+                let matrix = matrix.iter().map(|row| signed(row)).collect();
+                Line::Factor { block: *block, matrix, sizes: signed(sizes) }
+            }
+            Stage::Solve { block, targets, right } => {
+                Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }
+            }
+            Stage::Pivots { symbol, matrix } => {
+                Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
+            }
             Stage::Return(nodes) => Line::Return(signed(nodes)),
         });
     }
     Schedule { values: ordering.values, lines: ordering.lines, names }
-}
-
-fn stage_nodes(stage: &Stage) -> Vec<NodeId> {
-    match stage {
-        Stage::Let { node, .. } => vec![*node],
-        Stage::Guard { determinant, size } => vec![*determinant, *size],
-        Stage::Factor { matrix, sizes } => matrix.iter().flatten().chain(sizes).copied().collect(),
-        Stage::Solve { right, .. } => right.clone(),
-        Stage::Return(nodes) => nodes.clone(),
-    }
 }
 
 /// Translates nodes to values.
@@ -468,8 +484,9 @@ fn line_values(line: &Line) -> Vec<ValueId> {
         Line::Let(id) => vec![*id],
         Line::SineCosine { sine, cosine, .. } => vec![*sine, *cosine],
         Line::Name { value, .. } => vec![value.value],
-        Line::Guard { determinant, size } => vec![determinant.value, size.value],
-        Line::Factor { matrix, sizes } => matrix.iter().flatten().chain(sizes).map(|signed| signed.value).collect(),
+        Line::Guard { determinant, size, .. } => vec![determinant.value, size.value],
+        Line::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).map(|signed| signed.value).collect(),
+        Line::Pivots { matrix, .. } => matrix.iter().flatten().map(|signed| signed.value).collect(),
         Line::Solve { right, .. } | Line::Return(right) => of(right),
     }
 }

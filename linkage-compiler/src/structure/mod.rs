@@ -1,7 +1,24 @@
-//! In what order the closures can be solved.
+//! In what order the closures can be solved: the block-triangular form.
 //!
-//! All closures are one block here; what is checked is that the block can be regular at all:
-//! a maximum matching gives each unknown an equation of its own.
+//! Each unknown is given an equation of its own ([`matching`]). An equation then depends on those that
+//! determine its other unknowns; equations that depend on one another must be solved together. These
+//! groups are the strong components of the dependencies, and Tarjan's algorithm finds them in the
+//! order in which they can be solved (I. S. Duff, J. K. Reid, "An implementation of Tarjan's algorithm
+//! for the block triangularization of a matrix", ACM TOMS 4, 1978).
+
+mod matching;
+
+use matching::Matching;
+pub use matching::StructurallySingular;
+
+/// Unknowns that are solved together, from as many equations, once all blocks before are solved.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Block {
+    /// Ascending.
+    pub equations: Vec<usize>,
+    /// Ascending.
+    pub unknowns: Vec<usize>,
+}
 
 /// How the linear systems of a block are solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,18 +29,11 @@ pub enum Method {
     Factorization,
 }
 
-/// The unknowns that are solved together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Block {
-    pub size: usize,
-    pub method: Method,
-}
-
-/// The unknowns that compete for too few equations.
-#[derive(Debug, PartialEq, Eq)]
-pub struct StructurallySingular {
-    pub unknowns: Vec<usize>,
-    pub equations: Vec<usize>,
+impl Block {
+    #[must_use]
+    pub fn method(&self) -> Method {
+        if self.unknowns.len() <= 2 { Method::ClosedForm } else { Method::Factorization }
+    }
 }
 
 /// Orders a system in which `incidence[equation]` lists the unknowns of each equation.
@@ -31,70 +41,142 @@ pub struct StructurallySingular {
 /// # Errors
 /// [`StructurallySingular`] if for every value of the parameters the system is singular: it names
 /// a set of unknowns that together appear in fewer equations than there are unknowns.
-pub fn order(incidence: &[Vec<usize>], unknowns: usize) -> Result<Block, StructurallySingular> {
-    let mut equations_of: Vec<Vec<usize>> = vec![Vec::new(); unknowns];
-    for (equation, row) in incidence.iter().enumerate() {
-        for &unknown in row {
-            equations_of[unknown].push(equation);
-        }
-    }
-    let mut owner: Vec<Option<usize>> = vec![None; incidence.len()];
-    for unknown in 0..unknowns {
-        augment(unknown, &equations_of, &mut owner)?;
-    }
-    let method = if unknowns <= 2 { Method::ClosedForm } else { Method::Factorization };
-    Ok(Block { size: unknowns, method })
+pub fn order(incidence: &[Vec<usize>], unknowns: usize) -> Result<Vec<Block>, StructurallySingular> {
+    let matching = Matching::new(incidence, unknowns)?;
+    let depends: Vec<Vec<usize>> = incidence
+        .iter()
+        .enumerate()
+        .map(|(equation, row)| {
+            let others = row.iter().filter_map(|&unknown| matching.equation(unknown));
+            others.filter(|&other| other != equation).collect()
+        })
+        .collect();
+    let blocks = strong_components(&depends);
+    Ok(blocks
+        .into_iter()
+        .map(|mut equations| {
+            equations.sort_unstable();
+            let mut unknowns: Vec<usize> =
+                equations.iter().filter_map(|&equation| matching.unknown(equation)).collect();
+            unknowns.sort_unstable();
+            Block { equations, unknowns }
+        })
+        .collect())
 }
 
-/// Finds an equation for `start` along an alternating path, breadth first.
-fn augment(start: usize, equations_of: &[Vec<usize>], owner: &mut [Option<usize>]) -> Result<(), StructurallySingular> {
-    let mut reached_from: Vec<Option<usize>> = vec![None; owner.len()];
-    let mut queue = vec![start];
-    let mut next = 0;
-    while next < queue.len() {
-        let unknown = queue[next];
-        next += 1;
-        for &equation in &equations_of[unknown] {
-            if reached_from[equation].is_some() {
-                continue;
+/// The sign of det J beside the product of the determinants of the blocks: that of the two
+/// permutations that bring J to its block-triangular form.
+#[must_use]
+pub fn is_odd(blocks: &[Block]) -> bool {
+    let equations: Vec<usize> = blocks.iter().flat_map(|block| block.equations.iter().copied()).collect();
+    let unknowns: Vec<usize> = blocks.iter().flat_map(|block| block.unknowns.iter().copied()).collect();
+    odd(&equations) != odd(&unknowns)
+}
+
+/// A cycle of even length is an odd permutation.
+fn odd(permutation: &[usize]) -> bool {
+    let mut seen = vec![false; permutation.len()];
+    let mut odd = false;
+    for start in 0..permutation.len() {
+        let mut at = start;
+        let mut length = 0;
+        while !seen[at] {
+            seen[at] = true;
+            at = permutation[at];
+            length += 1;
+        }
+        odd ^= length > 0 && length % 2 == 0;
+    }
+    odd
+}
+
+/// R. E. Tarjan, "Depth-first search and linear graph algorithms" (1972), without recursion:
+/// a component comes out after all that it depends on.
+fn strong_components(depends: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    const UNSEEN: usize = usize::MAX;
+    let mut index = vec![UNSEEN; depends.len()];
+    let mut low = vec![0; depends.len()];
+    let mut waiting = vec![false; depends.len()];
+    let (mut stack, mut components, mut next) = (Vec::new(), Vec::new(), 0);
+    for root in 0..depends.len() {
+        if index[root] != UNSEEN {
+            continue;
+        }
+        let mut path = vec![(root, 0)];
+        while let Some((node, edge)) = path.pop() {
+            if edge == 0 {
+                index[node] = next;
+                low[node] = next;
+                next += 1;
+                stack.push(node);
+                waiting[node] = true;
+            } else {
+                low[node] = low[node].min(low[depends[node][edge - 1]]);
             }
-            reached_from[equation] = Some(unknown);
-            match owner[equation] {
-                Some(other) => queue.push(other),
-                None => {
-                    let mut equation = equation;
-                    // Walk back, handing each equation to the unknown that reached it.
-                    while let Some(unknown) = reached_from[equation] {
-                        let previous = owner.iter().position(|owner| *owner == Some(unknown));
-                        owner[equation] = Some(unknown);
-                        match previous {
-                            Some(previous) if unknown != start => equation = previous,
-                            _ => return Ok(()),
-                        }
-                    }
-                    return Ok(());
+            // The next edge to a node not seen yet; an edge back to one that waits lowers the mark.
+            let mut descend = None;
+            for (position, &other) in depends[node].iter().enumerate().skip(edge) {
+                if index[other] == UNSEEN {
+                    descend = Some((position, other));
+                    break;
                 }
+                if waiting[other] {
+                    low[node] = low[node].min(index[other]);
+                }
+            }
+            if let Some((position, other)) = descend {
+                path.push((node, position + 1));
+                path.push((other, 0));
+            } else if low[node] == index[node] {
+                let start = stack.iter().rposition(|&other| other == node).unwrap_or(0);
+                let component = stack.split_off(start);
+                for &member in &component {
+                    waiting[member] = false;
+                }
+                components.push(component);
             }
         }
     }
-    let equations = (0..owner.len()).filter(|&equation| reached_from[equation].is_some()).collect();
-    queue.sort_unstable();
-    Err(StructurallySingular { unknowns: queue, equations })
+    components
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn finds_a_matching_through_alternating_paths() {
-        let block = order(&[vec![0, 1], vec![0], vec![1, 2]], 3);
-        assert_eq!(block, Ok(Block { size: 3, method: Method::Factorization }));
+    fn block(equations: &[usize], unknowns: &[usize]) -> Block {
+        Block { equations: equations.to_vec(), unknowns: unknowns.to_vec() }
     }
 
     #[test]
-    fn names_the_unknowns_that_compete() {
-        let error = order(&[vec![0, 1], vec![2], vec![2]], 3);
-        assert_eq!(error, Err(StructurallySingular { unknowns: vec![0, 1], equations: vec![0] }));
+    fn blocks_come_in_the_order_in_which_they_can_be_solved() {
+        // Equations 2 and 3 hold the dyad that 0 and 1 stand on; 4 closes no loop of its own.
+        let incidence = [vec![0, 1, 2], vec![0, 1, 2], vec![2, 3], vec![2, 3], vec![4, 0]];
+        let blocks = order(&incidence, 5).unwrap();
+        assert_eq!(blocks, [block(&[2, 3], &[2, 3]), block(&[0, 1], &[0, 1]), block(&[4], &[4])]);
+        assert!(!is_odd(&blocks));
+    }
+
+    #[test]
+    fn a_ring_is_one_block() {
+        let ring: Vec<Vec<usize>> = (0..6).map(|i| vec![i, (i + 1) % 6]).collect();
+        assert_eq!(order(&ring, 6).unwrap(), [block(&[0, 1, 2, 3, 4, 5], &[0, 1, 2, 3, 4, 5])]);
+    }
+
+    #[test]
+    fn the_sign_is_that_of_the_permutations() {
+        // J = [a 1; b 0]: block {1 | 0} before block {0 | 1}, det J = -b.
+        let blocks = order(&[vec![0, 1], vec![0]], 2).unwrap();
+        assert_eq!(blocks, [block(&[1], &[0]), block(&[0], &[1])]);
+        assert!(is_odd(&blocks));
+        assert!(odd(&[1, 0, 2]) && !odd(&[1, 2, 0]) && odd(&[1, 2, 3, 0]));
+    }
+
+    #[test]
+    fn a_long_chain_neither_recurses_nor_crawls() {
+        let chain: Vec<Vec<usize>> = (0..20_000_usize).map(|i| vec![i.saturating_sub(1), i]).collect();
+        assert_eq!(order(&chain, 20_000).unwrap().len(), 20_000);
+        let backwards: Vec<Vec<usize>> = (0..20_000).map(|i| vec![i, (i + 1).min(19_999)]).collect();
+        assert_eq!(order(&backwards, 20_000).unwrap().len(), 20_000);
     }
 }

@@ -18,7 +18,8 @@ impl Methods<'_> {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
         let (nu, nv) = (literal(u), literal(v));
         let functions = &self.functions;
-        let written = identifiers(functions);
+        let mut written = identifiers(functions);
+        written.insert("same_signs".to_owned());
         let imports = imports(&written);
         let members: Vec<Ident> =
             self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
@@ -65,6 +66,9 @@ impl Methods<'_> {
                     }
                     fn determinant(&self, pose: &Self::Pose) -> T {
                         self.determinant(pose)
+                    }
+                    fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
+                        same_signs(self.block_determinants(pose), self.block_determinants(other))
                     }
                     fn solve_jacobian(&self, pose: &Self::Pose, right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error> {
                         self.solve_jacobian(pose, right)

@@ -6,7 +6,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use super::super::names::ident;
 use super::{Kernels, Methods, columns_of, fenced, literal};
-use crate::derivation::Derivation;
+use crate::derivation::{Derivation, Row};
 use crate::graph::NodeId;
 use crate::simplify::schedule::Stage;
 
@@ -17,16 +17,19 @@ impl Methods<'_> {
         name: &str,
         docs: &[String],
         of: &TokenStream,
-        rows: Option<Vec<Vec<NodeId>>>,
+        matrix: Option<(Vec<Row>, usize)>,
     ) {
         let (pose, pose_type) = (&self.arguments.pose, &self.types.pose);
         let function = ident(name);
         let signature = quote!(#[must_use] pub fn #function(&self, #pose: &#pose_type<T>) -> #of);
-        let code = kernels.zip(rows).map(|(kernels, rows)| {
-            let columns = rows.first().map_or(0, Vec::len);
-            let flat: Vec<NodeId> = (0..columns).flat_map(|column| rows.iter().map(move |row| row[column])).collect();
-            let code = self.on_pose(kernels, Vec::new(), &[Stage::Return(flat)]);
-            let matrix = columns_of(&code.results, rows.len());
+        let code = kernels.zip(matrix).map(|(kernels, (rows, columns))| {
+            let entries: Vec<(usize, usize, NodeId)> = (0..columns)
+                .flat_map(|c| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?))))
+                .collect();
+            let nodes = entries.iter().map(|(_, _, node)| *node).collect();
+            let code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
+            let values = entries.into_iter().zip(code.results).map(|((row, column, _), value)| (row, column, value));
+            let matrix = matrix_of(values, rows.len(), columns);
             let body = code.body;
             (quote!(#body #matrix), code.operations)
         });
@@ -35,11 +38,17 @@ impl Methods<'_> {
     }
 
     pub(super) fn closures(&mut self, kernels: Option<&mut Kernels>) {
-        let kernels = kernels.as_deref();
+        self.jacobians(kernels.as_deref());
+        self.determinant(kernels);
+    }
+
+    fn jacobians(&mut self, kernels: Option<&Kernels>) {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
         let (nu, nv) = (literal(u), literal(v));
         let nq = literal(u + v);
-        let rows = |nodes: Option<&Vec<NodeId>>| nodes.map(|nodes| nodes.iter().map(|&node| vec![node]).collect());
+        let column = |nodes: Option<&Vec<NodeId>>| {
+            nodes.map(|nodes| (nodes.iter().map(|&node| Row::from([(0, node)])).collect(), 1))
+        };
         let formula = |nodes: Option<&Vec<NodeId>>, symbol: &str| -> Vec<String> {
             let (Some(kernels), Some(nodes)) = (kernels, nodes) else { return Vec::new() };
             let lines =
@@ -53,7 +62,7 @@ impl Methods<'_> {
         for closure in &self.mechanism.closures {
             docs.extend(words(&closure.attributes));
         }
-        self.matrix_function(kernels, "residual", &docs, &quote!(SVector<T, #nu>), rows(residual));
+        self.matrix_function(kernels, "residual", &docs, &quote!(SVector<T, #nu>), column(residual));
         let docs =
             ["The sum of the magnitudes of each closure's terms: what makes a residual small or large.".to_owned()];
         self.matrix_function(
@@ -61,14 +70,12 @@ impl Methods<'_> {
             "closure_sizes",
             &docs,
             &quote!(SVector<T, #nu>),
-            rows(derivation.map(|d| &d.sizes)),
+            column(derivation.map(|d| &d.sizes)),
         );
 
-        let matrix = |kernels: &Kernels, rows: &[Vec<NodeId>], symbol: &str| -> Vec<String> {
-            let entries =
-                rows.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, &node)| (i, j, node)));
-            let shown = entries.filter(|(_, _, node)| !kernels.derivation.graph.is_zero(*node));
-            fenced(shown.map(|(i, j, node)| format!("{symbol}_{}{} = {}", i + 1, j + 1, kernels.text(node))))
+        let matrix = |kernels: &Kernels, rows: &[Row], symbol: &str| -> Vec<String> {
+            let entries = rows.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |(j, &node)| (i, j, node)));
+            fenced(entries.map(|(i, j, node)| format!("{symbol}_{}{} = {}", i + 1, j + 1, kernels.text(node))))
         };
         let list = |indices: &[usize]| -> String {
             let names: Vec<String> =
@@ -82,33 +89,89 @@ impl Methods<'_> {
         let a = derivation.map(Derivation::jacobian_inputs);
         let mut docs = vec![format!("The constraint Jacobian J = `Psi_u`; its columns are {unknowns}.")];
         docs.extend(kernels.zip(j.as_ref()).map(|(k, rows)| matrix(k, rows, "J")).unwrap_or_default());
-        self.matrix_function(kernels, "jacobian_unknowns", &docs, &quote!(SMatrix<T, #nu, #nu>), j.clone());
+        self.matrix_function(kernels, "jacobian_unknowns", &docs, &quote!(SMatrix<T, #nu, #nu>), j.map(|rows| (rows, u)));
         let mut docs = vec![format!("The constraint Jacobian of the inputs A = `Psi_v`; its columns are {inputs}.")];
         docs.extend(kernels.zip(a.as_ref()).map(|(k, rows)| matrix(k, rows, "A")).unwrap_or_default());
-        self.matrix_function(kernels, "jacobian_inputs", &docs, &quote!(SMatrix<T, #nu, #nv>), a);
+        self.matrix_function(kernels, "jacobian_inputs", &docs, &quote!(SMatrix<T, #nu, #nv>), a.map(|rows| (rows, v)));
         let docs = [format!("The whole constraint Jacobian `Psi_q`; its columns are {all}.")];
-        self.matrix_function(kernels, "jacobian", &docs, &quote!(SMatrix<T, #nu, #nq>), full);
-        self.determinant(kernels, j);
+        self.matrix_function(kernels, "jacobian", &docs, &quote!(SMatrix<T, #nu, #nq>), full.map(|rows| (rows, u + v)));
     }
 
-    pub(super) fn determinant(&mut self, kernels: Option<&Kernels>, jacobian: Option<Vec<Vec<NodeId>>>) {
-        let (pose, pose_type) = (self.arguments.pose.clone(), &self.types.pose);
+    fn determinant(&mut self, kernels: Option<&mut Kernels>) {
+        let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
         let signature = quote!(#[must_use] pub fn determinant(&self, #pose: &#pose_type<T>) -> T);
         let mut docs = vec!["det J, zero in the singular configurations.".to_owned()];
-        let determinant = kernels.and_then(|kernels| kernels.derivation.determinant.map(|d| kernels.text(d.value)));
-        let body = match (determinant, kernels.zip(jacobian)) {
-            (Some(text), _) => {
-                docs.extend(fenced([format!("det J = {text}")].into_iter()));
-                Some(quote!(#pose.determinant))
+        let mut blocks_docs =
+            vec!["The determinants of the blocks of J, in the order in which the blocks are solved.".to_owned()];
+        let (mut whole, mut parts, mut count) = (None, None, 0);
+        if let Some(kernels) = kernels {
+            let formula = kernels.derivation.determinant();
+            match formula {
+                Some(node) => docs.extend(fenced([format!("det J = {}", kernels.text(node))].into_iter())),
+                None => docs.push("Of blocks of more than two unknowns it is the product of the pivots.".to_owned()),
             }
-            (None, Some(_)) => {
-                docs.push("Of a block of this size it is the product of the pivots of a factorisation.".to_owned());
-                Some(quote!(product_of_pivots(self.jacobian_unknowns(#pose))))
+            let (mut stages, mut factors) = (Vec::new(), Vec::new());
+            let mut lines = Vec::new();
+            for (number, block) in kernels.derivation.blocks.clone().iter().enumerate() {
+                let names = block.names(kernels.derivation);
+                let Some(determinant) = block.determinant else {
+                    let symbol = kernels.derivation.graph.symbol(format!("pivots_{}", number + 1));
+                    stages.push(Stage::Pivots { symbol, matrix: kernels.matrix(block) });
+                    factors.push(kernels.derivation.graph.variable(symbol));
+                    lines.push(format!("{names}: the product of the pivots"));
+                    continue;
+                };
+                let varies = kernels.derivation.graph.constant_value(determinant.value).is_none();
+                let named = kernels.derivation.graph.variable(determinant.symbol);
+                factors.push(if varies { named } else { determinant.value });
+                lines.push(format!("{names}: {}", kernels.text(determinant.value)));
             }
-            (None, None) => None,
-        };
-        self.function(&docs, None, &signature, body);
+            blocks_docs.extend(fenced(lines.into_iter()));
+            count = factors.len();
+            let graph = &mut kernels.derivation.graph;
+            let product: Vec<_> = factors.iter().map(|&factor| (factor, 1)).collect();
+            let product = graph.product(&product);
+            let product = if kernels.derivation.is_odd { graph.negate(product) } else { product };
+            let write = |result: Vec<NodeId>| {
+                let mut stages = stages.clone();
+                stages.push(Stage::Return(result));
+                self.on_pose(kernels, Vec::new(), &stages)
+            };
+            let code = write(vec![product]);
+            let (body, results) = (code.body, code.results);
+            whole = Some((quote!(#body #(#results)*), code.operations));
+            let code = write(factors);
+            let (body, results) = (code.body, code.results);
+            parts = Some((quote!(#body [#(#results),*]), code.operations));
+        }
+        let (body, operations) = whole.unzip();
+        self.function(&docs, operations, &signature, body);
+        let (body, operations) = parts.unzip();
+        let count = literal(count);
+        let signature = quote!(#[must_use] pub fn block_determinants(&self, #pose: &#pose_type<T>) -> [T; #count]);
+        self.function(&blocks_docs, operations, &signature, body);
     }
+}
+
+/// A matrix larger than this is written entry by entry if most entries are zero.
+const LARGEST_DENSE: usize = 16;
+
+/// A matrix from its entries, which come column by column; those not named are zero.
+fn matrix_of(entries: impl Iterator<Item = (usize, usize, TokenStream)>, rows: usize, columns: usize) -> TokenStream {
+    let entries: Vec<_> = entries.collect();
+    if rows * columns > LARGEST_DENSE && 2 * entries.len() < rows * columns {
+        let lines = entries.iter().map(|(row, column, value)| {
+            let (row, column) = (literal(*row), literal(*column));
+            quote!(matrix[#column][#row] = #value;)
+        });
+        let (rows, columns) = (literal(rows), literal(columns));
+        return quote!(let mut matrix = [[T::zero(); #rows]; #columns]; #(#lines)* SMatrix::from(matrix));
+    }
+    let mut flat = vec![quote!(T::zero()); rows * columns];
+    for (row, column, value) in entries {
+        flat[column * rows + row] = value;
+    }
+    columns_of(&flat, rows)
 }
 
 /// What the user said of a closure, as a paragraph.

@@ -18,7 +18,7 @@ use super::kernel::{self, Code, Given, Source};
 use super::names::{RUNTIME_FUNCTIONS, ident, unique};
 use super::pose::PosePlan;
 use super::types::field;
-use crate::derivation::{Derivation, solve_closed};
+use crate::derivation::{Block, Derivation, Row, solve_closed};
 use crate::graph::{NodeId, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::schedule::{Operations, Stage};
@@ -115,33 +115,62 @@ impl<'a> Kernels<'a> {
         Self { derivation, plan }
     }
 
-    fn is_closed(&self) -> bool {
-        self.derivation.determinant.is_some()
-    }
-
-    /// Stages that solve J x = right for each right side, after the verdict on J.
+    /// Stages that solve J x = right for each right side, block by block, each after the verdict on it.
     fn solve(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)]) -> Vec<Stage> {
-        let jacobian = self.derivation.jacobian_unknowns();
-        let Some(determinant) = self.derivation.determinant else {
-            let mut stages = vec![Stage::Factor { matrix: jacobian, sizes: self.derivation.sizes.clone() }];
-            stages.extend(
-                systems.iter().map(|(right, targets)| Stage::Solve { targets: targets.clone(), right: right.clone() }),
-            );
-            return stages;
-        };
-        // A determinant that is a number other than zero needs no verdict.
-        let constant = self.derivation.graph.constant_value(determinant.value).is_some_and(|value| value != 0.0);
-        let (node, mut stages) = if constant {
-            (determinant.value, Vec::new())
-        } else {
-            let node = self.derivation.graph.variable(determinant.symbol);
-            (node, vec![Stage::Guard { determinant: node, size: determinant.size }])
-        };
-        for (right, targets) in systems {
-            let solution = solve_closed(&mut self.derivation.graph, &jacobian, node, right);
-            stages.extend(targets.iter().zip(solution).map(|(&symbol, node)| Stage::Let { symbol, node }));
+        let mut stages = Vec::new();
+        let mut solved: Vec<Row> = vec![Row::new(); systems.len()];
+        for number in 0..self.derivation.blocks.len() {
+            let block = self.derivation.blocks[number].clone();
+            let divisor = self.verdict(number, &block, &mut stages);
+            let matrix = self.matrix(&block);
+            for ((right, targets), solved) in systems.iter().zip(&mut solved) {
+                let right: Vec<NodeId> = block
+                    .equations
+                    .iter()
+                    .map(|&equation| self.derivation.remainder(equation, right[equation], solved))
+                    .collect();
+                let targets: Vec<SymbolId> = block.unknowns.iter().map(|&place| targets[place]).collect();
+                let mut solution = self.variables(&targets);
+                match divisor {
+                    Some(divisor) => {
+                        let formulas = solve_closed(&mut self.derivation.graph, &matrix, divisor, &right);
+                        for ((&symbol, node), name) in targets.iter().zip(formulas).zip(&mut solution) {
+                            stages.push(Stage::Let { symbol, node });
+                            // What does not move needs no name in what follows.
+                            if self.derivation.graph.is_zero(node) {
+                                *name = node;
+                            }
+                        }
+                    }
+                    None => stages.push(Stage::Solve { block: number, targets, right }),
+                }
+                let places = block.unknowns.iter().map(|&place| self.derivation.unknowns[place]);
+                solved.extend(places.zip(solution));
+            }
         }
         stages
+    }
+
+    /// The verdict on a block, and what its closed form divides by.
+    fn verdict(&mut self, number: usize, block: &Block, stages: &mut Vec<Stage>) -> Option<NodeId> {
+        let Some(determinant) = block.determinant else {
+            let sizes = block.equations.iter().map(|&equation| self.derivation.sizes[equation]).collect();
+            stages.push(Stage::Factor { block: number, matrix: self.matrix(block), sizes });
+            return None;
+        };
+        // A determinant that is a number other than zero needs no verdict.
+        if self.derivation.graph.constant_value(determinant.value).is_some_and(|value| value != 0.0) {
+            return Some(determinant.value);
+        }
+        let node = self.derivation.graph.variable(determinant.symbol);
+        stages.push(Stage::Guard { block: number, determinant: node, size: determinant.size });
+        Some(node)
+    }
+
+    fn matrix(&mut self, block: &Block) -> Vec<Vec<NodeId>> {
+        let zero = self.derivation.graph.zero();
+        let entries = block.matrix(self.derivation);
+        entries.into_iter().map(|row| row.into_iter().map(|entry| entry.unwrap_or(zero)).collect()).collect()
     }
 
     fn rates(&self, of: &[usize]) -> Vec<SymbolId> {
@@ -218,9 +247,7 @@ impl Methods<'_> {
     fn pose_source(&self, kernels: &Kernels) -> Source {
         let mut fields: Vec<_> =
             kernels.plan.values.iter().map(|(_, field, symbol)| (field.clone(), *symbol)).collect();
-        fields.extend(
-            kernels.derivation.determinant.iter().map(|determinant| ("determinant".to_owned(), determinant.symbol)),
-        );
+        fields.extend(kernels.plan.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol)));
         // Directions are fields as well, so that the pattern is never complete.
         fields.extend(kernels.plan.directions.iter().map(|(_, field)| (field.clone(), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);

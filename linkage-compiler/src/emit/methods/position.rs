@@ -19,8 +19,13 @@ impl Methods<'_> {
         let mut operations = None;
         let body = kernels.map(|kernels| {
             let mut stages = Vec::new();
-            let values: Vec<NodeId> =
-                kernels.derivation.determinant.iter().map(|determinant| determinant.value).collect();
+            let blocks = &kernels.derivation.blocks;
+            let values: Vec<NodeId> = kernels
+                .plan
+                .determinants
+                .iter()
+                .filter_map(|(block, _, _)| Some(blocks[*block].determinant?.value))
+                .collect();
             let angles: Vec<NodeId> = kernels.plan.angles().collect();
             let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
             let bare = kernels.variables(&bare);
@@ -32,8 +37,9 @@ impl Methods<'_> {
             operations = Some(Operations { functions: circular, ..code.operations });
             let mut results = code.results.into_iter();
             let mut fields = TokenStream::new();
-            if let (true, Some(value)) = (kernels.is_closed(), if values.is_empty() { None } else { results.next() }) {
-                fields.extend(quote!(determinant: #value,));
+            for ((_, field, _), value) in kernels.plan.determinants.iter().zip(results.by_ref()) {
+                let member = member(&ident(field), &value);
+                fields.extend(quote!(#member,));
             }
             for ((_, field), value) in kernels.plan.directions.iter().zip(results.by_ref()) {
                 let field = ident(field);

@@ -1,5 +1,7 @@
 //! Points and outputs: value, rate, acceleration and their own velocity ratios.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -9,7 +11,7 @@ use super::{
     Family, Kernels, Methods, bind, check_finite, columns_of, component_names, fenced, lines, literal, member,
 };
 use crate::derivation::Quantity;
-use crate::graph::{NodeId, Number};
+use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
@@ -110,20 +112,20 @@ impl Methods<'_> {
             for quantity in quantities(kernels) {
                 for (input, column) in symbols.iter().enumerate() {
                     for row in &quantity.jacobian {
-                        let mut terms = vec![(Number::ONE, row[kernels.derivation.inputs[input]])];
+                        let direct = row.get(&kernels.derivation.inputs[input]);
+                        let mut terms: Vec<_> = direct.map(|&entry| (Number::ONE, entry)).into_iter().collect();
                         for (position, &symbol) in column.iter().enumerate() {
-                            let ratio = kernels.derivation.graph.variable(symbol);
-                            let entry = row[kernels.derivation.unknowns[position]];
-                            terms.push((Number::ONE, kernels.derivation.graph.multiply(entry, ratio)));
+                            if let Some(&entry) = row.get(&kernels.derivation.unknowns[position]) {
+                                let ratio = kernels.derivation.graph.variable(symbol);
+                                terms.push((Number::ONE, kernels.derivation.graph.multiply(entry, ratio)));
+                            }
                         }
                         nodes.push(kernels.derivation.graph.sum(&terms));
                     }
                 }
             }
-            // Ratios that no point depends on need not be solved for in closed form.
-            let used = kernels.derivation.graph.symbols_of(&nodes);
-            stages.retain(|stage| !matches!(stage, Stage::Let { symbol, .. } if !used.contains(symbol)));
             stages.push(Stage::Return(nodes));
+            let stages = needed(&kernels.derivation.graph, stages);
             let mut code = self.on_pose(kernels, Vec::new(), &stages);
             let (mut values, mut bindings, mut flat) = (Vec::new(), TokenStream::new(), Vec::new());
             for (name, parts) in names.iter().zip(code.results.chunks(dimension * v)) {
@@ -149,4 +151,19 @@ impl Methods<'_> {
             quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
         self.function(&docs, operations, &signature, body);
     }
+}
+
+/// The stages without the names that nothing refers to; verdicts stay, since what they guard against
+/// is said of the mechanism and not of one point.
+fn needed(graph: &Graph, stages: Vec<Stage>) -> Vec<Stage> {
+    let mut used: BTreeSet<SymbolId> = BTreeSet::new();
+    let mut kept = Vec::new();
+    for stage in stages.into_iter().rev() {
+        if !matches!(&stage, Stage::Let { symbol, .. } if !used.contains(symbol)) {
+            used.extend(graph.symbols_of(&stage.nodes()));
+            kept.push(stage);
+        }
+    }
+    kept.reverse();
+    kept
 }
