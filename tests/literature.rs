@@ -114,7 +114,9 @@ fn singular_configurations() {
     let engine = Engine::new(1.0, 3.0);
     let dead = SliderCrankCoordinates { z3: 4.0, phi1: 0.0, phi2: 0.0 };
     match engine.velocity_ratios(&engine.pose_at(&dead)) {
-        Err(linkage::Error::Singular { mechanism: "Engine", group: "phi1, phi2", regularity }) => assert!(regularity == 0.0),
+        Err(linkage::Error::Singular { mechanism: "Engine", group: "phi1, phi2", regularity }) => {
+            assert!(regularity == 0.0)
+        }
         other => panic!("{other:?}"),
     }
     let compressor = Compressor::new(1.0, 1.0);

@@ -16,12 +16,7 @@ const ROUNDINGS: f64 = 4.0;
 /// # Errors
 /// [`Error::Singular`], or [`Error::NotFinite`] if either is not a finite number.
 #[inline]
-pub fn regular<T: Real>(
-    mechanism: &'static str,
-    group: &'static str,
-    determinant: T,
-    size: T,
-) -> Result<(), Error> {
+pub fn regular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, size: T) -> Result<(), Error> {
     if determinant.abs() > real::<T>(ROUNDINGS) * T::default_epsilon() * size.abs() && determinant.is_finite() {
         return Ok(());
     }

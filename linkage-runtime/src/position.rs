@@ -166,10 +166,7 @@ fn regularity(error: &Error) -> f64 {
 }
 
 /// How regular J is, without a verdict: |det J| beside the product of the sizes of its columns.
-fn measure<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
-    mechanism: &M,
-    pose: &M::Pose,
-) -> f64 {
+fn measure<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(mechanism: &M, pose: &M::Pose) -> f64 {
     let determinant = mechanism.determinant(pose);
     let jacobian = mechanism.jacobian_unknowns(pose);
     let product = jacobian.column_iter().fold(T::one(), |product, column| product * column.norm());

@@ -3,16 +3,32 @@
 use crate::graph::{Graph, NodeId};
 use crate::simplify::factor;
 
+/// How the solution of two equations is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// With common factors taken out: fewest operations for a system that stands alone.
+    Factored,
+    /// By the entries of J as they are: fewest where the right side is made of the same entries, as
+    /// that of the accelerations is (x_i = l_i cos theta_i serves both).
+    Entries,
+}
+
 /// The solution of J x = r where `determinant` is det J:
 /// for one unknown x = r / J, for two x = (J_11 r_0 - J_01 r_1, J_00 r_1 - J_10 r_0) / det J.
-pub fn solve_closed(graph: &mut Graph, jacobian: &[Vec<NodeId>], determinant: NodeId, right: &[NodeId]) -> Vec<NodeId> {
+pub fn solve_closed(
+    graph: &mut Graph,
+    jacobian: &[Vec<NodeId>],
+    determinant: NodeId,
+    right: &[NodeId],
+    form: Form,
+) -> Vec<NodeId> {
     match (jacobian, right) {
         ([_], &[r]) => vec![graph.divide(r, determinant)],
         ([top, bottom], &[r0, r1]) => {
             let mut cramer = |(a, r): (NodeId, NodeId), (b, s): (NodeId, NodeId)| {
                 let (left, right) = (graph.multiply(a, r), graph.multiply(b, s));
                 let numerator = graph.subtract(left, right);
-                let numerator = factor(graph, numerator);
+                let numerator = if form == Form::Factored { factor(graph, numerator) } else { numerator };
                 graph.divide(numerator, determinant)
             };
             vec![cramer((bottom[1], r0), (top[1], r1)), cramer((top[0], r1), (bottom[0], r0))]

@@ -6,13 +6,14 @@
 
 mod linear;
 mod magnitude;
+mod solution;
 
 use std::collections::BTreeMap;
 
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::structure::{self, Method};
-pub use linear::solve_closed;
+pub use linear::{Form, solve_closed};
 
 /// The derivatives of one scalar by the coordinates, by their place in q; those not named are zero.
 pub type Row = BTreeMap<usize, NodeId>;
@@ -121,7 +122,20 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
     let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates, &place_of);
     let points = mechanism.points.iter().map(|point| quantity(vec![point.x, point.y])).collect();
     let outputs = mechanism.outputs.iter().map(|output| quantity(vec![output.value])).collect();
-    Derivation { coordinates, unknowns, inputs, residual, sizes, jacobian, blocks, is_odd, gamma, points, outputs, graph }
+    Derivation {
+        coordinates,
+        unknowns,
+        inputs,
+        residual,
+        sizes,
+        jacobian,
+        blocks,
+        is_odd,
+        gamma,
+        points,
+        outputs,
+        graph,
+    }
 }
 
 /// The place of each coordinate in q.
@@ -131,9 +145,8 @@ fn block(graph: &mut Graph, jacobian: &[Row], unknowns: &[usize], block: structu
     let method = block.method();
     let structure::Block { equations, unknowns: places } = block;
     let zero = graph.zero();
-    let entry = |row: usize, column: usize| {
-        jacobian[equations[row]].get(&unknowns[places[column]]).copied().unwrap_or(zero)
-    };
+    let entry =
+        |row: usize, column: usize| jacobian[equations[row]].get(&unknowns[places[column]]).copied().unwrap_or(zero);
     let determinant = (method == Method::ClosedForm).then(|| {
         let value = match places.len() {
             1 => entry(0, 0),
@@ -166,7 +179,8 @@ fn jacobian(graph: &mut Graph, rows: &[NodeId], places: &Places) -> Vec<Row> {
     rows.iter()
         .map(|&row| {
             let of = graph.symbols_of(&[row]);
-            let entries = of.into_iter().filter_map(|symbol| Some((*places.get(&symbol)?, graph.partial(&[row], symbol)[0])));
+            let entries =
+                of.into_iter().filter_map(|symbol| Some((*places.get(&symbol)?, graph.partial(&[row], symbol)[0])));
             let entries: Vec<_> = entries.collect();
             entries.into_iter().filter(|(_, entry)| !graph.is_zero(*entry)).collect()
         })
@@ -190,14 +204,6 @@ fn quantity(graph: &mut Graph, value: Vec<NodeId>, coordinates: &[Coordinate], p
 }
 
 impl Block {
-    /// The block's part of J, row by row.
-    #[must_use]
-    pub fn matrix(&self, derivation: &Derivation) -> Vec<Vec<Option<NodeId>>> {
-        let columns: Vec<usize> = self.unknowns.iter().map(|&place| derivation.unknowns[place]).collect();
-        let row = |row: &Row| columns.iter().map(|column| row.get(column).copied()).collect();
-        self.equations.iter().map(|&equation| row(&derivation.jacobian[equation])).collect()
-    }
-
     /// The names of the unknowns, by which errors name the block.
     #[must_use]
     pub fn names(&self, derivation: &Derivation) -> String {

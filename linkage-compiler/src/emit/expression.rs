@@ -92,15 +92,10 @@ fn compute(names: &mut Names, schedule: &Schedule, value: ValueId) -> (TokenStre
             let below = operand(names, schedule, plain(*below), Binding::Prefix);
             (quote!(#above / #below), Binding::Product)
         }
-        Value::Power(base, exponent) => {
+        Value::Square(base) => {
             let named = names.get(schedule, *base).is_some();
             let base = operand(names, schedule, plain(*base), Binding::Atom);
-            if *exponent == 2 && named {
-                (quote!(#base * #base), Binding::Product)
-            } else {
-                let exponent = Literal::u32_unsuffixed(*exponent);
-                (quote!(#base.powi(#exponent)), Binding::Atom)
-            }
+            if named { (quote!(#base * #base), Binding::Product) } else { (quote!(#base.powi(2)), Binding::Atom) }
         }
         Value::Call(function, arguments) => {
             let receiver = operand(names, schedule, arguments[0], Binding::Atom);

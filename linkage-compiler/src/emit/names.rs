@@ -78,7 +78,7 @@ impl<'a> Names<'a> {
                 Value::Sum(_) => "sum_1".to_owned(),
                 Value::Product(_) => "product_1".to_owned(),
                 Value::Quotient(..) => "quotient_1".to_owned(),
-                Value::Power(..) => "power_1".to_owned(),
+                Value::Square(_) => "square_1".to_owned(),
                 Value::Call(function, _) => format!("{}_1", function.operation().name),
                 _ => "value_1".to_owned(),
             });
@@ -118,8 +118,7 @@ impl<'a> Names<'a> {
             Value::Quotient(above, below) => {
                 Some(format!("{}_by_{}", self.part(schedule, *above)?, self.part(schedule, *below)?))
             }
-            Value::Power(base, 2) => Some(format!("{}_squared", self.get(schedule, *base)?)),
-            Value::Power(base, 3) => Some(format!("{}_cubed", self.get(schedule, *base)?)),
+            Value::Square(base) => Some(format!("{}_squared", self.get(schedule, *base)?)),
             Value::Call(function, arguments) => match arguments.as_slice() {
                 &[argument] => Some(format!("{}_{}", function.operation().name, self.get(schedule, argument.value)?)),
                 _ => None,
@@ -135,7 +134,7 @@ impl<'a> Names<'a> {
         match schedule.value(value) {
             Value::Constant(Number::Ratio(1, 2)) => Some("half".to_owned()),
             Value::Constant(Number::Ratio(2, 1)) => Some("twice".to_owned()),
-            Value::Power(base, 2 | 3) if small(base) => self.describe(schedule, value),
+            Value::Square(base) if small(base) => self.describe(schedule, value),
             Value::Quotient(above, below) if is_one(schedule, *above) && small(below) => self.describe(schedule, value),
             Value::Product(factors) if factors.iter().all(small) => {
                 self.get(schedule, value).or_else(|| self.describe(schedule, value))

@@ -3,6 +3,7 @@
 use quote::quote;
 
 use super::{Kernels, Methods, check_finite, fenced, lines, literal};
+use crate::derivation::Form;
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
@@ -28,7 +29,7 @@ impl Methods<'_> {
 
             let (unknowns, all) = (kernels.derivation.unknowns.clone(), (0..u + v).collect::<Vec<_>>());
             let side = kernels.derivation.acceleration_side();
-            let mut stages = kernels.solve(&[(side, kernels.accelerations(&unknowns))]);
+            let mut stages = kernels.derivation.solution(&[(side, kernels.accelerations(&unknowns))], Form::Entries);
             stages.push(Stage::Return(kernels.variables(&kernels.accelerations(&all))));
             let mut sources = rates(self, kernels);
             sources.push(self.inputs(kernels, &acceleration, |c| c.acceleration));

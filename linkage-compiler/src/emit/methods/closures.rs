@@ -89,7 +89,13 @@ impl Methods<'_> {
         let a = derivation.map(Derivation::jacobian_inputs);
         let mut docs = vec![format!("The constraint Jacobian J = `Psi_u`; its columns are {unknowns}.")];
         docs.extend(kernels.zip(j.as_ref()).map(|(k, rows)| matrix(k, rows, "J")).unwrap_or_default());
-        self.matrix_function(kernels, "jacobian_unknowns", &docs, &quote!(SMatrix<T, #nu, #nu>), j.map(|rows| (rows, u)));
+        self.matrix_function(
+            kernels,
+            "jacobian_unknowns",
+            &docs,
+            &quote!(SMatrix<T, #nu, #nu>),
+            j.map(|rows| (rows, u)),
+        );
         let mut docs = vec![format!("The constraint Jacobian of the inputs A = `Psi_v`; its columns are {inputs}.")];
         docs.extend(kernels.zip(a.as_ref()).map(|(k, rows)| matrix(k, rows, "A")).unwrap_or_default());
         self.matrix_function(kernels, "jacobian_inputs", &docs, &quote!(SMatrix<T, #nu, #nv>), a.map(|rows| (rows, v)));
@@ -116,7 +122,7 @@ impl Methods<'_> {
                 let names = block.names(kernels.derivation);
                 let Some(determinant) = block.determinant else {
                     let symbol = kernels.derivation.graph.symbol(format!("pivots_{}", number + 1));
-                    stages.push(Stage::Pivots { symbol, matrix: kernels.matrix(block) });
+                    stages.push(Stage::Pivots { symbol, matrix: kernels.derivation.block_matrix(block) });
                     factors.push(kernels.derivation.graph.variable(symbol));
                     lines.push(format!("{names}: the product of the pivots"));
                     continue;

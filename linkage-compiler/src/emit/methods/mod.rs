@@ -18,7 +18,7 @@ use super::kernel::{self, Code, Given, Source};
 use super::names::{RUNTIME_FUNCTIONS, ident, unique};
 use super::pose::PosePlan;
 use super::types::field;
-use crate::derivation::{Block, Derivation, Row, solve_closed};
+use crate::derivation::{Derivation, Form};
 use crate::graph::{NodeId, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::schedule::{Operations, Stage};
@@ -115,64 +115,6 @@ impl<'a> Kernels<'a> {
         Self { derivation, plan }
     }
 
-    /// Stages that solve J x = right for each right side, block by block, each after the verdict on it.
-    fn solve(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)]) -> Vec<Stage> {
-        let mut stages = Vec::new();
-        let mut solved: Vec<Row> = vec![Row::new(); systems.len()];
-        for number in 0..self.derivation.blocks.len() {
-            let block = self.derivation.blocks[number].clone();
-            let divisor = self.verdict(number, &block, &mut stages);
-            let matrix = self.matrix(&block);
-            for ((right, targets), solved) in systems.iter().zip(&mut solved) {
-                let right: Vec<NodeId> = block
-                    .equations
-                    .iter()
-                    .map(|&equation| self.derivation.remainder(equation, right[equation], solved))
-                    .collect();
-                let targets: Vec<SymbolId> = block.unknowns.iter().map(|&place| targets[place]).collect();
-                let mut solution = self.variables(&targets);
-                match divisor {
-                    Some(divisor) => {
-                        let formulas = solve_closed(&mut self.derivation.graph, &matrix, divisor, &right);
-                        for ((&symbol, node), name) in targets.iter().zip(formulas).zip(&mut solution) {
-                            stages.push(Stage::Let { symbol, node });
-                            // What does not move needs no name in what follows.
-                            if self.derivation.graph.is_zero(node) {
-                                *name = node;
-                            }
-                        }
-                    }
-                    None => stages.push(Stage::Solve { block: number, targets, right }),
-                }
-                let places = block.unknowns.iter().map(|&place| self.derivation.unknowns[place]);
-                solved.extend(places.zip(solution));
-            }
-        }
-        stages
-    }
-
-    /// The verdict on a block, and what its closed form divides by.
-    fn verdict(&mut self, number: usize, block: &Block, stages: &mut Vec<Stage>) -> Option<NodeId> {
-        let Some(determinant) = block.determinant else {
-            let sizes = block.equations.iter().map(|&equation| self.derivation.sizes[equation]).collect();
-            stages.push(Stage::Factor { block: number, matrix: self.matrix(block), sizes });
-            return None;
-        };
-        // A determinant that is a number other than zero needs no verdict.
-        if self.derivation.graph.constant_value(determinant.value).is_some_and(|value| value != 0.0) {
-            return Some(determinant.value);
-        }
-        let node = self.derivation.graph.variable(determinant.symbol);
-        stages.push(Stage::Guard { block: number, determinant: node, size: determinant.size });
-        Some(node)
-    }
-
-    fn matrix(&mut self, block: &Block) -> Vec<Vec<NodeId>> {
-        let zero = self.derivation.graph.zero();
-        let entries = block.matrix(self.derivation);
-        entries.into_iter().map(|row| row.into_iter().map(|entry| entry.unwrap_or(zero)).collect()).collect()
-    }
-
     fn rates(&self, of: &[usize]) -> Vec<SymbolId> {
         of.iter().map(|&index| self.derivation.coordinates[index].rate).collect()
     }
@@ -210,7 +152,7 @@ impl<'a> Kernels<'a> {
             .enumerate()
             .map(|(input, targets)| (self.derivation.ratio_side(input), targets.clone()))
             .collect();
-        (self.solve(&systems), symbols)
+        (self.derivation.solution(&systems, Form::Factored), symbols)
     }
 
     fn text(&self, node: NodeId) -> String {

@@ -7,7 +7,7 @@ use super::super::kernel::Given;
 use super::super::types::field;
 use super::super::{Types, kernel};
 use super::{Arguments, Kernels, Methods, bind, check_finite, component_names, lines};
-use crate::derivation::Quantity;
+use crate::derivation::{Form, Quantity};
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
@@ -22,7 +22,7 @@ impl Methods<'_> {
                 (kernels.derivation.velocity_side(), kernels.rates(&unknowns)),
                 (kernels.derivation.acceleration_side(), kernels.accelerations(&unknowns)),
             ];
-            let mut stages = kernels.solve(&sides);
+            let mut stages = kernels.derivation.solution(&sides, Form::Entries);
             // Without a pose the determinants are computed where they are judged.
             stages = stages
                 .into_iter()

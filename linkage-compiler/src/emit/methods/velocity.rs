@@ -4,6 +4,7 @@ use quote::quote;
 
 use super::super::kernel::Source;
 use super::{Kernels, Methods, check_finite, columns_of, lines, literal};
+use crate::derivation::Form;
 use crate::graph::SymbolId;
 use crate::simplify::schedule::Stage;
 
@@ -29,7 +30,7 @@ impl Methods<'_> {
             let sides: Vec<SymbolId> =
                 (0..u).map(|row| kernels.derivation.graph.symbol(format!("right_{}", row + 1))).collect();
             let side = kernels.variables(&sides);
-            let mut stages = kernels.solve(&[(side, symbols.clone())]);
+            let mut stages = kernels.derivation.solution(&[(side, symbols.clone())], Form::Factored);
             stages.push(Stage::Return(kernels.variables(&symbols)));
             let fields = sides.iter().map(|&side| (String::new(), side)).collect();
             let source = Source { from: quote!(#right.data.0), of: None, fields };
@@ -64,7 +65,7 @@ impl Methods<'_> {
         let code = kernels.map(|kernels| {
             let (unknowns, all) = (kernels.derivation.unknowns.clone(), (0..u + v).collect::<Vec<_>>());
             let side = kernels.derivation.velocity_side();
-            let mut stages = kernels.solve(&[(side, kernels.rates(&unknowns))]);
+            let mut stages = kernels.derivation.solution(&[(side, kernels.rates(&unknowns))], Form::Factored);
             stages.push(Stage::Return(kernels.variables(&kernels.rates(&all))));
             let sources = vec![self.inputs(kernels, &rate, |c| c.rate)];
             let code = self.on_pose(kernels, sources, &stages);

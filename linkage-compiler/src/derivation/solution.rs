@@ -1,0 +1,67 @@
+//! Linear systems in J as the stages of a kernel: the blocks in order, each by its own method.
+
+use super::{Block, Derivation, Form, Row, solve_closed};
+use crate::graph::{NodeId, SymbolId};
+use crate::simplify::schedule::Stage;
+
+impl Derivation {
+    /// Stages that solve J x = right for each right side and name the solutions, block by block, each
+    /// after the verdict on it.
+    ///
+    /// A later system may refer to the solution of an earlier one: within a block they stand in order.
+    pub fn solution(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> Vec<Stage> {
+        let mut stages = Vec::new();
+        let mut solved: Vec<Row> = vec![Row::new(); systems.len()];
+        for number in 0..self.blocks.len() {
+            let block = self.blocks[number].clone();
+            let divisor = self.verdict(number, &block, &mut stages);
+            let matrix = self.block_matrix(&block);
+            for ((right, targets), solved) in systems.iter().zip(&mut solved) {
+                let right: Vec<NodeId> =
+                    block.equations.iter().map(|&equation| self.remainder(equation, right[equation], solved)).collect();
+                let targets: Vec<SymbolId> = block.unknowns.iter().map(|&place| targets[place]).collect();
+                let mut solution = targets.iter().map(|&symbol| self.graph.variable(symbol)).collect::<Vec<_>>();
+                match divisor {
+                    Some(divisor) => {
+                        let formulas = solve_closed(&mut self.graph, &matrix, divisor, &right, form);
+                        for ((&symbol, node), name) in targets.iter().zip(formulas).zip(&mut solution) {
+                            stages.push(Stage::Let { symbol, node });
+                            // What does not move needs no name in what follows.
+                            if self.graph.is_zero(node) {
+                                *name = node;
+                            }
+                        }
+                    }
+                    None => stages.push(Stage::Solve { block: number, targets, right }),
+                }
+                let places = block.unknowns.iter().map(|&place| self.unknowns[place]);
+                solved.extend(places.zip(solution));
+            }
+        }
+        stages
+    }
+
+    /// The verdict on a block, and what its closed form divides by.
+    fn verdict(&mut self, number: usize, block: &Block, stages: &mut Vec<Stage>) -> Option<NodeId> {
+        let Some(determinant) = block.determinant else {
+            let sizes = block.equations.iter().map(|&equation| self.sizes[equation]).collect();
+            stages.push(Stage::Factor { block: number, matrix: self.block_matrix(block), sizes });
+            return None;
+        };
+        // A determinant that is a number other than zero needs no verdict.
+        if self.graph.constant_value(determinant.value).is_some_and(|value| value != 0.0) {
+            return Some(determinant.value);
+        }
+        let node = self.graph.variable(determinant.symbol);
+        stages.push(Stage::Guard { block: number, determinant: node, size: determinant.size });
+        Some(node)
+    }
+
+    /// The block's part of J, row by row.
+    pub fn block_matrix(&mut self, block: &Block) -> Vec<Vec<NodeId>> {
+        let zero = self.graph.zero();
+        let columns: Vec<usize> = block.unknowns.iter().map(|&place| self.unknowns[place]).collect();
+        let row = |row: &Row| columns.iter().map(|column| row.get(column).copied().unwrap_or(zero)).collect();
+        block.equations.iter().map(|&equation| row(&self.jacobian[equation])).collect()
+    }
+}

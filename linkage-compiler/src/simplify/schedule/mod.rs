@@ -1,0 +1,202 @@
+//! From shared nodes to straight-line steps: every subexpression once, every sum or product of two
+//! parts that several have in common once, one sine-cosine pair an angle.
+
+mod operations;
+mod order;
+mod sharing;
+mod translate;
+
+use std::collections::{BTreeSet, HashMap};
+
+use crate::graph::{Function, Graph, NodeId, Number, SymbolId};
+pub use operations::Operations;
+use order::Ordering;
+use translate::Builder;
+
+/// What a kernel does, in order.
+#[derive(Debug, Clone)]
+pub enum Stage {
+    /// Gives a value a name that later stages refer to by its symbol.
+    Let { symbol: SymbolId, node: NodeId },
+    /// Refuses a determinant that is zero beside `size`.
+    Guard { block: usize, determinant: NodeId, size: NodeId },
+    /// Factorises the matrix of a block given by rows, whose rows are of these sizes.
+    Factor { block: usize, matrix: Vec<Vec<NodeId>>, sizes: Vec<NodeId> },
+    /// Solves the factorised system of a block and names the solution.
+    Solve { block: usize, targets: Vec<SymbolId>, right: Vec<NodeId> },
+    /// Names the product of the pivots of a matrix given by rows.
+    Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
+    /// The values that the kernel returns.
+    Return(Vec<NodeId>),
+}
+
+impl Stage {
+    /// The expressions of a stage.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<NodeId> {
+        match self {
+            Self::Let { node, .. } => vec![*node],
+            Self::Guard { determinant, size, .. } => vec![*determinant, *size],
+            Self::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).copied().collect(),
+            Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
+            Self::Solve { right, .. } => right.clone(),
+            Self::Return(nodes) => nodes.clone(),
+        }
+    }
+}
+
+/// A value of a [`Schedule`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ValueId(usize);
+
+/// A value or its negative.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Signed {
+    pub negative: bool,
+    pub value: ValueId,
+}
+
+/// How a value is computed; signs have been moved to the sums and results that use it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Value {
+    Symbol(SymbolId),
+    /// The sine or cosine of an angle whose direction is given.
+    Direction(Function, NodeId),
+    Constant(Number),
+    Sum(Vec<Signed>),
+    Product(Vec<ValueId>),
+    Quotient(ValueId, ValueId),
+    Square(ValueId),
+    Call(Function, Vec<Signed>),
+}
+
+/// One line of straight-line code.
+#[derive(Debug, Clone)]
+pub enum Line {
+    Let(ValueId),
+    SineCosine { sine: ValueId, cosine: ValueId, angle: Signed },
+    Name { symbol: SymbolId, value: Signed },
+    Guard { block: usize, determinant: Signed, size: Signed },
+    Factor { block: usize, matrix: Vec<Vec<Signed>>, sizes: Vec<Signed> },
+    Solve { block: usize, targets: Vec<SymbolId>, right: Vec<Signed> },
+    Pivots { symbol: SymbolId, matrix: Vec<Vec<Signed>> },
+    Return(Vec<Signed>),
+}
+
+/// A kernel as straight-line code.
+#[derive(Debug, Clone)]
+pub struct Schedule {
+    values: Vec<Value>,
+    pub lines: Vec<Line>,
+    /// The expressions that the user named, where they are computed.
+    names: HashMap<ValueId, String>,
+}
+
+/// Orders the stages of a kernel. `directions` are the angles whose sine and cosine are given.
+#[must_use]
+pub fn schedule(
+    graph: &Graph,
+    stages: &[Stage],
+    directions: &BTreeSet<NodeId>,
+    named: &[(NodeId, String)],
+) -> Schedule {
+    let roots: Vec<NodeId> = stages.iter().flat_map(Stage::nodes).collect();
+    let (mut values, of) = Builder::translate_all(graph, directions, &roots);
+    sharing::share(&mut values, &roots.iter().map(|root| of[root].value).collect::<Vec<_>>());
+    let names = named
+        .iter()
+        .filter_map(|(node, name)| {
+            of.get(node).filter(|signed| !signed.negative).map(|signed| (signed.value, name.clone()))
+        })
+        .collect();
+    let mut ordering = Ordering::new(values, &roots.iter().map(|root| of[root]).collect::<Vec<_>>());
+    let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| of[node]).collect() };
+    for stage in stages {
+        for node in stage.nodes() {
+            ordering.require(of[&node].value, matches!(stage, Stage::Let { .. }));
+        }
+        ordering.lines.push(match stage {
+            Stage::Let { symbol, node } => Line::Name { symbol: *symbol, value: of[node] },
+            Stage::Guard { block, determinant, size } => {
+                Line::Guard { block: *block, determinant: of[determinant], size: of[size] }
+            }
+            Stage::Factor { block, matrix, sizes } => {
+                let matrix = matrix.iter().map(|row| signed(row)).collect();
+                Line::Factor { block: *block, matrix, sizes: signed(sizes) }
+            }
+            Stage::Solve { block, targets, right } => {
+                Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }
+            }
+            Stage::Pivots { symbol, matrix } => {
+                Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
+            }
+            Stage::Return(nodes) => Line::Return(signed(nodes)),
+        });
+    }
+    Schedule { values: ordering.values, lines: ordering.lines, names }
+}
+
+impl Value {
+    fn parts(&self) -> Vec<ValueId> {
+        match self {
+            Self::Symbol(_) | Self::Direction(..) | Self::Constant(_) => Vec::new(),
+            Self::Sum(terms) => terms.iter().map(|term| term.value).collect(),
+            Self::Product(factors) => factors.clone(),
+            Self::Quotient(above, below) => vec![*above, *below],
+            Self::Square(base) => vec![*base],
+            Self::Call(_, arguments) => arguments.iter().map(|argument| argument.value).collect(),
+        }
+    }
+
+    /// Numbers stand before names, and names before what is made of them.
+    fn rank(&self) -> usize {
+        match self {
+            Self::Constant(_) => 0,
+            Self::Symbol(_) => 1,
+            _ => 2,
+        }
+    }
+
+    fn is_leaf(&self) -> bool {
+        matches!(self, Self::Symbol(_) | Self::Direction(..) | Self::Constant(_))
+    }
+}
+
+impl Schedule {
+    #[must_use]
+    pub fn value(&self, id: ValueId) -> &Value {
+        &self.values[id.0]
+    }
+
+    /// The name that the user gave to a value.
+    #[must_use]
+    pub fn name(&self, id: ValueId) -> Option<&str> {
+        self.names.get(&id).map(String::as_str)
+    }
+
+    /// Every value that the lines stand on.
+    #[must_use]
+    pub fn used(&self) -> Vec<ValueId> {
+        let mut seen = BTreeSet::new();
+        let mut stack: Vec<ValueId> = self.lines.iter().flat_map(line_values).collect();
+        while let Some(id) = stack.pop() {
+            if seen.insert(id) {
+                stack.extend(self.values[id.0].parts());
+            }
+        }
+        seen.into_iter().collect()
+    }
+}
+
+fn line_values(line: &Line) -> Vec<ValueId> {
+    let of = |signed: &[Signed]| signed.iter().map(|signed| signed.value).collect::<Vec<_>>();
+    match line {
+        Line::Let(id) => vec![*id],
+        Line::SineCosine { sine, cosine, .. } => vec![*sine, *cosine],
+        Line::Name { value, .. } => vec![value.value],
+        Line::Guard { determinant, size, .. } => vec![determinant.value, size.value],
+        Line::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).map(|signed| signed.value).collect(),
+        Line::Pivots { matrix, .. } => matrix.iter().flatten().map(|signed| signed.value).collect(),
+        Line::Solve { right, .. } | Line::Return(right) => of(right),
+    }
+}

@@ -1,0 +1,46 @@
+//! How much work a kernel is.
+
+use super::{Line, Schedule, Value};
+use crate::graph::Function;
+
+/// How much work a kernel is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Operations {
+    pub multiplications: usize,
+    pub additions: usize,
+    pub divisions: usize,
+    /// Sine and cosine of one angle count as one.
+    pub functions: usize,
+}
+
+impl Operations {
+    /// Whether nothing is done more often than in `limit`.
+    #[must_use]
+    pub fn within(self, limit: Self) -> bool {
+        self.multiplications <= limit.multiplications
+            && self.additions <= limit.additions
+            && self.divisions <= limit.divisions
+            && self.functions <= limit.functions
+    }
+}
+
+impl Schedule {
+    /// The operations of all lines, but for the factorisations.
+    #[must_use]
+    pub fn operations(&self) -> Operations {
+        let mut total = Operations::default();
+        for id in self.used() {
+            match &self.values[id.0] {
+                Value::Sum(terms) => total.additions += terms.len() - 1,
+                Value::Product(factors) => total.multiplications += factors.len() - 1,
+                Value::Quotient(..) => total.divisions += 1,
+                Value::Square(_) => total.multiplications += 1,
+                Value::Call(Function::Abs, _) => {}
+                Value::Call(..) => total.functions += 1,
+                Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {}
+            }
+        }
+        total.functions -= self.lines.iter().filter(|line| matches!(line, Line::SineCosine { .. })).count();
+        total
+    }
+}

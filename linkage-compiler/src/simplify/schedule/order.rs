@@ -1,0 +1,87 @@
+//! Which values get a line of their own, and in what order.
+
+use std::collections::HashMap;
+
+use super::{Line, Signed, Value, ValueId};
+use crate::graph::Function;
+
+/// An inline expression nested deeper than this is hard to read; it gets a line of its own.
+const DEEPEST_INLINE: usize = 5;
+
+/// Decides which values get a line, and in what order.
+pub(super) struct Ordering {
+    pub(super) values: Vec<Value>,
+    uses: Vec<usize>,
+    /// The nesting of a value written inline; zero once it has a name.
+    height: Vec<Option<usize>>,
+    pub(super) lines: Vec<Line>,
+    /// Sines and cosines that are used, by function and argument.
+    circular: HashMap<(Function, Signed), ValueId>,
+}
+
+impl Ordering {
+    pub(super) fn new(values: Vec<Value>, roots: &[Signed]) -> Self {
+        let mut uses = vec![0; values.len()];
+        let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
+        while let Some(id) = stack.pop() {
+            uses[id.0] += 1;
+            if uses[id.0] == 1 {
+                stack.extend(values[id.0].parts());
+            }
+        }
+        let used = (0..values.len()).filter(|&index| uses[index] > 0);
+        let circular = used
+            .filter_map(|index| match &values[index] {
+                Value::Call(function @ (Function::Sin | Function::Cos), angle) => {
+                    Some(((*function, angle[0]), ValueId(index)))
+                }
+                _ => None,
+            })
+            .collect();
+        Self { height: vec![None; values.len()], values, uses, lines: Vec::new(), circular }
+    }
+
+    /// Emits the lines that `root` stands on; `named` if its own line is about to follow.
+    pub(super) fn require(&mut self, root: ValueId, named: bool) {
+        let mut stack = vec![(root, false)];
+        while let Some((id, expanded)) = stack.pop() {
+            if self.height[id.0].is_some() {
+                continue;
+            }
+            if !expanded {
+                stack.push((id, true));
+                stack.extend(self.values[id.0].parts().into_iter().rev().map(|part| (part, false)));
+                continue;
+            }
+            if named && id == root {
+                self.height[id.0] = Some(0);
+                continue;
+            }
+            let inside = self.values[id.0].parts().iter().filter_map(|part| self.height[part.0]).max();
+            let height = inside.map_or(0, |inside| inside + 1);
+            let deserves = self.uses[id.0] > 1 || height > DEEPEST_INLINE;
+            self.height[id.0] = Some(if self.values[id.0].is_leaf() || self.pair(id) {
+                0
+            } else if deserves {
+                self.lines.push(Line::Let(id));
+                0
+            } else {
+                height
+            });
+        }
+    }
+
+    /// Writes sine and cosine of one angle as one line, if both are used.
+    fn pair(&mut self, id: ValueId) -> bool {
+        let Value::Call(function @ (Function::Sin | Function::Cos), arguments) = &self.values[id.0] else {
+            return false;
+        };
+        let other = if *function == Function::Sin { Function::Cos } else { Function::Sin };
+        let angle = arguments[0];
+        let Some(&partner) = self.circular.get(&(other, angle)) else { return false };
+        let (sine, cosine) = if *function == Function::Sin { (id, partner) } else { (partner, id) };
+        self.height[partner.0] = Some(0);
+        self.lines.push(Line::SineCosine { sine, cosine, angle });
+        true
+    }
+}

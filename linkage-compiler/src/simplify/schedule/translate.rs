@@ -1,0 +1,221 @@
+//! Nodes to values: signs move out to where they cost nothing, quotients by one divisor share its
+//! inverse, and powers become squares of squares.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use super::{Signed, Value, ValueId};
+use crate::graph::{Function, Graph, Node, NodeId, Number};
+
+/// Translates nodes to values.
+pub(super) struct Builder<'a> {
+    graph: &'a Graph,
+    directions: &'a BTreeSet<NodeId>,
+    values: Vec<Value>,
+    ids: HashMap<Value, ValueId>,
+    of: HashMap<NodeId, Signed>,
+}
+
+impl<'a> Builder<'a> {
+    /// The values that the roots stand on, and which of them each node became.
+    pub(super) fn translate_all(
+        graph: &'a Graph,
+        directions: &'a BTreeSet<NodeId>,
+        roots: &[NodeId],
+    ) -> (Vec<Value>, HashMap<NodeId, Signed>) {
+        let mut builder = Self { graph, directions, values: Vec::new(), ids: HashMap::new(), of: HashMap::new() };
+        builder.build(roots);
+        (builder.values, builder.of)
+    }
+
+    fn build(&mut self, roots: &[NodeId]) {
+        let mut wanted: BTreeSet<NodeId> = roots.iter().copied().collect();
+        let mut ordered = Vec::new();
+        while let Some(id) = wanted.pop_last() {
+            ordered.push(id);
+            if !self.is_leaf(id) {
+                wanted.extend(self.graph.children(id));
+            }
+        }
+        ordered.reverse();
+        let shared = self.shared_divisors(&ordered);
+        for id in ordered {
+            let signed = match self.leaf(id) {
+                Some(signed) => signed,
+                None => self.translate(id, &shared),
+            };
+            self.of.insert(id, signed);
+        }
+    }
+
+    fn is_leaf(&self, id: NodeId) -> bool {
+        let given = match self.graph.node(id) {
+            Node::Call(Function::Sin | Function::Cos, angle) => self.directions.contains(&angle[0]),
+            _ => false,
+        };
+        given || self.graph.constant_value(id).is_some()
+    }
+
+    /// Constants, symbols and given directions need nothing else.
+    fn leaf(&mut self, id: NodeId) -> Option<Signed> {
+        let value = match self.graph.node(id) {
+            Node::Constant(number) => return Some(self.constant(*number)),
+            Node::Symbol(symbol) => Value::Symbol(*symbol),
+            Node::Call(function @ (Function::Sin | Function::Cos), angle) if self.directions.contains(&angle[0]) => {
+                Value::Direction(*function, angle[0])
+            }
+            _ => return self.graph.constant_value(id).map(|value| self.constant(Number::Float(value))),
+        };
+        Some(self.positive(value))
+    }
+
+    /// The divisors that more than one quotient has: these are inverted once.
+    fn shared_divisors(&self, nodes: &[NodeId]) -> BTreeSet<Vec<(NodeId, i32)>> {
+        let mut count: BTreeMap<Vec<(NodeId, i32)>, usize> = BTreeMap::new();
+        for &id in nodes {
+            if let Node::Product { factors, .. } = self.graph.node(id) {
+                *count.entry(divisor(factors)).or_default() += 1;
+            }
+        }
+        count
+            .into_iter()
+            .filter(|(divisor, uses)| *uses > 1 && !divisor.is_empty())
+            .map(|(divisor, _)| divisor)
+            .collect()
+    }
+
+    fn intern(&mut self, value: Value) -> ValueId {
+        *self.ids.entry(value).or_insert_with_key(|value| {
+            self.values.push(value.clone());
+            ValueId(self.values.len() - 1)
+        })
+    }
+
+    fn positive(&mut self, value: Value) -> Signed {
+        Signed { negative: false, value: self.intern(value) }
+    }
+
+    fn constant(&mut self, number: Number) -> Signed {
+        Signed { negative: number.is_negative(), value: self.intern(Value::Constant(number.absolute())) }
+    }
+
+    fn translate(&mut self, id: NodeId, shared: &BTreeSet<Vec<(NodeId, i32)>>) -> Signed {
+        match self.graph.node(id) {
+            Node::Sum { constant, terms } => {
+                let mut signed = Vec::new();
+                for &(coefficient, term) in terms {
+                    let term = self.of[&term];
+                    let value = self.scaled(coefficient.absolute(), term.value);
+                    signed.push(Signed { negative: term.negative != coefficient.is_negative(), value });
+                }
+                if !constant.is_zero() {
+                    signed.push(self.constant(*constant));
+                }
+                self.sum(signed)
+            }
+            Node::Product { coefficient, factors } => self.product(*coefficient, factors, shared),
+            Node::Call(function, arguments) => {
+                let arguments = arguments.iter().map(|argument| self.of[argument]).collect();
+                self.positive(Value::Call(*function, arguments))
+            }
+            Node::Constant(_) | Node::Pi | Node::Symbol(_) => self.constant(Number::ZERO),
+        }
+    }
+
+    /// Signs are moved out so that a - b and b - a are one value and most terms are added.
+    fn sum(&mut self, mut terms: Vec<Signed>) -> Signed {
+        let negatives = terms.iter().filter(|term| term.negative).count();
+        let flip = 2 * negatives > terms.len() || (2 * negatives == terms.len() && terms[0].negative);
+        for term in &mut terms {
+            term.negative ^= flip;
+        }
+        // What is added stands before what is taken away, so that nothing starts with a minus.
+        terms.sort_by_key(|term| term.negative);
+        Signed { negative: flip, value: self.intern(Value::Sum(terms)) }
+    }
+
+    fn product(
+        &mut self,
+        coefficient: Number,
+        factors: &[(NodeId, i32)],
+        shared: &BTreeSet<Vec<(NodeId, i32)>>,
+    ) -> Signed {
+        let mut constant = coefficient;
+        let mut negative = false;
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        for &(base, exponent) in factors {
+            if let Some(value) = self.graph.constant_value(base) {
+                constant = constant.multiply(Number::Float(value.powi(exponent)));
+                continue;
+            }
+            let signed = self.of[&base];
+            negative ^= signed.negative && exponent % 2 != 0;
+            let powers = self.power(signed.value, exponent.unsigned_abs());
+            if exponent > 0 { &mut above } else { &mut below }.extend(powers);
+        }
+        negative ^= constant.is_negative();
+        let constant = constant.absolute();
+        if below.is_empty() {
+            let value = self.multiply(constant, above);
+            return Signed { negative, value };
+        }
+        let divisor_value = self.multiply(Number::ONE, below);
+        let value = if shared.contains(&divisor(factors)) {
+            let one = self.constant(Number::ONE).value;
+            let inverse = self.intern(Value::Quotient(one, divisor_value));
+            above.push(inverse);
+            self.multiply(constant, above)
+        } else {
+            let above = self.multiply(constant, above);
+            self.intern(Value::Quotient(above, divisor_value))
+        };
+        Signed { negative, value }
+    }
+
+    /// x^n as factors, each a square of squares: x^5 = x (x^2)^2.
+    fn power(&mut self, base: ValueId, exponent: u32) -> Vec<ValueId> {
+        let mut factors = Vec::new();
+        let (mut square, mut rest) = (base, exponent);
+        loop {
+            if rest % 2 == 1 {
+                factors.push(square);
+            }
+            rest /= 2;
+            if rest == 0 {
+                return factors;
+            }
+            square = self.intern(Value::Square(square));
+        }
+    }
+
+    fn multiply(&mut self, constant: Number, mut factors: Vec<ValueId>) -> ValueId {
+        if !constant.is_one() || factors.is_empty() {
+            factors.insert(0, self.constant(constant).value);
+        }
+        match factors.as_slice() {
+            &[only] => only,
+            _ => {
+                factors.sort_unstable_by_key(|&id| (self.values[id.0].rank(), id));
+                self.intern(Value::Product(factors))
+            }
+        }
+    }
+
+    fn scaled(&mut self, factor: Number, value: ValueId) -> ValueId {
+        if factor.is_one() {
+            return value;
+        }
+        match self.values[value.0].clone() {
+            Value::Constant(number) => self.constant(number.multiply(factor)).value,
+            Value::Product(factors) => self.multiply(factor, factors),
+            Value::Quotient(above, below) => {
+                let above = self.scaled(factor, above);
+                self.intern(Value::Quotient(above, below))
+            }
+            _ => self.multiply(factor, vec![value]),
+        }
+    }
+}
+
+fn divisor(factors: &[(NodeId, i32)]) -> Vec<(NodeId, i32)> {
+    factors.iter().filter(|(_, exponent)| *exponent < 0).copied().collect()
+}
