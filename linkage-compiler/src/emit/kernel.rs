@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Ident, TokenStream};
+use quote::{ToTokens, quote};
 
 use super::expression::{definition, direction_name, signed};
 use super::names::{Names, ident};
@@ -30,10 +30,28 @@ pub(super) struct Given<'a> {
     pub pose: Option<&'a PosePlan>,
 }
 
+/// A value that a kernel returns.
+#[derive(Clone)]
+pub(super) enum Operand {
+    Name(Ident),
+    /// Nought or one.
+    Constant(TokenStream),
+    Formula(TokenStream),
+}
+
+impl ToTokens for Operand {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        match self {
+            Self::Name(name) => name.to_tokens(tokens),
+            Self::Constant(value) | Self::Formula(value) => value.to_tokens(tokens),
+        }
+    }
+}
+
 /// The lines of a kernel, the names of what it returns and the number of operations.
 pub(super) struct Code {
     pub body: TokenStream,
-    pub results: Vec<TokenStream>,
+    pub results: Vec<Operand>,
     pub operations: Operations,
     /// The names that the body has given.
     pub taken: BTreeSet<String>,
@@ -142,7 +160,7 @@ fn write_line(
     schedule: &Schedule,
     used: &BTreeSet<SymbolId>,
     names: &mut Names,
-    results: &mut Vec<TokenStream>,
+    results: &mut Vec<Operand>,
 ) -> TokenStream {
     match line {
         Line::Let(id) => {
@@ -197,9 +215,19 @@ fn write_line(
             quote!(let #name = product_of_pivots([#(#columns),*]);)
         }
         Line::Return(values) => {
-            *results = values.iter().map(|value| signed(names, schedule, *value)).collect();
+            *results = values.iter().map(|value| result(names, schedule, *value)).collect();
             TokenStream::new()
         }
+    }
+}
+
+fn result(names: &mut Names, schedule: &Schedule, value: Signed) -> Operand {
+    match (schedule.value(value.value), names.get(schedule, value.value)) {
+        (_, Some(name)) if !value.negative => Operand::Name(ident(&name)),
+        (Value::Constant(number), _) if number.is_zero() || (number.is_one() && !value.negative) => {
+            Operand::Constant(signed(names, schedule, value))
+        }
+        _ => Operand::Formula(signed(names, schedule, value)),
     }
 }
 

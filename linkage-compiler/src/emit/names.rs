@@ -1,8 +1,9 @@
 //! Names of the emitted code: the user's own, and fresh ones beside them.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
+use rustc_hash::FxHashMap;
 
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
@@ -18,17 +19,26 @@ const LONGEST: usize = 36;
 pub(super) struct Names<'a> {
     graph: &'a Graph,
     taken: BTreeSet<String>,
-    values: HashMap<ValueId, String>,
-    symbols: HashMap<SymbolId, String>,
+    values: FxHashMap<ValueId, String>,
+    symbols: FxHashMap<SymbolId, String>,
+    /// The last number given to a stem.
+    numbers: FxHashMap<String, usize>,
     /// The factorisations, by block.
-    pub(super) factors: HashMap<usize, String>,
+    pub(super) factors: FxHashMap<usize, String>,
 }
 
 impl<'a> Names<'a> {
     /// `reserved` are names already in scope: arguments of the function and the user's names.
     pub(super) fn new(graph: &'a Graph, reserved: impl IntoIterator<Item = String>) -> Self {
         let taken = reserved.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)).collect();
-        Self { graph, taken, values: HashMap::new(), symbols: HashMap::new(), factors: HashMap::new() }
+        Self {
+            graph,
+            taken,
+            values: FxHashMap::default(),
+            symbols: FxHashMap::default(),
+            numbers: FxHashMap::default(),
+            factors: FxHashMap::default(),
+        }
     }
 
     /// A name not yet taken.
@@ -91,11 +101,14 @@ impl<'a> Names<'a> {
     }
 
     fn numbered(&mut self, stem: &str) -> String {
-        let mut number = 1;
-        while !self.taken.insert(format!("{stem}_{number}")) {
-            number += 1;
+        let number = self.numbers.entry(stem.to_owned()).or_default();
+        loop {
+            *number += 1;
+            let name = format!("{stem}_{number}");
+            if self.taken.insert(name.clone()) {
+                return name;
+            }
         }
-        format!("{stem}_{number}")
     }
 
     /// A name made of the names of the parts.

@@ -1,7 +1,7 @@
 //! What a pose carries: the direction of every angle that a formula takes a sine or cosine of, the
 //! coordinates that formulas use as they are, and the determinant.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::derivation::{Derivation, Row};
 use crate::graph::{Function, Node, NodeId, SymbolId};
@@ -13,7 +13,7 @@ pub(super) struct PosePlan {
     /// What functions call their pose.
     pub argument: String,
     /// Angles and the fields that hold their directions.
-    pub directions: Vec<(NodeId, String)>,
+    pub directions: BTreeMap<NodeId, String>,
     /// Coordinates held as numbers: index, field, symbol.
     pub values: Vec<(usize, String, SymbolId)>,
     /// Determinants that vary: block, field, symbol.
@@ -51,10 +51,12 @@ impl PosePlan {
                 determinants.push((number, unique(name), determinant.symbol));
             }
         }
-        let directions: Vec<_> = angles.iter().map(|&angle| (angle, unique(angle_name(graph, angle)))).collect();
+        let directions: BTreeMap<NodeId, String> =
+            angles.iter().map(|&angle| (angle, unique(angle_name(graph, angle)))).collect();
+        let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
         let mut values = Vec::new();
         for (index, coordinate) in derivation.coordinates.iter().enumerate() {
-            let has_direction = angles.iter().any(|&angle| graph.as_symbol(angle) == Some(coordinate.value));
+            let has_direction = bare_angles.contains(&coordinate.value);
             if has_direction && bare.contains(&coordinate.value) {
                 values.push((index, unique(format!("{}_angle", coordinate.name)), coordinate.value));
             } else if !has_direction {
@@ -66,11 +68,11 @@ impl PosePlan {
 
     /// The angles whose directions a pose holds.
     pub(super) fn angles(&self) -> impl Iterator<Item = NodeId> {
-        self.directions.iter().map(|(angle, _)| *angle)
+        self.directions.keys().copied()
     }
 
     pub(super) fn direction(&self, angle: NodeId) -> &str {
-        self.directions.iter().find(|(other, _)| *other == angle).map_or("", |(_, field)| field)
+        self.directions.get(&angle).map_or("", String::as_str)
     }
 }
 

@@ -10,7 +10,9 @@ mod interpret;
 mod number;
 mod print;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
 
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
@@ -56,7 +58,7 @@ pub enum Fault {
 #[derive(Debug, Clone, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    ids: HashMap<Node, NodeId>,
+    ids: FxHashMap<Node, NodeId>,
     /// The value of each node that holds no symbol.
     values: Vec<Option<f64>>,
     symbols: Vec<String>,

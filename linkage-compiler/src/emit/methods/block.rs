@@ -1,5 +1,7 @@
 //! The `impl` blocks that hold the functions.
 
+use std::collections::BTreeMap;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -7,24 +9,23 @@ use super::super::Types;
 use super::super::names::ident;
 use super::super::pose::PosePlan;
 use super::super::types::field;
-use super::{Methods, identifiers, imports, literal};
+use super::{Kernels, Methods, imports, literal};
 use crate::derivation::Derivation;
+use crate::graph::SymbolId;
 
 impl Methods<'_> {
     /// The `impl` blocks, in a scope of their own for the names that they use.
-    pub(super) fn block(self, derivation: Option<&Derivation>, private: &TokenStream) -> TokenStream {
+    pub(super) fn block(self, kernels: Option<&Kernels>, private: &TokenStream) -> TokenStream {
         let Types { driver, inputs, unknowns, pose, coordinates, .. } = self.types;
         let text = driver.to_string();
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
         let (nu, nv) = (literal(u), literal(v));
         let functions = &self.functions;
-        let mut written = identifiers(functions);
-        written.insert("same_signs".to_owned());
-        let imports = imports(&written);
+        let imports = imports(&self.written);
         let members: Vec<Ident> =
             self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
         let rest = members.is_empty().then(|| quote!(..));
-        let pose_coordinates = derivation.map(|derivation| self.pose_coordinates(derivation));
+        let pose_coordinates = kernels.map(|kernels| self.pose_coordinates(kernels.derivation, kernels.plan));
         quote! {
             const _: () = {
                 use ::core::convert::{From, Into};
@@ -79,25 +80,22 @@ impl Methods<'_> {
     }
 
     /// Angles on request: the coordinates of a pose.
-    pub(super) fn pose_coordinates(&self, derivation: &Derivation) -> TokenStream {
-        let plan = PosePlan::new(derivation, self.arguments.pose.to_string());
+    fn pose_coordinates(&self, derivation: &Derivation, plan: &PosePlan) -> TokenStream {
         let Types { pose, coordinates, .. } = self.types;
         let fields = self.coordinate_fields();
+        let angles: BTreeMap<SymbolId, &String> = plan
+            .directions
+            .iter()
+            .filter_map(|(angle, field)| Some((derivation.graph.as_symbol(*angle)?, field)))
+            .collect();
+        let bare: BTreeMap<usize, &String> = plan.values.iter().map(|(index, field, _)| (*index, field)).collect();
         let values = derivation.coordinates.iter().enumerate().map(|(index, coordinate)| {
-            match plan.values.iter().find(|(other, _, _)| *other == index) {
-                Some((_, field, _)) => {
-                    let field = ident(field);
-                    quote!(self.#field)
-                }
-                None => {
-                    let angle = plan
-                        .directions
-                        .iter()
-                        .find(|(angle, _)| derivation.graph.as_symbol(*angle) == Some(coordinate.value));
-                    let field = ident(angle.map_or("", |(_, field)| field));
-                    quote!(self.#field.angle())
-                }
+            if let Some(field) = bare.get(&index) {
+                let field = ident(field);
+                return quote!(self.#field);
             }
+            let field = ident(angles.get(&coordinate.value).map_or("", |field| field.as_str()));
+            quote!(self.#field.angle())
         });
         let values: Vec<_> = values.collect();
         quote! {

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
+use super::super::kernel::Operand;
 use super::super::names::ident;
 use super::{Kernels, Methods, columns_of, fenced, literal};
 use crate::derivation::{Derivation, Row};
@@ -163,7 +164,7 @@ impl Methods<'_> {
 const LARGEST_DENSE: usize = 16;
 
 /// A matrix from its entries, which come column by column; those not named are zero.
-fn matrix_of(entries: impl Iterator<Item = (usize, usize, TokenStream)>, rows: usize, columns: usize) -> TokenStream {
+fn matrix_of(entries: impl Iterator<Item = (usize, usize, Operand)>, rows: usize, columns: usize) -> TokenStream {
     let entries: Vec<_> = entries.collect();
     if rows * columns > LARGEST_DENSE && 2 * entries.len() < rows * columns {
         let lines = entries.iter().map(|(row, column, value)| {
@@ -173,7 +174,7 @@ fn matrix_of(entries: impl Iterator<Item = (usize, usize, TokenStream)>, rows: u
         let (rows, columns) = (literal(rows), literal(columns));
         return quote!(let mut matrix = [[T::zero(); #rows]; #columns]; #(#lines)* SMatrix::from(matrix));
     }
-    let mut flat = vec![quote!(T::zero()); rows * columns];
+    let mut flat = vec![Operand::Constant(quote!(T::zero())); rows * columns];
     for (row, column, value) in entries {
         flat[column * rows + row] = value;
     }

@@ -11,10 +11,10 @@ mod velocity;
 use std::collections::BTreeSet;
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
-use quote::quote;
+use quote::{ToTokens, quote};
 
 use super::Types;
-use super::kernel::{self, Code, Given, Source};
+use super::kernel::{self, Code, Given, Operand, Source};
 use super::names::{RUNTIME_FUNCTIONS, ident, unique};
 use super::pose::PosePlan;
 use super::types::field;
@@ -53,6 +53,8 @@ struct Methods<'a> {
     reserved: Vec<String>,
     named: Vec<(NodeId, String)>,
     functions: TokenStream,
+    /// The identifiers of the functions written so far.
+    written: BTreeSet<String>,
 }
 
 /// The `impl` blocks of one driver; without a derivation every body is left open.
@@ -83,6 +85,8 @@ pub(super) fn of_driver(
         reserved,
         named: mechanism.named.clone(),
         functions: TokenStream::new(),
+        // The block itself compares signs.
+        written: BTreeSet::from(["same_signs".to_owned()]),
     };
     let mut kernels = derivation.zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
     if let Some(kernels) = &kernels {
@@ -95,7 +99,7 @@ pub(super) fn of_driver(
     methods.quantities(kernels.as_mut(), Family::Points);
     methods.quantities(kernels.as_mut(), Family::Outputs);
     methods.motion(kernels.as_mut());
-    methods.block(kernels.as_ref().map(|kernels| &*kernels.derivation), private)
+    methods.block(kernels.as_ref(), private)
 }
 
 /// A derivation and the pose planned for it.
@@ -248,7 +252,10 @@ impl Methods<'_> {
             lines.push(format!(" Operations: {}.", count(operations)));
         }
         let body = body.unwrap_or_else(|| quote!(::core::unreachable!()));
-        let signature = without_unused(signature, &identifiers(&body), &self.reserved);
+        let used = identifiers(&body);
+        let signature = without_unused(signature, &used, &self.reserved);
+        self.written.extend(used);
+        self.written.extend(identifiers(&signature));
         self.functions.extend(quote! {
             #(#[doc = #lines])*
             #signature { #body }
@@ -311,8 +318,11 @@ fn literal(count: usize) -> Literal {
 }
 
 /// `name: value`, or `name` alone if the value is called so.
-fn member(name: &Ident, value: &TokenStream) -> TokenStream {
-    if *name == value.to_string() { quote!(#name) } else { quote!(#name: #value) }
+fn member(name: &Ident, value: &Operand) -> TokenStream {
+    match value {
+        Operand::Name(value) if value == name => quote!(#name),
+        value => quote!(#name: #value),
+    }
 }
 
 fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
@@ -343,7 +353,7 @@ fn count(operations: Operations) -> String {
 }
 
 /// A matrix from its entries, column by column.
-fn columns_of(entries: &[TokenStream], rows: usize) -> TokenStream {
+fn columns_of(entries: &[impl ToTokens], rows: usize) -> TokenStream {
     let columns = entries.chunks(rows).map(|column| quote!([#(#column),*]));
     quote!(SMatrix::from([#(#columns),*]))
 }
@@ -360,16 +370,17 @@ fn component_names(names: &[Ident], dimension: usize, orders: &[&str]) -> Vec<St
     all
 }
 
-/// Whether an expression is nought or one.
-fn is_constant(value: &TokenStream) -> bool {
-    let text = value.to_string();
-    [quote!(T::zero()), quote!(T::one())].iter().any(|constant| constant.to_string() == text)
-}
-
 /// `finite(NAME, what, [values])?;`, each value once.
-fn check_finite(what: &str, values: &[TokenStream]) -> TokenStream {
+fn check_finite(what: &str, values: &[Operand]) -> TokenStream {
     let mut seen = BTreeSet::new();
-    let values: Vec<_> = values.iter().filter(|value| !is_constant(value) && seen.insert(value.to_string())).collect();
+    let values: Vec<_> = values
+        .iter()
+        .filter(|value| match value {
+            Operand::Name(name) => seen.insert(name),
+            Operand::Constant(_) => false,
+            Operand::Formula(_) => true,
+        })
+        .collect();
     if values.is_empty() {
         return TokenStream::new();
     }
@@ -377,18 +388,18 @@ fn check_finite(what: &str, values: &[TokenStream]) -> TokenStream {
 }
 
 /// Gives a name to every result that is not one already.
-fn bind(results: &[TokenStream], wishes: &[String], taken: &mut BTreeSet<String>) -> (TokenStream, Vec<TokenStream>) {
+fn bind(results: &[Operand], wishes: &[String], taken: &mut BTreeSet<String>) -> (TokenStream, Vec<Operand>) {
     let mut bindings = TokenStream::new();
     let mut names = Vec::new();
     for (result, wish) in results.iter().zip(wishes) {
-        let text = result.to_string();
-        if syn::parse_str::<Ident>(&text).is_ok() || is_constant(result) {
-            names.push(result.clone());
-        } else {
-            let name = ident(&unique(taken, wish));
-            bindings.extend(quote!(let #name = #result;));
-            names.push(quote!(#name));
-        }
+        names.push(match result {
+            Operand::Formula(formula) => {
+                let name = ident(&unique(taken, wish));
+                bindings.extend(quote!(let #name = #formula;));
+                Operand::Name(name)
+            }
+            named => named.clone(),
+        });
     }
     (bindings, names)
 }

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::super::kernel::Given;
+use super::super::kernel::{Given, Operand};
 use super::super::types::field;
 use super::super::{Types, kernel};
 use super::{Arguments, Kernels, Methods, bind, check_finite, component_names, lines};
@@ -79,7 +79,7 @@ impl Methods<'_> {
                 members.extend(quote!(outputs: #outputs { #(#names: #values),* },));
                 checked.extend(parts.iter().cloned());
             }
-            let mut finite: Vec<TokenStream> = unknowns.iter().flat_map(|&index| [rates[index].clone(), accelerations[index].clone()]).collect();
+            let mut finite: Vec<Operand> = unknowns.iter().flat_map(|&index| [rates[index].clone(), accelerations[index].clone()]).collect();
             finite.extend(checked);
             let verdict = check_finite("motion", &finite);
             let body = code.body;

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::super::kernel::Operand;
 use super::super::names::{ident, unique};
 use super::super::types::field;
 use super::{
@@ -43,12 +44,11 @@ impl Methods<'_> {
         };
         let dimension = if family == Family::Points { 2 } else { 1 };
         let rows = literal(dimension);
-        let build = |results: &[TokenStream]| -> TokenStream {
-            let values = results.chunks(dimension).map(|parts| match parts {
-                [x, y] => quote!(Vector2::new(#x, #y)),
-                parts => quote!(#(#parts)*),
+        let build = |results: &[Operand]| -> TokenStream {
+            let members = names.iter().zip(results.chunks(dimension)).map(|(name, parts)| match parts {
+                [only] => member(name, only),
+                parts => quote!(#name: Vector2::new(#(#parts),*)),
             });
-            let members = names.iter().zip(values).map(|(name, value)| member(name, &value));
             quote!(#group { #(#members),* })
         };
         let what = if family == Family::Points { "positions of the points" } else { "values of the outputs" };

@@ -6,7 +6,9 @@ mod order;
 mod sharing;
 mod translate;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
+
+use rustc_hash::FxHashMap;
 
 use crate::graph::{Function, Graph, NodeId, Number, SymbolId};
 pub use operations::Operations;
@@ -89,7 +91,7 @@ pub struct Schedule {
     values: Vec<Value>,
     pub lines: Vec<Line>,
     /// The expressions that the user named, where they are computed.
-    names: HashMap<ValueId, String>,
+    names: FxHashMap<ValueId, String>,
 }
 
 /// Orders the stages of a kernel. `directions` are the angles whose sine and cosine are given.

@@ -1,6 +1,6 @@
 //! Which values get a line of their own, and in what order.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::{Line, Signed, Value, ValueId};
 use crate::graph::Function;
@@ -16,7 +16,7 @@ pub(super) struct Ordering {
     height: Vec<Option<usize>>,
     pub(super) lines: Vec<Line>,
     /// Sines and cosines that are used, by function and argument.
-    circular: HashMap<(Function, Signed), ValueId>,
+    circular: FxHashMap<(Function, Signed), ValueId>,
 }
 
 impl Ordering {

@@ -1,7 +1,9 @@
 //! Nodes to values: signs move out to where they cost nothing, quotients by one divisor share its
 //! inverse, and powers become squares of squares.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap;
 
 use super::{Signed, Value, ValueId};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
@@ -11,8 +13,8 @@ pub(super) struct Builder<'a> {
     graph: &'a Graph,
     directions: &'a BTreeSet<NodeId>,
     values: Vec<Value>,
-    ids: HashMap<Value, ValueId>,
-    of: HashMap<NodeId, Signed>,
+    ids: FxHashMap<Value, ValueId>,
+    of: FxHashMap<NodeId, Signed>,
 }
 
 impl<'a> Builder<'a> {
@@ -21,8 +23,9 @@ impl<'a> Builder<'a> {
         graph: &'a Graph,
         directions: &'a BTreeSet<NodeId>,
         roots: &[NodeId],
-    ) -> (Vec<Value>, HashMap<NodeId, Signed>) {
-        let mut builder = Self { graph, directions, values: Vec::new(), ids: HashMap::new(), of: HashMap::new() };
+    ) -> (Vec<Value>, FxHashMap<NodeId, Signed>) {
+        let mut builder =
+            Self { graph, directions, values: Vec::new(), ids: FxHashMap::default(), of: FxHashMap::default() };
         builder.build(roots);
         (builder.values, builder.of)
     }
