@@ -349,6 +349,7 @@ impl Ring {
         if dividend.is_zero() || !lead.is_one() {
             return Ok(None);
         }
+        self.spend(dividend.0.len())?;
         let content = dividend.content()?;
         let down = top.inverse()?;
         let mut rest = dividend.shift(&content.inverse()?)?;
