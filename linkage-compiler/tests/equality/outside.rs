@@ -1,0 +1,111 @@
+//! What is not decided, and what is in spite of functions outside the class.
+
+use linkage_compiler::graph::Number;
+use linkage_compiler::simplify::equality::{MOST_TERMS, Reason, Verdict, compare, is_zero};
+
+use super::formula::Formulas;
+
+#[test]
+fn functions_outside_the_class_are_not_decided() {
+    for (left, right, functions) in [
+        ("sqrt(x^2)", "abs(x)", &["sqrt", "abs"][..]),
+        ("exp(x + y)", "exp(x)*exp(y)", &["exp"]),
+        ("asin(sin(x))", "x", &["asin"]),
+        ("acos(x)", "pi/2 - asin(x)", &["acos", "asin"]),
+        ("ln(x*y)", "ln(x) + ln(y)", &["ln"]),
+        ("atan2(y, x)", "atan(y/x)", &["atan2", "atan"]),
+        ("hypot(x, y)^2", "x^2 + y^2", &["hypot"]),
+        ("sin(asin(x))", "x", &["asin"]),
+        ("tan(atan(x))", "x", &["atan"]),
+        ("exp(x)", "exp(2*x)", &["exp"]),
+        ("hypot(x, y)", "hypot(x, z)", &["hypot"]),
+        ("abs(x)^2", "x^2", &["abs"]),
+        ("sqrt(x)", "sqrt(x) + sqrt(y)", &["sqrt"]),
+    ] {
+        let verdict = Formulas::default().compare(left, right);
+        let Verdict::Undecided(Reason::OutsideClass(name)) = verdict else { panic!("{left}, {right}: {verdict}") };
+        assert!(functions.contains(&name), "{left}, {right}: {name}");
+        let message = format!("cannot decide: `{name}` is not rational in sines and cosines");
+        assert_eq!(verdict.to_string(), message);
+    }
+}
+
+#[test]
+fn functions_outside_the_class_may_cancel() {
+    for (left, right) in [
+        ("sqrt(x) + a - a", "sqrt(x)"),
+        ("(sqrt(x) + 1)^2", "sqrt(x)^2 + 2*sqrt(x) + 1"),
+        ("exp(x)*(sin(y)^2 + cos(y)^2)", "exp(x)"),
+        // Arguments are compared as expressions, not by how they are written.
+        ("sqrt((x + y)^2)", "sqrt(x^2 + 2*x*y + y^2)"),
+        ("atan2(sin(2*x), y)", "atan2(2*sin(x)*cos(x), y)"),
+        ("sin(asin(x))^2", "1 - cos(asin(x))^2"),
+        ("cos(2*sqrt(x))", "1 - 2*sin(sqrt(x))^2"),
+        ("sin(x/(1 + y))*2*cos(x/(1 + y))", "sin(2*x/(1 + y))"),
+        ("sin((x*y - x)/(y - 1))", "sin(x)"),
+    ] {
+        assert_eq!(Formulas::default().compare(left, right), Verdict::Equal, "{left} = {right}");
+    }
+    // The function is gone from the difference, which is 2 a.
+    assert_eq!(Formulas::default().compare("sqrt(x) + a", "sqrt(x) - a"), Verdict::Different);
+}
+
+#[test]
+fn numbers_that_are_not_exact_are_not_decided() {
+    let mut formulas = Formulas::default();
+    let x = formulas.node("x");
+    let float = formulas.graph.number(Number::Float(0.1));
+    let exact = formulas.graph.number(Number::ratio(1, 10));
+    let (left, right) = (formulas.graph.multiply(float, x), formulas.graph.multiply(exact, x));
+    let inexact = Verdict::Undecided(Reason::Inexact(Number::Float(0.1)));
+    assert_eq!(compare(&formulas.graph, left, right), inexact);
+    assert_eq!(inexact.to_string(), "cannot decide: the number 0.1 is not exact");
+    let y = formulas.node("y");
+    let both = formulas.graph.add(left, y);
+    let difference = formulas.graph.subtract(both, left);
+    assert_eq!(compare(&formulas.graph, difference, y), Verdict::Equal);
+    let sine = formulas.graph.call(linkage_compiler::graph::Function::Sin, &[left]);
+    assert_eq!(is_zero(&formulas.graph, sine), inexact);
+}
+
+#[test]
+fn undefined_expressions_are_not_decided() {
+    for (left, right) in [
+        ("1/(sin(x)^2 + cos(x)^2 - 1)", "1"),
+        ("x/((x + 1)^2 - x^2 - 2*x - 1)", "x/((x + 1)^2 - x^2 - 2*x - 1)"),
+        ("tan(pi/2 + x - x)", "1"),
+        ("1/(1 - 1)", "x"),
+        ("sqrt(1/(sin(2*x) - 2*sin(x)*cos(x)))", "x"),
+    ] {
+        let verdict = Formulas::default().compare(left, right);
+        assert_eq!(verdict, Verdict::Undecided(Reason::Undefined), "{left}, {right}");
+    }
+}
+
+#[test]
+fn angles_and_constants_beyond_what_is_known() {
+    for (left, right, reason) in [
+        ("sin(x/(1 + y))", "cos(y)", Reason::AngleIsQuotient),
+        ("x*cos(x*cos(1))", "x*cos(x*cos(1)) + sin(x*cos(1))", Reason::Constants),
+        ("sin(x + pi/10000)", "x", Reason::TooLarge),
+        ("(x*123456789012345678 + 1)^3", "x", Reason::TooLarge),
+        ("(x + y + z + sin(x) + sin(y) + sin(z))^20", "1", Reason::TooManyTerms),
+    ] {
+        let mut formulas = Formulas::default();
+        let verdict = formulas.compare(left, right);
+        assert!(verdict == Verdict::Undecided(reason), "{left}, {right}: {verdict}");
+    }
+    // Nobody has proved that pi and sin(1) are independent, but the values differ.
+    assert_eq!(Formulas::default().compare("pi*sin(1)", "sin(pi^2)"), Verdict::Different);
+    // An angle as large as this leaves no digit to tell.
+    let verdict = Formulas::default().compare("pi*sin(1) + cos(pi^9)", "2");
+    assert_eq!(verdict, Verdict::Undecided(Reason::Constants));
+    let text = Reason::TooManyTerms.to_string();
+    assert!(text.contains(&MOST_TERMS.to_string()) && text.starts_with("cannot decide: "), "{text}");
+}
+
+#[test]
+fn an_expression_too_long_is_equal_to_itself() {
+    let long = "(x + y + z + sin(x) + sin(y) + sin(z))^20";
+    assert_eq!(Formulas::default().compare(long, long), Verdict::Equal);
+}
