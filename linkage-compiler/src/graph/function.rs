@@ -32,6 +32,8 @@ pub struct Operation {
     /// The value, for the interpreter; takes `arity` numbers.
     pub value: fn(&[f64]) -> f64,
     pub partials: Partials,
+    /// Whether it has no value at some finite arguments.
+    pub partial: bool,
     /// The method of nalgebra's `RealField` that computes it.
     pub method: &'static str,
 }
@@ -45,6 +47,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].sin(),
         // d sin x = cos x
         partials: |g, x, _| vec![g.call(Function::Cos, &[x[0]])],
+        partial: false,
         method: "sin",
     },
     Operation {
@@ -57,6 +60,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let sine = g.call(Function::Sin, &[x[0]]);
             vec![g.negate(sine)]
         },
+        partial: false,
         method: "cos",
     },
     Operation {
@@ -70,6 +74,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let one = g.one();
             vec![g.add(one, square)]
         },
+        partial: true,
         method: "tan",
     },
     Operation {
@@ -79,6 +84,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].asin(),
         // d asin x = 1 / sqrt((1 - x)(1 + x))
         partials: |g, x, _| vec![inverse_half_chord(g, x[0])],
+        partial: true,
         method: "asin",
     },
     Operation {
@@ -91,6 +97,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let inverse = inverse_half_chord(g, x[0]);
             vec![g.negate(inverse)]
         },
+        partial: true,
         method: "acos",
     },
     Operation {
@@ -105,6 +112,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let sum = g.add(one, square);
             vec![g.power(sum, -1)]
         },
+        partial: false,
         method: "atan",
     },
     Operation {
@@ -120,6 +128,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let by_x = g.divide(yx[0], square);
             vec![by_y, g.negate(by_x)]
         },
+        partial: false,
         method: "atan2",
     },
     Operation {
@@ -132,6 +141,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let inverse = g.power(root, -1);
             vec![g.scale(Number::ratio(1, 2), inverse)]
         },
+        partial: true,
         method: "sqrt",
     },
     Operation {
@@ -141,6 +151,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].abs(),
         // d |x| = x / |x|, undefined at 0
         partials: |g, x, modulus| vec![g.divide(x[0], modulus)],
+        partial: false,
         method: "abs",
     },
     Operation {
@@ -150,6 +161,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].exp(),
         // d e^x = e^x
         partials: |_, _, value| vec![value],
+        partial: false,
         method: "exp",
     },
     Operation {
@@ -159,6 +171,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].ln(),
         // d ln x = 1 / x
         partials: |g, x, _| vec![g.power(x[0], -1)],
+        partial: true,
         method: "ln",
     },
     Operation {
@@ -168,6 +181,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].hypot(x[1]),
         // d hypot(x, y) = (x dx + y dy) / hypot(x, y)
         partials: |g, xy, modulus| vec![g.divide(xy[0], modulus), g.divide(xy[1], modulus)],
+        partial: false,
         method: "hypot",
     },
 ];

@@ -10,7 +10,7 @@ mod interpret;
 mod number;
 mod print;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
@@ -54,6 +54,16 @@ pub enum Fault {
     ExponentOverflow,
 }
 
+/// What was taken for granted when something was cancelled: where it fails, the expression as
+/// written has no value although the shorter one may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Condition {
+    /// x / x = 1
+    NonZero(NodeId),
+    /// f - f = 0, 0 f = 0
+    Defined(NodeId),
+}
+
 /// An arena of expressions.
 #[derive(Debug, Clone, Default)]
 pub struct Graph {
@@ -61,8 +71,11 @@ pub struct Graph {
     ids: FxHashMap<Node, NodeId>,
     /// The value of each node that holds no symbol.
     values: Vec<Option<f64>>,
+    /// Whether a node has no value for some values of its symbols.
+    partial: Vec<bool>,
     symbols: Vec<String>,
     fault: Option<Fault>,
+    conditions: BTreeSet<Condition>,
 }
 
 impl SymbolId {
@@ -137,6 +150,42 @@ impl Graph {
         self.fault.take()
     }
 
+    /// What has been taken for granted since the last call.
+    pub fn take_conditions(&mut self) -> BTreeSet<Condition> {
+        std::mem::take(&mut self.conditions)
+    }
+
+    /// Whether an expression has no value for some values of its symbols.
+    #[must_use]
+    pub fn is_partial(&self, id: NodeId) -> bool {
+        self.partial[id.index()]
+    }
+
+    /// Records what is taken for granted.
+    pub fn assume(&mut self, conditions: BTreeSet<Condition>) {
+        self.conditions.extend(conditions);
+    }
+
+    /// Records that a term is dropped.
+    fn drop_term(&mut self, term: NodeId) {
+        if self.is_partial(term) {
+            self.conditions.insert(Condition::Defined(term));
+        }
+    }
+
+    fn has_partial_value(&self, node: &Node) -> bool {
+        match node {
+            Node::Constant(_) | Node::Pi | Node::Symbol(_) => false,
+            Node::Sum { terms, .. } => terms.iter().any(|(_, term)| self.is_partial(*term)),
+            Node::Product { factors, .. } => factors.iter().any(|&(base, exponent)| {
+                self.is_partial(base) || (exponent < 0 && self.values[base.index()].is_none())
+            }),
+            Node::Call(function, arguments) => {
+                function.operation().partial || arguments.iter().any(|&argument| self.is_partial(argument))
+            }
+        }
+    }
+
     fn intern(&mut self, node: Node) -> NodeId {
         if let Some(&id) = self.ids.get(&node) {
             return id;
@@ -147,6 +196,9 @@ impl Graph {
         }
         let id = NodeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
         self.values.push(value);
+        // What has a value has no symbols that could take it away.
+        let partial = value.is_none() && self.has_partial_value(&node);
+        self.partial.push(partial);
         self.nodes.push(node.clone());
         self.ids.insert(node, id);
         id
@@ -234,6 +286,11 @@ impl Graph {
                 _ => collect(coefficient, item),
             }
         }
+        for (&term, coefficient) in &terms {
+            if coefficient.is_zero() {
+                self.drop_term(term);
+            }
+        }
         terms.retain(|_, coefficient| !coefficient.is_zero());
         let terms: Vec<_> = terms.into_iter().map(|(term, coefficient)| (coefficient, term)).collect();
         match terms.as_slice() {
@@ -256,6 +313,7 @@ impl Graph {
         let mut coefficient = Number::ONE;
         let mut factors: BTreeMap<NodeId, i32> = BTreeMap::new();
         let mut overflow = false;
+        let mut divisors: BTreeSet<NodeId> = BTreeSet::new();
         let mut collect = |base: NodeId, exponent: Option<i32>| {
             let entry = factors.entry(base).or_insert(0);
             match exponent.and_then(|exponent| entry.checked_add(exponent)) {
@@ -275,13 +333,33 @@ impl Graph {
                     coefficient = coefficient.multiply(inner.power(exponent));
                     for &(base, inner) in factors {
                         collect(base, inner.checked_mul(exponent));
+                        // 1/(1/x) is x for an x other than zero.
+                        if inner < 0 || exponent < 0 {
+                            divisors.insert(base);
+                        }
                     }
                 }
-                _ => collect(item, Some(exponent)),
+                _ => {
+                    collect(item, Some(exponent));
+                    if exponent < 0 {
+                        divisors.insert(item);
+                    }
+                }
             }
         }
         if overflow {
             self.fault.get_or_insert(Fault::ExponentOverflow);
+        }
+        for divisor in divisors {
+            let cancelled = factors[&divisor] >= 0 || coefficient.is_zero();
+            if cancelled && self.values[divisor.index()].is_none() {
+                self.conditions.insert(Condition::NonZero(divisor));
+            }
+        }
+        for (&base, exponent) in &factors {
+            if *exponent == 0 || coefficient.is_zero() {
+                self.drop_term(base);
+            }
         }
         factors.retain(|_, exponent| *exponent != 0);
         let factors: Vec<_> = factors.into_iter().collect();

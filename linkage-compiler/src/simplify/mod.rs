@@ -1,10 +1,150 @@
-//! Equal but better: identities that make a formula shorter or more accurate, and the
-//! schedule that turns shared nodes into straight-line steps.
+//! Equal but better: identities that make a formula shorter or more accurate, and the schedule that
+//! turns shared nodes into straight-line steps.
+//!
+//! The families of identities stand in files of their own: [`rational`], [`trigonometric`],
+//! [`modulus`], [`determinant`]. Each offers other forms of an expression; [`cost`] chooses among them, and
+//! [`equality`] proves that they are the same. What a rule takes for granted, such as a divisor that
+//! is not zero, is recorded by the graph.
 
+pub mod cost;
+mod determinant;
 pub mod equality;
+mod modulus;
 mod rational;
 pub mod schedule;
 mod trigonometric;
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::graph::{Condition, Graph, Node, NodeId, Number};
+use cost::{Cost, cost};
+pub use determinant::{adjugate, cramer, determinant};
+use rational::Polynomial;
 pub use rational::factor;
-pub use trigonometric::determinant;
+
+/// Rounds of rules over one node; each makes it cheaper, and three are the most that have been seen.
+const MOST_ROUNDS: usize = 8;
+
+/// The cheapest form that the identities find of each of `roots`, where sines and cosines of the
+/// angles in `given` are at hand.
+pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -> Vec<NodeId> {
+    let mut better: BTreeMap<NodeId, NodeId> = BTreeMap::new();
+    for id in graph.reachable(roots) {
+        let rebuilt = rebuilt(graph, id, &better);
+        let mut forms = Forms { given, best: rebuilt, cost: cost(graph, rebuilt, given), conditions: BTreeSet::new() };
+        // What one rule gives may suit another.
+        for _ in 0..MOST_ROUNDS {
+            let before = forms.best;
+            forms.of(graph, before);
+            if forms.best == before {
+                break;
+            }
+        }
+        graph.assume(forms.conditions);
+        better.insert(id, forms.best);
+    }
+    roots.iter().map(|root| better[root]).collect()
+}
+
+/// The same node with better parts.
+fn rebuilt(graph: &mut Graph, id: NodeId, better: &BTreeMap<NodeId, NodeId>) -> NodeId {
+    if graph.children(id).iter().all(|child| better[child] == *child) {
+        return id;
+    }
+    match graph.node(id).clone() {
+        Node::Constant(_) | Node::Pi | Node::Symbol(_) => id,
+        Node::Sum { constant, terms } => {
+            let mut sum: Vec<_> = terms.into_iter().map(|(factor, term)| (factor, better[&term])).collect();
+            sum.push((constant, graph.one()));
+            graph.sum(&sum)
+        }
+        Node::Product { coefficient, factors } => {
+            let mut product: Vec<_> = factors.into_iter().map(|(base, n)| (better[&base], n)).collect();
+            product.push((graph.number(coefficient), 1));
+            graph.product(&product)
+        }
+        Node::Call(function, arguments) => {
+            let arguments: Vec<_> = arguments.iter().map(|argument| better[argument]).collect();
+            graph.call(function, &arguments)
+        }
+    }
+}
+
+/// The cheapest form found of one node so far, and what it takes for granted.
+struct Forms<'a> {
+    given: &'a BTreeSet<NodeId>,
+    best: NodeId,
+    cost: Cost,
+    conditions: BTreeSet<Condition>,
+}
+
+impl Forms<'_> {
+    /// Tries a form made from the best one; of equal cost that stays.
+    fn offer(&mut self, graph: &mut Graph, form: impl FnOnce(&mut Graph) -> Option<NodeId>) {
+        let before = graph.take_conditions();
+        let form = form(graph);
+        let conditions = graph.take_conditions();
+        graph.assume(before);
+        let Some(form) = form else { return };
+        let cost = cost(graph, form, self.given);
+        if cost < self.cost {
+            (self.best, self.cost) = (form, cost);
+            self.conditions.extend(conditions);
+        }
+    }
+
+    fn of(&mut self, graph: &mut Graph, id: NodeId) {
+        match graph.node(id).clone() {
+            Node::Sum { terms, .. } if terms.len() <= rational::MOST_TERMS => self.of_sum(graph, id),
+            Node::Product { coefficient, factors } => {
+                self.offer(graph, |graph| modulus::form(graph, id));
+                self.of_product(graph, id, coefficient, &factors);
+            }
+            Node::Call(_, arguments) => {
+                self.offer(graph, |graph| modulus::form(graph, id));
+                if !self.given.contains(&arguments[0]) {
+                    self.offer(graph, |graph| trigonometric::spread(graph, id));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn of_sum(&mut self, graph: &mut Graph, id: NodeId) {
+        self.offer(graph, |graph| Some(rational::factor(graph, id)));
+        self.combined(graph, |graph| Some(rational::terms(graph, id)));
+        self.combined(graph, |graph| rational::expanded(graph, id));
+    }
+
+    fn combined(&mut self, graph: &mut Graph, polynomial: impl FnOnce(&mut Graph) -> Option<Polynomial>) {
+        self.offer(graph, |graph| {
+            let polynomial = polynomial(graph)?;
+            let combined = trigonometric::combine(graph, polynomial);
+            let sum = rational::collect(graph, &combined);
+            Some(rational::factor(graph, sum))
+        });
+    }
+
+    fn of_product(&mut self, graph: &mut Graph, id: NodeId, coefficient: Number, factors: &[(NodeId, i32)]) {
+        self.combined(graph, |graph| rational::expanded(graph, id).filter(|polynomial| polynomial.len() > 1));
+        let sums = |sign: i32| factors.iter().filter(move |(_, n)| n.signum() == sign);
+        for &(above, _) in sums(1) {
+            for &(below, _) in sums(-1) {
+                let both = [above, below].iter().all(|&base| matches!(graph.node(base), Node::Sum { .. }));
+                if both {
+                    self.offer(graph, |graph| {
+                        let quotient = rational::quotient(graph, above, below)?;
+                        graph.assume(BTreeSet::from([Condition::NonZero(below)]));
+                        // Written out, so that nothing seems to be cancelled but what is.
+                        let mut product: Vec<_> = factors
+                            .iter()
+                            .map(|&(base, n)| (base, n - i32::from(base == above) + i32::from(base == below)))
+                            .collect();
+                        product.extend([(quotient, 1), (graph.number(coefficient), 1)]);
+                        Some(graph.product(&product))
+                    });
+                }
+            }
+        }
+    }
+}

@@ -1,115 +1,110 @@
-//! Trigonometric identities, for determinants.
+//! Trigonometric identities.
 //!
 //! - sin a cos b - cos a sin b = sin(a - b)
 //! - sin a cos b + cos a sin b = sin(a + b)
-//! - cos a cos b + sin a sin b = cos(a - b), which for a = b is cos^2 + sin^2 = 1
+//! - cos a cos b + sin a sin b = cos(a - b)
 //! - cos a cos b - sin a sin b = cos(a + b)
+//! - k sin^2 a + m cos^2 a = k + (m - k) cos^2 a, which for k = m is cos^2 + sin^2 = 1
 //!
-//! The left sides subtract products of rounded sines and lose every digit where the links
-//! are nearly parallel; the right sides keep them all for the angles as stored.
+//! From left to right fewer sines are taken, and a difference of products of rounded sines, which
+//! loses every digit where two links are nearly parallel, becomes the sine of a difference. Where the
+//! sines on the left are at hand anyhow, the way back takes fewer still.
 
 use std::collections::BTreeMap;
 
-use super::rational::{Polynomial, factor, terms};
+use super::rational::{Monomial, Polynomial};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 
-/// A product of more terms than this is not multiplied out.
-const MOST_TERMS: usize = 64;
-
-/// a d - b c, multiplied out, with sines and cosines of sums and differences.
-pub fn determinant(graph: &mut Graph, [[a, b], [c, d]]: [[NodeId; 2]; 2]) -> NodeId {
-    let product = |x: NodeId, y: NodeId, sign: Number| {
-        let (x, y) = (terms(graph, x), terms(graph, y));
-        let mut polynomial = Polynomial::new();
-        for (left, ours) in &x {
-            for (right, theirs) in &y {
-                let mut factors = ours.clone();
-                for (&base, &exponent) in theirs {
-                    *factors.entry(base).or_insert(0) += exponent;
-                }
-                factors.retain(|_, exponent| *exponent != 0);
-                polynomial.push((left.multiply(*right).multiply(sign), factors));
-            }
-        }
-        polynomial
-    };
-    let mut polynomial = product(a, d, Number::ONE);
-    polynomial.extend(product(b, c, Number::MINUS_ONE));
-    if polynomial.len() <= MOST_TERMS {
-        while let Some(shorter) = combine_once(graph, &polynomial) {
-            polynomial = shorter;
-        }
-        let sum = collect(graph, &polynomial);
-        factor(graph, sum)
-    } else {
-        let (left, right) = (graph.multiply(a, d), graph.multiply(b, c));
-        graph.subtract(left, right)
-    }
-}
-
-fn collect(graph: &mut Graph, polynomial: &Polynomial) -> NodeId {
-    let mut sum = Vec::new();
-    for (coefficient, factors) in polynomial {
-        let factors: Vec<_> = factors.iter().map(|(&base, &exponent)| (base, exponent)).collect();
-        sum.push((*coefficient, graph.product(&factors)));
-    }
-    graph.sum(&sum)
-}
-
-/// A term seen as f(a) g(b) times the rest, f and g being sine or cosine.
+/// A term seen as f(a) g(b) times the rest, f and g being sine or cosine and a not younger than b.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Pair {
-    sine: [bool; 2],
     angles: [NodeId; 2],
-    rest: BTreeMap<NodeId, i32>,
+    rest: Vec<(NodeId, i32)>,
+    sine: [bool; 2],
+}
+
+impl Pair {
+    /// The pair that an identity joins with this one: sine for cosine and cosine for sine.
+    fn partner(&self) -> Self {
+        Self { sine: self.sine.map(|sine| !sine), ..self.clone() }
+    }
+}
+
+/// Applies the identities from left to right until none fits.
+pub(super) fn combine(graph: &mut Graph, mut polynomial: Polynomial) -> Polynomial {
+    // Each step joins two terms into one, or takes a square of a sine away.
+    while let Some(shorter) = combine_once(graph, &polynomial) {
+        polynomial = shorter;
+    }
+    polynomial
 }
 
 /// Applies the identities to the first two terms they fit.
 fn combine_once(graph: &mut Graph, polynomial: &Polynomial) -> Option<Polynomial> {
-    let pairs: Vec<Vec<Pair>> = polynomial.iter().map(|(_, factors)| pairs(graph, factors)).collect();
-    for first in 0..polynomial.len() {
-        for second in first + 1..polynomial.len() {
-            let (k, m) = (polynomial[first].0, polynomial[second].0);
-            for left in &pairs[first] {
-                for right in &pairs[second] {
-                    let flipped = right.sine == [!left.sine[0], !left.sine[1]];
-                    let fits = flipped && left.angles == right.angles && left.rest == right.rest;
-                    if !fits || (k != m && k != m.negate()) {
-                        continue;
-                    }
-                    let [a, b] = left.angles;
-                    // The sign of the products of sines or of the second sine cosine pair.
-                    let same = k == m;
-                    let (function, minus) = match left.sine {
-                        [true, false] | [false, true] => (Function::Sin, !same),
-                        _ => (Function::Cos, same),
-                    };
-                    // Leading term: sin a cos b, or cos a cos b.
-                    let leading = match left.sine {
-                        [true, false] | [false, false] => k,
-                        _ => m,
-                    };
-                    let angle = if minus { graph.subtract(a, b) } else { graph.add(a, b) };
-                    let combined = graph.call(function, &[angle]);
-                    let mut result: Polynomial = polynomial.clone();
-                    result.remove(second);
-                    let mut factors: Vec<_> = left.rest.iter().map(|(&base, &n)| (base, n)).collect();
-                    factors.push((combined, 1));
-                    let product = graph.product(&factors);
-                    result.remove(first);
-                    for (inner, factors) in terms(graph, product) {
-                        result.push((leading.multiply(inner), factors));
-                    }
-                    return Some(result);
-                }
+    let mut seen: BTreeMap<Pair, usize> = BTreeMap::new();
+    let mut squares = None;
+    for (second, (m, monomial)) in polynomial.iter().enumerate() {
+        let pairs = pairs(graph, monomial);
+        for right in &pairs {
+            let Some(&first) = seen.get(&right.partner()) else { continue };
+            let k = polynomial[first].0;
+            if k == *m || k == m.negate() {
+                let (rest, combined) = join(graph, &right.partner(), k, *m);
+                return Some(replaced(polynomial, [first, second], [(rest, combined)]));
+            }
+            if right.angles[0] == right.angles[1] && squares.is_none() {
+                squares = Some((first, second, right.clone()));
             }
         }
+        for pair in pairs {
+            seen.entry(pair).or_insert(second);
+        }
     }
-    None
+    let (first, second, right) = squares?;
+    let (k, m) = (polynomial[first].0, polynomial[second].0);
+    let (k, m) = if right.sine == [true; 2] { (m, k) } else { (k, m) };
+    let rest: Monomial = right.rest.iter().copied().collect();
+    let cosine = graph.call(Function::Cos, &[right.angles[0]]);
+    let mut squared = rest.clone();
+    *squared.entry(cosine).or_insert(0) += 2;
+    Some(replaced(polynomial, [first, second], [(k, rest), (m.plus(k.negate()), squared)]))
 }
 
-fn pairs(graph: &Graph, factors: &BTreeMap<NodeId, i32>) -> Vec<Pair> {
+/// The sum of two terms with coefficients k and m, of which `left` is the first.
+fn join(graph: &mut Graph, left: &Pair, k: Number, m: Number) -> (Number, Monomial) {
+    let [a, b] = left.angles;
+    let same = k == m;
+    let (function, minus) = match left.sine {
+        [true, false] | [false, true] => (Function::Sin, !same),
+        _ => (Function::Cos, same),
+    };
+    // The coefficient of sin a cos b, or of cos a cos b.
+    let leading = match left.sine {
+        [true, false] | [false, false] => k,
+        _ => m,
+    };
+    let angle = if minus { graph.subtract(a, b) } else { graph.add(a, b) };
+    let combined = graph.call(function, &[angle]);
+    let mut factors = left.rest.clone();
+    factors.push((combined, 1));
+    let product = graph.product(&factors);
+    match graph.node(product).clone() {
+        Node::Constant(value) => (leading.multiply(value), Monomial::new()),
+        Node::Product { coefficient, factors } => (leading.multiply(coefficient), factors.into_iter().collect()),
+        _ => (leading, Monomial::from([(product, 1)])),
+    }
+}
+
+fn replaced<const N: usize>(polynomial: &Polynomial, gone: [usize; 2], new: [(Number, Monomial); N]) -> Polynomial {
+    let kept = polynomial.iter().enumerate().filter(|(index, _)| !gone.contains(index)).map(|(_, term)| term.clone());
+    let new = new.into_iter().filter(|(coefficient, _)| !coefficient.is_zero());
+    kept.chain(new).collect()
+}
+
+/// Every way to see a term as a product of two sines or cosines and a rest.
+fn pairs(graph: &Graph, monomial: &Monomial) -> Vec<Pair> {
     let mut circular = Vec::new();
-    for (&base, &exponent) in factors {
+    for (&base, &exponent) in monomial {
         if let Node::Call(function @ (Function::Sin | Function::Cos), arguments) = graph.node(base) {
             let one = (base, *function == Function::Sin, arguments[0]);
             circular.extend(std::iter::repeat_n(one, usize::try_from(exponent.clamp(0, 2)).unwrap_or(0)));
@@ -122,43 +117,31 @@ fn pairs(graph: &Graph, factors: &BTreeMap<NodeId, i32>) -> Vec<Pair> {
             if one.2 > two.2 {
                 (one, two) = (two, one);
             }
-            let mut rest = factors.clone();
+            let mut rest = monomial.clone();
             for base in [one.0, two.0] {
                 if let Some(exponent) = rest.get_mut(&base) {
                     *exponent -= 1;
                 }
             }
-            rest.retain(|_, exponent| *exponent != 0);
+            let rest = rest.into_iter().filter(|(_, exponent)| *exponent != 0).collect();
             pairs.push(Pair { sine: [one.1, two.1], angles: [one.2, two.2], rest });
         }
     }
     pairs
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn determinants_of_the_lecture_notes() {
-        let mut g = Graph::default();
-        let [z1, z2, z3, phi1, phi2, delta] = ["z1", "z2", "z3", "phi1", "phi2", "delta"].map(|name| {
-            let symbol = g.symbol(name);
-            g.variable(symbol)
-        });
-        let shifted = g.subtract(phi2, delta);
-        let mut column = |modulus: NodeId, angle: NodeId| {
-            let (sine, cosine) = (g.call(Function::Sin, &[angle]), g.call(Function::Cos, &[angle]));
-            let x = g.multiply(modulus, sine);
-            [g.negate(x), g.multiply(modulus, cosine)]
-        };
-        let [crank, rod, arm] = [column(z1, phi1), column(z2, phi2), column(z3, shifted)];
-        let engine = determinant(&mut g, [[crank[0], rod[0]], [crank[1], rod[1]]]);
-        assert_eq!(g.text(engine), "-z1*z2*sin(phi1 - phi2)");
-        // Equation 1.1: the first column is that of z2 and z3 turned together, the second a unit vector.
-        let (x, y) = (g.add(rod[0], arm[0]), g.add(rod[1], arm[1]));
-        let (cosine, sine) = (g.call(Function::Cos, &[phi2]), g.call(Function::Sin, &[phi2]));
-        let introductory = determinant(&mut g, [[x, cosine], [y, sine]]);
-        assert_eq!(g.text(introductory), "-z2 - z3*cos(delta)");
-    }
+/// The identities from right to left: the sine or cosine of a sum of two angles, each taken as it
+/// stands, as products of theirs.
+pub(super) fn spread(graph: &mut Graph, id: NodeId) -> Option<NodeId> {
+    let Node::Call(function @ (Function::Sin | Function::Cos), angle) = graph.node(id).clone() else { return None };
+    let Node::Sum { constant, terms } = graph.node(angle[0]).clone() else { return None };
+    let (&[(k, a), (m, b)], true) = (terms.as_slice(), constant.is_zero()) else { return None };
+    let (a, b) = (graph.scale(k, a), graph.scale(m.absolute(), b));
+    let [sin_a, cos_a, sin_b, cos_b] = [(Function::Sin, a), (Function::Cos, a), (Function::Sin, b), (Function::Cos, b)]
+        .map(|(function, angle)| graph.call(function, &[angle]));
+    let ((first, second), minus) = match function {
+        Function::Sin => ((graph.multiply(sin_a, cos_b), graph.multiply(cos_a, sin_b)), m.is_negative()),
+        _ => ((graph.multiply(cos_a, cos_b), graph.multiply(sin_a, sin_b)), !m.is_negative()),
+    };
+    Some(if minus { graph.subtract(first, second) } else { graph.add(first, second) })
 }

@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng};
 use linkage_compiler::graph::{Function, NodeId, Number};
 use linkage_compiler::simplify::equality::{Verdict, compare};
 
-use super::formula::Formulas;
+use crate::formula::Formulas;
 
 const CASES: usize = 100;
 

@@ -2,7 +2,7 @@
 
 use linkage_compiler::simplify::equality::Verdict;
 
-use super::formula::Formulas;
+use crate::formula::Formulas;
 
 const TABLE: [(&str, &str); 48] = [
     // Multiple angles.

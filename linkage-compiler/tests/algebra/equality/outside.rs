@@ -3,7 +3,7 @@
 use linkage_compiler::graph::Number;
 use linkage_compiler::simplify::equality::{MOST_TERMS, Reason, Verdict, compare, is_zero};
 
-use super::formula::Formulas;
+use crate::formula::Formulas;
 
 #[test]
 fn functions_outside_the_class_are_not_decided() {

@@ -6,7 +6,7 @@ use linkage_compiler::graph::{NodeId, Number, SymbolId};
 use linkage_compiler::simplify::determinant;
 use linkage_compiler::simplify::equality::{Verdict, compare, is_zero};
 
-use super::formula::Formulas;
+use crate::formula::Formulas;
 
 /// Two closure rows, the input and the unknowns.
 struct Linkage {

@@ -1,0 +1,74 @@
+//! Determinants of two rows and columns, and Cramer's rule by them.
+//!
+//! Multiplied out, combined by the trigonometric identities and factored, a determinant of link
+//! vectors comes out as a mechanic writes it: the product of two lengths and the sine of the angle
+//! between them. Numerators of Cramer's rule are determinants too, so the lengths that both have in
+//! common cancel.
+
+use super::rational::{MOST_TERMS, collect, factor, multiply, terms};
+use super::trigonometric::combine;
+use crate::graph::{Graph, NodeId, Number};
+
+/// a d - b c.
+pub fn determinant(graph: &mut Graph, [[a, b], [c, d]]: [[NodeId; 2]; 2]) -> NodeId {
+    let mut product = |x: NodeId, y: NodeId| {
+        let (x, y) = (terms(graph, x), terms(graph, y));
+        multiply(graph, &x, &y)
+    };
+    if let (Some(mut polynomial), Some(other)) = (product(a, d), product(b, c))
+        && polynomial.len() + other.len() <= MOST_TERMS
+    {
+        polynomial.extend(other.into_iter().map(|(coefficient, monomial)| (coefficient.negate(), monomial)));
+        let polynomial = combine(graph, polynomial);
+        let sum = collect(graph, &polynomial);
+        return factor(graph, sum);
+    }
+    let (left, right) = (graph.multiply(a, d), graph.multiply(b, c));
+    graph.subtract(left, right)
+}
+
+/// The solution of J x = r, each unknown the quotient of two determinants: the one with its column
+/// replaced by r, and det J.
+pub fn cramer(graph: &mut Graph, jacobian: [[NodeId; 2]; 2], right: [NodeId; 2]) -> [NodeId; 2] {
+    let [[a, b], [c, d]] = jacobian;
+    let [p, q] = right;
+    let whole = determinant(graph, jacobian);
+    [[[p, b], [q, d]], [[a, p], [c, q]]].map(|matrix| {
+        let above = determinant(graph, matrix);
+        graph.divide(above, whole)
+    })
+}
+
+/// adj J, so that J^-1 = adj J / det J.
+pub fn adjugate(graph: &mut Graph, [[a, b], [c, d]]: [[NodeId; 2]; 2]) -> [[NodeId; 2]; 2] {
+    [[d, graph.scale(Number::MINUS_ONE, b)], [graph.scale(Number::MINUS_ONE, c), a]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Function;
+
+    #[test]
+    fn determinants_of_the_lecture_notes() {
+        let mut g = Graph::default();
+        let [z1, z2, z3, phi1, phi2, delta] = ["z1", "z2", "z3", "phi1", "phi2", "delta"].map(|name| {
+            let symbol = g.symbol(name);
+            g.variable(symbol)
+        });
+        let shifted = g.subtract(phi2, delta);
+        let mut column = |modulus: NodeId, angle: NodeId| {
+            let (sine, cosine) = (g.call(Function::Sin, &[angle]), g.call(Function::Cos, &[angle]));
+            let x = g.multiply(modulus, sine);
+            [g.negate(x), g.multiply(modulus, cosine)]
+        };
+        let [crank, rod, arm] = [column(z1, phi1), column(z2, phi2), column(z3, shifted)];
+        let engine = determinant(&mut g, [[crank[0], rod[0]], [crank[1], rod[1]]]);
+        assert_eq!(g.text(engine), "-z1*z2*sin(phi1 - phi2)");
+        // Equation 1.1: the first column is that of z2 and z3 turned together, the second a unit vector.
+        let (x, y) = (g.add(rod[0], arm[0]), g.add(rod[1], arm[1]));
+        let (cosine, sine) = (g.call(Function::Cos, &[phi2]), g.call(Function::Sin, &[phi2]));
+        let introductory = determinant(&mut g, [[x, cosine], [y, sine]]);
+        assert_eq!(g.text(introductory), "-z2 - z3*cos(delta)");
+    }
+}

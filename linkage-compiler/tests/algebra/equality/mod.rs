@@ -1,0 +1,6 @@
+//! The decision procedure: what it proves, what it refutes, and what it leaves open.
+
+mod mechanisms;
+mod outside;
+mod random;
+mod table;
