@@ -1,0 +1,102 @@
+//! Presentation MathML, of the Core subset. Every body is one element.
+
+use crate::graph::{Function, Number};
+
+use super::Name;
+use super::style::{Binding, Style, digits, function_name, is_circular};
+
+/// U+2062, which separates factors for readers that speak.
+const INVISIBLE_TIMES: &str = "<mo>\u{2062}</mo>";
+/// U+2061.
+const FUNCTION_APPLICATION: &str = "<mo>\u{2061}</mo>";
+
+pub(super) struct MathMl;
+
+impl Style for MathMl {
+    fn has_bars(&self) -> bool {
+        true
+    }
+
+    fn number(&self, value: Number) -> String {
+        match digits(value) {
+            (digits, None) => format!("<mn>{digits}</mn>"),
+            (digits, Some(exponent)) => {
+                let exponent = match exponent.strip_prefix('-') {
+                    Some(positive) => format!("<mrow><mo>−</mo><mn>{positive}</mn></mrow>"),
+                    None => format!("<mn>{exponent}</mn>"),
+                };
+                format!("<mrow><mn>{digits}</mn><mo>⋅</mo><msup><mn>10</mn>{exponent}</msup></mrow>")
+            }
+        }
+    }
+
+    fn pi(&self) -> &'static str {
+        "<mi>π</mi>"
+    }
+
+    fn ellipsis(&self) -> &'static str {
+        "<mi>…</mi>"
+    }
+
+    fn name(&self, name: Name) -> (String, Binding) {
+        let binding = match name {
+            Name::Ratio { .. } | Name::Determinant(_) => Binding::Product,
+            _ => Binding::Atom,
+        };
+        (name.mathml(), binding)
+    }
+
+    fn brackets(&self, body: &str) -> String {
+        format!("<mrow><mo>(</mo>{body}<mo>)</mo></mrow>")
+    }
+
+    fn sum(&self, terms: &[(bool, String)]) -> String {
+        let mut text = String::from("<mrow>");
+        for (index, (negative, body)) in terms.iter().enumerate() {
+            text.push_str(match (index, negative) {
+                (_, true) => "<mo>−</mo>",
+                (0, false) => "",
+                (_, false) => "<mo>+</mo>",
+            });
+            text.push_str(body);
+        }
+        text + "</mrow>"
+    }
+
+    fn product(&self, factors: &[String]) -> String {
+        format!("<mrow>{}</mrow>", factors.join(INVISIBLE_TIMES))
+    }
+
+    fn quotient(&self, above: &str, below: &[String]) -> String {
+        match below {
+            [one] => format!("<mfrac>{above}{one}</mfrac>"),
+            many => format!("<mfrac>{above}{}</mfrac>", self.product(many)),
+        }
+    }
+
+    fn power(&self, base: &str, exponent: u32) -> String {
+        // An index and an exponent stand above each other.
+        match base.strip_prefix("<msub>").and_then(|inner| inner.strip_suffix("</msub>")) {
+            Some(inner) => format!("<msubsup>{inner}<mn>{exponent}</mn></msubsup>"),
+            None => format!("<msup>{base}<mn>{exponent}</mn></msup>"),
+        }
+    }
+
+    fn call(&self, function: Function, arguments: &[String], exponent: u32, bare: bool) -> String {
+        let arguments = arguments.join("<mo>,</mo>");
+        match function {
+            Function::Sqrt => return format!("<msqrt>{arguments}</msqrt>"),
+            Function::Abs => return format!("<mrow><mo>|</mo>{arguments}<mo>|</mo></mrow>"),
+            _ => {}
+        }
+        let name = format!("<mi>{}</mi>", function_name(function));
+        let name = if exponent > 1 && is_circular(function) { self.power(&name, exponent) } else { name };
+        let arguments = if bare { arguments } else { self.brackets(&arguments) };
+        format!("<mrow>{name}{FUNCTION_APPLICATION}{arguments}</mrow>")
+    }
+}
+
+/// Text for the inside of an element.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
