@@ -7,8 +7,12 @@ use super::style::{Binding, Style, digits, function_name, is_circular};
 
 /// U+2062, which separates factors for readers that speak.
 const INVISIBLE_TIMES: &str = "<mo>\u{2062}</mo>";
+/// The same before a function, whose name needs room.
+const SPACED_TIMES: &str = "<mo rspace=\"0.17em\">\u{2062}</mo>";
 /// U+2061.
 const FUNCTION_APPLICATION: &str = "<mo>\u{2061}</mo>";
+/// The same before an argument without brackets.
+const SPACED_APPLICATION: &str = "<mo rspace=\"0.17em\">\u{2061}</mo>";
 
 pub(super) struct MathMl;
 
@@ -64,7 +68,17 @@ impl Style for MathMl {
     }
 
     fn product(&self, factors: &[String]) -> String {
-        format!("<mrow>{}</mrow>", factors.join(INVISIBLE_TIMES))
+        let mut text = String::from("<mrow>");
+        for (index, factor) in factors.iter().enumerate() {
+            let is_function = ["<mrow><mi>", "<mrow><msup><mi>"].iter().any(|start| factor.starts_with(start));
+            text.push_str(match (index, is_function) {
+                (0, _) => "",
+                (_, true) => SPACED_TIMES,
+                (_, false) => INVISIBLE_TIMES,
+            });
+            text.push_str(factor);
+        }
+        text + "</mrow>"
     }
 
     fn quotient(&self, above: &str, below: &[String]) -> String {
@@ -91,8 +105,10 @@ impl Style for MathMl {
         }
         let name = format!("<mi>{}</mi>", function_name(function));
         let name = if exponent > 1 && is_circular(function) { self.power(&name, exponent) } else { name };
-        let arguments = if bare { arguments } else { self.brackets(&arguments) };
-        format!("<mrow>{name}{FUNCTION_APPLICATION}{arguments}</mrow>")
+        if bare {
+            return format!("<mrow>{name}{SPACED_APPLICATION}{arguments}</mrow>");
+        }
+        format!("<mrow>{name}{FUNCTION_APPLICATION}{}</mrow>", self.brackets(&arguments))
     }
 }
 

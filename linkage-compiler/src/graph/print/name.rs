@@ -22,7 +22,7 @@ pub enum Name<'a> {
     Inverse(Option<usize>),
 }
 
-/// Greek names, their letters and, where LaTeX has one, its command. Where LaTeX draws two shapes, the
+/// Greek names, which are LaTeX's commands too, and their letters. Where there are two shapes, the
 /// plain name has the letter of running text and `var` the other.
 const GREEK: [(&str, char); 55] = [
     ("alpha", 'α'),
@@ -177,7 +177,10 @@ impl<'a> Name<'a> {
                 format!("<mfrac>{}{}</mfrac>", side(of), side(by))
             }
             Self::Determinant(block) => {
-                format!("<mrow><mi>det</mi><mo>\u{2061}</mo>{}</mrow>", mathml(&block_name(block), ""))
+                format!(
+                    "<mrow><mi>det</mi><mo rspace=\"0.17em\">\u{2061}</mo>{}</mrow>",
+                    mathml(&block_name(block), "")
+                )
             }
             Self::Inverse(block) => {
                 let name = mathml(&block_name(block), "");
