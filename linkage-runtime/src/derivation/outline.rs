@@ -65,7 +65,7 @@ pub(crate) mod words {
 
     pub(crate) const LEAD_CLOSURE: &str = "The mechanism closes where";
     pub(crate) const LEAD_JACOBIAN: &str =
-        "The derivatives of the closure equations by the unknowns and by the inputs:";
+        "The derivatives of the closure equations with respect to the unknowns and the inputs:";
     pub(crate) const LEAD_RATIOS: &str = "With the closure equations held, the unknowns move by";
     pub(crate) const LEAD_VELOCITY: &str = "so that";
     pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the closure equations give";
@@ -140,7 +140,9 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     pen.heading(words::ACCELERATION)?;
     pen.lead(words::LEAD_ACCELERATION)?;
     pen.display(&ACCELERATION)?;
-    pen.lead(words::LEAD_GAMMA)?;
+    if !derivation.gamma.is_empty() {
+        pen.lead(words::LEAD_GAMMA)?;
+    }
     equations(pen, &mut number, derivation.gamma)?;
 
     quantities(pen, &mut number, words::POINTS, derivation.points)?;

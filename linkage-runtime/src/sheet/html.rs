@@ -35,8 +35,9 @@ pub(super) fn display(mathml: &str, latex: &str) -> String {
 /// A matrix with more rows or columns than this is a list of its entries.
 const LARGEST_MATRIX: usize = 6;
 
-/// The MathML and LaTeX of `name = matrix`, or of each entry if there are many.
-pub(super) fn matrix(matrix: &Matrix) -> Vec<(String, String)> {
+/// The MathML and LaTeX of `name = matrix`, or of each entry if there are many. A `law` such as
+/// J = ∂Ψ/∂u says what the matrix is.
+pub(super) fn matrix(matrix: &Matrix, law: Option<&Formula>) -> Vec<(String, String)> {
     let Matrix { name, rows, columns, .. } = matrix;
     if *rows.max(columns) > LARGEST_MATRIX {
         let entries = matrix.entries.iter().map(|entry| {
@@ -45,7 +46,8 @@ pub(super) fn matrix(matrix: &Matrix) -> Vec<(String, String)> {
             let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{}</mrow>", name.mathml, value.mathml);
             (mathml, format!("{{{}}}_{{{row},{column}}} = {}", name.latex, value.latex))
         });
-        return entries.collect();
+        let law = law.map(|law| (law.mathml.to_owned(), law.latex.to_owned()));
+        return law.into_iter().chain(entries).collect();
     }
     let (mut mathml, mut latex) = (String::new(), String::new());
     for row in 0..*rows {
@@ -58,8 +60,12 @@ pub(super) fn matrix(matrix: &Matrix) -> Vec<(String, String)> {
         let entries: Vec<_> = entries.iter().map(|entry| entry.map_or("0", |entry| entry.latex)).collect();
         latex.push_str(&format!(" {} \\\\", entries.join(" & ")));
     }
+    // J = ∂Ψ/∂u = (…) reads as one chain.
+    let name = law.unwrap_or(name);
+    // Fractions stay large while there is room.
+    let large = *columns <= 3;
     let mathml = format!(
-        "<mrow>{}<mo>=</mo><mrow><mo>(</mo><mtable class=\"matrix\">{mathml}</mtable><mo>)</mo></mrow></mrow>",
+        "<mrow>{}<mo>=</mo><mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>",
         name.mathml
     );
     vec![(mathml, format!("{} = \\begin{{pmatrix}}{latex} \\end{{pmatrix}}", name.latex))]

@@ -46,7 +46,6 @@ impl Page {
         self.body.push('\n');
     }
 
-    /// A section, unless it is empty.
     fn section(&mut self, heading: &str, write: impl FnOnce(&mut Self)) {
         self.push(&format!("<section>\n<h2>{heading}</h2>"));
         write(self);
@@ -79,10 +78,9 @@ impl Page {
         self.push("</div>");
     }
 
-    fn matrix(&mut self, which: &Matrix) {
-        for (mathml, latex) in matrix(which) {
-            self.push(&format!("<div class=\"law\">{}</div>", display(&mathml, &latex)));
-        }
+    fn matrix(&mut self, which: &Matrix, law: Option<&Formula>) {
+        let lines: String = matrix(which, law).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
+        self.push(&format!("<div class=\"law\">{lines}</div>"));
     }
 
     fn header(&mut self, sheet: &Sheet<'_>) {
@@ -115,15 +113,8 @@ impl Page {
     fn jacobian(&mut self, derivation: &Derivation) {
         self.section(words::JACOBIAN, |page| {
             page.lead(words::LEAD_JACOBIAN);
-            let matrices = [
-                (outline::JACOBIAN_UNKNOWNS, derivation.jacobian_unknowns),
-                (outline::JACOBIAN_INPUTS, derivation.jacobian_inputs),
-            ];
-            for (law, mut which) in matrices {
-                // J = ∂Ψ/∂u = (…) reads as one chain.
-                which.name = law;
-                page.matrix(&which);
-            }
+            page.matrix(&derivation.jacobian_unknowns, Some(&outline::JACOBIAN_UNKNOWNS));
+            page.matrix(&derivation.jacobian_inputs, Some(&outline::JACOBIAN_INPUTS));
         });
     }
 
@@ -147,7 +138,7 @@ impl Page {
                 ));
                 page.equations(block.determinant.as_slice());
                 if let Some(inverse) = &block.inverse {
-                    page.matrix(inverse);
+                    page.matrix(inverse, None);
                 }
                 page.push("</article>");
             }
@@ -168,7 +159,9 @@ impl Page {
         self.section(words::ACCELERATION, |page| {
             page.lead(words::LEAD_ACCELERATION);
             page.law(&outline::ACCELERATION);
-            page.lead(words::LEAD_GAMMA);
+            if !derivation.gamma.is_empty() {
+                page.lead(words::LEAD_GAMMA);
+            }
             page.equations(derivation.gamma);
         });
     }
