@@ -91,8 +91,8 @@ impl Style for MathMl {
     fn power(&self, base: &str, exponent: u32) -> String {
         // An index and an exponent stand above each other.
         match base.strip_prefix("<msub>").and_then(|inner| inner.strip_suffix("</msub>")) {
-            Some(inner) => format!("<msubsup>{inner}<mn>{exponent}</mn></msubsup>"),
-            None => format!("<msup>{base}<mn>{exponent}</mn></msup>"),
+            Some(inner) => format!("<msubsup>{}<mn>{exponent}</mn></msubsup>", lowered(inner)),
+            None => format!("<msup>{}<mn>{exponent}</mn></msup>", lowered(base)),
         }
     }
 
@@ -109,6 +109,14 @@ impl Style for MathMl {
             return format!("<mrow>{name}{SPACED_APPLICATION}{arguments}</mrow>");
         }
         format!("<mrow>{name}{FUNCTION_APPLICATION}{}</mrow>", self.brackets(&arguments))
+    }
+}
+
+/// Dots above a letter do not lift its exponent.
+fn lowered(base: &str) -> String {
+    match base.strip_prefix("<mover>").and_then(|inner| inner.split_once("</mover>")) {
+        Some((dotted, rest)) => format!("<mpadded height=\"0.75em\"><mover>{dotted}</mover></mpadded>{rest}"),
+        None => base.to_owned(),
     }
 }
 

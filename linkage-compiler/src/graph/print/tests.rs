@@ -121,6 +121,11 @@ fn factors_stand_in_the_order_of_the_lecture() {
         "x l \\dot{x}^2 \\frac{\\partial y}{\\partial x} \\sin(x) (x + l) \\det J",
         "an argument is bracketed where what follows could be taken for a part of it"
     );
+    assert!(
+        formula(&g, node).mathml.contains(
+            "<msup><mpadded height=\"0.75em\"><mover><mi>x</mi><mo>˙</mo></mover></mpadded><mn>2</mn></msup>"
+        )
+    );
     assert_eq!(g.text(node), "x*x.^2*y/x*det*l*sin(x)*(x + l)");
     let powers = g.product(&[(ratio, 2), (det, -2)]);
     assert_eq!(formula(&g, powers).unicode, "(∂y/∂x)²/(det J)²");
