@@ -4,7 +4,9 @@
 
 #[cfg(feature = "drawing")]
 pub use linkage_runtime::drawing;
-pub use linkage_runtime::{Error, Mechanism, OutputMotion, PointMotion, Solution, nalgebra, position};
+#[cfg(feature = "sheet")]
+pub use linkage_runtime::sheet;
+pub use linkage_runtime::{Error, Mechanism, OutputMotion, PointMotion, Solution, derivation, nalgebra, position};
 
 /// Mechanisms from their closure equations.
 ///

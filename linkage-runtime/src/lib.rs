@@ -3,11 +3,14 @@
 //! - [`Mechanism`]: the trait that general algorithms take;
 //! - [`position`]: Newton's method with damping and honest failure;
 //! - [`Error`]: which mechanism, what residual, how near singular;
-//! - [`drawing`]: the linkage as SVG.
+//! - [`derivation`]: the formulas behind the code, as data;
+//! - [`drawing`]: the linkage as SVG;
+//! - [`sheet`]: the derivation as HTML.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
 
+pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 mod error;
@@ -16,6 +19,8 @@ mod mechanism;
 mod motion;
 pub mod position;
 mod scalar;
+#[cfg(feature = "sheet")]
+pub mod sheet;
 
 pub use error::{Error, finite, finite_matrix};
 pub use linear::{Factorization, product_of_pivots, regular, same_signs};

@@ -1,17 +1,19 @@
 //! The interpreter: the oracle that emitted code is compared with.
 
+use std::collections::BTreeMap;
+
 use super::{Graph, Node, NodeId, SymbolId};
 
 impl Graph {
     /// The values of `roots` where `bind` gives the value of each symbol.
     #[must_use]
     pub fn evaluate(&self, roots: &[NodeId], bind: impl Fn(SymbolId) -> f64) -> Vec<f64> {
-        let last = roots.iter().max().map_or(0, |root| root.index() + 1);
-        let mut values: Vec<Option<f64>> = vec![None; last];
+        let mut values: BTreeMap<NodeId, f64> = BTreeMap::new();
         for id in self.reachable(roots) {
-            values[id.index()] = node_value(self.node(id), |symbol| Some(bind(symbol)), |child| values[child.index()]);
+            let value = node_value(self.node(id), |symbol| Some(bind(symbol)), |child| values.get(&child).copied());
+            values.insert(id, value.unwrap_or(f64::NAN));
         }
-        roots.iter().map(|root| values[root.index()].unwrap_or(f64::NAN)).collect()
+        roots.iter().map(|root| values.get(root).copied().unwrap_or(f64::NAN)).collect()
     }
 }
 

@@ -16,6 +16,7 @@ use rustc_hash::FxHashMap;
 
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
+pub use print::{Formula, Name, Notation, Printer};
 
 /// An expression of a [`Graph`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -460,19 +461,22 @@ impl Graph {
     /// Every node that the roots are made of, children before parents.
     #[must_use]
     pub fn reachable(&self, roots: &[NodeId]) -> Vec<NodeId> {
-        let Some(last) = roots.iter().max() else { return Vec::new() };
-        let mut marked = vec![false; last.index() + 1];
-        for root in roots {
-            marked[root.index()] = true;
-        }
-        for index in (0..marked.len()).rev() {
-            if marked[index] {
-                for child in self.children(NodeId(u32::try_from(index).unwrap_or(u32::MAX))) {
-                    marked[child.index()] = true;
-                }
+        self.sweep(roots.iter().copied(), |_| false)
+    }
+
+    /// The nodes that the roots are made of, children before parents, without those that are `done`
+    /// and what only those are made of. The cost is that of what is found, not of the graph.
+    fn sweep(&self, roots: impl IntoIterator<Item = NodeId>, done: impl Fn(NodeId) -> bool) -> Vec<NodeId> {
+        let mut open: BTreeSet<NodeId> = roots.into_iter().collect();
+        let mut found = Vec::new();
+        while let Some(id) = open.pop_last() {
+            if !done(id) {
+                open.extend(self.children(id));
+                found.push(id);
             }
         }
-        (0..=last.0).map(NodeId).filter(|id| marked[id.index()]).collect()
+        found.reverse();
+        found
     }
 
     /// The symbols that the roots are made of.

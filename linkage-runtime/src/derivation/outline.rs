@@ -1,0 +1,182 @@
+//! The order of a derivation, whatever it is written in.
+
+use core::fmt;
+
+use super::{Derivation, Equation, Formula, Kernel, Matrix, Method, Quantity};
+
+/// Ψ(u, v) = 0.
+pub(crate) const CLOSURE: Formula = Formula {
+    text: "Ψ(u, v) = 0",
+    latex: "\\Psi(u, v) = 0",
+    mathml: "<mrow><mi>Ψ</mi><mo>(</mo><mi>u</mi><mo>,</mo><mi>v</mi><mo>)</mo><mo>=</mo><mn>0</mn></mrow>",
+};
+/// J = ∂Ψ/∂u.
+pub(crate) const JACOBIAN_UNKNOWNS: Formula = Formula {
+    text: "J = ∂Ψ/∂u",
+    latex: "J = \\frac{\\partial \\Psi}{\\partial u}",
+    mathml: "<mrow><mi>J</mi><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>u</mi></mrow>\
+             </mfrac></mrow>",
+};
+/// A = ∂Ψ/∂v.
+pub(crate) const JACOBIAN_INPUTS: Formula = Formula {
+    text: "A = ∂Ψ/∂v",
+    latex: "A = \\frac{\\partial \\Psi}{\\partial v}",
+    mathml: "<mrow><mi>A</mi><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>v</mi></mrow>\
+             </mfrac></mrow>",
+};
+/// J·∂u/∂v = −A.
+pub(crate) const RATIOS: Formula = Formula {
+    text: "J·∂u/∂v = −A",
+    latex: "J \\frac{\\partial u}{\\partial v} = -A",
+    mathml: "<mrow><mi>J</mi><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow><mo>∂</mo><mi>v</mi></mrow></mfrac>\
+             <mo>=</mo><mrow><mo>−</mo><mi>A</mi></mrow></mrow>",
+};
+/// u̇ = ∂u/∂v·v̇.
+pub(crate) const VELOCITY: Formula = Formula {
+    text: "u̇ = (∂u/∂v)·v̇",
+    latex: "\\dot{u} = \\frac{\\partial u}{\\partial v} \\dot{v}",
+    mathml: "<mrow><mover><mi>u</mi><mo>˙</mo></mover><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow>\
+             <mo>∂</mo><mi>v</mi></mrow></mfrac><mover><mi>v</mi><mo>˙</mo></mover></mrow>",
+};
+/// J·ü = −(A·v̈ + γ).
+pub(crate) const ACCELERATION: Formula = Formula {
+    text: "J·ü = −(A·v̈ + γ)",
+    latex: "J \\ddot{u} = -(A \\ddot{v} + \\gamma)",
+    mathml: "<mrow><mi>J</mi><mover><mi>u</mi><mo>¨</mo></mover><mo>=</mo><mrow><mo>−</mo><mrow><mo>(</mo><mi>A</mi>\
+             <mover><mi>v</mi><mo>¨</mo></mover><mo>+</mo><mi>γ</mi><mo>)</mo></mrow></mrow></mrow>",
+};
+
+/// The headings and what leads each section in.
+pub(crate) mod words {
+    pub(crate) const COORDINATES: &str = "Coordinates";
+    pub(crate) const CLOSURE: &str = "Closure equations";
+    pub(crate) const JACOBIAN: &str = "Jacobian";
+    pub(crate) const STRUCTURE: &str = "Order of solution";
+    pub(crate) const RATIOS: &str = "Velocity ratios";
+    pub(crate) const ACCELERATION: &str = "Acceleration";
+    pub(crate) const POINTS: &str = "Points";
+    pub(crate) const OUTPUTS: &str = "Outputs";
+    pub(crate) const OPERATIONS: &str = "Operations";
+    pub(crate) const CONDITIONS: &str = "Conditions";
+
+    pub(crate) const GIVEN: &str = "Given";
+    pub(crate) const DRIVEN: &str = "Driven";
+    pub(crate) const UNKNOWN: &str = "Unknown";
+
+    pub(crate) const LEAD_CLOSURE: &str = "The mechanism closes where";
+    pub(crate) const LEAD_JACOBIAN: &str =
+        "The derivatives of the closure equations with respect to the unknowns and the inputs:";
+    pub(crate) const LEAD_RATIOS: &str = "With the closure equations held, the unknowns move by";
+    pub(crate) const LEAD_VELOCITY: &str = "so that";
+    pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the closure equations give";
+    pub(crate) const LEAD_GAMMA: &str = "with the terms that remain where no coordinate accelerates:";
+    pub(crate) const LEAD_CONDITIONS: &str = "The formulas take for granted that";
+}
+
+/// What a kind of document must be able to write.
+pub(super) trait Pen {
+    fn title(&mut self, mechanism: &str) -> fmt::Result;
+    fn heading(&mut self, heading: &str) -> fmt::Result;
+    /// A line such as "Given: l₁, l₂".
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result;
+    fn lead(&mut self, words: &str) -> fmt::Result;
+    fn display(&mut self, formula: &Formula) -> fmt::Result;
+    fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result;
+    fn matrix(&mut self, matrix: &Matrix) -> fmt::Result;
+    /// The n-th block, counted from 1, and the numbers of its equations.
+    fn block(&mut self, n: usize, equations: &[usize], method: Method) -> fmt::Result;
+    fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result;
+}
+
+/// Writes a derivation with this pen.
+pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
+    let mut number = 0;
+    pen.title(derivation.mechanism)?;
+    pen.heading(words::COORDINATES)?;
+    let roles = [
+        (words::GIVEN, derivation.parameters),
+        (words::DRIVEN, derivation.inputs),
+        (words::UNKNOWN, derivation.unknowns),
+    ];
+    for (role, symbols) in roles {
+        pen.list(role, &mut symbols.iter().map(|symbol| symbol.formula))?;
+    }
+
+    pen.heading(words::CLOSURE)?;
+    pen.lead(words::LEAD_CLOSURE)?;
+    pen.display(&CLOSURE)?;
+    equations(pen, &mut number, derivation.residual)?;
+
+    pen.heading(words::JACOBIAN)?;
+    pen.lead(words::LEAD_JACOBIAN)?;
+    for (law, matrix) in
+        [(JACOBIAN_UNKNOWNS, derivation.jacobian_unknowns), (JACOBIAN_INPUTS, derivation.jacobian_inputs)]
+    {
+        pen.display(&law)?;
+        pen.matrix(&matrix)?;
+    }
+
+    if !derivation.blocks.is_empty() {
+        pen.heading(words::STRUCTURE)?;
+    }
+    for (index, block) in derivation.blocks.iter().enumerate() {
+        pen.block(index + 1, block.equations, block.method)?;
+        pen.list(words::UNKNOWN, &mut block.unknowns.iter().copied())?;
+        if let Some(determinant) = block.determinant {
+            equations(pen, &mut number, &[determinant])?;
+        }
+        if let Some(inverse) = &block.inverse {
+            pen.matrix(inverse)?;
+        }
+    }
+
+    pen.heading(words::RATIOS)?;
+    pen.lead(words::LEAD_RATIOS)?;
+    pen.display(&RATIOS)?;
+    pen.lead(words::LEAD_VELOCITY)?;
+    pen.display(&VELOCITY)?;
+    equations(pen, &mut number, derivation.ratios)?;
+
+    pen.heading(words::ACCELERATION)?;
+    pen.lead(words::LEAD_ACCELERATION)?;
+    pen.display(&ACCELERATION)?;
+    if !derivation.gamma.is_empty() {
+        pen.lead(words::LEAD_GAMMA)?;
+    }
+    equations(pen, &mut number, derivation.gamma)?;
+
+    quantities(pen, &mut number, words::POINTS, derivation.points)?;
+    quantities(pen, &mut number, words::OUTPUTS, derivation.outputs)?;
+    if !derivation.kernels.is_empty() {
+        pen.heading(words::OPERATIONS)?;
+        pen.kernels(derivation.kernels)?;
+    }
+    if !derivation.conditions.is_empty() {
+        pen.heading(words::CONDITIONS)?;
+        pen.lead(words::LEAD_CONDITIONS)?;
+        for condition in derivation.conditions {
+            pen.display(condition)?;
+        }
+    }
+    Ok(())
+}
+
+fn equations(pen: &mut dyn Pen, number: &mut usize, equations: &[Equation]) -> fmt::Result {
+    for equation in equations {
+        *number += 1;
+        pen.equation(*number, equation)?;
+    }
+    Ok(())
+}
+
+fn quantities(pen: &mut dyn Pen, number: &mut usize, heading: &str, quantities: &[Quantity]) -> fmt::Result {
+    if !quantities.is_empty() {
+        pen.heading(heading)?;
+    }
+    for quantity in quantities {
+        pen.lead(quantity.name)?;
+        equations(pen, number, quantity.value)?;
+        equations(pen, number, quantity.ratios)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,85 @@
+//! A derivation as plain text.
+
+use core::fmt;
+
+use super::outline::Pen;
+use super::{Equation, Formula, Kernel, Matrix, Method};
+
+pub(super) struct Text<'a, 'b> {
+    out: &'a mut fmt::Formatter<'b>,
+    sections: usize,
+}
+
+impl<'a, 'b> Text<'a, 'b> {
+    pub(super) fn new(out: &'a mut fmt::Formatter<'b>) -> Self {
+        Self { out, sections: 0 }
+    }
+
+    fn underline(&mut self, text: &str, line: &str) -> fmt::Result {
+        writeln!(self.out, "{text}")?;
+        for _ in text.chars() {
+            self.out.write_str(line)?;
+        }
+        writeln!(self.out)
+    }
+}
+
+impl Pen for Text<'_, '_> {
+    fn title(&mut self, mechanism: &str) -> fmt::Result {
+        self.underline(mechanism, "═")
+    }
+
+    fn heading(&mut self, heading: &str) -> fmt::Result {
+        self.sections += 1;
+        writeln!(self.out, "\n{}. {heading}\n", self.sections)
+    }
+
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result {
+        write!(self.out, "  {role:<8}")?;
+        for (index, formula) in formulas.enumerate() {
+            write!(self.out, "{} {formula}", if index == 0 { "" } else { "," })?;
+        }
+        writeln!(self.out)
+    }
+
+    fn lead(&mut self, words: &str) -> fmt::Result {
+        writeln!(self.out, "  {words}")
+    }
+
+    fn display(&mut self, formula: &Formula) -> fmt::Result {
+        writeln!(self.out, "        {formula}")
+    }
+
+    fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result {
+        let width = if number < 10 { 3 } else { 2 };
+        writeln!(self.out, "  ({number}){:width$}{equation}", "")
+    }
+
+    fn matrix(&mut self, matrix: &Matrix) -> fmt::Result {
+        for entry in matrix.entries {
+            writeln!(self.out, "        {}[{}, {}] = {}", matrix.name, entry.row + 1, entry.column + 1, entry.value)?;
+        }
+        Ok(())
+    }
+
+    fn block(&mut self, n: usize, equations: &[usize], method: Method) -> fmt::Result {
+        write!(self.out, "  Block {n}: equations")?;
+        for (index, equation) in equations.iter().enumerate() {
+            write!(self.out, "{} ({})", if index == 0 { "" } else { "," }, equation + 1)?;
+        }
+        writeln!(self.out, ", solved {}", method.words())
+    }
+
+    fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {
+        let width = kernels.iter().map(|kernel| kernel.function.len()).max().unwrap_or(0);
+        writeln!(self.out, "  {:width$}  functions  divisions  multiplications  additions", "")?;
+        for Kernel { function, operations } in kernels {
+            writeln!(
+                self.out,
+                "  {function:width$}  {:>9}  {:>9}  {:>15}  {:>9}",
+                operations.functions, operations.divisions, operations.multiplications, operations.additions
+            )?;
+        }
+        Ok(())
+    }
+}

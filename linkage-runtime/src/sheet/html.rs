@@ -1,0 +1,84 @@
+//! Small pieces of HTML.
+
+use crate::derivation::{Formula, Matrix};
+
+/// Text for the inside of an element or of an attribute in double quotes.
+pub(super) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            _ => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// A formula in a line of text.
+pub(super) fn inline(formula: &Formula) -> String {
+    format!("<math>{}</math>", formula.mathml)
+}
+
+/// A formula on its own line, with its LaTeX source for those who copy it.
+pub(super) fn display(mathml: &str, latex: &str) -> String {
+    format!(
+        "<div class=\"scroll\"><math display=\"block\"><semantics>{mathml}<annotation encoding=\"application/x-tex\">\
+         {}</annotation></semantics></math></div>",
+        escape(latex)
+    )
+}
+
+/// A matrix with more rows or columns than this is a list of its entries.
+const LARGEST_MATRIX: usize = 6;
+
+/// The MathML and LaTeX of `name = matrix`, or of each entry if there are many. A `law` such as
+/// J = ∂Ψ/∂u says what the matrix is.
+pub(super) fn matrix(matrix: &Matrix, law: Option<&Formula>) -> Vec<(String, String)> {
+    let Matrix { name, rows, columns, .. } = matrix;
+    if *rows.max(columns) > LARGEST_MATRIX {
+        let entries = matrix.entries.iter().map(|entry| {
+            let (row, column, value) = (entry.row + 1, entry.column + 1, entry.value);
+            let index = format!("<mrow><mn>{row}</mn><mo>,</mo><mn>{column}</mn></mrow>");
+            let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{}</mrow>", name.mathml, value.mathml);
+            (mathml, format!("{{{}}}_{{{row},{column}}} = {}", name.latex, value.latex))
+        });
+        let law = law.map(|law| (law.mathml.to_owned(), law.latex.to_owned()));
+        return law.into_iter().chain(entries).collect();
+    }
+    let (mut mathml, mut latex) = (String::new(), String::new());
+    for row in 0..*rows {
+        let entries: Vec<_> = (0..*columns).map(|column| matrix.entry(row, column)).collect();
+        mathml.push_str("<mtr>");
+        for entry in &entries {
+            mathml.push_str(&format!("<mtd>{}</mtd>", entry.map_or("<mn>0</mn>", |entry| entry.mathml)));
+        }
+        mathml.push_str("</mtr>");
+        let entries: Vec<_> = entries.iter().map(|entry| entry.map_or("0", |entry| entry.latex)).collect();
+        latex.push_str(&format!(" {} \\\\", entries.join(" & ")));
+    }
+    // J = ∂Ψ/∂u = (…) reads as one chain.
+    let name = law.unwrap_or(name);
+    // Fractions stay large while there is room.
+    let large = *columns <= 3;
+    let mathml = format!(
+        "<mrow>{}<mo>=</mo><mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>",
+        name.mathml
+    );
+    vec![(mathml, format!("{} = \\begin{{pmatrix}}{latex} \\end{{pmatrix}}", name.latex))]
+}
+
+/// An SVG file as the address of an image.
+pub(super) fn svg_address(svg: &str) -> String {
+    let mut address = String::from("data:image/svg+xml,");
+    for byte in svg.trim().bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' => address.push(char::from(byte)),
+            _ => address.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    address
+}

@@ -1,0 +1,3 @@
+//! Derivations to write down.
+
+pub mod four_bar;

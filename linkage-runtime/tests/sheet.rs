@@ -1,0 +1,102 @@
+//! The sheet of the four-bar.
+
+#![cfg(feature = "sheet")]
+
+mod derivations;
+
+use derivations::four_bar::FOUR_BAR;
+use linkage_runtime::derivation::{Entry, Formula, Matrix};
+use linkage_runtime::sheet::Sheet;
+
+const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 4 3\"><script>alert(1)</script>\
+                   <path d=\"M0 0L3 2\" stroke=\"#b00\"/></svg>";
+
+fn sheet() -> String {
+    let mut sheet = Sheet::new(&FOUR_BAR);
+    sheet
+        .title("Four-bar <A&B> \"linkage\"")
+        .parameter("l1", 80.0)
+        .parameter("l2", 20.0)
+        .numbers("Pose <rad>", [("theta3", 1.25), ("not a <symbol>", -0.5)])
+        .numbers("Velocity", [("theta3/theta2", -0.1), ("theta3_rate", 2.0), ("det J", -1e-9)])
+        .picture(SVG, "The pose & its \"path\"");
+    sheet.to_html()
+}
+
+/// Every element that needs an end has one, in order.
+fn assert_balanced(html: &str) {
+    const VOID: [&str; 4] = ["!DOCTYPE", "meta", "img", "br"];
+    let mut open: Vec<&str> = Vec::new();
+    for piece in html.split('<').skip(1) {
+        let (tag, _) = piece.split_once('>').unwrap_or_else(|| panic!("no end of a tag at {piece}"));
+        let name = tag.split_whitespace().next().unwrap_or_default();
+        match name.strip_prefix('/') {
+            Some(name) => assert_eq!(open.pop(), Some(name), "{tag}"),
+            None if VOID.contains(&name) => {}
+            None => open.push(name),
+        }
+        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+    }
+    assert!(open.is_empty(), "{open:?}");
+}
+
+#[test]
+fn tags_are_balanced() {
+    assert_balanced(&sheet());
+    assert_balanced(&Sheet::new(&FOUR_BAR).to_html());
+}
+
+#[test]
+fn the_file_stands_alone() {
+    let html = sheet();
+    assert!(html.starts_with("<!DOCTYPE html>") && html.contains("lang=\"en\"") && html.contains("name=\"viewport\""));
+    for foreign in ["<script", "<link", "http:", "https:", "@import", "url(", " onload", "<svg"] {
+        assert!(!html.contains(foreign), "{foreign}");
+    }
+}
+
+#[test]
+fn what_the_user_gives_is_escaped() {
+    let html = sheet();
+    assert!(html.contains("<h1>Four-bar &lt;A&amp;B&gt; &quot;linkage&quot;</h1>"));
+    assert!(html.contains("<caption>Pose &lt;rad&gt;</caption>"));
+    assert!(html.contains("<th scope=\"row\">not a &lt;symbol&gt;</th><td>−0.5"));
+    assert!(html.contains("alt=\"The pose &amp; its &quot;path&quot;\""));
+    assert!(!html.contains("<A&B>") && !html.contains("<symbol>"));
+}
+
+#[test]
+fn numbers_stand_beside_formulas() {
+    let html = sheet();
+    let row = |name: &str| format!("<th scope=\"row\"><math>{name}</math></th>");
+    let theta = |index: u8| format!("<msub><mi>θ</mi><mn>{index}</mn></msub>");
+    let ratio = format!("<mfrac><mrow><mo>∂</mo>{}</mrow><mrow><mo>∂</mo>{}</mrow></mfrac>", theta(3), theta(2));
+    assert!(html.contains(&row("<msub><mi>l</mi><mn>1</mn></msub>")));
+    assert!(html.contains(&row(&theta(3))) && html.contains(&row(&ratio)));
+    assert!(html.contains(&row("<msub><mover><mi>θ</mi><mo>˙</mo></mover><mn>3</mn></msub>")));
+    assert!(html.contains(&format!(
+        "{}<td>−1·10⁻⁹",
+        row("<mrow><mi>det</mi><mo rspace=\"0.17em\">\u{2061}</mo><mi>J</mi></mrow>")
+    )));
+}
+
+#[test]
+fn equations_are_numbered_as_in_the_text() {
+    let (html, text) = (sheet(), FOUR_BAR.to_string());
+    let last = text.matches("\n  (").count();
+    assert!(
+        html.contains(&format!("id=\"equation-{last}\"")) && !html.contains(&format!("id=\"equation-{}\"", last + 1))
+    );
+    assert!(html.contains("href=\"#equation-2\""));
+}
+
+#[test]
+fn large_matrices_are_lists_of_entries() {
+    const ONE: Formula = Formula { text: "1", latex: "1", mathml: "<mn>1</mn>" };
+    let mut large = FOUR_BAR;
+    let name = FOUR_BAR.jacobian_inputs.name;
+    large.jacobian_inputs = Matrix { name, rows: 7, columns: 1, entries: &[Entry { row: 6, column: 0, value: ONE }] };
+    let html = Sheet::new(&large).to_html();
+    assert_balanced(&html);
+    assert!(html.contains("<mrow><mn>7</mn><mo>,</mo><mn>1</mn></mrow></msub><mo>=</mo><mn>1</mn>"));
+}
