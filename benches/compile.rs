@@ -7,6 +7,13 @@ use std::time::{Duration, Instant};
 
 use proc_macro2::TokenStream;
 
+/// The four-bar of the tests, with its five points and an output.
+fn four_bar(_: usize) -> String {
+    let file = include_str!("../tests/mechanisms/four_bar.rs");
+    let (open, close) = (file.find('{').map_or(0, |at| at + 1), file.rfind('}').unwrap_or(file.len()));
+    file[open..close].to_owned()
+}
+
 /// m four-bars, the rocker of each driving the next: m blocks of two unknowns.
 fn chain(loops: usize) -> String {
     let (mut parameters, mut unknowns, mut closures) = (String::new(), String::new(), String::new());
@@ -47,7 +54,7 @@ struct Measured {
 
 /// The median of a few expansions of one source.
 fn measure(source: &str) -> Measured {
-    const RUNS: usize = 5;
+    const RUNS: usize = 9;
     let root: TokenStream = "::linkage".parse().expect("a path");
     let tokens: TokenStream = source.parse().expect("tokens");
     let mut times: Vec<Duration> = Vec::new();
@@ -74,6 +81,7 @@ fn table(title: &str, source: fn(usize) -> String, sizes: &[usize]) {
 }
 
 fn main() {
+    table("The four-bar", four_bar, &[1]);
     table("A chain of four-bars", chain, &[1, 2, 4, 8, 16, 32, 64]);
     table("Loops through every unknown", dense, &[1, 2, 4, 8]);
 }

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, TokenStream};
+use quote::{TokenStreamExt, quote};
 
 use super::names::{Names, ident};
 use crate::graph::{Function, Number};
@@ -18,91 +18,130 @@ enum Binding {
 }
 
 /// A value, by its name if it has one.
-pub(super) fn signed(names: &mut Names, schedule: &Schedule, value: Signed) -> TokenStream {
-    operand(names, schedule, value, Binding::Sum)
-}
-
-/// How a value is computed, even if it has a name.
-pub(super) fn definition(names: &mut Names, schedule: &Schedule, value: ValueId) -> TokenStream {
-    compute(names, schedule, value).0
-}
-
-fn operand(names: &mut Names, schedule: &Schedule, value: Signed, at_least: Binding) -> TokenStream {
-    let name = names.get(schedule, value.value);
-    // -(a - b) is b - a.
-    if let (true, None, Value::Sum(terms)) = (value.negative, &name, schedule.value(value.value))
-        && terms.iter().any(|term| term.negative)
-    {
-        let mut terms: Vec<Signed> =
-            terms.iter().map(|term| Signed { negative: !term.negative, value: term.value }).collect();
-        terms.sort_by_key(|term| term.negative);
-        let tokens = sum(names, schedule, &terms);
-        return if at_least > Binding::Sum { quote!((#tokens)) } else { tokens };
-    }
-    let (tokens, binding) = match name {
-        Some(name) => {
-            let name = ident(&name);
-            (quote!(#name), Binding::Atom)
-        }
-        None => compute(names, schedule, value.value),
-    };
-    let (tokens, binding) = match (value.negative, schedule.value(value.value)) {
-        (false, _) => (tokens, binding),
-        (true, Value::Constant(number)) if number.is_zero() => (tokens, binding),
-        // -a * b is (-a) * b: a minus binds tighter than a product and costs the same.
-        (true, _) if binding >= Binding::Product => (quote!(-#tokens), binding.min(Binding::Prefix)),
-        (true, _) => (quote!(-(#tokens)), Binding::Prefix),
-    };
-    if binding < at_least { quote!((#tokens)) } else { tokens }
-}
-
-fn sum(names: &mut Names, schedule: &Schedule, terms: &[Signed]) -> TokenStream {
-    let mut tokens = operand(names, schedule, terms[0], Binding::Sum);
-    for term in &terms[1..] {
-        let body = operand(names, schedule, Signed { negative: false, value: term.value }, Binding::Product);
-        tokens = if term.negative { quote!(#tokens - #body) } else { quote!(#tokens + #body) };
-    }
+pub(super) fn signed(names: &Names, schedule: &Schedule, value: Signed) -> TokenStream {
+    let mut tokens = TokenStream::new();
+    write(&mut tokens, names, schedule, value);
     tokens
 }
 
-fn compute(names: &mut Names, schedule: &Schedule, value: ValueId) -> (TokenStream, Binding) {
-    let plain = |value: ValueId| Signed { negative: false, value };
-    match schedule.value(value) {
-        Value::Constant(number) => match turn(*number) {
-            Some(angle) => (angle, Binding::Product),
-            None => (constant(*number), Binding::Atom),
-        },
-        Value::Symbol(symbol) => {
-            let name = ident(&names.symbol(*symbol));
-            (quote!(#name), Binding::Atom)
+/// Writes a value, by its name if it has one.
+pub(super) fn write(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: Signed) {
+    operand(tokens, names, schedule, value, Binding::Sum);
+}
+
+/// Writes how a value is computed, even if it has a name.
+pub(super) fn define(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: ValueId) {
+    compute(tokens, names, schedule, value);
+}
+
+fn operand(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: Signed, at_least: Binding) {
+    let name = names.get(schedule, value.value);
+    let definition = schedule.value(value.value);
+    // -(a - b) is b - a.
+    let flipped = match definition {
+        Value::Sum(terms) if value.negative && name.is_none() && terms.iter().any(|term| term.negative) => Some(terms),
+        _ => None,
+    };
+    let inner = if name.is_some() { Binding::Atom } else { binding(names, schedule, value.value) };
+    let zero = matches!(definition, Value::Constant(number) if number.is_zero());
+    let negative = value.negative && !zero && flipped.is_none();
+    // -a * b is (-a) * b: a minus binds tighter than a product and costs the same.
+    let bracketed = negative && inner < Binding::Product;
+    let outer = match (negative, bracketed) {
+        (false, _) => inner,
+        (true, true) => Binding::Prefix,
+        (true, false) => inner.min(Binding::Prefix),
+    };
+    within(tokens, outer < at_least, |tokens| {
+        if negative {
+            tokens.append(Punct::new('-', Spacing::Alone));
         }
-        // Given directions are named before any expression is written.
-        Value::Direction(..) => (quote!(direction), Binding::Atom),
-        Value::Sum(terms) => (sum(names, schedule, terms), Binding::Sum),
-        Value::Product(factors) => {
-            let mut tokens = operand(names, schedule, plain(factors[0]), Binding::Product);
-            for factor in &factors[1..] {
-                let body = operand(names, schedule, plain(*factor), Binding::Prefix);
-                tokens = quote!(#tokens * #body);
+        within(tokens, bracketed, |tokens| match (name, flipped) {
+            (Some(name), _) => tokens.append(name.ident.clone()),
+            (None, Some(terms)) => {
+                let flip = |term: &Signed| Signed { negative: !term.negative, value: term.value };
+                let mut terms: Vec<Signed> = terms.iter().map(flip).collect();
+                terms.sort_by_key(|term| term.negative);
+                sum(tokens, names, schedule, &terms);
             }
-            (tokens, Binding::Product)
+            (None, None) => compute(tokens, names, schedule, value.value),
+        });
+    });
+}
+
+/// Writes in brackets, or without.
+fn within(tokens: &mut TokenStream, brackets: bool, write: impl FnOnce(&mut TokenStream)) {
+    if brackets {
+        let mut inside = TokenStream::new();
+        write(&mut inside);
+        tokens.append(Group::new(Delimiter::Parenthesis, inside));
+    } else {
+        write(tokens);
+    }
+}
+
+fn sum(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, terms: &[Signed]) {
+    operand(tokens, names, schedule, terms[0], Binding::Sum);
+    for term in &terms[1..] {
+        tokens.append(Punct::new(if term.negative { '-' } else { '+' }, Spacing::Alone));
+        operand(tokens, names, schedule, Signed { negative: false, value: term.value }, Binding::Product);
+    }
+}
+
+/// How tightly the definition of a value binds.
+fn binding(names: &Names, schedule: &Schedule, value: ValueId) -> Binding {
+    match schedule.value(value) {
+        Value::Sum(_) => Binding::Sum,
+        Value::Product(_) | Value::Quotient(..) => Binding::Product,
+        Value::Constant(number) if parts_of_pi(*number).is_some() => Binding::Product,
+        Value::Square(base) if names.get(schedule, *base).is_some() => Binding::Product,
+        _ => Binding::Atom,
+    }
+}
+
+fn compute(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: ValueId) {
+    let part = |tokens: &mut TokenStream, value: ValueId, at_least: Binding| {
+        operand(tokens, names, schedule, Signed { negative: false, value }, at_least);
+    };
+    match schedule.value(value) {
+        Value::Constant(number) => tokens.extend(turn(*number).unwrap_or_else(|| constant(*number))),
+        Value::Symbol(symbol) => tokens.append(names.symbol(*symbol)),
+        // Given directions are named before any expression is written.
+        Value::Direction(..) => tokens.append(ident("direction")),
+        Value::Sum(terms) => sum(tokens, names, schedule, terms),
+        Value::Product(factors) => {
+            part(tokens, factors[0], Binding::Product);
+            for &factor in &factors[1..] {
+                tokens.append(Punct::new('*', Spacing::Alone));
+                part(tokens, factor, Binding::Prefix);
+            }
         }
         Value::Quotient(above, below) => {
-            let above = operand(names, schedule, plain(*above), Binding::Product);
-            let below = operand(names, schedule, plain(*below), Binding::Prefix);
-            (quote!(#above / #below), Binding::Product)
+            part(tokens, *above, Binding::Product);
+            tokens.append(Punct::new('/', Spacing::Alone));
+            part(tokens, *below, Binding::Prefix);
         }
         Value::Square(base) => {
-            let named = names.get(schedule, *base).is_some();
-            let base = operand(names, schedule, plain(*base), Binding::Atom);
-            if named { (quote!(#base * #base), Binding::Product) } else { (quote!(#base.powi(2)), Binding::Atom) }
+            part(tokens, *base, Binding::Atom);
+            if names.get(schedule, *base).is_some() {
+                tokens.append(Punct::new('*', Spacing::Alone));
+                part(tokens, *base, Binding::Atom);
+            } else {
+                tokens.extend(quote!(.powi(2)));
+            }
         }
         Value::Call(function, arguments) => {
-            let receiver = operand(names, schedule, arguments[0], Binding::Atom);
-            let method = ident(function.operation().method);
-            let rest: Vec<_> =
-                arguments[1..].iter().map(|argument| operand(names, schedule, *argument, Binding::Sum)).collect();
-            (quote!(#receiver.#method(#(#rest),*)), Binding::Atom)
+            operand(tokens, names, schedule, arguments[0], Binding::Atom);
+            tokens.append(Punct::new('.', Spacing::Alone));
+            tokens.append(ident(function.operation().method));
+            let mut inside = TokenStream::new();
+            for (index, argument) in arguments[1..].iter().enumerate() {
+                if index > 0 {
+                    inside.append(Punct::new(',', Spacing::Alone));
+                }
+                write(&mut inside, names, schedule, *argument);
+            }
+            tokens.append(Group::new(Delimiter::Parenthesis, inside));
         }
     }
 }

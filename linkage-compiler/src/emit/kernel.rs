@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::{Ident, TokenStream};
-use quote::{ToTokens, quote};
+use proc_macro2::{Ident, Punct, Spacing, TokenStream};
+use quote::{ToTokens, TokenStreamExt, quote};
 
-use super::expression::{definition, direction_name, signed};
+use super::expression::{define, direction_name, signed};
 use super::names::{Names, ident};
 use super::pose::PosePlan;
 use crate::derivation::Derivation;
@@ -70,8 +70,8 @@ pub(super) fn write(
     let own: BTreeSet<SymbolId> = stages.iter().flat_map(introduced).collect();
     let used: BTreeSet<SymbolId> = schedule
         .used()
-        .into_iter()
-        .filter_map(|id| match schedule.value(id) {
+        .iter()
+        .filter_map(|&id| match schedule.value(id) {
             Value::Symbol(symbol) => Some(*symbol),
             _ => None,
         })
@@ -82,14 +82,14 @@ pub(super) fn write(
     for &symbol in &symbols {
         names.introduce(symbol);
     }
-    let sources = given.sources.iter().filter_map(|source| pattern(source, &symbols, &mut names));
+    let sources = given.sources.iter().filter_map(|source| pattern(source, &symbols, &names));
     let mut body: TokenStream = sources.collect();
     if let Some(pose) = given.pose {
         body.extend(take_directions(pose, &schedule, &mut names));
     }
     let mut results = Vec::new();
     for line in &schedule.lines {
-        body.extend(write_line(line, derivation, &schedule, &used, &mut names, &mut results));
+        write_line(&mut body, line, derivation, &schedule, &used, &mut names, &mut results);
     }
     Code { body, results, operations: schedule.operations(), taken: names.into_taken() }
 }
@@ -104,17 +104,17 @@ fn introduced(stage: &Stage) -> Vec<SymbolId> {
 }
 
 /// `let Type { field, other: name, .. } = *value;` with the fields that are used.
-fn pattern(source: &Source, used: &BTreeSet<SymbolId>, names: &mut Names) -> Option<TokenStream> {
+fn pattern(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<TokenStream> {
     let from = &source.from;
-    let mut local = |symbol: &SymbolId| used.contains(symbol).then(|| names.symbol(*symbol));
+    let local = |symbol: &SymbolId| used.contains(symbol).then(|| names.symbol(*symbol));
     let Some(of) = &source.of else {
-        let parts = source.fields.iter().map(|(_, symbol)| ident(&local(symbol).unwrap_or_else(|| "_".to_owned())));
+        let parts = source.fields.iter().map(|(_, symbol)| local(symbol).unwrap_or_else(|| ident("_")));
         return Some(quote!(let [[#(#parts),*]] = #from;));
     };
     let fields = source.fields.iter().filter_map(|(field, symbol)| {
         let name = local(symbol)?;
-        let (field_ident, name_ident) = (ident(field), ident(&name));
-        Some(if *field == name { quote!(#name_ident) } else { quote!(#field_ident: #name_ident) })
+        let field = ident(field);
+        Some(if field == name { quote!(#name) } else { quote!(#field: #name) })
     });
     let fields: Vec<TokenStream> = fields.collect();
     if fields.is_empty() {
@@ -127,7 +127,7 @@ fn pattern(source: &Source, used: &BTreeSet<SymbolId>, names: &mut Names) -> Opt
 /// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
 fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> TokenStream {
     let mut used: BTreeMap<NodeId, Vec<(Function, _)>> = BTreeMap::new();
-    for id in schedule.used() {
+    for &id in schedule.used() {
         if let Value::Direction(function, angle) = schedule.value(id) {
             used.entry(*angle).or_default().push((*function, id));
         }
@@ -140,11 +140,9 @@ fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> T
         let field_ident = ident(field);
         let (mut left, mut right) = (Vec::new(), Vec::new());
         for (function, id) in parts {
-            let name = names.unique(&direction_name(function, field));
-            left.push(ident(&name));
+            left.push(names.give(id, &direction_name(function, field)));
             let part = if function == Function::Sin { quote!(im) } else { quote!(re) };
             right.push(quote!(#argument.#field_ident.#part));
-            names.set(id, name);
         }
         tokens.extend(match (left.as_slice(), right.as_slice()) {
             ([name], [value]) => quote!(let #name = #value;),
@@ -155,41 +153,40 @@ fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> T
 }
 
 fn write_line(
+    body: &mut TokenStream,
     line: &Line,
     derivation: &Derivation,
     schedule: &Schedule,
     used: &BTreeSet<SymbolId>,
     names: &mut Names,
     results: &mut Vec<Operand>,
-) -> TokenStream {
+) {
     match line {
         Line::Let(id) => {
-            let value = definition(names, schedule, *id);
-            let name = ident(&names.invent(schedule, *id));
-            quote!(let #name = #value;)
+            // What a value is made of has names before it has one itself.
+            let name = names.invent(schedule, *id);
+            assign(body, &name, |body| define(body, names, schedule, *id));
         }
         Line::SineCosine { sine, cosine, angle } => {
             let argument = signed(names, schedule, *angle);
             let argument = if names.get(schedule, angle.value).is_some() { argument } else { quote!((#argument)) };
             let (sine, cosine) = (names.invent(schedule, *sine), names.invent(schedule, *cosine));
-            let (sine, cosine) = (ident(&sine), ident(&cosine));
-            quote!(let (#sine, #cosine) = #argument.sin_cos();)
+            body.extend(quote!(let (#sine, #cosine) = #argument.sin_cos();));
         }
         Line::Name { symbol, value } => {
-            let tokens = signed(names, schedule, *value);
             let number = matches!(schedule.value(value.value), Value::Constant(_));
             let fresh = !value.negative && !number && names.get(schedule, value.value).is_none();
-            let text = names.introduce(*symbol);
-            let name = ident(&text);
+            let definition = signed(names, schedule, *value);
+            let name = names.introduce(*symbol);
+            assign(body, &name.ident, |body| body.extend(definition));
             if fresh {
-                names.set(value.value, text);
+                names.set(value.value, name);
             }
-            quote!(let #name = #tokens;)
         }
         Line::Guard { block, determinant, size } => {
             let (determinant, size) = (signed(names, schedule, *determinant), signed(names, schedule, *size));
             let group = derivation.blocks[*block].names(derivation);
-            quote!(regular(Self::NAME, #group, #determinant, #size)?;)
+            body.extend(quote!(regular(Self::NAME, #group, #determinant, #size)?;));
         }
         Line::Factor { block, matrix, sizes } => {
             let columns = columns(matrix, schedule, names);
@@ -198,32 +195,40 @@ fn write_line(
             let ident = ident(&factors);
             names.factors.insert(*block, factors);
             let group = derivation.blocks[*block].names(derivation);
-            quote!(let #ident = Factorization::new(Self::NAME, #group, [#(#columns),*], [#(#sizes),*])?;)
+            body.extend(quote!(let #ident = Factorization::new(Self::NAME, #group, [#(#columns),*], [#(#sizes),*])?;));
         }
         Line::Solve { block, targets, right } => {
             let right: Vec<_> = right.iter().map(|value| signed(names, schedule, *value)).collect();
             let targets: Vec<_> = targets
                 .iter()
-                .map(|target| if used.contains(target) { ident(&names.introduce(*target)) } else { ident("_") })
+                .map(|target| if used.contains(target) { names.introduce(*target).ident } else { ident("_") })
                 .collect();
             let factors = ident(&names.factors[block]);
-            quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);)
+            body.extend(quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);));
         }
         Line::Pivots { symbol, matrix } => {
             let columns = columns(matrix, schedule, names);
-            let name = ident(&names.introduce(*symbol));
-            quote!(let #name = product_of_pivots([#(#columns),*]);)
+            let name = names.introduce(*symbol).ident;
+            body.extend(quote!(let #name = product_of_pivots([#(#columns),*]);));
         }
         Line::Return(values) => {
             *results = values.iter().map(|value| result(names, schedule, *value)).collect();
-            TokenStream::new()
         }
     }
 }
 
-fn result(names: &mut Names, schedule: &Schedule, value: Signed) -> Operand {
+/// `let name = …;`
+fn assign(body: &mut TokenStream, name: &Ident, definition: impl FnOnce(&mut TokenStream)) {
+    body.append(ident("let"));
+    body.append(name.clone());
+    body.append(Punct::new('=', Spacing::Alone));
+    definition(body);
+    body.append(Punct::new(';', Spacing::Alone));
+}
+
+fn result(names: &Names, schedule: &Schedule, value: Signed) -> Operand {
     match (schedule.value(value.value), names.get(schedule, value.value)) {
-        (_, Some(name)) if !value.negative => Operand::Name(ident(&name)),
+        (_, Some(name)) if !value.negative => Operand::Name(name.ident.clone()),
         (Value::Constant(number), _) if number.is_zero() || (number.is_one() && !value.negative) => {
             Operand::Constant(signed(names, schedule, value))
         }
@@ -232,7 +237,7 @@ fn result(names: &mut Names, schedule: &Schedule, value: Signed) -> Operand {
 }
 
 /// The columns of a matrix given by rows.
-fn columns(matrix: &[Vec<Signed>], schedule: &Schedule, names: &mut Names) -> Vec<TokenStream> {
+fn columns(matrix: &[Vec<Signed>], schedule: &Schedule, names: &Names) -> Vec<TokenStream> {
     let column = |column: usize| {
         let entries: Vec<_> = matrix.iter().map(|row| signed(names, schedule, row[column])).collect();
         quote!([#(#entries),*])

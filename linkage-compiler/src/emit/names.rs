@@ -15,12 +15,26 @@ pub(super) const RUNTIME_FUNCTIONS: [&str; 8] =
 /// A name longer than this says less than a number.
 const LONGEST: usize = 36;
 
+/// A name, as text and as a token.
+#[derive(Debug, Clone)]
+pub(super) struct Name {
+    pub(super) text: String,
+    pub(super) ident: Ident,
+}
+
+impl Name {
+    fn new(text: String) -> Self {
+        let ident = ident(&text);
+        Self { text, ident }
+    }
+}
+
 /// Gives every value of one kernel a name of its own.
 pub(super) struct Names<'a> {
     graph: &'a Graph,
     taken: BTreeSet<String>,
-    values: FxHashMap<ValueId, String>,
-    symbols: FxHashMap<SymbolId, String>,
+    values: FxHashMap<ValueId, Name>,
+    symbols: FxHashMap<SymbolId, Name>,
     /// The last number given to a stem.
     numbers: FxHashMap<String, usize>,
     /// The factorisations, by block.
@@ -51,34 +65,39 @@ impl<'a> Names<'a> {
     }
 
     /// The local name of a symbol.
-    pub(super) fn symbol(&mut self, symbol: SymbolId) -> String {
-        self.symbols.entry(symbol).or_insert_with(|| self.graph.symbol_name(symbol).to_owned()).clone()
+    pub(super) fn symbol(&self, symbol: SymbolId) -> Ident {
+        self.symbols.get(&symbol).map_or_else(|| ident(self.graph.symbol_name(symbol)), |name| name.ident.clone())
     }
 
     /// Gives a symbol its own name, or one like it if that is taken.
-    pub(super) fn introduce(&mut self, symbol: SymbolId) -> String {
-        let name = self.unique(self.graph.symbol_name(symbol));
+    pub(super) fn introduce(&mut self, symbol: SymbolId) -> Name {
+        let name = Name::new(self.unique(self.graph.symbol_name(symbol)));
         self.symbols.insert(symbol, name.clone());
         name
     }
 
-    pub(super) fn set(&mut self, value: ValueId, name: String) {
+    pub(super) fn set(&mut self, value: ValueId, name: Name) {
         self.values.insert(value, name);
     }
 
     /// The name of a value that has one.
-    pub(super) fn get(&mut self, schedule: &Schedule, value: ValueId) -> Option<String> {
-        if let Some(name) = self.values.get(&value) {
-            return Some(name.clone());
-        }
+    pub(super) fn get(&self, schedule: &Schedule, value: ValueId) -> Option<&Name> {
         match schedule.value(value) {
-            Value::Symbol(symbol) => Some(self.symbol(*symbol)),
-            _ => None,
+            Value::Symbol(symbol) => self.symbols.get(symbol),
+            _ => self.values.get(&value),
         }
     }
 
+    /// A name like this one for a value.
+    pub(super) fn give(&mut self, value: ValueId, wish: &str) -> Ident {
+        let name = Name::new(self.unique(wish));
+        let ident = name.ident.clone();
+        self.values.insert(value, name);
+        ident
+    }
+
     /// Names a value after what it is made of.
-    pub(super) fn invent(&mut self, schedule: &Schedule, value: ValueId) -> String {
+    pub(super) fn invent(&mut self, schedule: &Schedule, value: ValueId) -> Ident {
         let wish = schedule
             .name(value)
             .map(str::to_owned)
@@ -96,8 +115,10 @@ impl<'a> Names<'a> {
             Some(stem) => self.numbered(stem),
             None => self.unique(&wish),
         };
-        self.values.insert(value, name.clone());
-        name
+        let name = Name::new(name);
+        let ident = name.ident.clone();
+        self.values.insert(value, name);
+        ident
     }
 
     fn numbered(&mut self, stem: &str) -> String {
@@ -112,7 +133,7 @@ impl<'a> Names<'a> {
     }
 
     /// A name made of the names of the parts.
-    fn describe(&mut self, schedule: &Schedule, value: ValueId) -> Option<String> {
+    fn describe(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
         match schedule.value(value) {
             Value::Product(factors) => {
                 let names: Option<Vec<String>> = factors.iter().map(|&factor| self.part(schedule, factor)).collect();
@@ -126,14 +147,14 @@ impl<'a> Names<'a> {
                 _ => None,
             },
             Value::Quotient(above, below) if is_one(schedule, *above) => {
-                Some(format!("inverse_{}", self.get(schedule, *below)?))
+                Some(format!("inverse_{}", self.text(schedule, *below)?))
             }
             Value::Quotient(above, below) => {
                 Some(format!("{}_by_{}", self.part(schedule, *above)?, self.part(schedule, *below)?))
             }
-            Value::Square(base) => Some(format!("{}_squared", self.get(schedule, *base)?)),
+            Value::Square(base) => Some(format!("{}_squared", self.text(schedule, *base)?)),
             Value::Call(function, arguments) => match arguments.as_slice() {
-                &[argument] => Some(format!("{}_{}", function.operation().name, self.get(schedule, argument.value)?)),
+                &[argument] => Some(format!("{}_{}", function.operation().name, self.text(schedule, argument.value)?)),
                 _ => None,
             },
             _ => None,
@@ -141,7 +162,7 @@ impl<'a> Names<'a> {
     }
 
     /// A part by its name, or by a word for the small things that are written inline.
-    fn part(&mut self, schedule: &Schedule, value: ValueId) -> Option<String> {
+    fn part(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
         let small =
             |value: &ValueId| self.values.contains_key(value) || matches!(schedule.value(*value), Value::Symbol(_));
         match schedule.value(value) {
@@ -150,10 +171,14 @@ impl<'a> Names<'a> {
             Value::Square(base) if small(base) => self.describe(schedule, value),
             Value::Quotient(above, below) if is_one(schedule, *above) && small(below) => self.describe(schedule, value),
             Value::Product(factors) if factors.iter().all(small) => {
-                self.get(schedule, value).or_else(|| self.describe(schedule, value))
+                self.text(schedule, value).or_else(|| self.describe(schedule, value))
             }
-            _ => self.get(schedule, value),
+            _ => self.text(schedule, value),
         }
+    }
+
+    fn text(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
+        self.get(schedule, value).map(|name| name.text.clone())
     }
 }
 

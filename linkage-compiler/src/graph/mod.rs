@@ -410,7 +410,13 @@ impl Graph {
         let (even, sign) = (ahead % 2 == 1, if ahead % 4 >= 2 { -1 } else { 1 });
         let sign = if flip && !even { -sign } else { sign };
         let base = if even { Function::Cos } else { Function::Sin };
-        let value = match exact_circular(base, self.split_pi(rest).0, self.is_pure_turn(rest)) {
+        let (turn, pure) = if self.constant_value(rest).is_some() {
+            let (turn, beside) = self.split_pi(rest);
+            (turn, self.is_zero(beside))
+        } else {
+            (Number::ZERO, false)
+        };
+        let value = match exact_circular(base, turn, pure) {
             Some(value) => self.number(value),
             None => self.intern(Node::Call(base, vec![rest])),
         };
@@ -428,12 +434,10 @@ impl Graph {
             }
             _ => Number::ZERO,
         };
+        if turn.is_zero() {
+            return (turn, angle);
+        }
         (turn, self.sum(&[(Number::ONE, angle), (turn.negate(), pi)]))
-    }
-
-    fn is_pure_turn(&mut self, angle: NodeId) -> bool {
-        let (_, rest) = self.split_pi(angle);
-        self.is_zero(rest)
     }
 
     /// Whether the first coefficient as written is negative: the sign to take out of an odd function.

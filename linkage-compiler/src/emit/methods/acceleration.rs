@@ -2,7 +2,7 @@
 
 use quote::quote;
 
-use super::{Kernels, Methods, check_finite, fenced, lines, literal};
+use super::{Kernels, Methods, check_finite, ending, fenced, lines, literal};
 use crate::derivation::Form;
 use crate::simplify::schedule::Stage;
 
@@ -25,7 +25,7 @@ impl Methods<'_> {
                 |methods: &Self, kernels: &Kernels| vec![methods.coordinates(kernels, &quote!(*#rate), |c| c.rate)];
             let written = self.on_pose(kernels, rates(self, kernels), &[Stage::Return(nodes)]);
             let (results, body) = (written.results, written.body);
-            gamma = Some((quote!(#body SVector::from([#(#results),*])), written.operations));
+            gamma = Some((ending(body, quote!(SVector::from([#(#results),*]))), written.operations));
 
             let (unknowns, all) = (kernels.derivation.unknowns.clone(), (0..u + v).collect::<Vec<_>>());
             let side = kernels.derivation.acceleration_side();
@@ -37,7 +37,8 @@ impl Methods<'_> {
             let (fields, results, body) = (self.coordinate_fields(), written.results, written.body);
             let solved: Vec<_> = unknowns.iter().map(|&index| results[index].clone()).collect();
             let finite = check_finite("acceleration", &solved);
-            code = Some((quote!(#body #finite Ok(#coordinates { #(#fields: #results),* })), written.operations));
+            code =
+                Some((ending(body, quote!(#finite Ok(#coordinates { #(#fields: #results),* }))), written.operations));
         }
         let (body, operations) = gamma.unzip();
         let signature =

@@ -6,7 +6,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use super::super::kernel::Operand;
 use super::super::names::ident;
-use super::{Kernels, Methods, columns_of, fenced, literal};
+use super::{Kernels, Methods, columns_of, ending, fenced, literal};
 use crate::derivation::{Derivation, Row};
 use crate::graph::NodeId;
 use crate::simplify::schedule::Stage;
@@ -32,7 +32,7 @@ impl Methods<'_> {
             let values = entries.into_iter().zip(code.results).map(|((row, column, _), value)| (row, column, value));
             let matrix = matrix_of(values, rows.len(), columns);
             let body = code.body;
-            (quote!(#body #matrix), code.operations)
+            (ending(body, quote!(#matrix)), code.operations)
         });
         let (body, operations) = code.unzip();
         self.function(docs, operations, &signature, body);
@@ -146,10 +146,10 @@ impl Methods<'_> {
             };
             let code = write(vec![product]);
             let (body, results) = (code.body, code.results);
-            whole = Some((quote!(#body #(#results)*), code.operations));
+            whole = Some((ending(body, quote!(#(#results)*)), code.operations));
             let code = write(factors);
             let (body, results) = (code.body, code.results);
-            parts = Some((quote!(#body [#(#results),*]), code.operations));
+            parts = Some((ending(body, quote!([#(#results),*])), code.operations));
         }
         let (body, operations) = whole.unzip();
         self.function(&docs, operations, &signature, body);

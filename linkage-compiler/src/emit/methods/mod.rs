@@ -11,7 +11,7 @@ mod velocity;
 use std::collections::BTreeSet;
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
-use quote::{ToTokens, quote};
+use quote::{ToTokens, TokenStreamExt, quote};
 
 use super::Types;
 use super::kernel::{self, Code, Given, Operand, Source};
@@ -256,10 +256,9 @@ impl Methods<'_> {
         let signature = without_unused(signature, &used, &self.reserved);
         self.written.extend(used);
         self.written.extend(identifiers(&signature));
-        self.functions.extend(quote! {
-            #(#[doc = #lines])*
-            #signature { #body }
-        });
+        self.functions.extend(quote!(#(#[doc = #lines])* #signature));
+        // A body in its braces is one token, however long.
+        self.functions.append(Group::new(Delimiter::Brace, body));
     }
 
     fn coordinate_fields(&self) -> Vec<Ident> {
@@ -323,6 +322,12 @@ fn member(name: &Ident, value: &Operand) -> TokenStream {
         Operand::Name(value) if value == name => quote!(#name),
         value => quote!(#name: #value),
     }
+}
+
+/// A body with its last lines.
+fn ending(mut body: TokenStream, tail: TokenStream) -> TokenStream {
+    body.extend(tail);
+    body
 }
 
 fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {

@@ -6,7 +6,7 @@ use quote::quote;
 use super::super::kernel::{Given, Operand};
 use super::super::types::field;
 use super::super::{Types, kernel};
-use super::{Arguments, Kernels, Methods, bind, check_finite, component_names, lines};
+use super::{Arguments, Kernels, Methods, bind, check_finite, component_names, ending, lines};
 use crate::derivation::{Form, Quantity};
 use crate::simplify::schedule::Stage;
 
@@ -84,8 +84,7 @@ impl Methods<'_> {
             let verdict = check_finite("motion", &finite);
             let body = code.body;
             (
-                quote! {
-                    #body
+                ending(body, quote! {
                     #bindings
                     #verdict
                     Ok(#motion {
@@ -94,7 +93,7 @@ impl Methods<'_> {
                         acceleration: #coordinates { #(#fields: #accelerations),* },
                         #members
                     })
-                },
+                }),
                 code.operations,
             )
         });

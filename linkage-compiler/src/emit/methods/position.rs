@@ -6,7 +6,7 @@ use quote::quote;
 use super::super::kernel;
 use super::super::kernel::Given;
 use super::super::names::ident;
-use super::{Arguments, Kernels, Methods, member};
+use super::{Arguments, Kernels, Methods, ending, member};
 use crate::graph::{NodeId, SymbolId};
 use crate::simplify::schedule::{Operations, Stage};
 
@@ -51,7 +51,7 @@ impl Methods<'_> {
                 fields.extend(quote!(#member,));
             }
             let body = code.body;
-            quote!(#body #pose { #fields })
+            ending(body, quote!(#pose { #fields }))
         });
         let docs = ["The position at these coordinates, ready for use: one sine and cosine for each angle.".to_owned()];
         self.function(&docs, operations, &quote!(#[must_use] pub #signature), body);

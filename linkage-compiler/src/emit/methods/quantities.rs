@@ -9,7 +9,7 @@ use super::super::kernel::Operand;
 use super::super::names::{ident, unique};
 use super::super::types::field;
 use super::{
-    Family, Kernels, Methods, bind, check_finite, columns_of, component_names, fenced, lines, literal, member,
+    Family, Kernels, Methods, bind, check_finite, columns_of, component_names, ending, fenced, lines, literal, member,
 };
 use crate::derivation::Quantity;
 use crate::graph::{Graph, NodeId, Number, SymbolId};
@@ -83,7 +83,7 @@ impl Methods<'_> {
                     &mut code.taken,
                 );
                 let (body, built, verdict) = (code.body, build(&results), check_finite(&name, &results));
-                (quote!(#body #bindings #verdict Ok(#built)), code.operations)
+                (ending(body, quote!(#bindings #verdict Ok(#built))), code.operations)
             });
             let (body, operations) = code.unzip();
             let mut docs = vec![meaning];
@@ -137,7 +137,7 @@ impl Methods<'_> {
             }
             let body = code.body;
             let checks = flat.iter().map(|ratio| quote!(finite_matrix(Self::NAME, #word, &#ratio)?;));
-            (quote!(#body #bindings #(#checks)* Ok(#group { #(#names: #values),* })), code.operations)
+            (ending(body, quote!(#bindings #(#checks)* Ok(#group { #(#names: #values),* }))), code.operations)
         });
         let (body, operations) = code.unzip();
         let name = ident(&format!("{word}_ratios"));

@@ -3,7 +3,7 @@
 use quote::quote;
 
 use super::super::kernel::Source;
-use super::{Kernels, Methods, check_finite, columns_of, lines, literal};
+use super::{Kernels, Methods, check_finite, columns_of, ending, lines, literal};
 use crate::derivation::Form;
 use crate::graph::SymbolId;
 use crate::simplify::schedule::Stage;
@@ -36,7 +36,7 @@ impl Methods<'_> {
             let source = Source { from: quote!(#right.data.0), of: None, fields };
             let code = self.on_pose(kernels, vec![source], &stages);
             let (results, body) = (code.results, code.body);
-            (quote!(#body Ok(SVector::from([#(#results),*]))), code.operations)
+            (ending(body, quote!(Ok(SVector::from([#(#results),*])))), code.operations)
         });
         let (body, operations) = code.unzip();
         let docs = lines(["The x of J x = `right`.", "", "# Errors", "`Singular` where J has no inverse."]);
@@ -49,7 +49,7 @@ impl Methods<'_> {
             stages.push(Stage::Return(kernels.variables(&flat)));
             let code = self.on_pose(kernels, Vec::new(), &stages);
             let (matrix, body) = (columns_of(&code.results, u), code.body);
-            (quote!(#body Ok(#matrix)), code.operations)
+            (ending(body, quote!(Ok(#matrix))), code.operations)
         });
         let (body, operations) = code.unzip();
         let meaning = if v == 1 {
@@ -72,7 +72,7 @@ impl Methods<'_> {
             let (fields, results, body) = (self.coordinate_fields(), code.results, code.body);
             let solved: Vec<_> = unknowns.iter().map(|&index| results[index].clone()).collect();
             let finite = check_finite("velocity", &solved);
-            (quote!(#body #finite Ok(#coordinates { #(#fields: #results),* })), code.operations)
+            (ending(body, quote!(#finite Ok(#coordinates { #(#fields: #results),* }))), code.operations)
         });
         let (body, operations) = code.unzip();
         let docs = lines([

@@ -92,6 +92,7 @@ pub struct Schedule {
     pub lines: Vec<Line>,
     /// The expressions that the user named, where they are computed.
     names: FxHashMap<ValueId, String>,
+    used: Vec<ValueId>,
 }
 
 /// Orders the stages of a kernel. `directions` are the angles whose sine and cosine are given.
@@ -135,7 +136,9 @@ pub fn schedule(
             Stage::Return(nodes) => Line::Return(signed(nodes)),
         });
     }
-    Schedule { values: ordering.values, lines: ordering.lines, names }
+    let Ordering { values, lines, .. } = ordering;
+    let used = used(&values, &lines);
+    Schedule { values, lines, names, used }
 }
 
 impl Value {
@@ -176,18 +179,22 @@ impl Schedule {
         self.names.get(&id).map(String::as_str)
     }
 
-    /// Every value that the lines stand on.
+    /// Every value that the lines stand on, ascending.
     #[must_use]
-    pub fn used(&self) -> Vec<ValueId> {
-        let mut seen = BTreeSet::new();
-        let mut stack: Vec<ValueId> = self.lines.iter().flat_map(line_values).collect();
-        while let Some(id) = stack.pop() {
-            if seen.insert(id) {
-                stack.extend(self.values[id.0].parts());
-            }
-        }
-        seen.into_iter().collect()
+    pub fn used(&self) -> &[ValueId] {
+        &self.used
     }
+}
+
+fn used(values: &[Value], lines: &[Line]) -> Vec<ValueId> {
+    let mut seen = vec![false; values.len()];
+    let mut stack: Vec<ValueId> = lines.iter().flat_map(line_values).collect();
+    while let Some(id) = stack.pop() {
+        if !std::mem::replace(&mut seen[id.0], true) {
+            stack.extend(values[id.0].parts());
+        }
+    }
+    (0..values.len()).filter(|&index| seen[index]).map(ValueId).collect()
 }
 
 fn line_values(line: &Line) -> Vec<ValueId> {

@@ -29,7 +29,7 @@ impl Schedule {
     #[must_use]
     pub fn operations(&self) -> Operations {
         let mut total = Operations::default();
-        for id in self.used() {
+        for &id in self.used() {
             match &self.values[id.0] {
                 Value::Sum(terms) => total.additions += terms.len() - 1,
                 Value::Product(factors) => total.multiplications += factors.len() - 1,

@@ -7,7 +7,9 @@
 //! back, so that the work grows with the number of pairs.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::collections::{BTreeMap, BinaryHeap};
+
+use rustc_hash::FxHashMap;
 
 use super::{Signed, Value, ValueId};
 
@@ -16,7 +18,7 @@ use super::{Signed, Value, ValueId};
 const LONGEST_PAIRED: usize = 24;
 
 /// Two parts of one list, the older first, and whether their signs differ.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 struct Pair {
     first: ValueId,
     second: ValueId,
@@ -41,7 +43,7 @@ struct Sharing {
     /// The parts of every sum or product.
     lists: BTreeMap<ValueId, Vec<Signed>>,
     /// Which lists hold a pair.
-    holders: BTreeMap<Pair, BTreeSet<ValueId>>,
+    holders: FxHashMap<Pair, Vec<ValueId>>,
     queue: BinaryHeap<(usize, Reverse<Pair>)>,
 }
 
@@ -65,10 +67,10 @@ impl Sharing {
                 _ => {}
             }
         }
-        let mut sharing = Self { kind, lists, holders: BTreeMap::new(), queue: BinaryHeap::new() };
+        let mut sharing = Self { kind, lists, holders: FxHashMap::default(), queue: BinaryHeap::new() };
         for (&list, parts) in &sharing.lists {
             for pair in pairs(parts) {
-                sharing.holders.entry(pair).or_default().insert(list);
+                sharing.holders.entry(pair).or_default().push(list);
             }
         }
         let frequent = sharing.holders.iter().filter(|(_, of)| of.len() > 1);
@@ -79,7 +81,7 @@ impl Sharing {
     fn run(mut self, values: &mut Vec<Value>) {
         // Of pairs equally frequent the oldest is taken, so that the result does not depend on chance.
         while let Some((count, Reverse(pair))) = self.queue.pop() {
-            let now = self.holders.get(&pair).map_or(0, BTreeSet::len);
+            let now = self.holders.get(&pair).map_or(0, Vec::len);
             if now < count {
                 if now > 1 {
                     self.queue.push((now, Reverse(pair)));
@@ -115,8 +117,10 @@ impl Sharing {
     fn replace(&mut self, list: ValueId, pair: Pair, shared: ValueId, sign: bool) {
         let Some(mut parts) = self.lists.remove(&list) else { return };
         for other in pairs(&parts) {
-            if let Some(of) = self.holders.get_mut(&other) {
-                of.remove(&list);
+            if let Some(of) = self.holders.get_mut(&other)
+                && let Some(index) = of.iter().position(|holder| *holder == list)
+            {
+                of.remove(index);
             }
         }
         let negative = sign_of(&parts, pair.first) != sign;
@@ -130,7 +134,7 @@ impl Sharing {
         parts.sort_by_key(|part| part.negative);
         for other in pairs(&parts) {
             let of = self.holders.entry(other).or_default();
-            of.insert(list);
+            of.push(list);
             if of.len() > 1 {
                 self.queue.push((of.len(), Reverse(other)));
             }
@@ -143,13 +147,16 @@ fn sign_of(parts: &[Signed], value: ValueId) -> bool {
     parts.iter().any(|part| part.value == value && part.negative)
 }
 
-fn pairs(parts: &[Signed]) -> BTreeSet<Pair> {
-    let mut pairs = BTreeSet::new();
+fn pairs(parts: &[Signed]) -> Vec<Pair> {
+    let mut pairs = Vec::new();
     for (index, a) in parts.iter().enumerate() {
         let reach = if parts.len() > LONGEST_PAIRED { 2 } else { parts.len() };
         for b in parts.iter().take(index + reach).skip(index + 1) {
             let opposed = a.negative != b.negative;
-            pairs.insert(Pair { first: a.value.min(b.value), second: a.value.max(b.value), opposed });
+            let pair = Pair { first: a.value.min(b.value), second: a.value.max(b.value), opposed };
+            if !pairs.contains(&pair) {
+                pairs.push(pair);
+            }
         }
     }
     pairs
