@@ -6,6 +6,7 @@
 
 mod linear;
 mod magnitude;
+mod ratios;
 mod solution;
 
 use std::collections::BTreeMap;
@@ -79,6 +80,8 @@ pub struct Derivation {
     pub blocks: Vec<Block>,
     /// Whether det J is the negative of the product of the determinants of the blocks.
     pub is_odd: bool,
+    /// The names of W: by input, and then by unknown.
+    pub ratios: Vec<Vec<SymbolId>>,
     /// (Psi_q q')_q q'.
     pub gamma: Vec<NodeId>,
     pub points: Vec<Quantity>,
@@ -119,6 +122,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
     let mut blocks: Vec<Block> =
         blocks.into_iter().map(|block| self::block(&mut graph, &jacobian, &unknowns, block)).collect();
     name_determinants(&mut graph, &mut blocks);
+    let ratios = ratios::names(&mut graph, &coordinates, &unknowns, &inputs);
     let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates, &place_of);
     let points = mechanism.points.iter().map(|point| quantity(vec![point.x, point.y])).collect();
     let outputs = mechanism.outputs.iter().map(|output| quantity(vec![output.value])).collect();
@@ -131,6 +135,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
         jacobian,
         blocks,
         is_odd,
+        ratios,
         gamma,
         points,
         outputs,

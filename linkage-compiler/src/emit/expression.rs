@@ -104,7 +104,12 @@ fn compute(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: 
         operand(tokens, names, schedule, Signed { negative: false, value }, at_least);
     };
     match schedule.value(value) {
-        Value::Constant(number) => tokens.extend(turn(*number).unwrap_or_else(|| constant(*number))),
+        Value::Constant(number) => {
+            if !number.is_zero() && !number.is_one() {
+                names.take_number();
+            }
+            tokens.extend(turn(*number).unwrap_or_else(|| constant(*number)));
+        }
         Value::Symbol(symbol) => tokens.append(names.symbol(*symbol)),
         // Given directions are named before any expression is written.
         Value::Direction(..) => tokens.append(ident("direction")),

@@ -15,6 +15,8 @@ use crate::simplify::schedule::{Line, Operations, Schedule, Signed, Stage, Value
 /// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
 /// fields is used.
 pub(super) struct Source {
+    /// The argument of the function, but for `self`.
+    pub argument: Option<Ident>,
     /// The expression taken apart, such as `*rate`.
     pub from: TokenStream,
     /// The type whose fields are bound; without one it is a column vector.
@@ -55,6 +57,10 @@ pub(super) struct Code {
     pub operations: Operations,
     /// The names that the body has given.
     pub taken: BTreeSet<String>,
+    /// The arguments that the body uses.
+    pub arguments: Vec<Ident>,
+    /// What the body uses of the runtime.
+    pub uses: BTreeSet<&'static str>,
 }
 
 /// Writes a kernel. The last stage is the `Return`, whose values are given back as expressions.
@@ -82,16 +88,36 @@ pub(super) fn write(
     for &symbol in &symbols {
         names.introduce(symbol);
     }
-    let sources = given.sources.iter().filter_map(|source| pattern(source, &symbols, &names));
-    let mut body: TokenStream = sources.collect();
+    let (mut body, mut arguments) = (TokenStream::new(), Vec::new());
+    for source in &given.sources {
+        if let Some(pattern) = pattern(source, &symbols, &names) {
+            body.extend(pattern);
+            arguments.extend(source.argument.clone());
+        }
+    }
     if let Some(pose) = given.pose {
-        body.extend(take_directions(pose, &schedule, &mut names));
+        let directions = take_directions(pose, &schedule, &mut names);
+        if !directions.is_empty() {
+            arguments.push(ident(&pose.argument));
+        }
+        body.extend(directions);
     }
     let mut results = Vec::new();
     for line in &schedule.lines {
         write_line(&mut body, line, derivation, &schedule, &used, &mut names, &mut results);
     }
-    Code { body, results, operations: schedule.operations(), taken: names.into_taken() }
+    let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
+    Code { body, results, operations: schedule.operations(), taken: names.into_taken(), arguments, uses }
+}
+
+/// What a line uses of the runtime.
+fn used_by(line: &Line) -> Option<&'static str> {
+    match line {
+        Line::Guard { .. } => Some("regular"),
+        Line::Factor { .. } => Some("Factorization"),
+        Line::Pivots { .. } => Some("product_of_pivots"),
+        _ => None,
+    }
 }
 
 fn introduced(stage: &Stage) -> Vec<SymbolId> {

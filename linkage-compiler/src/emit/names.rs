@@ -1,5 +1,6 @@
 //! Names of the emitted code: the user's own, and fresh ones beside them.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
@@ -37,6 +38,8 @@ pub(super) struct Names<'a> {
     symbols: FxHashMap<SymbolId, Name>,
     /// The last number given to a stem.
     numbers: FxHashMap<String, usize>,
+    /// Whether a number had to be made a scalar.
+    numbers_taken: Cell<bool>,
     /// The factorisations, by block.
     pub(super) factors: FxHashMap<usize, String>,
 }
@@ -51,6 +54,7 @@ impl<'a> Names<'a> {
             values: FxHashMap::default(),
             symbols: FxHashMap::default(),
             numbers: FxHashMap::default(),
+            numbers_taken: Cell::new(false),
             factors: FxHashMap::default(),
         }
     }
@@ -62,6 +66,15 @@ impl<'a> Names<'a> {
 
     pub(super) fn into_taken(self) -> BTreeSet<String> {
         self.taken
+    }
+
+    /// Says that a number had to be made a scalar.
+    pub(super) fn take_number(&self) {
+        self.numbers_taken.set(true);
+    }
+
+    pub(super) fn takes_numbers(&self) -> bool {
+        self.numbers_taken.get()
     }
 
     /// The local name of a symbol.

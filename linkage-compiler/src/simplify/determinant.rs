@@ -28,11 +28,13 @@ pub fn determinant(graph: &mut Graph, [[a, b], [c, d]]: [[NodeId; 2]; 2]) -> Nod
 }
 
 /// The solution of J x = r, each unknown the quotient of two determinants: the one with its column
-/// replaced by r, and det J.
-pub fn cramer(graph: &mut Graph, jacobian: [[NodeId; 2]; 2], right: [NodeId; 2]) -> [NodeId; 2] {
-    let [[a, b], [c, d]] = jacobian;
-    let [p, q] = right;
-    let whole = determinant(graph, jacobian);
+/// replaced by r, and det J, which is `whole`.
+pub fn cramer(
+    graph: &mut Graph,
+    [[a, b], [c, d]]: [[NodeId; 2]; 2],
+    whole: NodeId,
+    [p, q]: [NodeId; 2],
+) -> [NodeId; 2] {
     [[[p, b], [q, d]], [[a, p], [c, q]]].map(|matrix| {
         let above = determinant(graph, matrix);
         graph.divide(above, whole)

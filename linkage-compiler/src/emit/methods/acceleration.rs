@@ -2,7 +2,7 @@
 
 use quote::quote;
 
-use super::{Kernels, Methods, check_finite, ending, fenced, lines, literal};
+use super::{Body, Kernels, Methods, check_finite, fenced, lines, literal};
 use crate::derivation::Form;
 use crate::simplify::schedule::Stage;
 
@@ -21,11 +21,11 @@ impl Methods<'_> {
             docs.extend(fenced(
                 nodes.iter().enumerate().map(|(row, &node)| format!("gamma_{} = {}", row + 1, kernels.text(node))),
             ));
-            let rates =
-                |methods: &Self, kernels: &Kernels| vec![methods.coordinates(kernels, &quote!(*#rate), |c| c.rate)];
+            let rates = |methods: &Self, kernels: &Kernels| vec![methods.coordinates(kernels, &rate, |c| c.rate)];
             let written = self.on_pose(kernels, rates(self, kernels), &[Stage::Return(nodes)]);
-            let (results, body) = (written.results, written.body);
-            gamma = Some((ending(body, quote!(SVector::from([#(#results),*]))), written.operations));
+            let results = &written.results;
+            let tail = quote!(SVector::from([#(#results),*]));
+            gamma = Some(Body::new(written, tail, []));
 
             let (unknowns, all) = (kernels.derivation.unknowns.clone(), (0..u + v).collect::<Vec<_>>());
             let side = kernels.derivation.acceleration_side();
@@ -33,18 +33,16 @@ impl Methods<'_> {
             stages.push(Stage::Return(kernels.variables(&kernels.accelerations(&all))));
             let mut sources = rates(self, kernels);
             sources.push(self.inputs(kernels, &acceleration, |c| c.acceleration));
-            let written = self.on_pose(kernels, sources, &stages);
-            let (fields, results, body) = (self.coordinate_fields(), written.results, written.body);
-            let solved: Vec<_> = unknowns.iter().map(|&index| results[index].clone()).collect();
-            let finite = check_finite("acceleration", &solved);
-            code =
-                Some((ending(body, quote!(#finite Ok(#coordinates { #(#fields: #results),* }))), written.operations));
+            let mut written = self.on_pose(kernels, sources, &stages);
+            let solved: Vec<_> = unknowns.iter().map(|&index| written.results[index].clone()).collect();
+            let finite = check_finite(&mut written, "acceleration", &solved);
+            let (fields, results) = (self.coordinate_fields(), &written.results);
+            let tail = quote!(#finite Ok(#coordinates { #(#fields: #results),* }));
+            code = Some(Body::new(written, tail, []));
         }
-        let (body, operations) = gamma.unzip();
         let signature =
             quote!(#[must_use] pub fn gamma(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>) -> SVector<T, #nu>);
-        self.function(&docs, operations, &signature, body);
-        let (body, operations) = code.unzip();
+        self.function(&docs, &signature, gamma);
         let docs = lines([
             "The acceleration q'' at the velocity q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
             "",
@@ -52,6 +50,6 @@ impl Methods<'_> {
             "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
         ]);
         let signature = quote!(pub fn acceleration(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>, #acceleration: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
-        self.function(&docs, operations, &signature, body);
+        self.function(&docs, &signature, code);
     }
 }

@@ -21,7 +21,7 @@ impl Methods<'_> {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
         let (nu, nv) = (literal(u), literal(v));
         let functions = &self.functions;
-        let imports = imports(&self.written);
+        let imports = imports(self.mechanism, &self.uses);
         let members: Vec<Ident> =
             self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
         let rest = members.is_empty().then(|| quote!(..));

@@ -6,7 +6,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use super::super::kernel::Operand;
 use super::super::names::ident;
-use super::{Kernels, Methods, columns_of, ending, fenced, literal};
+use super::{Body, Kernels, Methods, columns_of, fenced, literal};
 use crate::derivation::{Derivation, Row};
 use crate::graph::NodeId;
 use crate::simplify::schedule::Stage;
@@ -29,13 +29,12 @@ impl Methods<'_> {
                 .collect();
             let nodes = entries.iter().map(|(_, _, node)| *node).collect();
             let code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
-            let values = entries.into_iter().zip(code.results).map(|((row, column, _), value)| (row, column, value));
+            let values = entries.into_iter().zip(&code.results);
+            let values = values.map(|((row, column, _), value)| (row, column, value.clone()));
             let matrix = matrix_of(values, rows.len(), columns);
-            let body = code.body;
-            (ending(body, quote!(#matrix)), code.operations)
+            Body::new(code, matrix, [])
         });
-        let (body, operations) = code.unzip();
-        self.function(docs, operations, &signature, body);
+        self.function(docs, &signature, code);
     }
 
     pub(super) fn closures(&mut self, kernels: Option<&mut Kernels>) {
@@ -145,18 +144,18 @@ impl Methods<'_> {
                 self.on_pose(kernels, Vec::new(), &stages)
             };
             let code = write(vec![product]);
-            let (body, results) = (code.body, code.results);
-            whole = Some((ending(body, quote!(#(#results)*)), code.operations));
+            let results = &code.results;
+            let tail = quote!(#(#results)*);
+            whole = Some(Body::new(code, tail, []));
             let code = write(factors);
-            let (body, results) = (code.body, code.results);
-            parts = Some((ending(body, quote!([#(#results),*])), code.operations));
+            let results = &code.results;
+            let tail = quote!([#(#results),*]);
+            parts = Some(Body::new(code, tail, []));
         }
-        let (body, operations) = whole.unzip();
-        self.function(&docs, operations, &signature, body);
-        let (body, operations) = parts.unzip();
+        self.function(&docs, &signature, whole);
         let count = literal(count);
         let signature = quote!(#[must_use] pub fn block_determinants(&self, #pose: &#pose_type<T>) -> [T; #count]);
-        self.function(&blocks_docs, operations, &signature, body);
+        self.function(&blocks_docs, &signature, parts);
     }
 }
 

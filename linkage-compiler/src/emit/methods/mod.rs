@@ -15,7 +15,7 @@ use quote::{ToTokens, TokenStreamExt, quote};
 
 use super::Types;
 use super::kernel::{self, Code, Given, Operand, Source};
-use super::names::{RUNTIME_FUNCTIONS, ident, unique};
+use super::names::{ident, unique};
 use super::pose::PosePlan;
 use super::types::field;
 use crate::derivation::{Derivation, Form};
@@ -53,8 +53,10 @@ struct Methods<'a> {
     reserved: Vec<String>,
     named: Vec<(NodeId, String)>,
     functions: TokenStream,
-    /// The identifiers of the functions written so far.
-    written: BTreeSet<String>,
+    /// What each function does, by its name.
+    kernels: Vec<(String, Operations)>,
+    /// What the functions written so far use of the runtime.
+    uses: BTreeSet<&'static str>,
 }
 
 /// The `impl` blocks of one driver; without a derivation every body is left open.
@@ -85,8 +87,9 @@ pub(super) fn of_driver(
         reserved,
         named: mechanism.named.clone(),
         functions: TokenStream::new(),
+        kernels: Vec::new(),
         // The block itself compares signs.
-        written: BTreeSet::from(["same_signs".to_owned()]),
+        uses: BTreeSet::from(["same_signs"]),
     };
     let mut kernels = derivation.zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
     if let Some(kernels) = &kernels {
@@ -131,32 +134,12 @@ impl<'a> Kernels<'a> {
         symbols.iter().map(|&symbol| self.derivation.graph.variable(symbol)).collect()
     }
 
-    /// Names for W, by unknown and input.
-    fn ratio_symbols(&mut self) -> Vec<Vec<SymbolId>> {
-        let single = self.derivation.inputs.len() == 1;
-        let inputs = self.derivation.inputs.clone();
-        let unknowns = self.derivation.unknowns.clone();
-        let mut columns = Vec::new();
-        for input in inputs {
-            let mut column = Vec::new();
-            for &unknown in &unknowns {
-                let (of, by) = (&self.derivation.coordinates[unknown].name, &self.derivation.coordinates[input].name);
-                let name = if single { format!("{of}_ratio") } else { format!("{of}_by_{by}") };
-                column.push(self.derivation.graph.symbol(name));
-            }
-            columns.push(column);
-        }
-        columns
-    }
-
-    fn ratio_stages(&mut self) -> (Vec<Stage>, Vec<Vec<SymbolId>>) {
-        let symbols = self.ratio_symbols();
-        let systems: Vec<_> = symbols
-            .iter()
-            .enumerate()
-            .map(|(input, targets)| (self.derivation.ratio_side(input), targets.clone()))
-            .collect();
-        (self.derivation.solution(&systems, Form::Factored), symbols)
+    /// Stages that name W.
+    fn ratio_stages(&mut self) -> Vec<Stage> {
+        let ratios = self.derivation.ratios.clone();
+        let systems: Vec<_> =
+            ratios.into_iter().enumerate().map(|(input, ratios)| (self.derivation.ratio_side(input), ratios)).collect();
+        self.derivation.solution(&systems, Form::Factored)
     }
 
     fn text(&self, node: NodeId) -> String {
@@ -187,7 +170,7 @@ impl Methods<'_> {
 
     fn parameters(&self) -> Source {
         let fields = self.mechanism.parameters.iter().map(|p| (p.name.field.clone(), p.symbol)).collect();
-        Source { from: quote!(*self), of: Some(quote!(Self)), fields }
+        Source { argument: None, from: quote!(*self), of: Some(quote!(Self)), fields }
     }
 
     fn pose_source(&self, kernels: &Kernels) -> Source {
@@ -197,18 +180,18 @@ impl Methods<'_> {
         // Directions are fields as well, so that the pattern is never complete.
         fields.extend(kernels.plan.directions.iter().map(|(_, field)| (field.clone(), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
-        Source { from: quote!(*#pose), of: Some(quote!(#of)), fields }
+        Source { argument: Some(pose.clone()), from: quote!(*#pose), of: Some(quote!(#of)), fields }
     }
 
     fn coordinates(
         &self,
         kernels: &Kernels,
-        from: &TokenStream,
+        from: &Ident,
         symbol: fn(&crate::derivation::Coordinate) -> SymbolId,
     ) -> Source {
         let fields = kernels.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c))).collect();
         let of = &self.types.coordinates;
-        Source { from: from.clone(), of: Some(quote!(#of)), fields }
+        Source { argument: Some(from.clone()), from: quote!(*#from), of: Some(quote!(#of)), fields }
     }
 
     fn inputs(
@@ -225,7 +208,7 @@ impl Methods<'_> {
             .map(|c| (c.name.clone(), symbol(c)))
             .collect();
         let of = &self.types.inputs;
-        Source { from: quote!(#from.into()), of: Some(quote!(#of)), fields }
+        Source { argument: Some(from.clone()), from: quote!(#from.into()), of: Some(quote!(#of)), fields }
     }
 
     /// A kernel on a pose and what else it is given.
@@ -238,27 +221,26 @@ impl Methods<'_> {
 
     // Functions.
 
-    fn function(
-        &mut self,
-        docs: &[String],
-        operations: Option<Operations>,
-        signature: &TokenStream,
-        body: Option<TokenStream>,
-    ) {
+    /// Writes a function; without a body it is a stub that only has the right signature.
+    fn function(&mut self, docs: &[String], signature: &TokenStream, body: Option<Body>) {
         let mut lines: Vec<String> =
             docs.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") }).collect();
-        if let Some(operations) = operations.filter(|operations| *operations != Operations::default()) {
+        let Body { tokens, operations, arguments, uses } = body.unwrap_or_else(|| Body {
+            tokens: quote!(::core::unreachable!()),
+            operations: Operations::default(),
+            arguments: Vec::new(),
+            uses: BTreeSet::new(),
+        });
+        if operations != Operations::default() {
             lines.push(String::new());
             lines.push(format!(" Operations: {}.", count(operations)));
+            self.kernels.push((name_of(signature), operations));
         }
-        let body = body.unwrap_or_else(|| quote!(::core::unreachable!()));
-        let used = identifiers(&body);
-        let signature = without_unused(signature, &used, &self.reserved);
-        self.written.extend(used);
-        self.written.extend(identifiers(&signature));
+        self.uses.extend(uses);
+        let signature = without_unused(signature, &arguments, &self.reserved);
         self.functions.extend(quote!(#(#[doc = #lines])* #signature));
         // A body in its braces is one token, however long.
-        self.functions.append(Group::new(Delimiter::Brace, body));
+        self.functions.append(Group::new(Delimiter::Brace, tokens));
     }
 
     fn coordinate_fields(&self) -> Vec<Ident> {
@@ -267,23 +249,58 @@ impl Methods<'_> {
     }
 }
 
+/// The body of a function.
+struct Body {
+    tokens: TokenStream,
+    operations: Operations,
+    /// The arguments that it uses.
+    arguments: Vec<Ident>,
+    /// What it uses of the runtime.
+    uses: BTreeSet<&'static str>,
+}
+
+impl Body {
+    /// A kernel with its last lines, which use these names of the runtime.
+    fn new<const N: usize>(code: Code, tail: TokenStream, also: [&'static str; N]) -> Self {
+        let Code { mut body, operations, arguments, mut uses, .. } = code;
+        body.extend(tail);
+        uses.extend(also);
+        Self { tokens: body, operations, arguments, uses }
+    }
+
+    /// Lines that compute nothing themselves.
+    fn plain<const N: usize>(tokens: TokenStream, arguments: [&Ident; N], uses: [&'static str; 1]) -> Self {
+        let arguments = arguments.into_iter().cloned().collect();
+        Self { tokens, operations: Operations::default(), arguments, uses: BTreeSet::from(uses) }
+    }
+}
+
 /// What the functions use of the runtime, in the order in which rustfmt sorts it.
-fn imports(written: &BTreeSet<String>) -> Vec<Ident> {
-    let always = ["Error", "Mechanism", "Real", "SMatrix", "SVector", "Solution"];
-    let types = ["Factorization", "OutputMotion", "PointMotion", "Vector2"];
-    let mut names: Vec<&str> = always.to_vec();
-    names.extend(types.iter().filter(|name| written.contains(**name)));
-    names.sort_unstable();
-    names.extend(RUNTIME_FUNCTIONS.iter().filter(|name| written.contains(**name)));
-    names.into_iter().map(ident).collect()
+fn imports(mechanism: &Mechanism, used: &BTreeSet<&'static str>) -> Vec<Ident> {
+    let mut types = vec!["Error", "Mechanism", "Real", "SMatrix", "SVector", "Solution"];
+    if !mechanism.points.is_empty() {
+        types.push("Vector2");
+    }
+    let (others, functions): (Vec<&str>, Vec<&str>) =
+        used.iter().partition(|name| name.starts_with(char::is_uppercase));
+    types.extend(others);
+    types.sort_unstable();
+    types.into_iter().chain(functions).map(ident).collect()
+}
+
+/// The identifier behind `fn`.
+fn name_of(signature: &TokenStream) -> String {
+    let mut tokens = signature.clone().into_iter();
+    tokens.by_ref().find(|token| matches!(token, TokenTree::Ident(word) if word == "fn"));
+    tokens.next().map(|name| name.to_string()).unwrap_or_default()
 }
 
 /// A signature whose arguments are marked as unused where they are.
-fn without_unused(signature: &TokenStream, used: &BTreeSet<String>, arguments: &[String]) -> TokenStream {
+fn without_unused(signature: &TokenStream, used: &[Ident], arguments: &[String]) -> TokenStream {
     let tokens = signature.clone().into_iter().map(|token| match token {
         TokenTree::Group(group) if group.delimiter() == Delimiter::Parenthesis => {
             let inside = group.stream().into_iter().map(|token| match token {
-                TokenTree::Ident(name) if arguments.iter().any(|a| name == a) && !used.contains(&name.to_string()) => {
+                TokenTree::Ident(name) if !used.contains(&name) && arguments.iter().any(|a| name == a) => {
                     TokenTree::Ident(ident(&format!("_{name}")))
                 }
                 token => token,
@@ -293,22 +310,6 @@ fn without_unused(signature: &TokenStream, used: &BTreeSet<String>, arguments: &
         token => token,
     });
     tokens.collect()
-}
-
-/// Every identifier of emitted code.
-fn identifiers(tokens: &TokenStream) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
-    let mut streams = vec![tokens.clone()];
-    while let Some(stream) = streams.pop() {
-        for token in stream {
-            match token {
-                TokenTree::Group(group) => streams.push(group.stream()),
-                TokenTree::Ident(ident) => drop(found.insert(ident.to_string())),
-                TokenTree::Punct(_) | TokenTree::Literal(_) => {}
-            }
-        }
-    }
-    found
 }
 
 /// A size without suffix, as people write it.
@@ -322,12 +323,6 @@ fn member(name: &Ident, value: &Operand) -> TokenStream {
         Operand::Name(value) if value == name => quote!(#name),
         value => quote!(#name: #value),
     }
-}
-
-/// A body with its last lines.
-fn ending(mut body: TokenStream, tail: TokenStream) -> TokenStream {
-    body.extend(tail);
-    body
 }
 
 fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
@@ -376,7 +371,7 @@ fn component_names(names: &[Ident], dimension: usize, orders: &[&str]) -> Vec<St
 }
 
 /// `finite(NAME, what, [values])?;`, each value once.
-fn check_finite(what: &str, values: &[Operand]) -> TokenStream {
+fn check_finite(code: &mut Code, what: &str, values: &[Operand]) -> TokenStream {
     let mut seen = BTreeSet::new();
     let values: Vec<_> = values
         .iter()
@@ -389,6 +384,7 @@ fn check_finite(what: &str, values: &[Operand]) -> TokenStream {
     if values.is_empty() {
         return TokenStream::new();
     }
+    code.uses.insert("finite");
     quote!(finite(Self::NAME, #what, [#(#values),*])?;)
 }
 

@@ -6,7 +6,7 @@ use quote::quote;
 use super::super::kernel::{Given, Operand};
 use super::super::types::field;
 use super::super::{Types, kernel};
-use super::{Arguments, Kernels, Methods, bind, check_finite, component_names, ending, lines};
+use super::{Arguments, Body, Kernels, Methods, bind, check_finite, component_names, lines};
 use crate::derivation::{Form, Quantity};
 use crate::simplify::schedule::Stage;
 
@@ -42,7 +42,7 @@ impl Methods<'_> {
             stages.push(Stage::Return(nodes));
             let sources = vec![
                 self.parameters(),
-                self.coordinates(kernels, &quote!(*#q), |c| c.value),
+                self.coordinates(kernels, q, |c| c.value),
                 self.inputs(kernels, rate, |c| c.rate),
                 self.inputs(kernels, acceleration, |c| c.acceleration),
             ];
@@ -50,7 +50,8 @@ impl Methods<'_> {
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
             let fields = self.coordinate_fields();
             let count = fields.len();
-            let (rates, rest) = code.results.split_at(count);
+            let results = std::mem::take(&mut code.results);
+            let (rates, rest) = results.split_at(count);
             let (accelerations, rest) = rest.split_at(count);
             let (point_parts, output_parts) = rest.split_at(6 * self.mechanism.points.len());
             let names: Vec<Ident> = self.mechanism.points.iter().map(|p| field(&p.name)).collect();
@@ -65,6 +66,7 @@ impl Methods<'_> {
                     quote!(PointMotion { position: Vector2::new(#x, #y), velocity: Vector2::new(#u, #v), acceleration: Vector2::new(#a, #b) })
                 });
                 members.extend(quote!(points: #points { #(#names: #values),* },));
+                code.uses.insert("PointMotion");
                 checked.extend(parts.iter().cloned());
             }
             let names: Vec<Ident> = self.mechanism.outputs.iter().map(|o| field(&o.name)).collect();
@@ -77,14 +79,16 @@ impl Methods<'_> {
                     quote!(OutputMotion { value: #value, velocity: #rate, acceleration: #acceleration })
                 });
                 members.extend(quote!(outputs: #outputs { #(#names: #values),* },));
+                code.uses.insert("OutputMotion");
                 checked.extend(parts.iter().cloned());
             }
             let mut finite: Vec<Operand> = unknowns.iter().flat_map(|&index| [rates[index].clone(), accelerations[index].clone()]).collect();
             finite.extend(checked);
-            let verdict = check_finite("motion", &finite);
-            let body = code.body;
-            (
-                ending(body, quote! {
+            let verdict = check_finite(&mut code, "motion", &finite);
+            code.arguments.push(q.clone());
+            Body::new(
+                code,
+                quote! {
                     #bindings
                     #verdict
                     Ok(#motion {
@@ -93,11 +97,10 @@ impl Methods<'_> {
                         acceleration: #coordinates { #(#fields: #accelerations),* },
                         #members
                     })
-                }),
-                code.operations,
+                },
+                [],
             )
         });
-        let (body, operations) = code.unzip();
         let docs = lines([
             "Everything at once at coordinates that close the mechanism: velocity, acceleration, points and outputs,",
             "every shared subexpression computed once.",
@@ -105,6 +108,6 @@ impl Methods<'_> {
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
         ]);
-        self.function(&docs, operations, &signature, body);
+        self.function(&docs, &signature, code);
     }
 }

@@ -6,9 +6,9 @@ use quote::quote;
 use super::super::kernel;
 use super::super::kernel::Given;
 use super::super::names::ident;
-use super::{Arguments, Kernels, Methods, ending, member};
+use super::{Arguments, Body, Kernels, Methods, member};
 use crate::graph::{NodeId, SymbolId};
-use crate::simplify::schedule::{Operations, Stage};
+use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
     pub(super) fn position(&mut self, kernels: Option<&mut Kernels>) {
@@ -16,7 +16,6 @@ impl Methods<'_> {
         let q = q.clone();
         let (coordinates, pose) = (&self.types.coordinates, &self.types.pose);
         let signature = quote!(fn pose_at(&self, #q: &#coordinates<T>) -> #pose<T>);
-        let mut operations = None;
         let body = kernels.map(|kernels| {
             let mut stages = Vec::new();
             let blocks = &kernels.derivation.blocks;
@@ -30,15 +29,14 @@ impl Methods<'_> {
             let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
             let bare = kernels.variables(&bare);
             stages.push(Stage::Return(values.iter().chain(&angles).chain(&bare).copied().collect()));
-            let sources = vec![self.parameters(), self.coordinates(kernels, &quote!(*#q), |c| c.value)];
+            let sources = vec![self.parameters(), self.coordinates(kernels, &q, |c| c.value)];
             let given = Given { sources, pose: None };
-            let code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
-            let circular = code.operations.functions + kernels.plan.directions.len();
-            operations = Some(Operations { functions: circular, ..code.operations });
-            let mut results = code.results.into_iter();
+            let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
+            code.operations.functions += kernels.plan.directions.len();
+            let mut results = code.results.iter();
             let mut fields = TokenStream::new();
             for ((_, field, _), value) in kernels.plan.determinants.iter().zip(results.by_ref()) {
-                let member = member(&ident(field), &value);
+                let member = member(&ident(field), value);
                 fields.extend(quote!(#member,));
             }
             for ((_, field), value) in kernels.plan.directions.iter().zip(results.by_ref()) {
@@ -47,14 +45,16 @@ impl Methods<'_> {
             }
             for ((_, field, _), value) in kernels.plan.values.iter().zip(results) {
                 let field = ident(field);
-                let member = member(&field, &value);
+                let member = member(&field, value);
                 fields.extend(quote!(#member,));
             }
-            let body = code.body;
-            ending(body, quote!(#pose { #fields }))
+            if !kernels.plan.directions.is_empty() {
+                code.uses.insert("direction");
+            }
+            Body::new(code, quote!(#pose { #fields }), [])
         });
         let docs = ["The position at these coordinates, ready for use: one sine and cosine for each angle.".to_owned()];
-        self.function(&docs, operations, &quote!(#[must_use] pub #signature), body);
+        self.function(&docs, &quote!(#[must_use] pub #signature), body);
 
         // The name of a function is never that of a `let`, so the trait's can be called beside it.
         let (guess, solution) = (quote!(&#coordinates<T>), quote!(Solution<#coordinates<T>>));
@@ -66,9 +66,8 @@ impl Methods<'_> {
         ];
         self.function(
             &docs,
-            None,
             &quote!(pub fn solve(&self, guess: #guess) -> Result<#solution, Error>),
-            Some(quote!(newton(self, guess))),
+            Some(Body::plain(quote!(newton(self, guess)), [], ["newton"])),
         );
     }
 }

@@ -9,10 +9,10 @@ use super::super::kernel::Operand;
 use super::super::names::{ident, unique};
 use super::super::types::field;
 use super::{
-    Family, Kernels, Methods, bind, check_finite, columns_of, component_names, ending, fenced, lines, literal, member,
+    Body, Family, Kernels, Methods, bind, check_finite, columns_of, component_names, fenced, lines, literal, member,
 };
 use crate::derivation::Quantity;
-use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::graph::{Graph, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
@@ -71,10 +71,10 @@ impl Methods<'_> {
                     quantities(kernels).iter().flat_map(|quantity| part(quantity).clone()).collect();
                 let mut sources = Vec::new();
                 if order > 0 {
-                    sources.push(self.coordinates(kernels, &quote!(*#rate), |c| c.rate));
+                    sources.push(self.coordinates(kernels, &rate, |c| c.rate));
                 }
                 if order > 1 {
-                    sources.push(self.coordinates(kernels, &quote!(*#acceleration), |c| c.acceleration));
+                    sources.push(self.coordinates(kernels, &acceleration, |c| c.acceleration));
                 }
                 let mut code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
                 let (bindings, results) = bind(
@@ -82,10 +82,9 @@ impl Methods<'_> {
                     &component_names(&names, dimension, &["", "_rate", "_acceleration"][order..=order]),
                     &mut code.taken,
                 );
-                let (body, built, verdict) = (code.body, build(&results), check_finite(&name, &results));
-                (ending(body, quote!(#bindings #verdict Ok(#built))), code.operations)
+                let (built, verdict) = (build(&results), check_finite(&mut code, &name, &results));
+                Body::new(code, quote!(#bindings #verdict Ok(#built)), [])
             });
-            let (body, operations) = code.unzip();
             let mut docs = vec![meaning];
             if order == 0
                 && let Some(kernels) = kernels.as_deref()
@@ -103,25 +102,15 @@ impl Methods<'_> {
             let more = &more[..order];
             let signature =
                 quote!(pub fn #function(&self, #pose: &#pose_type<T> #(#more)*) -> Result<#group<#item>, Error>);
-            self.function(&docs, operations, &signature, body);
+            self.function(&docs, &signature, code);
         }
         // W_l = l_u W + l_v.
         let code = kernels.map(|kernels| {
-            let (mut stages, symbols) = kernels.ratio_stages();
+            let mut stages = kernels.ratio_stages();
             let mut nodes = Vec::new();
             for quantity in quantities(kernels) {
-                for (input, column) in symbols.iter().enumerate() {
-                    for row in &quantity.jacobian {
-                        let direct = row.get(&kernels.derivation.inputs[input]);
-                        let mut terms: Vec<_> = direct.map(|&entry| (Number::ONE, entry)).into_iter().collect();
-                        for (position, &symbol) in column.iter().enumerate() {
-                            if let Some(&entry) = row.get(&kernels.derivation.unknowns[position]) {
-                                let ratio = kernels.derivation.graph.variable(symbol);
-                                terms.push((Number::ONE, kernels.derivation.graph.multiply(entry, ratio)));
-                            }
-                        }
-                        nodes.push(kernels.derivation.graph.sum(&terms));
-                    }
+                for input in 0..v {
+                    nodes.extend(quantity.jacobian.iter().map(|row| kernels.derivation.quantity_ratio(row, input)));
                 }
             }
             stages.push(Stage::Return(nodes));
@@ -135,11 +124,10 @@ impl Methods<'_> {
                 values.push(ratio.clone());
                 flat.push(ratio);
             }
-            let body = code.body;
             let checks = flat.iter().map(|ratio| quote!(finite_matrix(Self::NAME, #word, &#ratio)?;));
-            (ending(body, quote!(#bindings #(#checks)* Ok(#group { #(#names: #values),* }))), code.operations)
+            let tail = quote!(#bindings #(#checks)* Ok(#group { #(#names: #values),* }));
+            Body::new(code, tail, ["finite_matrix"])
         });
-        let (body, operations) = code.unzip();
         let name = ident(&format!("{word}_ratios"));
         let docs = lines([
             &format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'."),
@@ -149,7 +137,7 @@ impl Methods<'_> {
         ]);
         let signature =
             quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
-        self.function(&docs, operations, &signature, body);
+        self.function(&docs, &signature, code);
     }
 }
 

@@ -3,7 +3,7 @@
 use quote::quote;
 
 use super::super::kernel::Source;
-use super::{Kernels, Methods, check_finite, columns_of, ending, lines, literal};
+use super::{Body, Kernels, Methods, check_finite, columns_of, lines, literal};
 use crate::derivation::Form;
 use crate::graph::SymbolId;
 use crate::simplify::schedule::Stage;
@@ -33,25 +33,24 @@ impl Methods<'_> {
             let mut stages = kernels.derivation.solution(&[(side, symbols.clone())], Form::Factored);
             stages.push(Stage::Return(kernels.variables(&symbols)));
             let fields = sides.iter().map(|&side| (String::new(), side)).collect();
-            let source = Source { from: quote!(#right.data.0), of: None, fields };
+            let source = Source { argument: Some(right.clone()), from: quote!(#right.data.0), of: None, fields };
             let code = self.on_pose(kernels, vec![source], &stages);
-            let (results, body) = (code.results, code.body);
-            (ending(body, quote!(Ok(SVector::from([#(#results),*])))), code.operations)
+            let results = &code.results;
+            let tail = quote!(Ok(SVector::from([#(#results),*])));
+            Body::new(code, tail, [])
         });
-        let (body, operations) = code.unzip();
         let docs = lines(["The x of J x = `right`.", "", "# Errors", "`Singular` where J has no inverse."]);
         let signature = quote!(pub fn solve_jacobian(&self, #pose: &#pose_type<T>, #right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error>);
-        self.function(&docs, operations, &signature, body);
+        self.function(&docs, &signature, code);
 
         let code = kernels.as_deref_mut().map(|kernels| {
-            let (mut stages, symbols) = kernels.ratio_stages();
-            let flat: Vec<SymbolId> = symbols.into_iter().flatten().collect();
+            let mut stages = kernels.ratio_stages();
+            let flat: Vec<SymbolId> = kernels.derivation.ratios.iter().flatten().copied().collect();
             stages.push(Stage::Return(kernels.variables(&flat)));
             let code = self.on_pose(kernels, Vec::new(), &stages);
-            let (matrix, body) = (columns_of(&code.results, u), code.body);
-            (ending(body, quote!(Ok(#matrix))), code.operations)
+            let matrix = columns_of(&code.results, u);
+            Body::new(code, quote!(Ok(#matrix)), [])
         });
-        let (body, operations) = code.unzip();
         let meaning = if v == 1 {
             "The velocity ratios W = -J^-1 A with u' = W v'; for one input they are the transmission ratios."
         } else {
@@ -60,7 +59,7 @@ impl Methods<'_> {
         let docs = lines([meaning, "", "# Errors", "`Singular` where J has no inverse."]);
         let signature =
             quote!(pub fn velocity_ratios(&self, #pose: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
-        self.function(&docs, operations, &signature, body);
+        self.function(&docs, &signature, code);
 
         let code = kernels.map(|kernels| {
             let (unknowns, all) = (kernels.derivation.unknowns.clone(), (0..u + v).collect::<Vec<_>>());
@@ -68,13 +67,13 @@ impl Methods<'_> {
             let mut stages = kernels.derivation.solution(&[(side, kernels.rates(&unknowns))], Form::Factored);
             stages.push(Stage::Return(kernels.variables(&kernels.rates(&all))));
             let sources = vec![self.inputs(kernels, &rate, |c| c.rate)];
-            let code = self.on_pose(kernels, sources, &stages);
-            let (fields, results, body) = (self.coordinate_fields(), code.results, code.body);
-            let solved: Vec<_> = unknowns.iter().map(|&index| results[index].clone()).collect();
-            let finite = check_finite("velocity", &solved);
-            (ending(body, quote!(#finite Ok(#coordinates { #(#fields: #results),* }))), code.operations)
+            let mut code = self.on_pose(kernels, sources, &stages);
+            let solved: Vec<_> = unknowns.iter().map(|&index| code.results[index].clone()).collect();
+            let finite = check_finite(&mut code, "velocity", &solved);
+            let (fields, results) = (self.coordinate_fields(), &code.results);
+            let tail = quote!(#finite Ok(#coordinates { #(#fields: #results),* }));
+            Body::new(code, tail, [])
         });
-        let (body, operations) = code.unzip();
         let docs = lines([
             "The velocity q' at the input rates v'.",
             "",
@@ -82,6 +81,6 @@ impl Methods<'_> {
             "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
         ]);
         let signature = quote!(pub fn velocity(&self, #pose: &#pose_type<T>, #rate: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
-        self.function(&docs, operations, &signature, body);
+        self.function(&docs, &signature, code);
     }
 }
