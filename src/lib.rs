@@ -23,6 +23,7 @@ macro_rules! linkage {
 #[doc(hidden)]
 pub mod __private {
     pub use linkage_macros::linkage;
+    pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
         Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Solution, direction, finite, finite_matrix,

@@ -1,5 +1,6 @@
 //! Rust that could have been written by hand: the user's names, the formula in the doc comment.
 
+mod document;
 mod expression;
 mod kernel;
 mod methods;

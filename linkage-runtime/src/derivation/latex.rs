@@ -52,14 +52,15 @@ impl Pen for Latex<'_> {
 
     fn matrix(&mut self, matrix: &Matrix) -> fmt::Result {
         let name = matrix.name.latex;
+        let factor = matrix.factor.map_or_else(String::new, |factor| format!("{} ", factor.latex));
         if matrix.rows.max(matrix.columns) > LARGEST_MATRIX {
             for entry in matrix.entries {
                 let (row, column) = (entry.row + 1, entry.column + 1);
-                writeln!(self.out, "\\[ \\left({name}\\right)_{{{row},{column}}} = {} \\]", entry.value.latex)?;
+                writeln!(self.out, "\\[ \\left({name}\\right)_{{{row},{column}}} = {factor}{} \\]", entry.value.latex)?;
             }
             return Ok(());
         }
-        writeln!(self.out, "\\[ {name} = \\begin{{pmatrix}}")?;
+        writeln!(self.out, "\\[ {name} = {factor}\\begin{{pmatrix}}")?;
         for row in 0..matrix.rows {
             let entries = (0..matrix.columns).map(|column| matrix.entry(row, column).map_or("0", |entry| entry.latex));
             writeln!(self.out, "  {} \\\\", entries.collect::<Vec<_>>().join(" & "))?;

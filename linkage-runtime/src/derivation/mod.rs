@@ -55,6 +55,8 @@ pub struct Entry {
 pub struct Matrix {
     /// What it is called.
     pub name: Formula,
+    /// What stands before the brackets and multiplies every entry.
+    pub factor: Option<Formula>,
     /// The number of rows.
     pub rows: usize,
     /// The number of columns.
@@ -67,7 +69,7 @@ pub struct Matrix {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// By formula: the inverse over the determinant.
+    /// By formula: the adjugate over the determinant.
     ClosedForm,
     /// By a factorisation with partial pivoting.
     Factorization,
@@ -141,6 +143,8 @@ pub struct Derivation {
     pub jacobian_inputs: Matrix,
     /// The blocks, in the order in which they are solved.
     pub blocks: &'static [Block],
+    /// det J, the product of the determinants of the blocks; none if a block has no formula.
+    pub determinant: Option<Equation>,
     /// The velocity ratios ∂u/∂v.
     pub ratios: &'static [Equation],
     /// γ: what is left of the second derivative of Ψ where no coordinate accelerates.
@@ -153,6 +157,36 @@ pub struct Derivation {
     pub conditions: &'static [Formula],
     /// The emitted functions.
     pub kernels: &'static [Kernel],
+}
+
+/// An expression in three notations.
+#[must_use]
+pub const fn formula(text: &'static str, latex: &'static str, mathml: &'static str) -> Formula {
+    Formula { text, latex, mathml }
+}
+
+/// left = right.
+#[must_use]
+pub const fn equation(left: Formula, right: Formula) -> Equation {
+    Equation { left, right }
+}
+
+/// A parameter or coordinate by its name.
+#[must_use]
+pub const fn symbol(name: &'static str, formula: Formula) -> Symbol {
+    Symbol { name, formula }
+}
+
+/// An entry of a matrix; rows and columns count from 0.
+#[must_use]
+pub const fn entry(row: usize, column: usize, value: Formula) -> Entry {
+    Entry { row, column, value }
+}
+
+/// What one call of a function computes.
+#[must_use]
+pub const fn kernel(function: &'static str, [functions, divisions, multiplications, additions]: [usize; 4]) -> Kernel {
+    Kernel { function, operations: Operations { functions, divisions, multiplications, additions } }
 }
 
 impl Matrix {

@@ -66,6 +66,7 @@ pub(crate) mod words {
     pub(crate) const LEAD_CLOSURE: &str = "The mechanism closes where";
     pub(crate) const LEAD_JACOBIAN: &str =
         "The derivatives of the closure equations with respect to the unknowns and the inputs:";
+    pub(crate) const LEAD_DETERMINANT: &str = "All blocks together, up to the order of rows and columns:";
     pub(crate) const LEAD_RATIOS: &str = "With the closure equations held, the unknowns move by";
     pub(crate) const LEAD_VELOCITY: &str = "so that";
     pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the closure equations give";
@@ -128,6 +129,11 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
         if let Some(inverse) = &block.inverse {
             pen.matrix(inverse)?;
         }
+    }
+
+    if let (Some(determinant), [_, _, ..]) = (derivation.determinant, derivation.blocks) {
+        pen.lead(words::LEAD_DETERMINANT)?;
+        equations(pen, &mut number, &[determinant])?;
     }
 
     pen.heading(words::RATIOS)?;

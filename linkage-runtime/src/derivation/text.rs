@@ -56,8 +56,15 @@ impl Pen for Text<'_, '_> {
     }
 
     fn matrix(&mut self, matrix: &Matrix) -> fmt::Result {
+        if let Some(factor) = matrix.factor {
+            writeln!(self.out, "        {} = {factor} times the matrix with", matrix.name)?;
+        }
         for entry in matrix.entries {
-            writeln!(self.out, "        {}[{}, {}] = {}", matrix.name, entry.row + 1, entry.column + 1, entry.value)?;
+            let (row, column) = (entry.row + 1, entry.column + 1);
+            match matrix.factor {
+                Some(_) => writeln!(self.out, "          [{row}, {column}] = {}", entry.value)?,
+                None => writeln!(self.out, "        {}[{row}, {column}] = {}", matrix.name, entry.value)?,
+            }
         }
         Ok(())
     }

@@ -38,13 +38,14 @@ const LARGEST_MATRIX: usize = 6;
 /// The MathML and LaTeX of `name = matrix`, or of each entry if there are many. A `law` such as
 /// J = ∂Ψ/∂u says what the matrix is.
 pub(super) fn matrix(matrix: &Matrix, law: Option<&Formula>) -> Vec<(String, String)> {
-    let Matrix { name, rows, columns, .. } = matrix;
+    let Matrix { name, factor, rows, columns, .. } = matrix;
+    let (before, before_latex) = factor.map_or(("", ""), |factor| (factor.mathml, factor.latex));
     if *rows.max(columns) > LARGEST_MATRIX {
         let entries = matrix.entries.iter().map(|entry| {
             let (row, column, value) = (entry.row + 1, entry.column + 1, entry.value);
             let index = format!("<mrow><mn>{row}</mn><mo>,</mo><mn>{column}</mn></mrow>");
-            let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{}</mrow>", name.mathml, value.mathml);
-            (mathml, format!("{{{}}}_{{{row},{column}}} = {}", name.latex, value.latex))
+            let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.mathml, value.mathml);
+            (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.latex, value.latex))
         });
         let law = law.map(|law| (law.mathml.to_owned(), law.latex.to_owned()));
         return law.into_iter().chain(entries).collect();
@@ -65,10 +66,10 @@ pub(super) fn matrix(matrix: &Matrix, law: Option<&Formula>) -> Vec<(String, Str
     // Fractions stay large while there is room.
     let large = *columns <= 3;
     let mathml = format!(
-        "<mrow>{}<mo>=</mo><mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>",
+        "<mrow>{}<mo>=</mo>{before}<mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>",
         name.mathml
     );
-    vec![(mathml, format!("{} = \\begin{{pmatrix}}{latex} \\end{{pmatrix}}", name.latex))]
+    vec![(mathml, format!("{} = {before_latex} \\begin{{pmatrix}}{latex} \\end{{pmatrix}}", name.latex))]
 }
 
 /// An SVG file as the address of an image.

@@ -1,7 +1,7 @@
 //! The page, section by section.
 
 use crate::derivation::outline::{self, words};
-use crate::derivation::{Block, Derivation, Equation, Formula, Matrix, Quantity, Symbol};
+use crate::derivation::{Derivation, Equation, Formula, Matrix, Quantity, Symbol};
 
 use super::html::{display, escape, inline, matrix, svg_address};
 use super::{Picture, Sheet, Table, lines, numbers};
@@ -21,7 +21,7 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     page.header(sheet);
     page.closures(derivation);
     page.jacobian(derivation);
-    page.structure(derivation.blocks);
+    page.structure(derivation);
     page.ratios(derivation);
     page.acceleration(derivation);
     page.quantities(words::POINTS, derivation.points);
@@ -118,7 +118,8 @@ impl Page {
         });
     }
 
-    fn structure(&mut self, blocks: &[Block]) {
+    fn structure(&mut self, derivation: &Derivation) {
+        let blocks = derivation.blocks;
         if blocks.is_empty() {
             return;
         }
@@ -141,6 +142,10 @@ impl Page {
                     page.matrix(inverse, None);
                 }
                 page.push("</article>");
+            }
+            if let (Some(determinant), [_, _, ..]) = (derivation.determinant, blocks) {
+                page.lead(words::LEAD_DETERMINANT);
+                page.equations(&[determinant]);
             }
         });
     }

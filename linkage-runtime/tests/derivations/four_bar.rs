@@ -58,6 +58,7 @@ pub const FOUR_BAR: Derivation = Derivation {
     ],
     jacobian_unknowns: Matrix {
         name: Formula { text: "J", latex: r"J", mathml: "<mi>J</mi>" },
+        factor: None,
         rows: 2,
         columns: 2,
         entries: &[
@@ -101,6 +102,7 @@ pub const FOUR_BAR: Derivation = Derivation {
     },
     jacobian_inputs: Matrix {
         name: Formula { text: "A", latex: r"A", mathml: "<mi>A</mi>" },
+        factor: None,
         rows: 2,
         columns: 1,
         entries: &[
@@ -191,6 +193,7 @@ pub const FOUR_BAR: Derivation = Derivation {
             ],
         }),
     }],
+    determinant: None,
     ratios: &[
         Equation {
             left: Formula {

@@ -15,7 +15,7 @@ use crate::graph::SymbolId;
 
 impl Methods<'_> {
     /// The `impl` blocks, in a scope of their own for the names that they use.
-    pub(super) fn block(self, kernels: Option<&Kernels>, private: &TokenStream) -> TokenStream {
+    pub(super) fn block(&self, kernels: Option<&Kernels>, private: &TokenStream) -> TokenStream {
         let Types { driver, inputs, unknowns, pose, coordinates, .. } = self.types;
         let text = driver.to_string();
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());

@@ -13,11 +13,11 @@ use std::collections::BTreeSet;
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
 use quote::{ToTokens, TokenStreamExt, quote};
 
-use super::Types;
 use super::kernel::{self, Code, Given, Operand, Source};
 use super::names::{ident, unique};
 use super::pose::PosePlan;
 use super::types::field;
+use super::{Types, document};
 use crate::derivation::{Derivation, Form};
 use crate::graph::{NodeId, SymbolId};
 use crate::model::{Driver, Mechanism};
@@ -65,7 +65,7 @@ pub(super) fn of_driver(
     driver: &Driver,
     types: &Types,
     plan: Option<&PosePlan>,
-    derivation: Option<&mut Derivation>,
+    mut derivation: Option<&mut Derivation>,
     private: &TokenStream,
 ) -> TokenStream {
     let name = |wish: &str| ident(&argument(mechanism, wish));
@@ -91,7 +91,7 @@ pub(super) fn of_driver(
         // The block itself compares signs.
         uses: BTreeSet::from(["same_signs"]),
     };
-    let mut kernels = derivation.zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
+    let mut kernels = derivation.as_deref_mut().zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
     if let Some(kernels) = &kernels {
         methods.name_points(kernels.derivation);
     }
@@ -102,7 +102,11 @@ pub(super) fn of_driver(
     methods.quantities(kernels.as_mut(), Family::Points);
     methods.quantities(kernels.as_mut(), Family::Outputs);
     methods.motion(kernels.as_mut());
-    methods.block(kernels.as_ref(), private)
+    let mut tokens = methods.block(kernels.as_ref(), private);
+    if let Some(derivation) = derivation {
+        tokens.extend(document::constant(mechanism, driver, derivation, &methods.kernels, private));
+    }
+    tokens
 }
 
 /// A derivation and the pose planned for it.

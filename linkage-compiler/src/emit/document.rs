@@ -1,0 +1,316 @@
+//! `DERIVATION`: the derivation as data, every formula in three notations.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use rustc_hash::FxHashMap;
+
+use crate::derivation::{Derivation, Quantity, Row};
+use crate::graph::{Condition, Formula, Name, NodeId, Printer, SymbolId};
+use crate::model::{Driver, Mechanism};
+use crate::simplify::adjugate;
+use crate::simplify::schedule::Operations;
+
+/// The constant, in a scope of its own for the names that it uses.
+pub(super) fn constant(
+    mechanism: &Mechanism,
+    driver: &Driver,
+    derivation: &mut Derivation,
+    kernels: &[(String, Operations)],
+    private: &TokenStream,
+) -> TokenStream {
+    let formulas = Formulas::new(derivation);
+    let derivation = &*derivation;
+    let text = |index: &usize| mechanism.coordinates[*index].name.text.as_str();
+    let inputs: Vec<&str> = driver.inputs.iter().map(text).collect();
+    let unknowns: Vec<&str> = driver.unknowns.iter().map(text).collect();
+    let names = names(mechanism, derivation, &inputs, &unknowns);
+    let graph = &derivation.graph;
+    let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
+    let mut document =
+        Document { printer: Printer::new(graph, &shown), inputs: inputs.clone(), unknowns: unknowns.clone() };
+
+    let title = driver.name.to_string();
+    let residual = document.numbered("Psi", &derivation.residual);
+    let j = document.matrix(Name::Plain("J"), None, &derivation.jacobian_unknowns(), unknowns.len());
+    let a = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
+    let blocks = formulas.inverses.iter().enumerate();
+    let blocks: Vec<_> = blocks.map(|(number, inverse)| document.block(derivation, number, inverse.as_ref())).collect();
+    let determinant =
+        document.optional(formulas.determinant, |document, node| document.equation(Name::Determinant(None), node));
+    let ratios = document.ratios(&formulas.ratios);
+    let gamma = document.numbered("gamma", &derivation.gamma);
+    let points: Vec<&str> = mechanism.points.iter().map(|point| point.name.text.as_str()).collect();
+    let points = document.quantities(&points, &["x_", "y_"], &derivation.points, &formulas.points);
+    let outputs: Vec<&str> = mechanism.outputs.iter().map(|output| output.name.text.as_str()).collect();
+    let outputs = document.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs);
+    let conditions = document.conditions(&formulas.conditions);
+    let kernels = kernels.iter().map(|(function, operations)| {
+        let Operations { functions, divisions, multiplications, additions } = *operations;
+        let counts = [functions, divisions, multiplications, additions].map(literal);
+        quote!(kernel(#function, [#(#counts),*]))
+    });
+    let parameters = mechanism.parameters.iter().map(|parameter| named(&parameter.name.text));
+    let inputs = inputs.into_iter().map(named);
+    let unknowns = unknowns.into_iter().map(named);
+    let driver = &driver.name;
+    quote! {
+        const _: () = {
+            use ::core::option::Option::{None, Some};
+            use #private::derivation::{self, entry, equation, formula, kernel, symbol};
+            impl #driver {
+                /// The derivation as data: every formula as text, LaTeX and MathML, the order of solution
+                /// and the work of each function. It costs nothing where it is not used.
+                pub const DERIVATION: &'static derivation::Derivation = &derivation::Derivation {
+                    mechanism: #title,
+                    parameters: &[#(#parameters),*],
+                    inputs: &[#(#inputs),*],
+                    unknowns: &[#(#unknowns),*],
+                    residual: &[#(#residual),*],
+                    jacobian_unknowns: #j,
+                    jacobian_inputs: #a,
+                    blocks: &[#(#blocks),*],
+                    determinant: #determinant,
+                    ratios: &[#(#ratios),*],
+                    gamma: &[#(#gamma),*],
+                    points: &[#(#points),*],
+                    outputs: &[#(#outputs),*],
+                    conditions: &[#(#conditions),*],
+                    kernels: &[#(#kernels),*],
+                };
+            }
+        };
+    }
+}
+
+/// 1 / det J of a block, and adj J.
+type Inverse = (NodeId, Vec<Row>);
+
+/// What is derived for the reader alone.
+struct Formulas {
+    ratios: Vec<Vec<Option<NodeId>>>,
+    determinant: Option<NodeId>,
+    inverses: Vec<Option<Inverse>>,
+    /// W_l, by quantity, input and component.
+    points: Vec<Vec<Vec<NodeId>>>,
+    outputs: Vec<Vec<Vec<NodeId>>>,
+    conditions: BTreeSet<Condition>,
+}
+
+impl Formulas {
+    fn new(derivation: &mut Derivation) -> Self {
+        let ratios = derivation.ratio_formulas();
+        let determinant = derivation.determinant();
+        let mut inverses = Vec::new();
+        for block in derivation.blocks.clone() {
+            let matrix = derivation.block_matrix(&block);
+            inverses.push(match (block.determinant, matrix.as_slice()) {
+                (Some(determinant), [first, second]) => {
+                    let graph = &mut derivation.graph;
+                    let rows = adjugate(graph, [[first[0], first[1]], [second[0], second[1]]]);
+                    let rows =
+                        rows.map(|row| row.into_iter().enumerate().filter(|(_, e)| !graph.is_zero(*e)).collect());
+                    Some((graph.power(determinant.value, -1), rows.to_vec()))
+                }
+                _ => None,
+            });
+        }
+        let (points, outputs) = (derivation.points.clone(), derivation.outputs.clone());
+        let points = quantity_ratios(derivation, &points);
+        let outputs = quantity_ratios(derivation, &outputs);
+        let conditions = derivation.graph.take_conditions();
+        Self { ratios, determinant, inverses, points, outputs, conditions }
+    }
+}
+
+/// W_l by quantity, input and component.
+fn quantity_ratios(derivation: &mut Derivation, quantities: &[Quantity]) -> Vec<Vec<Vec<NodeId>>> {
+    let mut all = Vec::new();
+    for quantity in quantities {
+        let mut of_quantity = Vec::new();
+        for input in 0..derivation.inputs.len() {
+            of_quantity.push(quantity.jacobian.iter().map(|row| derivation.quantity_ratio(row, input)).collect());
+        }
+        all.push(of_quantity);
+    }
+    all
+}
+
+/// What each symbol is called.
+fn names<'a>(
+    mechanism: &'a Mechanism,
+    derivation: &Derivation,
+    inputs: &[&'a str],
+    unknowns: &[&'a str],
+) -> FxHashMap<SymbolId, Name<'a>> {
+    let mut names = FxHashMap::default();
+    for parameter in &mechanism.parameters {
+        names.insert(parameter.symbol, Name::Plain(&parameter.name.text));
+    }
+    let places = derivation.inputs.iter().zip(inputs).chain(derivation.unknowns.iter().zip(unknowns));
+    for (&place, &text) in places {
+        let coordinate = &derivation.coordinates[place];
+        names.insert(coordinate.value, Name::Plain(text));
+        names.insert(coordinate.rate, Name::Rate(text));
+        names.insert(coordinate.acceleration, Name::Acceleration(text));
+    }
+    for (ratios, &by) in derivation.ratios.iter().zip(inputs) {
+        names.extend(ratios.iter().zip(unknowns).map(|(&ratio, &of)| (ratio, Name::Ratio { of, by })));
+    }
+    names
+}
+
+fn written(formula: &Formula) -> TokenStream {
+    let Formula { unicode, latex, mathml } = formula;
+    quote!(formula(#unicode, #latex, #mathml))
+}
+
+fn named(name: &str) -> TokenStream {
+    let formula = written(&Name::Plain(name).formula());
+    quote!(symbol(#name, #formula))
+}
+
+/// Writes formulas.
+struct Document<'a> {
+    printer: Printer<'a>,
+    inputs: Vec<&'a str>,
+    unknowns: Vec<&'a str>,
+}
+
+impl Document<'_> {
+    fn formula(&mut self, node: NodeId) -> TokenStream {
+        written(&self.printer.formula(node))
+    }
+
+    fn equation(&mut self, left: Name, right: NodeId) -> TokenStream {
+        let (left, right) = (written(&left.formula()), self.formula(right));
+        quote!(equation(#left, #right))
+    }
+
+    /// name_1 = …, name_2 = …
+    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> Vec<TokenStream> {
+        let numbered = nodes.iter().enumerate();
+        numbered.map(|(index, &node)| self.equation(Name::Plain(&format!("{name}{}", index + 1)), node)).collect()
+    }
+
+    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> TokenStream {
+        let name = written(&name.formula());
+        let factor = self.optional(factor, |document, node| document.formula(node));
+        let mut entries = Vec::new();
+        for (index, row) in rows.iter().enumerate() {
+            for (&column, &node) in row {
+                let (row, column, value) = (literal(index), literal(column), self.formula(node));
+                entries.push(quote!(entry(#row, #column, #value)));
+            }
+        }
+        let (rows, columns) = (literal(rows.len()), literal(columns));
+        quote!(derivation::Matrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &[#(#entries),*] })
+    }
+
+    fn optional<V>(&mut self, value: Option<V>, write: impl FnOnce(&mut Self, V) -> TokenStream) -> TokenStream {
+        match value {
+            Some(value) => {
+                let tokens = write(self, value);
+                quote!(Some(#tokens))
+            }
+            None => quote!(None),
+        }
+    }
+
+    fn block(&mut self, derivation: &Derivation, number: usize, inverse: Option<&Inverse>) -> TokenStream {
+        let block = &derivation.blocks[number];
+        let number = (derivation.blocks.len() > 1).then_some(number + 1);
+        let unknowns = block.unknowns.iter().map(|&place| written(&Name::Plain(self.unknowns[place]).formula()));
+        let unknowns: Vec<_> = unknowns.collect();
+        let equations = block.equations.iter().map(|&equation| literal(equation));
+        let method = match block.determinant {
+            Some(_) => quote!(ClosedForm),
+            None => quote!(Factorization),
+        };
+        let determinant = self.optional(block.determinant, |document, determinant| {
+            document.equation(Name::Determinant(number), determinant.value)
+        });
+        let inverse = self.optional(inverse, |document, (factor, rows)| {
+            document.matrix(Name::Inverse(number), Some(*factor), rows, rows.len())
+        });
+        quote! {
+            derivation::Block {
+                unknowns: &[#(#unknowns),*],
+                equations: &[#(#equations),*],
+                method: derivation::Method::#method,
+                determinant: #determinant,
+                inverse: #inverse,
+            }
+        }
+    }
+
+    fn ratios(&mut self, formulas: &[Vec<Option<NodeId>>]) -> Vec<TokenStream> {
+        let (inputs, unknowns) = (self.inputs.clone(), self.unknowns.clone());
+        let mut ratios = Vec::new();
+        for (by, of_input) in inputs.into_iter().zip(formulas) {
+            for (&of, node) in unknowns.iter().zip(of_input) {
+                ratios.extend(node.map(|node| self.equation(Name::Ratio { of, by }, node)));
+            }
+        }
+        ratios
+    }
+
+    /// Points and outputs, each component called by its prefix and the name.
+    fn quantities(
+        &mut self,
+        names: &[&str],
+        prefixes: &[&str],
+        quantities: &[Quantity],
+        ratios: &[Vec<Vec<NodeId>>],
+    ) -> Vec<TokenStream> {
+        let inputs = self.inputs.clone();
+        let mut all = Vec::new();
+        for ((name, quantity), ratios) in names.iter().zip(quantities).zip(ratios) {
+            let components: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{name}")).collect();
+            let mut values = Vec::new();
+            for (component, &node) in components.iter().zip(&quantity.value) {
+                values.push(self.equation(Name::Plain(component), node));
+            }
+            let mut rates = Vec::new();
+            for (by, of_input) in inputs.iter().zip(ratios) {
+                for (of, &node) in components.iter().zip(of_input) {
+                    rates.push(self.equation(Name::Ratio { of, by }, node));
+                }
+            }
+            all.push(quote!(derivation::Quantity { name: #name, value: &[#(#values),*], ratios: &[#(#rates),*] }));
+        }
+        all
+    }
+
+    /// What was taken for granted: x ≠ 0, or that an expression has a value.
+    fn conditions(&mut self, conditions: &BTreeSet<Condition>) -> Vec<TokenStream> {
+        let mut lines = Vec::new();
+        for condition in conditions {
+            let formula = match *condition {
+                Condition::NonZero(node) => {
+                    let Formula { unicode, latex, mathml } = self.printer.formula(node);
+                    Formula {
+                        unicode: format!("{unicode} ≠ 0"),
+                        latex: format!("{latex} \\neq 0"),
+                        mathml: format!("<mrow>{mathml}<mo>≠</mo><mn>0</mn></mrow>"),
+                    }
+                }
+                Condition::Defined(node) => {
+                    let Formula { unicode, latex, mathml } = self.printer.formula(node);
+                    Formula {
+                        unicode: format!("{unicode} exists"),
+                        latex: format!("{latex} \\text{{ exists}}"),
+                        mathml: format!("<mrow>{mathml}<mtext> exists</mtext></mrow>"),
+                    }
+                }
+            };
+            lines.push(written(&formula));
+        }
+        lines
+    }
+}
+
+fn literal(number: usize) -> Literal {
+    Literal::usize_unsuffixed(number)
+}
