@@ -4,16 +4,19 @@
 //! Rates and accelerations of the coordinates are names of their own and are never replaced
 //! by formulas: substituting them is what makes symbolic tools swell.
 
+mod formulas;
 mod linear;
 mod magnitude;
 mod ratios;
 mod solution;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism};
+use crate::simplify::{self, simplify};
 use crate::structure::{self, Method};
+pub use formulas::{Formulas, Inverse};
 pub use linear::{Form, solve_closed};
 
 /// The derivatives of one scalar by the coordinates, by their place in q; those not named are zero.
@@ -123,9 +126,13 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
         blocks.into_iter().map(|block| self::block(&mut graph, &jacobian, &unknowns, block)).collect();
     name_determinants(&mut graph, &mut blocks);
     let ratios = ratios::names(&mut graph, &coordinates, &unknowns, &inputs);
+    // A pose has the directions of the closures at hand.
+    let given = angles(&graph, &residual);
+    let outputs: Vec<NodeId> = mechanism.outputs.iter().map(|output| output.value).collect();
+    let outputs = simplify(&mut graph, &outputs, &given);
     let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates, &place_of);
     let points = mechanism.points.iter().map(|point| quantity(vec![point.x, point.y])).collect();
-    let outputs = mechanism.outputs.iter().map(|output| quantity(vec![output.value])).collect();
+    let outputs = outputs.into_iter().map(|output| quantity(vec![output])).collect();
     Derivation {
         coordinates,
         unknowns,
@@ -143,6 +150,15 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
     }
 }
 
+/// The angles whose sines and cosines some expressions take.
+fn angles(graph: &Graph, roots: &[NodeId]) -> BTreeSet<NodeId> {
+    let angle = |id: NodeId| match graph.node(id) {
+        Node::Call(Function::Sin | Function::Cos, angle) => Some(angle[0]),
+        _ => None,
+    };
+    graph.reachable(roots).into_iter().filter_map(angle).collect()
+}
+
 /// The place of each coordinate in q.
 type Places = BTreeMap<SymbolId, usize>;
 
@@ -155,7 +171,7 @@ fn block(graph: &mut Graph, jacobian: &[Row], unknowns: &[usize], block: structu
     let determinant = (method == Method::ClosedForm).then(|| {
         let value = match places.len() {
             1 => entry(0, 0),
-            _ => crate::simplify::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
+            _ => simplify::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
         };
         let size = magnitude::of_determinant(graph, value);
         Determinant { value, symbol: SymbolId::NONE, size }

@@ -6,22 +6,20 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 
-use crate::derivation::{Derivation, Quantity, Row};
+use crate::derivation::{Derivation, Formulas, Inverse, Quantity, Row};
 use crate::graph::{Condition, Formula, Name, NodeId, Printer, SymbolId};
 use crate::model::{Driver, Mechanism};
-use crate::simplify::adjugate;
 use crate::simplify::schedule::Operations;
 
 /// The constant, in a scope of its own for the names that it uses.
 pub(super) fn constant(
     mechanism: &Mechanism,
     driver: &Driver,
-    derivation: &mut Derivation,
+    derivation: &Derivation,
+    formulas: &Formulas,
     kernels: &[(String, Operations)],
     private: &TokenStream,
 ) -> TokenStream {
-    let formulas = Formulas::new(derivation);
-    let derivation = &*derivation;
     let text = |index: &usize| mechanism.coordinates[*index].name.text.as_str();
     let inputs: Vec<&str> = driver.inputs.iter().map(text).collect();
     let unknowns: Vec<&str> = driver.unknowns.iter().map(text).collect();
@@ -82,59 +80,6 @@ pub(super) fn constant(
             }
         };
     }
-}
-
-/// 1 / det J of a block, and adj J.
-type Inverse = (NodeId, Vec<Row>);
-
-/// What is derived for the reader alone.
-struct Formulas {
-    ratios: Vec<Vec<Option<NodeId>>>,
-    determinant: Option<NodeId>,
-    inverses: Vec<Option<Inverse>>,
-    /// W_l, by quantity, input and component.
-    points: Vec<Vec<Vec<NodeId>>>,
-    outputs: Vec<Vec<Vec<NodeId>>>,
-    conditions: BTreeSet<Condition>,
-}
-
-impl Formulas {
-    fn new(derivation: &mut Derivation) -> Self {
-        let ratios = derivation.ratio_formulas();
-        let determinant = derivation.determinant();
-        let mut inverses = Vec::new();
-        for block in derivation.blocks.clone() {
-            let matrix = derivation.block_matrix(&block);
-            inverses.push(match (block.determinant, matrix.as_slice()) {
-                (Some(determinant), [first, second]) => {
-                    let graph = &mut derivation.graph;
-                    let rows = adjugate(graph, [[first[0], first[1]], [second[0], second[1]]]);
-                    let rows =
-                        rows.map(|row| row.into_iter().enumerate().filter(|(_, e)| !graph.is_zero(*e)).collect());
-                    Some((graph.power(determinant.value, -1), rows.to_vec()))
-                }
-                _ => None,
-            });
-        }
-        let (points, outputs) = (derivation.points.clone(), derivation.outputs.clone());
-        let points = quantity_ratios(derivation, &points);
-        let outputs = quantity_ratios(derivation, &outputs);
-        let conditions = derivation.graph.take_conditions();
-        Self { ratios, determinant, inverses, points, outputs, conditions }
-    }
-}
-
-/// W_l by quantity, input and component.
-fn quantity_ratios(derivation: &mut Derivation, quantities: &[Quantity]) -> Vec<Vec<Vec<NodeId>>> {
-    let mut all = Vec::new();
-    for quantity in quantities {
-        let mut of_quantity = Vec::new();
-        for input in 0..derivation.inputs.len() {
-            of_quantity.push(quantity.jacobian.iter().map(|row| derivation.quantity_ratio(row, input)).collect());
-        }
-        all.push(of_quantity);
-    }
-    all
 }
 
 /// What each symbol is called.

@@ -66,7 +66,7 @@ pub(crate) mod words {
     pub(crate) const LEAD_CLOSURE: &str = "The mechanism closes where";
     pub(crate) const LEAD_JACOBIAN: &str =
         "The derivatives of the closure equations with respect to the unknowns and the inputs:";
-    pub(crate) const LEAD_DETERMINANT: &str = "All blocks together, up to the order of rows and columns:";
+    pub(crate) const LEAD_DETERMINANT: &str = "All blocks together:";
     pub(crate) const LEAD_RATIOS: &str = "With the closure equations held, the unknowns move by";
     pub(crate) const LEAD_VELOCITY: &str = "so that";
     pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the closure equations give";

@@ -18,7 +18,7 @@ use super::names::{ident, unique};
 use super::pose::PosePlan;
 use super::types::field;
 use super::{Types, document};
-use crate::derivation::{Derivation, Form};
+use crate::derivation::{Derivation, Form, Formulas};
 use crate::graph::{NodeId, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::schedule::{Operations, Stage};
@@ -91,20 +91,21 @@ pub(super) fn of_driver(
         // The block itself compares signs.
         uses: BTreeSet::from(["same_signs"]),
     };
+    let formulas = derivation.as_deref_mut().map(Formulas::new);
     let mut kernels = derivation.as_deref_mut().zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
     if let Some(kernels) = &kernels {
         methods.name_points(kernels.derivation);
     }
     methods.position(kernels.as_mut());
     methods.closures(kernels.as_mut());
-    methods.velocity(kernels.as_mut());
+    methods.velocity(kernels.as_mut(), formulas.as_ref());
     methods.acceleration(kernels.as_mut());
-    methods.quantities(kernels.as_mut(), Family::Points);
-    methods.quantities(kernels.as_mut(), Family::Outputs);
+    methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Points);
+    methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Outputs);
     methods.motion(kernels.as_mut());
     let mut tokens = methods.block(kernels.as_ref(), private);
-    if let Some(derivation) = derivation {
-        tokens.extend(document::constant(mechanism, driver, derivation, &methods.kernels, private));
+    if let Some((derivation, formulas)) = derivation.zip(formulas) {
+        tokens.extend(document::constant(mechanism, driver, derivation, &formulas, &methods.kernels, private));
     }
     tokens
 }

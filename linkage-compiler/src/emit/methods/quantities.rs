@@ -11,12 +11,12 @@ use super::super::types::field;
 use super::{
     Body, Family, Kernels, Methods, bind, check_finite, columns_of, component_names, fenced, lines, literal, member,
 };
-use crate::derivation::Quantity;
+use crate::derivation::{Formulas, Quantity};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
-    pub(super) fn quantities(&mut self, kernels: Option<&mut Kernels>, family: Family) {
+    pub(super) fn quantities(&mut self, kernels: Option<&mut Kernels>, formulas: Option<&Formulas>, family: Family) {
         let (names, group, word) = match family {
             Family::Points => (
                 self.mechanism.points.iter().map(|p| field(&p.name)).collect::<Vec<_>>(),
@@ -104,6 +104,27 @@ impl Methods<'_> {
                 quote!(pub fn #function(&self, #pose: &#pose_type<T> #(#more)*) -> Result<#group<#item>, Error>);
             self.function(&docs, &signature, code);
         }
+        let laws = kernels.as_deref().zip(formulas).map(|(kernels, formulas)| {
+            let all = if family == Family::Points { &formulas.points } else { &formulas.outputs };
+            let axes: &[&str] = if dimension == 2 { &["_x", "_y"] } else { &[""] };
+            let mut lines = Vec::new();
+            for (name, of_name) in names.iter().zip(all) {
+                for (&input, nodes) in kernels.derivation.inputs.iter().zip(of_name) {
+                    let by = if v == 1 {
+                        "ratio".to_owned()
+                    } else {
+                        format!("by_{}", kernels.derivation.coordinates[input].name)
+                    };
+                    lines.extend(
+                        axes.iter()
+                            .zip(nodes)
+                            .map(|(axis, &node)| format!("{name}{axis}_{by} = {}", kernels.text(node))),
+                    );
+                }
+            }
+            fenced(lines.into_iter())
+        });
+        let laws = laws.unwrap_or_default();
         // W_l = l_u W + l_v.
         let code = kernels.map(|kernels| {
             let mut stages = kernels.ratio_stages();
@@ -129,12 +150,13 @@ impl Methods<'_> {
             Body::new(code, tail, ["finite_matrix"])
         });
         let name = ident(&format!("{word}_ratios"));
-        let docs = lines([
-            &format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'."),
+        let mut docs = vec![format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'.")];
+        docs.extend(laws);
+        docs.extend(lines([
             "",
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
-        ]);
+        ]));
         let signature =
             quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
         self.function(&docs, &signature, code);

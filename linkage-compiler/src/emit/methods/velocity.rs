@@ -3,13 +3,13 @@
 use quote::quote;
 
 use super::super::kernel::Source;
-use super::{Body, Kernels, Methods, check_finite, columns_of, lines, literal};
-use crate::derivation::Form;
+use super::{Body, Kernels, Methods, check_finite, columns_of, fenced, lines, literal};
+use crate::derivation::{Form, Formulas};
 use crate::graph::SymbolId;
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
-    pub(super) fn velocity(&mut self, mut kernels: Option<&mut Kernels>) {
+    pub(super) fn velocity(&mut self, mut kernels: Option<&mut Kernels>, formulas: Option<&Formulas>) {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
         let (nu, nv) = (literal(u), literal(v));
         let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
@@ -56,7 +56,20 @@ impl Methods<'_> {
         } else {
             "The velocity ratios W = -J^-1 A with u' = W v': the rate of each unknown for a unit rate of each input."
         };
-        let docs = lines([meaning, "", "# Errors", "`Singular` where J has no inverse."]);
+        let mut docs = vec![meaning.to_owned()];
+        if let Some((kernels, formulas)) = kernels.as_deref().zip(formulas) {
+            let derivation = &kernels.derivation;
+            let named = derivation.ratios.iter().flatten().zip(formulas.ratios.iter().flatten());
+            let lines: Vec<String> = named
+                .filter_map(|(&name, formula)| {
+                    Some(format!("{} = {}", derivation.graph.symbol_name(name), kernels.text((*formula)?)))
+                })
+                .collect();
+            if !lines.is_empty() {
+                docs.extend(fenced(lines.into_iter()));
+            }
+        }
+        docs.extend(lines(["", "# Errors", "`Singular` where J has no inverse."]));
         let signature =
             quote!(pub fn velocity_ratios(&self, #pose: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
         self.function(&docs, &signature, code);

@@ -2,17 +2,17 @@
 
 #![cfg(feature = "sheet")]
 
-mod derivations;
+use linkage::derivation::{Entry, Formula, Matrix};
+use linkage::linkage;
+use linkage::sheet::Sheet;
 
-use derivations::four_bar::FOUR_BAR;
-use linkage_runtime::derivation::{Entry, Formula, Matrix};
-use linkage_runtime::sheet::Sheet;
+include!("mechanisms/four_bar.rs");
 
 const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 4 3\"><script>alert(1)</script>\
                    <path d=\"M0 0L3 2\" stroke=\"#b00\"/></svg>";
 
 fn sheet() -> String {
-    let mut sheet = Sheet::new(&FOUR_BAR);
+    let mut sheet = Sheet::new(FourBar::DERIVATION);
     sheet
         .title("Four-bar <A&B> \"linkage\"")
         .parameter("l1", 80.0)
@@ -43,7 +43,7 @@ fn assert_balanced(html: &str) {
 #[test]
 fn tags_are_balanced() {
     assert_balanced(&sheet());
-    assert_balanced(&Sheet::new(&FOUR_BAR).to_html());
+    assert_balanced(&Sheet::new(FourBar::DERIVATION).to_html());
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn numbers_stand_beside_formulas() {
 
 #[test]
 fn equations_are_numbered_as_in_the_text() {
-    let (html, text) = (sheet(), FOUR_BAR.to_string());
+    let (html, text) = (sheet(), FourBar::DERIVATION.to_string());
     let last = text.matches("\n  (").count();
     assert!(
         html.contains(&format!("id=\"equation-{last}\"")) && !html.contains(&format!("id=\"equation-{}\"", last + 1))
@@ -93,9 +93,10 @@ fn equations_are_numbered_as_in_the_text() {
 #[test]
 fn large_matrices_are_lists_of_entries() {
     const ONE: Formula = Formula { text: "1", latex: "1", mathml: "<mn>1</mn>" };
-    let mut large = FOUR_BAR;
-    let name = FOUR_BAR.jacobian_inputs.name;
-    large.jacobian_inputs = Matrix { name, rows: 7, columns: 1, entries: &[Entry { row: 6, column: 0, value: ONE }] };
+    let mut large = *FourBar::DERIVATION;
+    let name = FourBar::DERIVATION.jacobian_inputs.name;
+    large.jacobian_inputs =
+        Matrix { name, factor: None, rows: 7, columns: 1, entries: &[Entry { row: 6, column: 0, value: ONE }] };
     let html = Sheet::new(&large).to_html();
     assert_balanced(&html);
     assert!(html.contains("<mrow><mn>7</mn><mo>,</mo><mn>1</mn></mrow></msub><mo>=</mo><mn>1</mn>"));

@@ -1,3 +1,0 @@
-//! Derivations to write down.
-
-pub mod four_bar;

@@ -1,0 +1,84 @@
+//! The derivations as documents: what the Maple sheet and the lecture notes print, exactly.
+
+use linkage::derivation::{Derivation, Equation};
+use linkage::linkage;
+
+include!("mechanisms/four_bar.rs");
+include!("mechanisms/introductory.rs");
+include!("mechanisms/slider_crank.rs");
+include!("mechanisms/rrr.rs");
+include!("mechanisms/rpr.rs");
+include!("mechanisms/six_bar.rs");
+include!("mechanisms/geared_five_bar.rs");
+include!("mechanisms/jansen.rs");
+
+macro_rules! snapshot {
+    ($name:ident, $value:expr) => {
+        #[test]
+        fn $name() {
+            insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+                insta::assert_snapshot!(concat!("derivation_", stringify!($name)), $value);
+            });
+        }
+    };
+}
+
+snapshot!(four_bar, FourBar::DERIVATION);
+snapshot!(introductory, Introductory::DERIVATION);
+snapshot!(engine, Engine::DERIVATION);
+snapshot!(compressor, Compressor::DERIVATION);
+snapshot!(rrr, Rrr::DERIVATION);
+snapshot!(rpr, Rpr::DERIVATION);
+snapshot!(six_bar, SixBar::DERIVATION);
+snapshot!(geared_five_bar, GearedFiveBar::DERIVATION);
+snapshot!(jansen, Jansen::DERIVATION);
+snapshot!(four_bar_in_latex, FourBar::DERIVATION.to_latex());
+
+fn texts(equations: &[Equation]) -> Vec<String> {
+    equations.iter().map(ToString::to_string).collect()
+}
+
+fn determinant(derivation: &Derivation) -> &'static str {
+    derivation.determinant.unwrap().right.text
+}
+
+/// "Analisi cinematica mediante il metodo delle equazioni di vincolo": `Det_psi_u`, combined, and `Rap`
+/// with the sign of W = -Rap.
+#[test]
+fn the_maple_sheet() {
+    let derivation = FourBar::DERIVATION;
+    assert_eq!(determinant(derivation), "−l₃·l₄·sin(θ₃ − θ₄)");
+    assert_eq!(
+        texts(derivation.ratios),
+        ["∂θ₃/∂θ₂ = −l₂·sin(θ₂ − θ₄)/(l₃·sin(θ₃ − θ₄))", "∂θ₄/∂θ₂ = l₂·sin(θ₂ − θ₃)/(l₄·sin(θ₃ − θ₄))"]
+    );
+    // l3 and l4 have been cancelled.
+    let conditions: Vec<&str> = derivation.conditions.iter().map(|condition| condition.text).collect();
+    assert_eq!(conditions, ["l₃ ≠ 0", "l₄ ≠ 0"]);
+}
+
+/// Section 1.2: z1 z2 sin(phi2 - phi1) for the engine, -z2 cos(phi2) for the compressor.
+#[test]
+fn singular_configurations_of_the_lecture_notes() {
+    assert_eq!(determinant(Engine::DERIVATION), "−z₁·z₂·sin(φ₁ − φ₂)");
+    assert_eq!(determinant(Compressor::DERIVATION), "−z₂·cos(φ₂)");
+}
+
+/// Section 1.3: [phi1'; phi2'] = 1/(z1 z2 sin(phi1 - phi2)) [-z2 cos phi2, -z2 sin phi2; -z1 cos phi1, -z1 sin phi1] …
+#[test]
+fn inverse_of_the_dyad_rrr() {
+    let inverse = Rrr::DERIVATION.blocks[0].inverse.unwrap();
+    assert_eq!(inverse.factor.unwrap().text, "1/(z₁·z₂·sin(φ₁ − φ₂))");
+    let entries: Vec<&str> = inverse.entries.iter().map(|entry| entry.value.text).collect();
+    assert_eq!(entries, ["−z₂·cos(φ₂)", "−z₂·sin(φ₂)", "−z₁·cos(φ₁)", "−z₁·sin(φ₁)"]);
+}
+
+#[test]
+fn latex_is_balanced() {
+    for derivation in [FourBar::DERIVATION, SixBar::DERIVATION, Jansen::DERIVATION] {
+        let latex = derivation.to_latex();
+        for (opening, closing) in [("{", "}"), ("\\begin", "\\end"), ("\\[", "\\]"), ("\\left", "\\right")] {
+            assert_eq!(latex.matches(opening).count(), latex.matches(closing).count(), "{opening}");
+        }
+    }
+}
