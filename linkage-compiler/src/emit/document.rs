@@ -58,7 +58,7 @@ pub(super) fn constant(
             use ::core::option::Option::{None, Some};
             use #private::derivation::{self, entry, equation, formula, kernel, symbol};
             impl #driver {
-                /// The derivation as data: every formula as text, LaTeX and MathML, the order of solution
+                /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution
                 /// and the work of each function. It costs nothing where it is not used.
                 pub const DERIVATION: &'static derivation::Derivation = &derivation::Derivation {
                     mechanism: #title,

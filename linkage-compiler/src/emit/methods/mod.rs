@@ -183,7 +183,7 @@ impl Methods<'_> {
             kernels.plan.values.iter().map(|(_, field, symbol)| (field.clone(), *symbol)).collect();
         fields.extend(kernels.plan.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol)));
         // Directions are fields as well, so that the pattern is never complete.
-        fields.extend(kernels.plan.directions.iter().map(|(_, field)| (field.clone(), SymbolId::NONE)));
+        fields.extend(kernels.plan.directions.values().map(|field| (field.clone(), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
         Source { argument: Some(pose.clone()), from: quote!(*#pose), of: Some(quote!(#of)), fields }
     }
