@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 use rustc_hash::FxHashMap;
 
+use super::names::quoted;
 use crate::derivation::{Derivation, Formulas, Inverse, Quantity, Row};
 use crate::graph::{Condition, Formula, Name, NodeId, Printer, SymbolId};
 use crate::model::{Driver, Mechanism};
@@ -46,12 +47,29 @@ pub(super) fn constant(
     let conditions = document.conditions(&formulas.conditions);
     let kernels = kernels.iter().map(|(function, operations)| {
         let Operations { functions, divisions, multiplications, additions } = *operations;
-        let counts = [functions, divisions, multiplications, additions].map(literal);
-        quote!(kernel(#function, [#(#counts),*]))
+        format!("kernel({function:?}, [{functions}, {divisions}, {multiplications}, {additions}])")
     });
     let parameters = mechanism.parameters.iter().map(|parameter| named(&parameter.name.text));
-    let inputs = inputs.into_iter().map(named);
-    let unknowns = unknowns.into_iter().map(named);
+    let fields = [
+        ("parameters", list(parameters)),
+        ("inputs", list(inputs.into_iter().map(named))),
+        ("unknowns", list(unknowns.into_iter().map(named))),
+        ("residual", list(residual)),
+        ("jacobian_unknowns", j),
+        ("jacobian_inputs", a),
+        ("blocks", list(blocks)),
+        ("determinant", determinant),
+        ("ratios", list(ratios)),
+        ("gamma", list(gamma)),
+        ("points", list(points)),
+        ("outputs", list(outputs)),
+        ("conditions", list(conditions)),
+        ("kernels", list(kernels)),
+    ];
+    let fields: Vec<String> = fields.into_iter().map(|(name, value)| format!("{name}: {value}")).collect();
+    // Mostly strings: read as one text, which spares unoptimised macros a token at a time.
+    let text = format!("&derivation::Derivation {{ mechanism: {title:?}, {} }}", fields.join(", "));
+    let value: TokenStream = text.parse().unwrap_or_default();
     let driver = &driver.name;
     quote! {
         const _: () = {
@@ -60,26 +78,16 @@ pub(super) fn constant(
             impl #driver {
                 /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution
                 /// and the work of each function. It costs nothing where it is not used.
-                pub const DERIVATION: &'static derivation::Derivation = &derivation::Derivation {
-                    mechanism: #title,
-                    parameters: &[#(#parameters),*],
-                    inputs: &[#(#inputs),*],
-                    unknowns: &[#(#unknowns),*],
-                    residual: &[#(#residual),*],
-                    jacobian_unknowns: #j,
-                    jacobian_inputs: #a,
-                    blocks: &[#(#blocks),*],
-                    determinant: #determinant,
-                    ratios: &[#(#ratios),*],
-                    gamma: &[#(#gamma),*],
-                    points: &[#(#points),*],
-                    outputs: &[#(#outputs),*],
-                    conditions: &[#(#conditions),*],
-                    kernels: &[#(#kernels),*],
-                };
+                pub const DERIVATION: &'static derivation::Derivation = #value;
             }
         };
     }
+}
+
+/// `&[…]`
+fn list(items: impl IntoIterator<Item = String>) -> String {
+    let items: Vec<String> = items.into_iter().collect();
+    format!("&[{}]", items.join(", "))
 }
 
 /// What each symbol is called.
@@ -106,14 +114,13 @@ fn names<'a>(
     names
 }
 
-fn written(formula: &Formula) -> TokenStream {
-    let Formula { unicode, latex, mathml } = formula;
-    quote!(formula(#unicode, #latex, #mathml))
+fn written(formula: &Formula) -> String {
+    let [unicode, latex, mathml] = [&formula.unicode, &formula.latex, &formula.mathml].map(|text| quoted(text));
+    format!("formula({unicode}, {latex}, {mathml})")
 }
 
-fn named(name: &str) -> TokenStream {
-    let formula = written(&Name::Plain(name).formula());
-    quote!(symbol(#name, #formula))
+fn named(name: &str) -> String {
+    format!("symbol({name:?}, {})", written(&Name::Plain(name).formula()))
 }
 
 /// Writes formulas.
@@ -124,73 +131,59 @@ struct Document<'a> {
 }
 
 impl Document<'_> {
-    fn formula(&mut self, node: NodeId) -> TokenStream {
+    fn formula(&mut self, node: NodeId) -> String {
         written(&self.printer.formula(node))
     }
 
-    fn equation(&mut self, left: Name, right: NodeId) -> TokenStream {
-        let (left, right) = (written(&left.formula()), self.formula(right));
-        quote!(equation(#left, #right))
+    fn equation(&mut self, left: Name, right: NodeId) -> String {
+        format!("equation({}, {})", written(&left.formula()), self.formula(right))
     }
 
     /// name_1 = …, name_2 = …
-    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> Vec<TokenStream> {
+    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> Vec<String> {
         let numbered = nodes.iter().enumerate();
         numbered.map(|(index, &node)| self.equation(Name::Plain(&format!("{name}{}", index + 1)), node)).collect()
     }
 
-    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> TokenStream {
+    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> String {
         let name = written(&name.formula());
         let factor = self.optional(factor, |document, node| document.formula(node));
         let mut entries = Vec::new();
         for (index, row) in rows.iter().enumerate() {
             for (&column, &node) in row {
-                let (row, column, value) = (literal(index), literal(column), self.formula(node));
-                entries.push(quote!(entry(#row, #column, #value)));
+                entries.push(format!("entry({index}, {column}, {})", self.formula(node)));
             }
         }
-        let (rows, columns) = (literal(rows.len()), literal(columns));
-        quote!(derivation::Matrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &[#(#entries),*] })
+        let (rows, entries) = (rows.len(), list(entries));
+        format!(
+            "derivation::Matrix {{ name: {name}, factor: {factor}, rows: {rows}, columns: {columns}, entries: {entries} }}"
+        )
     }
 
-    fn optional<V>(&mut self, value: Option<V>, write: impl FnOnce(&mut Self, V) -> TokenStream) -> TokenStream {
-        match value {
-            Some(value) => {
-                let tokens = write(self, value);
-                quote!(Some(#tokens))
-            }
-            None => quote!(None),
-        }
+    fn optional<V>(&mut self, value: Option<V>, write: impl FnOnce(&mut Self, V) -> String) -> String {
+        value.map_or_else(|| "None".to_owned(), |value| format!("Some({})", write(self, value)))
     }
 
-    fn block(&mut self, derivation: &Derivation, number: usize, inverse: Option<&Inverse>) -> TokenStream {
+    fn block(&mut self, derivation: &Derivation, number: usize, inverse: Option<&Inverse>) -> String {
         let block = &derivation.blocks[number];
         let number = (derivation.blocks.len() > 1).then_some(number + 1);
         let unknowns = block.unknowns.iter().map(|&place| written(&Name::Plain(self.unknowns[place]).formula()));
-        let unknowns: Vec<_> = unknowns.collect();
-        let equations = block.equations.iter().map(|&equation| literal(equation));
-        let method = match block.determinant {
-            Some(_) => quote!(ClosedForm),
-            None => quote!(Factorization),
-        };
+        let unknowns = list(unknowns);
+        let equations = list(block.equations.iter().map(ToString::to_string));
+        let method = if block.determinant.is_some() { "ClosedForm" } else { "Factorization" };
         let determinant = self.optional(block.determinant, |document, determinant| {
             document.equation(Name::Determinant(number), determinant.value)
         });
         let inverse = self.optional(inverse, |document, (factor, rows)| {
             document.matrix(Name::Inverse(number), Some(*factor), rows, rows.len())
         });
-        quote! {
-            derivation::Block {
-                unknowns: &[#(#unknowns),*],
-                equations: &[#(#equations),*],
-                method: derivation::Method::#method,
-                determinant: #determinant,
-                inverse: #inverse,
-            }
-        }
+        format!(
+            "derivation::Block {{ unknowns: {unknowns}, equations: {equations}, \
+             method: derivation::Method::{method}, determinant: {determinant}, inverse: {inverse} }}"
+        )
     }
 
-    fn ratios(&mut self, formulas: &[Vec<Option<NodeId>>]) -> Vec<TokenStream> {
+    fn ratios(&mut self, formulas: &[Vec<Option<NodeId>>]) -> Vec<String> {
         let (inputs, unknowns) = (self.inputs.clone(), self.unknowns.clone());
         let mut ratios = Vec::new();
         for (by, of_input) in inputs.into_iter().zip(formulas) {
@@ -208,7 +201,7 @@ impl Document<'_> {
         prefixes: &[&str],
         quantities: &[Quantity],
         ratios: &[Vec<Vec<NodeId>>],
-    ) -> Vec<TokenStream> {
+    ) -> Vec<String> {
         let inputs = self.inputs.clone();
         let mut all = Vec::new();
         for ((name, quantity), ratios) in names.iter().zip(quantities).zip(ratios) {
@@ -223,13 +216,14 @@ impl Document<'_> {
                     rates.push(self.equation(Name::Ratio { of, by }, node));
                 }
             }
-            all.push(quote!(derivation::Quantity { name: #name, value: &[#(#values),*], ratios: &[#(#rates),*] }));
+            let (values, rates) = (list(values), list(rates));
+            all.push(format!("derivation::Quantity {{ name: {name:?}, value: {values}, ratios: {rates} }}"));
         }
         all
     }
 
     /// What was taken for granted: x ≠ 0, or that an expression has a value.
-    fn conditions(&mut self, conditions: &BTreeSet<Condition>) -> Vec<TokenStream> {
+    fn conditions(&mut self, conditions: &BTreeSet<Condition>) -> Vec<String> {
         let mut lines = Vec::new();
         for condition in conditions {
             let formula = match *condition {
@@ -254,8 +248,4 @@ impl Document<'_> {
         }
         lines
     }
-}
-
-fn literal(number: usize) -> Literal {
-    Literal::usize_unsuffixed(number)
 }

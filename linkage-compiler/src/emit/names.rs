@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Literal, Span};
 use rustc_hash::FxHashMap;
 
 use crate::graph::{Graph, NodeId, Number, SymbolId};
@@ -247,4 +247,20 @@ pub(super) fn angle_name(graph: &Graph, angle: NodeId) -> String {
 
 pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
+}
+
+/// A text as a string literal, as people write it: raw where it holds what would need an escape.
+pub(super) fn quoted(text: &str) -> String {
+    match (text.contains('"'), text.contains('\\')) {
+        (false, false) => format!("\"{text}\""),
+        (false, true) => format!("r\"{text}\""),
+        (true, _) if text.contains("\"#") => format!("{text:?}"),
+        (true, _) => format!("r#\"{text}\"#"),
+    }
+}
+
+/// A string literal. It is read rather than built, which spares unoptimised macros the escaping of
+/// every character.
+pub(super) fn string(text: &str) -> Literal {
+    quoted(text).parse().unwrap_or_else(|_| Literal::string(text))
 }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use rustc_hash::FxHashMap;
+
 use super::{Graph, Node, NodeId, Number, SymbolId};
 
 impl Graph {
@@ -11,7 +13,7 @@ impl Graph {
     /// the derivative with respect to time. Symbols without a seed are constants.
     pub fn differentiate(&mut self, roots: &[NodeId], seeds: &BTreeMap<SymbolId, NodeId>) -> Vec<NodeId> {
         let zero = self.zero();
-        let mut derivative: BTreeMap<NodeId, NodeId> = BTreeMap::new();
+        let mut derivative: FxHashMap<NodeId, NodeId> = FxHashMap::default();
         for id in self.reachable(roots) {
             let result = match self.node(id).clone() {
                 Node::Constant(_) | Node::Pi => zero,

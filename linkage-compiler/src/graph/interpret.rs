@@ -1,6 +1,6 @@
 //! The interpreter: the oracle that emitted code is compared with.
 
-use std::collections::BTreeMap;
+use rustc_hash::FxHashMap;
 
 use super::{Graph, Node, NodeId, SymbolId};
 
@@ -8,7 +8,7 @@ impl Graph {
     /// The values of `roots` where `bind` gives the value of each symbol.
     #[must_use]
     pub fn evaluate(&self, roots: &[NodeId], bind: impl Fn(SymbolId) -> f64) -> Vec<f64> {
-        let mut values: BTreeMap<NodeId, f64> = BTreeMap::new();
+        let mut values: FxHashMap<NodeId, f64> = FxHashMap::default();
         for id in self.reachable(roots) {
             let value = node_value(self.node(id), |symbol| Some(bind(symbol)), |child| values.get(&child).copied());
             values.insert(id, value.unwrap_or(f64::NAN));

@@ -10,9 +10,9 @@ mod interpret;
 mod number;
 mod print;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
@@ -257,9 +257,9 @@ impl Graph {
     /// The sum of coefficient * item, like terms collected.
     pub fn sum(&mut self, items: &[(Number, NodeId)]) -> NodeId {
         let mut constant = Number::ZERO;
-        let mut terms: BTreeMap<NodeId, Number> = BTreeMap::new();
+        let mut terms: Vec<(NodeId, Number)> = Vec::new();
         let mut collect = |coefficient: Number, term: NodeId| {
-            let entry = terms.entry(term).or_insert(Number::ZERO);
+            let entry = entry(&mut terms, term, Number::ZERO);
             *entry = entry.plus(coefficient);
         };
         for &(coefficient, item) in items {
@@ -287,12 +287,12 @@ impl Graph {
                 _ => collect(coefficient, item),
             }
         }
-        for (&term, coefficient) in &terms {
+        for (term, coefficient) in &terms {
             if coefficient.is_zero() {
-                self.drop_term(term);
+                self.drop_term(*term);
             }
         }
-        terms.retain(|_, coefficient| !coefficient.is_zero());
+        terms.retain(|(_, coefficient)| !coefficient.is_zero());
         let terms: Vec<_> = terms.into_iter().map(|(term, coefficient)| (coefficient, term)).collect();
         match terms.as_slice() {
             [] => self.number(constant),
@@ -312,11 +312,11 @@ impl Graph {
     /// The product of item^exponent, equal bases collected.
     pub fn product(&mut self, items: &[(NodeId, i32)]) -> NodeId {
         let mut coefficient = Number::ONE;
-        let mut factors: BTreeMap<NodeId, i32> = BTreeMap::new();
+        let mut factors: Vec<(NodeId, i32)> = Vec::new();
         let mut overflow = false;
-        let mut divisors: BTreeSet<NodeId> = BTreeSet::new();
+        let mut divisors: Vec<NodeId> = Vec::new();
         let mut collect = |base: NodeId, exponent: Option<i32>| {
-            let entry = factors.entry(base).or_insert(0);
+            let entry = entry(&mut factors, base, 0);
             match exponent.and_then(|exponent| entry.checked_add(exponent)) {
                 Some(total) => *entry = total,
                 None => overflow = true,
@@ -336,14 +336,14 @@ impl Graph {
                         collect(base, inner.checked_mul(exponent));
                         // 1/(1/x) is x for an x other than zero.
                         if inner < 0 || exponent < 0 {
-                            divisors.insert(base);
+                            divisors.push(base);
                         }
                     }
                 }
                 _ => {
                     collect(item, Some(exponent));
                     if exponent < 0 {
-                        divisors.insert(item);
+                        divisors.push(item);
                     }
                 }
             }
@@ -352,18 +352,17 @@ impl Graph {
             self.fault.get_or_insert(Fault::ExponentOverflow);
         }
         for divisor in divisors {
-            let cancelled = factors[&divisor] >= 0 || coefficient.is_zero();
+            let cancelled = *entry(&mut factors, divisor, 0) >= 0 || coefficient.is_zero();
             if cancelled && self.values[divisor.index()].is_none() {
                 self.conditions.insert(Condition::NonZero(divisor));
             }
         }
-        for (&base, exponent) in &factors {
+        for (base, exponent) in &factors {
             if *exponent == 0 || coefficient.is_zero() {
-                self.drop_term(base);
+                self.drop_term(*base);
             }
         }
-        factors.retain(|_, exponent| *exponent != 0);
-        let factors: Vec<_> = factors.into_iter().collect();
+        factors.retain(|(_, exponent)| *exponent != 0);
         if coefficient.is_zero() || factors.is_empty() {
             return self.number(coefficient);
         }
@@ -454,12 +453,9 @@ impl Graph {
     /// The direct parts of a node.
     #[must_use]
     pub fn children(&self, id: NodeId) -> Vec<NodeId> {
-        match self.node(id) {
-            Node::Constant(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
-            Node::Sum { terms, .. } => terms.iter().map(|(_, term)| *term).collect(),
-            Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
-            Node::Call(_, arguments) => arguments.clone(),
-        }
+        let mut children = Vec::new();
+        self.each_child(id, |child| children.push(child));
+        children
     }
 
     /// Every node that the roots are made of, children before parents.
@@ -471,15 +467,60 @@ impl Graph {
     /// The nodes that the roots are made of, children before parents, without those that are `done`
     /// and what only those are made of. The cost is that of what is found, not of the graph.
     fn sweep(&self, roots: impl IntoIterator<Item = NodeId>, done: impl Fn(NodeId) -> bool) -> Vec<NodeId> {
-        let mut open: BTreeSet<NodeId> = roots.into_iter().collect();
-        let mut found = Vec::new();
-        while let Some(id) = open.pop_last() {
-            if !done(id) {
-                open.extend(self.children(id));
-                found.push(id);
+        let mut seen: FxHashSet<NodeId> = FxHashSet::default();
+        let mut found: Vec<NodeId> = roots.into_iter().filter(|&root| !done(root) && seen.insert(root)).collect();
+        let mut next = 0;
+        while next < found.len() {
+            let id = found[next];
+            next += 1;
+            self.each_child(id, |child| {
+                if !done(child) && seen.insert(child) {
+                    found.push(child);
+                }
+            });
+        }
+        found.sort_unstable();
+        found
+    }
+
+    fn each_child(&self, id: NodeId, mut visit: impl FnMut(NodeId)) {
+        match self.node(id) {
+            Node::Constant(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Sum { terms, .. } => {
+                for (_, term) in terms {
+                    visit(*term);
+                }
+            }
+            Node::Product { factors, .. } => {
+                for (base, _) in factors {
+                    visit(*base);
+                }
+            }
+            Node::Call(_, arguments) => {
+                for argument in arguments {
+                    visit(*argument);
+                }
             }
         }
-        found.reverse();
+    }
+
+    /// Every node that the roots are made of, children before parents, and of leaves nothing more.
+    pub(crate) fn reachable_but(&self, roots: &[NodeId], is_leaf: impl Fn(NodeId) -> bool) -> Vec<NodeId> {
+        let mut seen: FxHashSet<NodeId> = FxHashSet::default();
+        let mut found: Vec<NodeId> = roots.iter().copied().filter(|&root| seen.insert(root)).collect();
+        let mut next = 0;
+        while next < found.len() {
+            let id = found[next];
+            next += 1;
+            if !is_leaf(id) {
+                self.each_child(id, |child| {
+                    if seen.insert(child) {
+                        found.push(child);
+                    }
+                });
+            }
+        }
+        found.sort_unstable();
         found
     }
 
@@ -488,6 +529,18 @@ impl Graph {
     pub fn symbols_of(&self, roots: &[NodeId]) -> Vec<SymbolId> {
         self.reachable(roots).into_iter().filter_map(|id| self.as_symbol(id)).collect()
     }
+}
+
+/// The value of a key in an ascending list, put there if it is not.
+fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
+    let index = match list.binary_search_by_key(&key, |(key, _)| *key) {
+        Ok(index) => index,
+        Err(index) => {
+            list.insert(index, (key, empty));
+            index
+        }
+    };
+    &mut list[index].1
 }
 
 /// The exact square root of a ratio of squares.

@@ -1,8 +1,8 @@
 //! Equal but better: identities that make a formula shorter or more accurate, and the schedule that
 //! turns shared nodes into straight-line steps.
 //!
-//! The families of identities stand in files of their own: [`rational`], [`trigonometric`],
-//! [`modulus`], [`determinant`]. Each offers other forms of an expression; [`cost`] chooses among them, and
+//! The families of identities stand in files of their own: `rational`, `trigonometric`,
+//! `modulus`, `determinant`. Each offers other forms of an expression; [`cost()`] chooses among them, and
 //! [`equality`] proves that they are the same. What a rule takes for granted, such as a divisor that
 //! is not zero, is recorded by the graph.
 

@@ -1,6 +1,6 @@
 //! In what order the closures can be solved: the block-triangular form.
 //!
-//! Each unknown is given an equation of its own ([`matching`]). An equation then depends on those that
+//! Each unknown is given an equation of its own (`matching`). An equation then depends on those that
 //! determine its other unknowns; equations that depend on one another must be solved together. These
 //! groups are the strong components of the dependencies, and Tarjan's algorithm finds them in the
 //! order in which they can be solved (I. S. Duff, J. K. Reid, "An implementation of Tarjan's algorithm

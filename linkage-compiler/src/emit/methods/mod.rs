@@ -14,7 +14,7 @@ use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
 use quote::{ToTokens, TokenStreamExt, quote};
 
 use super::kernel::{self, Code, Given, Operand, Source};
-use super::names::{ident, unique};
+use super::names::{ident, string, unique};
 use super::pose::PosePlan;
 use super::types::field;
 use super::{Types, document};
@@ -243,6 +243,7 @@ impl Methods<'_> {
         }
         self.uses.extend(uses);
         let signature = without_unused(signature, &arguments, &self.reserved);
+        let lines = lines.iter().map(|line| string(line));
         self.functions.extend(quote!(#(#[doc = #lines])* #signature));
         // A body in its braces is one token, however long.
         self.functions.append(Group::new(Delimiter::Brace, tokens));

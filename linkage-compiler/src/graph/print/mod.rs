@@ -13,7 +13,9 @@ mod style;
 mod tests;
 mod unicode;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+
+use rustc_hash::FxHashMap;
 
 pub use name::Name;
 
@@ -53,7 +55,7 @@ struct Piece {
     hidden: bool,
 }
 
-type Pieces = BTreeMap<NodeId, Piece>;
+type Pieces = FxHashMap<NodeId, Piece>;
 
 /// Writes formulas of one graph; parts that they share are written once.
 pub struct Printer<'a> {
@@ -69,7 +71,7 @@ impl<'a> Printer<'a> {
     /// A printer that shows each symbol as `names` says.
     #[must_use]
     pub fn new(graph: &'a Graph, names: &'a dyn Fn(SymbolId) -> Name<'a>) -> Self {
-        let (unicode, latex, mathml) = (Pieces::new(), Pieces::new(), Pieces::new());
+        let (unicode, latex, mathml) = (Pieces::default(), Pieces::default(), Pieces::default());
         Self { graph, names, longest: LONGEST, unicode, latex, mathml }
     }
 
@@ -169,7 +171,7 @@ impl Graph {
     /// The expression in the notation of the `linkage!` language.
     #[must_use]
     pub fn text(&self, root: NodeId) -> String {
-        let mut pieces = Pieces::new();
+        let mut pieces = Pieces::default();
         for id in self.reachable(&[root]) {
             let reading = Reading { graph: self, names: None, measured: &pieces };
             let (body, binding) = reading.layout(id).spell(&reading, &language::Language, &pieces);

@@ -196,8 +196,13 @@ fn block_name(block: Option<usize>) -> String {
 
 /// The Greek letter of this name, or of this letter itself.
 fn greek(word: &str) -> Option<(&'static str, char)> {
-    let letter = |letter: char| word.strip_prefix(letter).is_some_and(str::is_empty);
-    GREEK.iter().copied().find(|&(name, sign)| name == word || letter(sign))
+    if !word.is_ascii() {
+        let mut letters = word.chars();
+        let (letter, rest) = (letters.next()?, letters.next());
+        return GREEK.iter().copied().find(|&(_, sign)| rest.is_none() && sign == letter);
+    }
+    // No name is a single letter, and most words are.
+    (word.len() > 1).then(|| GREEK.iter().copied().find(|&(name, _)| name == word))?
 }
 
 fn is_number(word: &str) -> bool {

@@ -7,7 +7,7 @@
 //! back, so that the work grows with the number of pairs.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
 
@@ -41,7 +41,7 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[ValueId]) {
 struct Sharing {
     kind: Kind,
     /// The parts of every sum or product.
-    lists: BTreeMap<ValueId, Vec<Signed>>,
+    lists: FxHashMap<ValueId, Vec<Signed>>,
     /// Which lists hold a pair.
     holders: FxHashMap<Pair, Vec<ValueId>>,
     queue: BinaryHeap<(usize, Reverse<Pair>)>,
@@ -49,7 +49,7 @@ struct Sharing {
 
 impl Sharing {
     fn new(kind: Kind, values: &[Value], roots: &[ValueId]) -> Self {
-        let mut lists = BTreeMap::new();
+        let mut lists = FxHashMap::default();
         let mut seen = vec![false; values.len()];
         let mut stack = roots.to_vec();
         while let Some(id) = stack.pop() {
@@ -68,8 +68,10 @@ impl Sharing {
             }
         }
         let mut sharing = Self { kind, lists, holders: FxHashMap::default(), queue: BinaryHeap::new() };
-        for (&list, parts) in &sharing.lists {
-            for pair in pairs(parts) {
+        let mut ordered: Vec<ValueId> = sharing.lists.keys().copied().collect();
+        ordered.sort_unstable();
+        for list in ordered {
+            for pair in pairs(&sharing.lists[&list]) {
                 sharing.holders.entry(pair).or_default().push(list);
             }
         }

@@ -31,15 +31,7 @@ impl<'a> Builder<'a> {
     }
 
     fn build(&mut self, roots: &[NodeId]) {
-        let mut wanted: BTreeSet<NodeId> = roots.iter().copied().collect();
-        let mut ordered = Vec::new();
-        while let Some(id) = wanted.pop_last() {
-            ordered.push(id);
-            if !self.is_leaf(id) {
-                wanted.extend(self.graph.children(id));
-            }
-        }
-        ordered.reverse();
+        let ordered = self.graph.reachable_but(roots, |id| self.is_leaf(id));
         let shared = self.shared_divisors(&ordered);
         for id in ordered {
             let signed = match self.leaf(id) {
@@ -75,15 +67,13 @@ impl<'a> Builder<'a> {
     fn shared_divisors(&self, nodes: &[NodeId]) -> BTreeSet<Vec<(NodeId, i32)>> {
         let mut count: BTreeMap<Vec<(NodeId, i32)>, usize> = BTreeMap::new();
         for &id in nodes {
-            if let Node::Product { factors, .. } = self.graph.node(id) {
+            if let Node::Product { factors, .. } = self.graph.node(id)
+                && factors.iter().any(|(_, exponent)| *exponent < 0)
+            {
                 *count.entry(divisor(factors)).or_default() += 1;
             }
         }
-        count
-            .into_iter()
-            .filter(|(divisor, uses)| *uses > 1 && !divisor.is_empty())
-            .map(|(divisor, _)| divisor)
-            .collect()
+        count.into_iter().filter(|(_, uses)| *uses > 1).map(|(divisor, _)| divisor).collect()
     }
 
     fn intern(&mut self, value: Value) -> ValueId {
@@ -162,7 +152,7 @@ impl<'a> Builder<'a> {
             return Signed { negative, value };
         }
         let divisor_value = self.multiply(Number::ONE, below);
-        let value = if shared.contains(&divisor(factors)) {
+        let value = if !shared.is_empty() && shared.contains(&divisor(factors)) {
             let one = self.constant(Number::ONE).value;
             let inverse = self.intern(Value::Quotient(one, divisor_value));
             above.push(inverse);
