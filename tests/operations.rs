@@ -1,5 +1,7 @@
 //! How much work the emitted kernels are: counts of operations, which no machine's mood changes.
 
+#[path = "source/families.rs"]
+mod families;
 mod source;
 
 use linkage_compiler::derivation::{Derivation, Form};
@@ -55,4 +57,20 @@ fn jansen_in_products() {
     println!("{found:?}");
     let limit = Operations { functions: 11, multiplications: 180, additions: 61, divisions: 5 };
     assert!(found.within(limit), "{found:?}");
+}
+
+/// Solved as one block, a chain's Jacobian would cost the square of its length.
+#[test]
+fn a_chain_grows_linearly() {
+    let root = "::linkage".parse().unwrap();
+    let compile = |loops: usize| {
+        let mechanism = linkage_compiler::read(families::chain(loops).parse().unwrap()).unwrap().remove(0);
+        let linkage_compiler::Expansion { nodes, operations, tokens } = linkage_compiler::compile(&mechanism, &root);
+        let Operations { functions, divisions, multiplications, additions } = operations;
+        [nodes, functions, divisions, multiplications, additions, tokens.to_string().len()]
+    };
+    for (whole, half) in compile(64).into_iter().zip(compile(32)) {
+        let ratio = whole as f64 / half as f64;
+        assert!((1.9..=2.1).contains(&ratio), "{half} became {whole}");
+    }
 }

@@ -19,7 +19,9 @@ use quote::quote;
 
 use derivation::Derivation;
 use diagnostics::Diagnostics;
+use emit::Emitted;
 use model::Mechanism;
+use simplify::schedule::Operations;
 
 /// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
 ///
@@ -32,16 +34,29 @@ pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
     let mechanisms: Vec<Mechanism> = trees.into_iter().map(|tree| model::resolve(tree, &mut diagnostics)).collect();
     if !diagnostics.is_empty() {
         let errors = diagnostics.to_tokens();
-        let stubs = mechanisms.iter().map(|mechanism| emit::mechanism(mechanism, None, root));
+        let stubs = mechanisms.iter().map(|mechanism| emit::mechanism(mechanism, None, root).tokens);
         return quote! { #errors #(#stubs)* };
     }
-    mechanisms
-        .iter()
-        .map(|mechanism| {
-            let mut derivations = derive(mechanism);
-            emit::mechanism(mechanism, Some(&mut derivations), root)
-        })
-        .collect()
+    mechanisms.iter().map(|mechanism| compile(mechanism, root).tokens).collect()
+}
+
+/// What a checked mechanism becomes, and how large it is.
+#[derive(Debug, Clone)]
+pub struct Expansion {
+    pub tokens: TokenStream,
+    /// The nodes of the expression graphs.
+    pub nodes: usize,
+    /// The work of all emitted functions, each called once.
+    pub operations: Operations,
+}
+
+/// Derives and emits a checked mechanism; `root` is the path of the `linkage` crate.
+#[must_use]
+pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Expansion {
+    let mut derivations = derive(mechanism);
+    let Emitted { tokens, operations } = emit::mechanism(mechanism, Some(&mut derivations), root);
+    let nodes = derivations.iter().map(|derivation| derivation.graph.len()).sum();
+    Expansion { tokens, nodes, operations }
 }
 
 /// The derivations of a checked mechanism, one for each driver.

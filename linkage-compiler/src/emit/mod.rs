@@ -13,6 +13,7 @@ use quote::{format_ident, quote};
 
 use crate::derivation::Derivation;
 use crate::model::{Driver, Mechanism};
+use crate::simplify::schedule::Operations;
 
 /// The names of the types of one driver of a mechanism.
 struct Types {
@@ -49,12 +50,20 @@ impl Types {
     }
 }
 
+/// What is emitted, and how much work its functions are, each called once.
+#[derive(Debug, Clone, Default)]
+pub struct Emitted {
+    pub tokens: TokenStream,
+    pub operations: Operations,
+}
+
 /// Everything emitted for one mechanism; `derivations` holds one for each driver, or none for a
 /// stub that only has the right names and types. `root` is the path of the `linkage` crate.
 #[must_use]
-pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, root: &TokenStream) -> TokenStream {
+pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, root: &TokenStream) -> Emitted {
     let private = quote!(#root::__private);
     let mut tokens = types::shared(mechanism, &private);
+    let mut operations = Operations::default();
     let mut derivations = derivations.map(|derivations| derivations.iter_mut());
     for driver in &mechanism.drivers {
         let names = Types::new(mechanism, driver);
@@ -63,7 +72,9 @@ pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, 
             .as_deref()
             .map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
         tokens.extend(types::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref(), &private));
-        tokens.extend(methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation, &private));
+        let emitted = methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation, &private);
+        tokens.extend(emitted.tokens);
+        operations = operations.plus(emitted.operations);
     }
-    tokens
+    Emitted { tokens, operations }
 }

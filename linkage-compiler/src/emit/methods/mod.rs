@@ -17,7 +17,7 @@ use super::kernel::{self, Code, Given, Operand, Source};
 use super::names::{ident, string, unique};
 use super::pose::PosePlan;
 use super::types::field;
-use super::{Types, document};
+use super::{Emitted, Types, document};
 use crate::derivation::{Derivation, Form, Formulas};
 use crate::graph::{NodeId, SymbolId};
 use crate::model::{Driver, Mechanism};
@@ -67,7 +67,7 @@ pub(super) fn of_driver(
     plan: Option<&PosePlan>,
     mut derivation: Option<&mut Derivation>,
     private: &TokenStream,
-) -> TokenStream {
+) -> Emitted {
     let name = |wish: &str| ident(&argument(mechanism, wish));
     let arguments = Arguments {
         pose: name("pose"),
@@ -107,7 +107,8 @@ pub(super) fn of_driver(
     if let Some((derivation, formulas)) = derivation.zip(formulas) {
         tokens.extend(document::constant(mechanism, driver, derivation, &formulas, &methods.kernels, private));
     }
-    tokens
+    let operations = methods.kernels.iter().fold(Operations::default(), |sum, (_, kernel)| sum.plus(*kernel));
+    Emitted { tokens, operations }
 }
 
 /// A derivation and the pose planned for it.

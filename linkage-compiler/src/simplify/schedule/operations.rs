@@ -14,6 +14,17 @@ pub struct Operations {
 }
 
 impl Operations {
+    /// Both together.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            multiplications: self.multiplications + other.multiplications,
+            additions: self.additions + other.additions,
+            divisions: self.divisions + other.divisions,
+            functions: self.functions + other.functions,
+        }
+    }
+
     /// Whether nothing is done more often than in `limit`.
     #[must_use]
     pub fn within(self, limit: Self) -> bool {

@@ -1,0 +1,34 @@
+//! Mechanisms of any size, as text.
+
+use std::fmt::Write;
+
+/// m four-bars, the rocker of each driving the next: m blocks of two unknowns.
+pub fn chain(loops: usize) -> String {
+    let (mut parameters, mut unknowns, mut closures) = (String::new(), String::new(), String::new());
+    for i in 0..loops {
+        let input = if i == 0 { "v".to_owned() } else { format!("s{}", i - 1) };
+        let _ = write!(parameters, "param a{i} = 1, b{i} = 3, c{i} = 2, d{i} = 3;");
+        let _ = write!(unknowns, "unknown t{i}, s{i};");
+        let _ = write!(closures, "loop a{i}@{input} + b{i}@t{i} = d{i}@0 + c{i}@s{i};");
+    }
+    let last = loops - 1;
+    format!("mechanism Chain {{ {parameters} input v; {unknowns} {closures} point P = c{last}@s{last}; }}")
+}
+
+/// m loops that all pass through all 2 m unknown links: one block of 2 m unknowns, J without zeros.
+pub fn dense(loops: usize) -> String {
+    let (mut parameters, mut unknowns, mut closures) = (String::new(), String::new(), String::new());
+    for i in 0..2 * loops {
+        let _ = write!(unknowns, "unknown t{i};");
+    }
+    for row in 0..loops {
+        let _ = write!(parameters, "param a{row} = 1, d{row} = 3;");
+        let _ = write!(closures, "loop a{row}@v");
+        for i in 0..2 * loops {
+            let _ = write!(parameters, "param b{row}_{i} = {};", 1 + row + i);
+            let _ = write!(closures, " + b{row}_{i}@t{i}");
+        }
+        let _ = write!(closures, " = d{row}@0;");
+    }
+    format!("mechanism Dense {{ {parameters} input v; {unknowns} {closures} point P = a0@v + b0_0@t0; }}")
+}
