@@ -7,7 +7,7 @@ mod families;
 
 use std::time::{Duration, Instant};
 
-use families::{chain, dense};
+use families::{chain, dense, nested, wide};
 use linkage_compiler::Expansion;
 use proc_macro2::TokenStream;
 
@@ -58,4 +58,20 @@ fn main() {
     table("The four-bar", four_bar, &[1]);
     table("A chain of four-bars", chain, &[1, 2, 4, 8, 16, 32, 64]);
     table("Loops through every unknown", dense, &[1, 2, 4, 8]);
+    println!("Hopeless inputs, refused or not\n     ms");
+    let hopeless = [
+        ("a sine of a sine of …, 1000 deep", nested(1000)),
+        ("a sine of a sine of …, 3000 deep", nested(3000)),
+        ("a sine of a sine of …, 10000 deep", nested(10_000)),
+        ("a sum of 1000 sines", wide(1000)),
+        ("a sum of 200000 sines, a million nodes", wide(200_000)),
+        ("a divisor that is zero", wide(1).replace("sin", "1/(v - v) + sin")),
+    ];
+    for (what, source) in hopeless {
+        let tokens: TokenStream = source.parse().expect("tokens");
+        let start = Instant::now();
+        let refused = linkage_compiler::expand(tokens, &"::linkage".parse().expect("a path")).to_string();
+        let verdict = if refused.contains("compile_error") { "refused" } else { "expanded" };
+        println!("{:8.1} {what}: {verdict}", start.elapsed().as_secs_f64() * 1e3);
+    }
 }

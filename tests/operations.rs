@@ -1,6 +1,7 @@
 //! How much work the emitted kernels are: counts of operations, which no machine's mood changes.
 
 #[path = "source/families.rs"]
+#[allow(dead_code)]
 mod families;
 mod source;
 

@@ -32,12 +32,20 @@ pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
     let trees = syntax::parse(input, &mut diagnostics);
     let mechanisms: Vec<Mechanism> = trees.into_iter().map(|tree| model::resolve(tree, &mut diagnostics)).collect();
+    let mut derivations: Vec<Vec<Derivation>> = Vec::new();
+    if diagnostics.is_empty() {
+        derivations = mechanisms.iter().map(derive).collect();
+        for (mechanism, derivations) in mechanisms.iter().zip(&derivations) {
+            derivation::check(mechanism, derivations, &mut diagnostics);
+        }
+    }
     if !diagnostics.is_empty() {
         let errors = diagnostics.to_tokens();
         let stubs = mechanisms.iter().map(|mechanism| emit::mechanism(mechanism, None, root).tokens);
         return quote! { #errors #(#stubs)* };
     }
-    mechanisms.iter().map(|mechanism| compile(mechanism, root).tokens).collect()
+    let derived = mechanisms.iter().zip(&mut derivations);
+    derived.map(|(mechanism, derivations)| emit::mechanism(mechanism, Some(derivations), root).tokens).collect()
 }
 
 /// What a checked mechanism becomes, and how large it is.

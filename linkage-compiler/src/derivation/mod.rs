@@ -4,6 +4,7 @@
 //! Rates and accelerations of the coordinates are names of their own and are never replaced
 //! by formulas: substituting them is what makes symbolic tools swell.
 
+mod check;
 mod formulas;
 mod linear;
 mod magnitude;
@@ -16,6 +17,7 @@ use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::{self, simplify};
 use crate::structure::{self, Method};
+pub use check::{LARGEST, check};
 pub use formulas::{Formulas, Inverse};
 pub use linear::{Form, solve_closed};
 
@@ -129,7 +131,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
     // A pose has the directions of the closures at hand.
     let given = angles(&graph, &residual);
     let outputs: Vec<NodeId> = mechanism.outputs.iter().map(|output| output.value).collect();
-    let outputs = simplify(&mut graph, &outputs, &given);
+    let outputs: Vec<NodeId> = outputs.into_iter().map(|output| simplify(&mut graph, &[output], &given)[0]).collect();
     let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates, &place_of);
     let points = mechanism.points.iter().map(|point| quantity(vec![point.x, point.y])).collect();
     let outputs = outputs.into_iter().map(|output| quantity(vec![output])).collect();

@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Punct, Spacing, TokenStream};
 use quote::{ToTokens, TokenStreamExt, quote};
 
 use super::expression::{define, direction_name, signed};
-use super::names::{Names, ident};
+use super::names::{Names, Taken, ident};
 use super::pose::PosePlan;
 use crate::derivation::Derivation;
 use crate::graph::{Function, NodeId, SymbolId};
@@ -56,7 +56,7 @@ pub(super) struct Code {
     pub results: Vec<Operand>,
     pub operations: Operations,
     /// The names that the body has given.
-    pub taken: BTreeSet<String>,
+    pub taken: Taken,
     /// The arguments that the body uses.
     pub arguments: Vec<Ident>,
     /// What the body uses of the runtime.

@@ -1,12 +1,11 @@
 //! Names of the emitted code: the user's own, and fresh ones beside them.
 
 use std::cell::Cell;
-use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Literal, Span};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::graph::{Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
@@ -30,14 +29,39 @@ impl Name {
     }
 }
 
+/// The names that are in use.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Taken {
+    names: FxHashSet<String>,
+    /// The last number given to a stem, so that a thousandth name is found as fast as the second.
+    numbers: FxHashMap<String, usize>,
+}
+
+impl Taken {
+    /// The name wished for, or one like it that is not taken.
+    pub(super) fn unique(&mut self, wish: &str) -> String {
+        if self.names.insert(wish.to_owned()) { wish.to_owned() } else { self.numbered(wish, 2) }
+    }
+
+    /// The stem with the next number, from `first` on.
+    fn numbered(&mut self, stem: &str, first: usize) -> String {
+        let number = self.numbers.entry(stem.to_owned()).or_insert(first);
+        loop {
+            let name = format!("{stem}_{number}");
+            *number += 1;
+            if self.names.insert(name.clone()) {
+                return name;
+            }
+        }
+    }
+}
+
 /// Gives every value of one kernel a name of its own.
 pub(super) struct Names<'a> {
     graph: &'a Graph,
-    taken: BTreeSet<String>,
+    taken: Taken,
     values: FxHashMap<ValueId, Name>,
     symbols: FxHashMap<SymbolId, Name>,
-    /// The last number given to a stem.
-    numbers: FxHashMap<String, usize>,
     /// Whether a number had to be made a scalar.
     numbers_taken: Cell<bool>,
     /// The factorisations, by block.
@@ -47,13 +71,13 @@ pub(super) struct Names<'a> {
 impl<'a> Names<'a> {
     /// `reserved` are names already in scope: arguments of the function and the user's names.
     pub(super) fn new(graph: &'a Graph, reserved: impl IntoIterator<Item = String>) -> Self {
-        let taken = reserved.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)).collect();
+        let names = reserved.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)).collect();
+        let taken = Taken { names, numbers: FxHashMap::default() };
         Self {
             graph,
             taken,
             values: FxHashMap::default(),
             symbols: FxHashMap::default(),
-            numbers: FxHashMap::default(),
             numbers_taken: Cell::new(false),
             factors: FxHashMap::default(),
         }
@@ -61,10 +85,10 @@ impl<'a> Names<'a> {
 
     /// A name not yet taken.
     pub(super) fn unique(&mut self, wish: &str) -> String {
-        unique(&mut self.taken, wish)
+        self.taken.unique(wish)
     }
 
-    pub(super) fn into_taken(self) -> BTreeSet<String> {
+    pub(super) fn into_taken(self) -> Taken {
         self.taken
     }
 
@@ -125,24 +149,13 @@ impl<'a> Names<'a> {
                 _ => "value_1".to_owned(),
             });
         let name = match wish.strip_suffix("_1") {
-            Some(stem) => self.numbered(stem),
+            Some(stem) => self.taken.numbered(stem, 1),
             None => self.unique(&wish),
         };
         let name = Name::new(name);
         let ident = name.ident.clone();
         self.values.insert(value, name);
         ident
-    }
-
-    fn numbered(&mut self, stem: &str) -> String {
-        let number = self.numbers.entry(stem.to_owned()).or_default();
-        loop {
-            *number += 1;
-            let name = format!("{stem}_{number}");
-            if self.taken.insert(name.clone()) {
-                return name;
-            }
-        }
     }
 
     /// A name made of the names of the parts.
@@ -195,26 +208,14 @@ impl<'a> Names<'a> {
     }
 }
 
-/// The name wished for, or one like it that is not taken.
-pub(super) fn unique(taken: &mut BTreeSet<String>, wish: &str) -> String {
-    let mut name = wish.to_owned();
-    let mut number = 2;
-    while !taken.insert(name.clone()) {
-        name = format!("{wish}_{number}");
-        number += 1;
-    }
-    name
-}
-
 fn is_one(schedule: &Schedule, value: ValueId) -> bool {
     matches!(schedule.value(value), Value::Constant(number) if number.is_one())
 }
 
 /// What to call the direction of an angle: after the coordinate, or after a short sum such as
 /// `phi2 - delta`.
-pub(super) fn angle_name(graph: &Graph, angle: NodeId) -> String {
+pub(super) fn angle_name(text: &str) -> String {
     let mut name = String::new();
-    let text = graph.text(angle);
     let mut separate = false;
     for letter in text.chars() {
         let word = match letter {

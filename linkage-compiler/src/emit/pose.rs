@@ -4,9 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::derivation::{Derivation, Row};
-use crate::graph::{Function, Node, NodeId, SymbolId};
+use crate::graph::{Function, Node, NodeId, SymbolId, Texts};
 
-use super::names::{angle_name, unique};
+use super::names::{Taken, angle_name};
 
 /// The fields of a pose.
 pub(super) struct PosePlan {
@@ -40,8 +40,9 @@ impl PosePlan {
                 _ => wanted.extend(graph.children(id)),
             }
         }
-        let mut taken = BTreeSet::new();
-        let mut unique = |wish: String| unique(&mut taken, &wish);
+        let mut texts = Texts::default();
+        let mut taken = Taken::default();
+        let mut unique = |wish: String| taken.unique(&wish);
         let mut determinants = Vec::new();
         for (number, block) in derivation.blocks.iter().enumerate() {
             if let Some(determinant) = block.determinant
@@ -52,7 +53,7 @@ impl PosePlan {
             }
         }
         let directions: BTreeMap<NodeId, String> =
-            angles.iter().map(|&angle| (angle, unique(angle_name(graph, angle)))).collect();
+            angles.iter().map(|&angle| (angle, unique(angle_name(&texts.of(graph, angle))))).collect();
         let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
         let mut values = Vec::new();
         for (index, coordinate) in derivation.coordinates.iter().enumerate() {

@@ -8,7 +8,7 @@ use super::names::ident;
 use super::pose::PosePlan;
 use super::{Types, expression};
 use crate::derivation::Derivation;
-use crate::graph::Number;
+use crate::graph::{Number, Texts};
 use crate::model::{Coordinate, Driver, Mechanism, Name};
 
 /// A field name with the user's span, so that editors lead from one to the other.
@@ -192,9 +192,10 @@ pub(super) fn of_driver(
 fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &TokenStream) -> TokenStream {
     let Some(derivation) = derivation else { return TokenStream::new() };
     let mut members = TokenStream::new();
+    let mut texts = Texts::default();
     for (angle, name) in &plan.directions {
         let ident = ident(name);
-        let text = format!(" The direction of `{}`.", derivation.graph.text(*angle));
+        let text = format!(" The direction of `{}`.", texts.of(&derivation.graph, *angle));
         members.extend(quote!(#[doc = #text] pub #ident: #private::UnitComplex<T>,));
     }
     for (index, name, _) in &plan.values {

@@ -16,7 +16,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
-pub use print::{Formula, Name, Notation, Printer};
+pub use print::{Formula, Name, Notation, Printer, Texts};
 
 /// An expression of a [`Graph`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -33,13 +33,13 @@ pub enum Node {
     Pi,
     Symbol(SymbolId),
     /// constant + sum of coefficient * term; terms ascend, no coefficient is zero, no term is
-    /// itself a sum, a constant or a product with a coefficient.
+    /// itself a constant, a product with a coefficient or a sum, but for long ones.
     Sum {
         constant: Number,
         terms: Vec<(Number, NodeId)>,
     },
     /// coefficient * product of base^exponent; bases ascend, no exponent is zero, no base is
-    /// itself a product.
+    /// itself a product, but for parts of long ones.
     Product {
         coefficient: Number,
         factors: Vec<(NodeId, i32)>,
@@ -54,6 +54,14 @@ pub enum Fault {
     NotFinite,
     ExponentOverflow,
 }
+
+/// A sum of more terms than this stays one term of a sum that it is put into: otherwise a chain in
+/// which each member adds to the one before would grow with the square of its length.
+const LONGEST_MERGED: usize = 64;
+
+/// A product has no more factors than this; longer ones are products of products. The derivative of a
+/// product has as many terms as factors, each as long as the product.
+const LONGEST_PRODUCT: usize = 16;
 
 /// What was taken for granted when something was cancelled: where it fails, the expression as
 /// written has no value although the shorter one may have.
@@ -265,7 +273,7 @@ impl Graph {
         for &(coefficient, item) in items {
             match self.node(item).clone() {
                 Node::Constant(value) => constant = constant.plus(coefficient.multiply(value)),
-                Node::Sum { constant: inner, terms } => {
+                Node::Sum { constant: inner, terms } if terms.len() <= LONGEST_MERGED => {
                     constant = constant.plus(coefficient.multiply(inner));
                     for (factor, term) in terms {
                         collect(coefficient.multiply(factor), term);
@@ -275,7 +283,9 @@ impl Graph {
                     let monic = self.monic(factors);
                     let total = coefficient.multiply(inner);
                     // 2 * (a + b) is a product with a coefficient whose monic part is a sum.
-                    if let Node::Sum { constant: k, terms } = self.node(monic).clone() {
+                    if let Node::Sum { constant: k, terms } = self.node(monic).clone()
+                        && terms.len() <= LONGEST_MERGED
+                    {
                         constant = constant.plus(total.multiply(k));
                         for (factor, term) in terms {
                             collect(total.multiply(factor), term);
@@ -299,6 +309,17 @@ impl Graph {
             &[(coefficient, term)] if constant.is_zero() => self.scale(coefficient, term),
             _ => self.intern(Node::Sum { constant, terms }),
         }
+    }
+
+    /// Products of products, none longer than [`LONGEST_PRODUCT`]; the same factors give the same tree.
+    fn grouped(&mut self, mut factors: Vec<(NodeId, i32)>) -> Vec<(NodeId, i32)> {
+        while factors.len() > LONGEST_PRODUCT {
+            let mut groups: Vec<(NodeId, i32)> =
+                factors.chunks(LONGEST_PRODUCT).map(|group| (self.monic(group.to_vec()), 1)).collect();
+            groups.sort_unstable();
+            factors = groups;
+        }
+        factors
     }
 
     fn monic(&mut self, factors: Vec<(NodeId, i32)>) -> NodeId {
@@ -363,6 +384,7 @@ impl Graph {
             }
         }
         factors.retain(|(_, exponent)| *exponent != 0);
+        let factors = self.grouped(factors);
         if coefficient.is_zero() || factors.is_empty() {
             return self.number(coefficient);
         }

@@ -30,7 +30,7 @@ impl Lowering<'_> {
     pub(super) fn value(&mut self, id: ExpressionId) -> Value {
         let expressions = self.expressions;
         let missing = (id.index() + 1).saturating_sub(self.values.len());
-        for (expression, region) in expressions.iter().skip(self.values.len()).take(missing) {
+        for (expression, region) in expressions.from(self.values.len()).take(missing) {
             let value = self.lower(expression, region);
             let value = match self.graph.take_fault() {
                 Some(fault) => {

@@ -12,6 +12,9 @@ use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::syntax::{self, ExpressionId, StatementKind};
 
+/// A mechanism of more expressions than this is refused: its derivatives are several times as many.
+const LARGEST: usize = 10_000;
+
 pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) -> Mechanism {
     let syntax::Mechanism { attributes, visibility, name, statements, expressions } = tree;
     let mut lowering = Lowering {
@@ -53,6 +56,12 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
     }
     for coordinate in &mut result.coordinates {
         coordinate.kind = kind_of(coordinate.symbol);
+    }
+    if result.graph.len() > LARGEST {
+        diagnostics.error(
+            result.name.span(),
+            format_args!("`{}` takes {} expressions, more than {LARGEST}; split it", result.name, result.graph.len()),
+        );
     }
     // What was not understood above would be missed below.
     if complete && diagnostics.is_empty() {

@@ -1,6 +1,6 @@
 //! The names of one mechanism: parameters, coordinates, `let`s and points share one space.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
@@ -26,7 +26,7 @@ enum Entry {
 #[derive(Debug, Default)]
 pub(super) struct Scope {
     entries: BTreeMap<String, Entry>,
-    used: Vec<SymbolId>,
+    used: BTreeSet<SymbolId>,
 }
 
 /// Words that are values of the language itself.
@@ -61,7 +61,7 @@ impl Scope {
         let text = name.to_string();
         match self.entries.get(&text) {
             Some(Entry::Symbol(symbol, node)) => {
-                self.used.push(*symbol);
+                self.used.insert(*symbol);
                 Value::Scalar(*node)
             }
             Some(Entry::Value(value)) => *value,

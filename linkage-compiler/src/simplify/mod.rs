@@ -25,11 +25,19 @@ pub use rational::factor;
 /// Rounds of rules over one node; each makes it cheaper, and three are the most that have been seen.
 const MOST_ROUNDS: usize = 8;
 
+/// Expressions of more nodes than this are left as they are: the cost of a form is that of all its
+/// nodes, so that the work grows with their square, and nobody reads a formula of this length.
+const LARGEST: usize = 400;
+
 /// The cheapest form that the identities find of each of `roots`, where sines and cosines of the
-/// angles in `given` are at hand.
+/// angles in `given` are at hand. Larger expressions than somebody would read are left as they are.
 pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -> Vec<NodeId> {
     let mut better: BTreeMap<NodeId, NodeId> = BTreeMap::new();
-    for id in graph.reachable(roots) {
+    let nodes = graph.reachable(roots);
+    if nodes.len() > LARGEST {
+        return roots.to_vec();
+    }
+    for id in nodes {
         let rebuilt = rebuilt(graph, id, &better);
         let mut forms = Forms { given, best: rebuilt, cost: cost(graph, rebuilt, given), conditions: BTreeSet::new() };
         // What one rule gives may suit another.

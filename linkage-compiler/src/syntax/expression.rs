@@ -79,9 +79,9 @@ impl Expressions {
         self.nodes[id.0].1
     }
 
-    /// The expressions in the order of their ids: operands before what they are part of.
-    pub fn iter(&self) -> impl Iterator<Item = (&Expression, Region)> {
-        self.nodes.iter().map(|(expression, region)| (expression, *region))
+    /// The expressions from a place on, in the order of their ids: operands before what they are part of.
+    pub fn from(&self, start: usize) -> impl Iterator<Item = (&Expression, Region)> {
+        self.nodes.iter().skip(start).map(|(expression, region)| (expression, *region))
     }
 }
 

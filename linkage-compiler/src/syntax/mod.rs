@@ -25,14 +25,23 @@ pub struct Mechanism {
 /// Parentheses deeper than this are refused; everything else in the parser is a loop.
 pub const DEEPEST_NESTING: usize = 64;
 
+/// An invocation of more tokens than this is refused before it is read: nobody waits for it.
+pub const LONGEST: usize = 100_000;
+
 /// Reads every mechanism of one invocation.
 pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism> {
-    if let Some(token) = too_deep(input.clone()) {
-        diagnostics.error(
-            token.span(),
-            format_args!("nested deeper than {DEEPEST_NESTING} levels; name the inner parts with `let`"),
-        );
-        return Vec::new();
+    match measure(input.clone()) {
+        Some(Excess::Depth(token)) => {
+            let advice = format_args!("nested deeper than {DEEPEST_NESTING} levels; name the inner parts with `let`");
+            diagnostics.error(token.span(), advice);
+            return Vec::new();
+        }
+        Some(Excess::Length(token)) => {
+            let advice = format_args!("longer than {LONGEST} words and signs; split the mechanism");
+            diagnostics.error(token.span(), advice);
+            return Vec::new();
+        }
+        None => {}
     }
     let parser = |stream: ParseStream| {
         let mut mechanisms = Vec::new();
@@ -75,16 +84,27 @@ fn skip_to_brace(stream: ParseStream) {
     }
 }
 
-/// The first token below the deepest level allowed.
-fn too_deep(input: TokenStream) -> Option<TokenTree> {
+/// The first token beyond what is allowed.
+enum Excess {
+    Depth(TokenTree),
+    Length(TokenTree),
+}
+
+fn measure(input: TokenStream) -> Option<Excess> {
     let mut levels = vec![input.into_iter()];
+    let mut count = 0;
     while let Some(level) = levels.last_mut() {
         match level.next() {
             None => drop(levels.pop()),
             // The braces of the mechanism are a level of their own.
-            Some(token) if levels.len() > DEEPEST_NESTING + 1 => return Some(token),
-            Some(TokenTree::Group(group)) => levels.push(group.stream().into_iter()),
-            Some(_) => {}
+            Some(token) if levels.len() > DEEPEST_NESTING + 1 => return Some(Excess::Depth(token)),
+            Some(token) if count == LONGEST => return Some(Excess::Length(token)),
+            Some(token) => {
+                count += 1;
+                if let TokenTree::Group(group) = token {
+                    levels.push(group.stream().into_iter());
+                }
+            }
         }
     }
     None

@@ -8,18 +8,19 @@ mod position;
 mod quantities;
 mod velocity;
 
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
 use quote::{ToTokens, TokenStreamExt, quote};
 
 use super::kernel::{self, Code, Given, Operand, Source};
-use super::names::{ident, string, unique};
+use super::names::{Taken, ident, string};
 use super::pose::PosePlan;
 use super::types::field;
 use super::{Emitted, Types, document};
 use crate::derivation::{Derivation, Form, Formulas};
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::{NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::schedule::{Operations, Stage};
 
@@ -115,6 +116,8 @@ pub(super) fn of_driver(
 struct Kernels<'a> {
     derivation: &'a mut Derivation,
     plan: &'a PosePlan,
+    /// The formulas written so far.
+    texts: RefCell<Texts>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -125,7 +128,7 @@ enum Family {
 
 impl<'a> Kernels<'a> {
     fn new(derivation: &'a mut Derivation, plan: &'a PosePlan) -> Self {
-        Self { derivation, plan }
+        Self { derivation, plan, texts: RefCell::default() }
     }
 
     fn rates(&self, of: &[usize]) -> Vec<SymbolId> {
@@ -149,7 +152,7 @@ impl<'a> Kernels<'a> {
     }
 
     fn text(&self, node: NodeId) -> String {
-        self.derivation.graph.text(node)
+        self.texts.borrow_mut().of(&self.derivation.graph, node)
     }
 }
 
@@ -396,13 +399,13 @@ fn check_finite(code: &mut Code, what: &str, values: &[Operand]) -> TokenStream 
 }
 
 /// Gives a name to every result that is not one already.
-fn bind(results: &[Operand], wishes: &[String], taken: &mut BTreeSet<String>) -> (TokenStream, Vec<Operand>) {
+fn bind(results: &[Operand], wishes: &[String], taken: &mut Taken) -> (TokenStream, Vec<Operand>) {
     let mut bindings = TokenStream::new();
     let mut names = Vec::new();
     for (result, wish) in results.iter().zip(wishes) {
         names.push(match result {
             Operand::Formula(formula) => {
-                let name = ident(&unique(taken, wish));
+                let name = ident(&taken.unique(wish));
                 bindings.extend(quote!(let #name = #formula;));
                 Operand::Name(name)
             }

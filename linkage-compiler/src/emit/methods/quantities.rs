@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::kernel::Operand;
-use super::super::names::{ident, unique};
+use super::super::names::ident;
 use super::super::types::field;
 use super::{
     Body, Family, Kernels, Methods, bind, check_finite, columns_of, component_names, fenced, lines, literal, member,
@@ -140,7 +140,7 @@ impl Methods<'_> {
             let (mut values, mut bindings, mut flat) = (Vec::new(), TokenStream::new(), Vec::new());
             for (name, parts) in names.iter().zip(code.results.chunks(dimension * v)) {
                 let matrix = columns_of(parts, dimension);
-                let ratio = ident(&unique(&mut code.taken, &format!("{name}_ratios")));
+                let ratio = ident(&code.taken.unique(&format!("{name}_ratios")));
                 bindings.extend(quote!(let #ratio = #matrix;));
                 values.push(ratio.clone());
                 flat.push(ratio);

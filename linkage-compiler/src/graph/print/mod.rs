@@ -167,18 +167,30 @@ fn is_hidden(pieces: &Pieces, id: NodeId) -> bool {
     pieces.get(&id).is_some_and(|piece| piece.hidden)
 }
 
-impl Graph {
-    /// The expression in the notation of the `linkage!` language.
-    #[must_use]
-    pub fn text(&self, root: NodeId) -> String {
-        let mut pieces = Pieces::default();
-        for id in self.reachable(&[root]) {
-            let reading = Reading { graph: self, names: None, measured: &pieces };
-            let (body, binding) = reading.layout(id).spell(&reading, &language::Language, &pieces);
+/// Texts of one graph in the notation of the `linkage!` language; what they share is written once.
+#[derive(Debug, Default)]
+pub struct Texts(Pieces);
+
+impl Texts {
+    /// The expression as text.
+    pub fn of(&mut self, graph: &Graph, root: NodeId) -> String {
+        let pieces = &mut self.0;
+        for id in graph.sweep([root], |id| pieces.contains_key(&id)) {
+            let reading = Reading { graph, names: None, measured: pieces };
+            let (body, binding) = reading.layout(id).spell(&reading, &language::Language, pieces);
             let fits = body.len() <= LONGEST;
             pieces.insert(id, Piece::new(body, binding, fits, &language::Language));
         }
-        pieces.remove(&root).map(|piece| piece.body).unwrap_or_default()
+        pieces.get(&root).map(|piece| piece.body.clone()).unwrap_or_default()
+    }
+}
+
+impl Graph {
+    /// The expression in the notation of the `linkage!` language; of many, [`Texts`] write what they
+    /// share once.
+    #[must_use]
+    pub fn text(&self, root: NodeId) -> String {
+        Texts::default().of(self, root)
     }
 
     /// The expression in a mathematical notation, each symbol as `names` says; of many formulas a

@@ -142,14 +142,24 @@ pub fn schedule(
 }
 
 impl Value {
-    fn parts(&self) -> Vec<ValueId> {
+    fn each_part(&self, mut visit: impl FnMut(ValueId)) {
         match self {
-            Self::Symbol(_) | Self::Direction(..) | Self::Constant(_) => Vec::new(),
-            Self::Sum(terms) => terms.iter().map(|term| term.value).collect(),
-            Self::Product(factors) => factors.clone(),
-            Self::Quotient(above, below) => vec![*above, *below],
-            Self::Square(base) => vec![*base],
-            Self::Call(_, arguments) => arguments.iter().map(|argument| argument.value).collect(),
+            Self::Symbol(_) | Self::Direction(..) | Self::Constant(_) => {}
+            Self::Sum(parts) | Self::Call(_, parts) => {
+                for part in parts {
+                    visit(part.value);
+                }
+            }
+            Self::Product(factors) => {
+                for factor in factors {
+                    visit(*factor);
+                }
+            }
+            Self::Quotient(above, below) => {
+                visit(*above);
+                visit(*below);
+            }
+            Self::Square(base) => visit(*base),
         }
     }
 
@@ -191,7 +201,7 @@ fn used(values: &[Value], lines: &[Line]) -> Vec<ValueId> {
     let mut stack: Vec<ValueId> = lines.iter().flat_map(line_values).collect();
     while let Some(id) = stack.pop() {
         if !std::mem::replace(&mut seen[id.0], true) {
-            stack.extend(values[id.0].parts());
+            values[id.0].each_part(|part| stack.push(part));
         }
     }
     (0..values.len()).filter(|&index| seen[index]).map(ValueId).collect()

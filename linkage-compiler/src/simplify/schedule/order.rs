@@ -26,7 +26,7 @@ impl Ordering {
         while let Some(id) = stack.pop() {
             uses[id.0] += 1;
             if uses[id.0] == 1 {
-                stack.extend(values[id.0].parts());
+                values[id.0].each_part(|part| stack.push(part));
             }
         }
         let used = (0..values.len()).filter(|&index| uses[index] > 0);
@@ -50,15 +50,18 @@ impl Ordering {
             }
             if !expanded {
                 stack.push((id, true));
-                stack.extend(self.values[id.0].parts().into_iter().rev().map(|part| (part, false)));
+                let first = stack.len();
+                self.values[id.0].each_part(|part| stack.push((part, false)));
+                // The first part is to come out first.
+                stack[first..].reverse();
                 continue;
             }
             if named && id == root {
                 self.height[id.0] = Some(0);
                 continue;
             }
-            let inside = self.values[id.0].parts().iter().filter_map(|part| self.height[part.0]).max();
-            let height = inside.map_or(0, |inside| inside + 1);
+            let mut height = 0;
+            self.values[id.0].each_part(|part| height = height.max(self.height[part.0].map_or(0, |inside| inside + 1)));
             let deserves = self.uses[id.0] > 1 || height > DEEPEST_INLINE;
             self.height[id.0] = Some(if self.values[id.0].is_leaf() || self.pair(id) {
                 0

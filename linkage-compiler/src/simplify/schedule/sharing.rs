@@ -15,7 +15,7 @@ use super::{Signed, Value, ValueId};
 
 /// Of a sum or product of more parts than this only neighbours are paired: the pairs of a list grow
 /// with the square of its length.
-const LONGEST_PAIRED: usize = 24;
+const LONGEST_PAIRED: usize = 8;
 
 /// Two parts of one list, the older first, and whether their signs differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -31,53 +31,56 @@ enum Kind {
     Products,
 }
 
+/// The parts of every sum, or of every product.
+type Lists = FxHashMap<ValueId, Vec<Signed>>;
+
 /// Rewrites the sums and products that `roots` stand on until no two of them share a pair.
 pub(super) fn share(values: &mut Vec<Value>, roots: &[ValueId]) {
-    for kind in [Kind::Sums, Kind::Products] {
-        Sharing::new(kind, values, roots).run(values);
+    let (mut sums, mut products) = (Lists::default(), Lists::default());
+    let mut seen = vec![false; values.len()];
+    let mut stack = roots.to_vec();
+    while let Some(id) = stack.pop() {
+        if std::mem::replace(&mut seen[id.0], true) {
+            continue;
+        }
+        match &values[id.0] {
+            Value::Sum(terms) => drop(sums.insert(id, terms.clone())),
+            Value::Product(factors) => {
+                let plain = |&value: &ValueId| Signed { negative: false, value };
+                products.insert(id, factors.iter().map(plain).collect());
+            }
+            _ => {}
+        }
+        values[id.0].each_part(|part| stack.push(part));
+    }
+    for (kind, lists) in [(Kind::Sums, sums), (Kind::Products, products)] {
+        if lists.len() > 1 {
+            Sharing::new(kind, lists).run(values);
+        }
     }
 }
 
 struct Sharing {
     kind: Kind,
-    /// The parts of every sum or product.
-    lists: FxHashMap<ValueId, Vec<Signed>>,
+    lists: Lists,
     /// Which lists hold a pair.
     holders: FxHashMap<Pair, Vec<ValueId>>,
     queue: BinaryHeap<(usize, Reverse<Pair>)>,
 }
 
 impl Sharing {
-    fn new(kind: Kind, values: &[Value], roots: &[ValueId]) -> Self {
-        let mut lists = FxHashMap::default();
-        let mut seen = vec![false; values.len()];
-        let mut stack = roots.to_vec();
-        while let Some(id) = stack.pop() {
-            if std::mem::replace(&mut seen[id.0], true) {
-                continue;
-            }
-            stack.extend(values[id.0].parts());
-            match (&values[id.0], kind) {
-                (Value::Sum(terms), Kind::Sums) => {
-                    lists.insert(id, terms.clone());
-                }
-                (Value::Product(factors), Kind::Products) => {
-                    lists.insert(id, factors.iter().map(|&value| Signed { negative: false, value }).collect());
-                }
-                _ => {}
-            }
-        }
-        let mut sharing = Self { kind, lists, holders: FxHashMap::default(), queue: BinaryHeap::new() };
-        let mut ordered: Vec<ValueId> = sharing.lists.keys().copied().collect();
+    fn new(kind: Kind, lists: Lists) -> Self {
+        let mut ordered: Vec<ValueId> = lists.keys().copied().collect();
         ordered.sort_unstable();
+        let mut holders: FxHashMap<Pair, Vec<ValueId>> = FxHashMap::default();
         for list in ordered {
-            for pair in pairs(&sharing.lists[&list]) {
-                sharing.holders.entry(pair).or_default().push(list);
+            for pair in pairs(&lists[&list]) {
+                holders.entry(pair).or_default().push(list);
             }
         }
-        let frequent = sharing.holders.iter().filter(|(_, of)| of.len() > 1);
-        sharing.queue = frequent.map(|(&pair, of)| (of.len(), Reverse(pair))).collect();
-        sharing
+        let frequent = holders.iter().filter(|(_, of)| of.len() > 1);
+        let queue = frequent.map(|(&pair, of)| (of.len(), Reverse(pair))).collect();
+        Self { kind, lists, holders, queue }
     }
 
     fn run(mut self, values: &mut Vec<Value>) {
@@ -149,6 +152,7 @@ fn sign_of(parts: &[Signed], value: ValueId) -> bool {
     parts.iter().any(|part| part.value == value && part.negative)
 }
 
+/// No part stands twice in a list: equal factors are a square, equal terms have a coefficient.
 fn pairs(parts: &[Signed]) -> Vec<Pair> {
     let mut pairs = Vec::new();
     for (index, a) in parts.iter().enumerate() {
@@ -156,9 +160,7 @@ fn pairs(parts: &[Signed]) -> Vec<Pair> {
         for b in parts.iter().take(index + reach).skip(index + 1) {
             let opposed = a.negative != b.negative;
             let pair = Pair { first: a.value.min(b.value), second: a.value.max(b.value), opposed };
-            if !pairs.contains(&pair) {
-                pairs.push(pair);
-            }
+            pairs.push(pair);
         }
     }
     pairs
