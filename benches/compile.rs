@@ -4,10 +4,13 @@
 
 #[path = "../tests/source/families.rs"]
 mod families;
+#[path = "../tests/source/hopeless.rs"]
+mod hopeless;
 
 use std::time::{Duration, Instant};
 
-use families::{chain, dense, nested, wide};
+use families::{chain, dense};
+use hopeless::{nested, wide};
 use linkage_compiler::Expansion;
 use proc_macro2::TokenStream;
 
@@ -59,7 +62,7 @@ fn main() {
     table("A chain of four-bars", chain, &[1, 2, 4, 8, 16, 32, 64]);
     table("Loops through every unknown", dense, &[1, 2, 4, 8]);
     println!("Hopeless inputs, refused or not\n     ms");
-    let hopeless = [
+    let inputs = [
         ("a sine of a sine of …, 1000 deep", nested(1000)),
         ("a sine of a sine of …, 3000 deep", nested(3000)),
         ("a sine of a sine of …, 10000 deep", nested(10_000)),
@@ -67,7 +70,7 @@ fn main() {
         ("a sum of 200000 sines, a million nodes", wide(200_000)),
         ("a divisor that is zero", wide(1).replace("sin", "1/(v - v) + sin")),
     ];
-    for (what, source) in hopeless {
+    for (what, source) in inputs {
         let tokens: TokenStream = source.parse().expect("tokens");
         let start = Instant::now();
         let refused = linkage_compiler::expand(tokens, &"::linkage".parse().expect("a path")).to_string();

@@ -1,7 +1,6 @@
 //! How much work the emitted kernels are: counts of operations, which no machine's mood changes.
 
 #[path = "source/families.rs"]
-#[allow(dead_code)]
 mod families;
 mod source;
 
@@ -60,18 +59,27 @@ fn jansen_in_products() {
     assert!(found.within(limit), "{found:?}");
 }
 
+/// Nodes, operations of each kind and bytes of an expansion.
+fn size(source: &str) -> [usize; 6] {
+    let mechanism = linkage_compiler::read(source.parse().unwrap()).unwrap().remove(0);
+    let expansion = linkage_compiler::compile(&mechanism, &"::linkage".parse().unwrap());
+    let Operations { functions, divisions, multiplications, additions } = expansion.operations;
+    [expansion.nodes, functions, divisions, multiplications, additions, expansion.tokens.to_string().len()]
+}
+
 /// Solved as one block, a chain's Jacobian would cost the square of its length.
 #[test]
 fn a_chain_grows_linearly() {
-    let root = "::linkage".parse().unwrap();
-    let compile = |loops: usize| {
-        let mechanism = linkage_compiler::read(families::chain(loops).parse().unwrap()).unwrap().remove(0);
-        let linkage_compiler::Expansion { nodes, operations, tokens } = linkage_compiler::compile(&mechanism, &root);
-        let Operations { functions, divisions, multiplications, additions } = operations;
-        [nodes, functions, divisions, multiplications, additions, tokens.to_string().len()]
-    };
-    for (whole, half) in compile(64).into_iter().zip(compile(32)) {
+    for (whole, half) in size(&families::chain(64)).into_iter().zip(size(&families::chain(32))) {
         let ratio = whole as f64 / half as f64;
         assert!((1.9..=2.1).contains(&ratio), "{half} became {whole}");
+    }
+}
+
+/// Loops through every unknown have a Jacobian without zeros: the square of their number.
+#[test]
+fn dense_loops_grow_with_their_jacobian() {
+    for (whole, half) in size(&families::dense(8)).into_iter().zip(size(&families::dense(4))) {
+        assert!(whole as f64 <= 4.2 * half as f64, "{half} became {whole}");
     }
 }

@@ -19,10 +19,18 @@ pub(super) struct Source {
     pub argument: Option<Ident>,
     /// The expression taken apart, such as `*rate`.
     pub from: TokenStream,
-    /// The type whose fields are bound; without one it is a column vector.
-    pub of: Option<TokenStream>,
+    /// What holds them.
+    pub of: Shape,
     /// The fields, and the symbols they are known by.
     pub fields: Vec<(String, SymbolId)>,
+}
+
+/// What is taken apart.
+pub(super) enum Shape {
+    /// The named fields of a type.
+    Fields(TokenStream),
+    /// The columns of a matrix with as many rows.
+    Columns(usize),
 }
 
 /// What a kernel starts from.
@@ -133,9 +141,14 @@ fn introduced(stage: &Stage) -> Vec<SymbolId> {
 fn pattern(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<TokenStream> {
     let from = &source.from;
     let local = |symbol: &SymbolId| used.contains(symbol).then(|| names.symbol(*symbol));
-    let Some(of) = &source.of else {
-        let parts = source.fields.iter().map(|(_, symbol)| local(symbol).unwrap_or_else(|| ident("_")));
-        return Some(quote!(let [[#(#parts),*]] = #from;));
+    let of = match &source.of {
+        Shape::Fields(of) => of,
+        Shape::Columns(rows) => {
+            let parts = source.fields.iter().map(|(_, symbol)| local(symbol).unwrap_or_else(|| ident("_")));
+            let parts: Vec<Ident> = parts.collect();
+            let columns = parts.chunks(*rows).map(|column| quote!([#(#column),*]));
+            return Some(quote!(let [#(#columns),*] = #from;));
+        }
     };
     let fields = source.fields.iter().filter_map(|(field, symbol)| {
         let name = local(symbol)?;

@@ -1,11 +1,12 @@
 //! Psi and its Jacobians.
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Ident, Punct, Spacing, TokenStream};
+use quote::{TokenStreamExt, quote};
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use super::super::kernel::Operand;
 use super::super::names::ident;
+use super::super::types::field;
 use super::{Body, Kernels, Methods, columns_of, fenced, literal};
 use crate::derivation::{Derivation, Row};
 use crate::graph::NodeId;
@@ -84,7 +85,6 @@ impl Methods<'_> {
         };
         let order = self.mechanism.coordinate_order(self.driver);
         let (unknowns, inputs, all) = (list(&self.driver.unknowns), list(&self.driver.inputs), list(&order));
-        let full = derivation.map(|derivation| derivation.jacobian.clone());
         let j = derivation.map(Derivation::jacobian_unknowns);
         let a = derivation.map(Derivation::jacobian_inputs);
         let mut docs = vec![format!("The constraint Jacobian J = `Psi_u`; its columns are {unknowns}.")];
@@ -100,7 +100,22 @@ impl Methods<'_> {
         docs.extend(kernels.zip(a.as_ref()).map(|(k, rows)| matrix(k, rows, "A")).unwrap_or_default());
         self.matrix_function(kernels, "jacobian_inputs", &docs, &quote!(SMatrix<T, #nu, #nv>), a.map(|rows| (rows, v)));
         let docs = [format!("The whole constraint Jacobian `Psi_q`; its columns are {all}.")];
-        self.matrix_function(kernels, "jacobian", &docs, &quote!(SMatrix<T, #nu, #nq>), full.map(|rows| (rows, u + v)));
+        let names = |indices: &[usize]| -> Vec<Ident> {
+            indices.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect()
+        };
+        let (unknowns, inputs, all) = (names(&self.driver.unknowns), names(&self.driver.inputs), names(&order));
+        let pose = self.arguments.pose.clone();
+        let body = kernels.map(|_| {
+            let columns = quote! {
+                let [#(#unknowns),*] = self.jacobian_unknowns(#pose).data.0;
+                let [#(#inputs),*] = self.jacobian_inputs(#pose).data.0;
+                SMatrix::from([#(#all),*])
+            };
+            Body::plain(columns, [&pose], [])
+        });
+        let pose_type = self.types.pose.clone();
+        let signature = quote!(#[must_use] pub fn jacobian(&self, #pose: &#pose_type<T>) -> SMatrix<T, #nu, #nq>);
+        self.function(&docs, &signature, body);
     }
 
     fn determinant(&mut self, kernels: Option<&mut Kernels>) {
@@ -134,20 +149,21 @@ impl Methods<'_> {
             }
             blocks_docs.extend(fenced(lines.into_iter()));
             count = factors.len();
-            let graph = &mut kernels.derivation.graph;
-            let product: Vec<_> = factors.iter().map(|&factor| (factor, 1)).collect();
-            let product = graph.product(&product);
-            let product = if kernels.derivation.is_odd { graph.negate(product) } else { product };
-            let write = |result: Vec<NodeId>| {
-                let mut stages = stages.clone();
-                stages.push(Stage::Return(result));
-                self.on_pose(kernels, Vec::new(), &stages)
+            let minus = kernels.derivation.is_odd.then(|| quote!(-));
+            let names: Vec<Ident> = match count {
+                1 => vec![ident("determinant")],
+                _ => (1..=count).map(|number| ident(&format!("determinant_{number}"))).collect(),
             };
-            let code = write(vec![product]);
-            let results = &code.results;
-            let tail = quote!(#(#results)*);
-            whole = Some(Body::new(code, tail, []));
-            let code = write(factors);
+            let mut product = quote!(let [#(#names),*] = self.block_determinants(#pose); #minus);
+            for (index, name) in names.into_iter().enumerate() {
+                if index > 0 {
+                    product.append(Punct::new('*', Spacing::Alone));
+                }
+                product.append(name);
+            }
+            whole = Some(Body::plain(product, [&pose], []));
+            stages.push(Stage::Return(factors));
+            let code = self.on_pose(kernels, Vec::new(), &stages);
             let results = &code.results;
             let tail = quote!([#(#results),*]);
             parts = Some(Body::new(code, tail, []));

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
 use quote::{ToTokens, TokenStreamExt, quote};
 
-use super::kernel::{self, Code, Given, Operand, Source};
+use super::kernel::{self, Code, Given, Operand, Shape, Source};
 use super::names::{Taken, ident, string};
 use super::pose::PosePlan;
 use super::types::field;
@@ -179,7 +179,7 @@ impl Methods<'_> {
 
     fn parameters(&self) -> Source {
         let fields = self.mechanism.parameters.iter().map(|p| (p.name.field.clone(), p.symbol)).collect();
-        Source { argument: None, from: quote!(*self), of: Some(quote!(Self)), fields }
+        Source { argument: None, from: quote!(*self), of: Shape::Fields(quote!(Self)), fields }
     }
 
     fn pose_source(&self, kernels: &Kernels) -> Source {
@@ -189,7 +189,7 @@ impl Methods<'_> {
         // Directions are fields as well, so that the pattern is never complete.
         fields.extend(kernels.plan.directions.values().map(|field| (field.clone(), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
-        Source { argument: Some(pose.clone()), from: quote!(*#pose), of: Some(quote!(#of)), fields }
+        Source { argument: Some(pose.clone()), from: quote!(*#pose), of: Shape::Fields(quote!(#of)), fields }
     }
 
     fn coordinates(
@@ -200,7 +200,7 @@ impl Methods<'_> {
     ) -> Source {
         let fields = kernels.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c))).collect();
         let of = &self.types.coordinates;
-        Source { argument: Some(from.clone()), from: quote!(*#from), of: Some(quote!(#of)), fields }
+        Source { argument: Some(from.clone()), from: quote!(*#from), of: Shape::Fields(quote!(#of)), fields }
     }
 
     fn inputs(
@@ -217,7 +217,7 @@ impl Methods<'_> {
             .map(|c| (c.name.clone(), symbol(c)))
             .collect();
         let of = &self.types.inputs;
-        Source { argument: Some(from.clone()), from: quote!(#from.into()), of: Some(quote!(#of)), fields }
+        Source { argument: Some(from.clone()), from: quote!(#from.into()), of: Shape::Fields(quote!(#of)), fields }
     }
 
     /// A kernel on a pose and what else it is given.
@@ -279,7 +279,11 @@ impl Body {
     }
 
     /// Lines that compute nothing themselves.
-    fn plain<const N: usize>(tokens: TokenStream, arguments: [&Ident; N], uses: [&'static str; 1]) -> Self {
+    fn plain<const N: usize, const M: usize>(
+        tokens: TokenStream,
+        arguments: [&Ident; N],
+        uses: [&'static str; M],
+    ) -> Self {
         let arguments = arguments.into_iter().cloned().collect();
         Self { tokens, operations: Operations::default(), arguments, uses: BTreeSet::from(uses) }
     }

@@ -1,18 +1,16 @@
 //! Points and outputs: value, rate, acceleration and their own velocity ratios.
 
-use std::collections::BTreeSet;
-
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::super::kernel::Operand;
+use super::super::kernel::{Operand, Shape, Source};
 use super::super::names::ident;
 use super::super::types::field;
 use super::{
     Body, Family, Kernels, Methods, bind, check_finite, columns_of, component_names, fenced, lines, literal, member,
 };
 use crate::derivation::{Formulas, Quantity};
-use crate::graph::{Graph, NodeId, SymbolId};
+use crate::graph::NodeId;
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
@@ -127,16 +125,20 @@ impl Methods<'_> {
         let laws = laws.unwrap_or_default();
         // W_l = l_u W + l_v.
         let code = kernels.map(|kernels| {
-            let mut stages = kernels.ratio_stages();
             let mut nodes = Vec::new();
             for quantity in quantities(kernels) {
                 for input in 0..v {
                     nodes.extend(quantity.jacobian.iter().map(|row| kernels.derivation.quantity_ratio(row, input)));
                 }
             }
-            stages.push(Stage::Return(nodes));
-            let stages = needed(&kernels.derivation.graph, stages);
-            let mut code = self.on_pose(kernels, Vec::new(), &stages);
+            let ratios = kernels.derivation.ratios.iter().flatten().map(|&ratio| (String::new(), ratio)).collect();
+            let ratios = Source {
+                argument: Some(pose.clone()),
+                from: quote!(self.velocity_ratios(#pose)?.data.0),
+                of: Shape::Columns(self.driver.unknowns.len()),
+                fields: ratios,
+            };
+            let mut code = self.on_pose(kernels, vec![ratios], &[Stage::Return(nodes)]);
             let (mut values, mut bindings, mut flat) = (Vec::new(), TokenStream::new(), Vec::new());
             for (name, parts) in names.iter().zip(code.results.chunks(dimension * v)) {
                 let matrix = columns_of(parts, dimension);
@@ -147,6 +149,9 @@ impl Methods<'_> {
             }
             let checks = flat.iter().map(|ratio| quote!(finite_matrix(Self::NAME, #word, &#ratio)?;));
             let tail = quote!(#bindings #(#checks)* Ok(#group { #(#names: #values),* }));
+            // A call costs what the ratios cost, too.
+            let ratios = self.kernels.iter().find(|(name, _)| name == "velocity_ratios");
+            code.operations = ratios.map_or(code.operations, |(_, ratios)| code.operations.plus(*ratios));
             Body::new(code, tail, ["finite_matrix"])
         });
         let name = ident(&format!("{word}_ratios"));
@@ -161,19 +166,4 @@ impl Methods<'_> {
             quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
         self.function(&docs, &signature, code);
     }
-}
-
-/// The stages without the names that nothing refers to; verdicts stay, since what they guard against
-/// is said of the mechanism and not of one point.
-fn needed(graph: &Graph, stages: Vec<Stage>) -> Vec<Stage> {
-    let mut used: BTreeSet<SymbolId> = BTreeSet::new();
-    let mut kept = Vec::new();
-    for stage in stages.into_iter().rev() {
-        if !matches!(&stage, Stage::Let { symbol, .. } if !used.contains(symbol)) {
-            used.extend(graph.symbols_of(&stage.nodes()));
-            kept.push(stage);
-        }
-    }
-    kept.reverse();
-    kept
 }

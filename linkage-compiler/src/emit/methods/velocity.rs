@@ -2,7 +2,7 @@
 
 use quote::quote;
 
-use super::super::kernel::Source;
+use super::super::kernel::{Shape, Source};
 use super::{Body, Kernels, Methods, check_finite, columns_of, fenced, lines, literal};
 use crate::derivation::{Form, Formulas};
 use crate::graph::SymbolId;
@@ -33,7 +33,8 @@ impl Methods<'_> {
             let mut stages = kernels.derivation.solution(&[(side, symbols.clone())], Form::Factored);
             stages.push(Stage::Return(kernels.variables(&symbols)));
             let fields = sides.iter().map(|&side| (String::new(), side)).collect();
-            let source = Source { argument: Some(right.clone()), from: quote!(#right.data.0), of: None, fields };
+            let source =
+                Source { argument: Some(right.clone()), from: quote!(#right.data.0), of: Shape::Columns(u), fields };
             let code = self.on_pose(kernels, vec![source], &stages);
             let results = &code.results;
             let tail = quote!(Ok(SVector::from([#(#results),*])));

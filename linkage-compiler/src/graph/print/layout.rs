@@ -150,20 +150,6 @@ fn is_decimal(value: Number) -> bool {
 }
 
 impl Layout {
-    /// The nodes that it shows directly.
-    pub(super) fn parts(&self) -> Vec<NodeId> {
-        let of = |quotient: &Quotient| -> Vec<NodeId> {
-            let factors = quotient.above.iter().chain(&quotient.below);
-            factors.filter_map(|factor| if let Factor::Power(base, _) = factor { Some(*base) } else { None }).collect()
-        };
-        match self {
-            Self::Pi | Self::Symbol(_) => Vec::new(),
-            Self::Sum(terms) => terms.iter().flat_map(|(_, term)| of(term)).collect(),
-            Self::Product(_, quotient) => of(quotient),
-            Self::Call(_, arguments) => arguments.clone(),
-        }
-    }
-
     /// The expression in a style, its parts being written already.
     pub(super) fn spell(&self, reading: &Reading<'_, '_>, style: &dyn Style, parts: &Pieces) -> (String, Binding) {
         match self {

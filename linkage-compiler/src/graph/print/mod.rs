@@ -13,14 +13,12 @@ mod style;
 mod tests;
 mod unicode;
 
-use std::collections::BTreeSet;
-
 use rustc_hash::FxHashMap;
 
 pub use name::Name;
 
 use super::{Graph, NodeId, SymbolId};
-use layout::{Layout, Reading};
+use layout::Reading;
 use style::{Binding, Style};
 
 /// A text longer than this is of no use to a reader, and a shared graph can unfold
@@ -85,71 +83,50 @@ impl<'a> Printer<'a> {
 
     /// The expression in one notation.
     pub fn write(&mut self, root: NodeId, notation: Notation) -> String {
-        self.measure(root);
-        match notation {
-            Notation::Unicode => {}
-            Notation::Latex | Notation::MathMl => self.spell(root, notation),
-        }
-        self.pieces(notation).get(&root).map(|piece| piece.body.clone()).unwrap_or_default()
+        self.prepare(root);
+        self.body(root, notation)
     }
 
     /// The expression in every notation.
     pub fn formula(&mut self, root: NodeId) -> Formula {
+        self.prepare(root);
         Formula {
-            unicode: self.write(root, Notation::Unicode),
-            latex: self.write(root, Notation::Latex),
-            mathml: self.write(root, Notation::MathMl),
+            unicode: self.body(root, Notation::Unicode),
+            latex: self.body(root, Notation::Latex),
+            mathml: self.body(root, Notation::MathMl),
         }
     }
 
-    fn pieces(&mut self, notation: Notation) -> &mut Pieces {
-        match notation {
-            Notation::Unicode => &mut self.unicode,
-            Notation::Latex => &mut self.latex,
-            Notation::MathMl => &mut self.mathml,
-        }
+    fn body(&self, root: NodeId, notation: Notation) -> String {
+        let pieces = match notation {
+            Notation::Unicode => &self.unicode,
+            Notation::Latex => &self.latex,
+            Notation::MathMl => &self.mathml,
+        };
+        pieces.get(&root).map(|piece| piece.body.clone()).unwrap_or_default()
     }
 
-    /// Writes Unicode, whose length decides what is hidden in all notations.
-    fn measure(&mut self, root: NodeId) {
+    /// Writes every part that is not written yet; the length of the Unicode decides what is hidden in
+    /// all notations.
+    fn prepare(&mut self, root: NodeId) {
         for id in self.graph.sweep([root], |id| self.unicode.contains_key(&id)) {
             let reading = Reading { graph: self.graph, names: Some(self.names), measured: &self.unicode };
-            let (body, binding) = reading.layout(id).spell(&reading, &unicode::Unicode, &self.unicode);
+            let layout = reading.layout(id);
+            let spell = |style: &dyn Style, pieces: &Pieces| layout.spell(&reading, style, pieces);
+            let (body, binding) = spell(&unicode::Unicode, &self.unicode);
             let fits = body.chars().count() <= self.longest;
+            let others = [(&latex::Latex as &dyn Style, &mut self.latex), (&mathml::MathMl, &mut self.mathml)];
+            for (style, pieces) in others {
+                let piece = if fits {
+                    let (body, binding) = spell(style, pieces);
+                    Piece { body, binding, hidden: false }
+                } else {
+                    Piece::ellipsis(style)
+                };
+                pieces.insert(id, piece);
+            }
             self.unicode.insert(id, Piece::new(body, binding, fits, &unicode::Unicode));
         }
-    }
-
-    /// Writes what can be seen of a measured expression.
-    fn spell(&mut self, root: NodeId, notation: Notation) {
-        let style: &dyn Style = match notation {
-            Notation::Unicode => return,
-            Notation::Latex => &latex::Latex,
-            Notation::MathMl => &mathml::MathMl,
-        };
-        let mut pieces = std::mem::take(self.pieces(notation));
-        let reading = Reading { graph: self.graph, names: Some(self.names), measured: &self.unicode };
-        let mut seen: Vec<(NodeId, Option<Layout>)> = Vec::new();
-        let mut open = BTreeSet::from([root]);
-        while let Some(id) = open.pop_last() {
-            if pieces.contains_key(&id) {
-                continue;
-            }
-            let layout = (!is_hidden(&self.unicode, id)).then(|| reading.layout(id));
-            open.extend(layout.iter().flat_map(Layout::parts));
-            seen.push((id, layout));
-        }
-        for (id, layout) in seen.into_iter().rev() {
-            let piece = match layout {
-                Some(layout) => {
-                    let (body, binding) = layout.spell(&reading, style, &pieces);
-                    Piece { body, binding, hidden: false }
-                }
-                None => Piece::ellipsis(style),
-            };
-            pieces.insert(id, piece);
-        }
-        *self.pieces(notation) = pieces;
     }
 }
 
