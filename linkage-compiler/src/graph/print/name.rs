@@ -1,7 +1,7 @@
 //! How names are shown: Greek letters, subscripts, dots.
 
 use super::mathml::escape;
-use super::unicode::{Shift, shifted};
+use super::unicode::{Shift, dotted, shifted};
 use super::{Formula, Notation};
 
 /// What a symbol stands for, which tells how it is shown. Names are those of the language, such
@@ -212,7 +212,7 @@ fn is_number(word: &str) -> bool {
 fn unicode(name: &str, dots: &str) -> String {
     let Split { base, subscripts } = Split::new(name);
     let word = |word: &str| greek(word).map_or_else(|| word.to_owned(), |(_, letter)| letter.to_string());
-    let mut text = word(base) + dots;
+    let mut text = dotted(&word(base), dots);
     for (index, subscript) in subscripts.into_iter().enumerate() {
         // Few letters have a form below the line: words stand behind an underscore.
         if index == 0 && is_number(subscript) {

@@ -90,3 +90,45 @@ pub(super) fn shifted(digits: &str, shift: Shift) -> String {
     };
     digits.chars().map(place).collect()
 }
+
+/// The letters that have a form of their own with a dot above, and with two, in the order of those
+/// forms: text in normal form C (Unicode Standard Annex 15) writes these as one character.
+const DOTTED: [(char, &str, &str); 2] = [
+    ('\u{307}', "ABCDEFGHIMNOPRSTWXYZabcdefghmnoprstwxyz", "ȦḂĊḊĖḞĠḢİṀṄȮṖṘṠṪẆẊẎŻȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż"),
+    ('\u{308}', "AEHIOUWXYaehiotuwxyΙΥιυ", "ÄËḦÏÖÜẄẌŸäëḧïöẗüẅẍÿΪΫϊϋ"),
+];
+
+/// A word with dots, if any, above its last letter.
+pub(super) fn dotted(word: &str, dots: &str) -> String {
+    let (Some(last), Some(dot)) = (word.chars().next_back(), dots.chars().next()) else { return word.to_owned() };
+    let table = DOTTED.iter().find(|(accent, ..)| *accent == dot);
+    let whole = table.and_then(|(_, plain, dotted)| {
+        plain.chars().zip(dotted.chars()).find(|(plain, _)| *plain == last).map(|(_, dotted)| dotted)
+    });
+    match whole {
+        Some(whole) => word[..word.len() - last.len_utf8()].to_owned() + whole.encode_utf8(&mut [0; 4]),
+        None => format!("{word}{dots}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dots_stand_on_the_last_letter_in_normal_form() {
+        let found = [
+            ("x", "\u{307}"),
+            ("crank", "\u{307}"),
+            ("angle", "\u{308}"),
+            ("θ", "\u{307}"),
+            ("φ", "\u{308}"),
+            ("x", ""),
+        ]
+        .map(|(word, dots)| dotted(word, dots));
+        assert_eq!(found, ["ẋ", "crank\u{307}", "anglë", "θ\u{307}", "φ\u{308}", "x"]);
+        for (accent, plain, dotted) in DOTTED {
+            assert_eq!(plain.chars().count(), dotted.chars().count(), "{accent}");
+        }
+    }
+}
