@@ -271,27 +271,26 @@ impl Graph {
             *entry = entry.plus(coefficient);
         };
         for &(coefficient, item) in items {
-            match self.node(item).clone() {
-                Node::Constant(value) => constant = constant.plus(coefficient.multiply(value)),
+            match &self.nodes[item.index()] {
+                Node::Constant(value) => constant = constant.plus(coefficient.multiply(*value)),
                 Node::Sum { constant: inner, terms } if terms.len() <= LONGEST_MERGED => {
-                    constant = constant.plus(coefficient.multiply(inner));
+                    constant = constant.plus(coefficient.multiply(*inner));
                     for (factor, term) in terms {
-                        collect(coefficient.multiply(factor), term);
+                        collect(coefficient.multiply(*factor), *term);
                     }
                 }
                 Node::Product { coefficient: inner, factors } if !inner.is_one() => {
-                    let monic = self.monic(factors);
-                    let total = coefficient.multiply(inner);
+                    let total = coefficient.multiply(*inner);
+                    let monic = self.monic(factors.clone());
                     // 2 * (a + b) is a product with a coefficient whose monic part is a sum.
-                    if let Node::Sum { constant: k, terms } = self.node(monic).clone()
-                        && terms.len() <= LONGEST_MERGED
-                    {
-                        constant = constant.plus(total.multiply(k));
-                        for (factor, term) in terms {
-                            collect(total.multiply(factor), term);
+                    match &self.nodes[monic.index()] {
+                        Node::Sum { constant: k, terms } if terms.len() <= LONGEST_MERGED => {
+                            constant = constant.plus(total.multiply(*k));
+                            for (factor, term) in terms {
+                                collect(total.multiply(*factor), *term);
+                            }
                         }
-                    } else {
-                        collect(total, monic);
+                        _ => collect(total, monic),
                     }
                 }
                 _ => collect(coefficient, item),
