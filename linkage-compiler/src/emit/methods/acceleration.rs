@@ -2,7 +2,7 @@
 
 use quote::quote;
 
-use super::{Body, Kernels, Methods, check_finite, fenced, lines, literal};
+use super::{Body, Kernels, Methods, argument_of, check_finite, fenced, lines, literal};
 use crate::derivation::Form;
 use crate::simplify::schedule::Stage;
 
@@ -40,8 +40,8 @@ impl Methods<'_> {
             let tail = quote!(#finite Ok(#coordinates { #(#fields: #results),* }));
             code = Some(Body::new(written, tail, []));
         }
-        let signature =
-            quote!(#[must_use] pub fn gamma(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>) -> SVector<T, #nu>);
+        let [own, own_rate] = [&pose, &rate].map(|argument| argument_of(argument, gamma.as_ref()));
+        let signature = quote!(#[must_use] pub fn gamma(&self, #own: &#pose_type<T>, #own_rate: &#coordinates<T>) -> SVector<T, #nu>);
         self.function(&docs, &signature, gamma);
         let docs = lines([
             "The acceleration q'' at the velocity q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
@@ -49,6 +49,8 @@ impl Methods<'_> {
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
         ]);
+        let [pose, rate, acceleration] =
+            [&pose, &rate, &acceleration].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn acceleration(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>, #acceleration: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
         self.function(&docs, &signature, code);
     }

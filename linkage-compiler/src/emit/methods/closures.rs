@@ -7,7 +7,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 use super::super::kernel::Operand;
 use super::super::names::ident;
 use super::super::types::field;
-use super::{Body, Kernels, Methods, columns_of, fenced, literal};
+use super::{Body, Kernels, Methods, argument_of, columns_of, fenced, literal};
 use crate::derivation::{Derivation, Row};
 use crate::graph::NodeId;
 use crate::simplify::schedule::Stage;
@@ -21,9 +21,8 @@ impl Methods<'_> {
         of: &TokenStream,
         matrix: Option<(Vec<Row>, usize)>,
     ) {
-        let (pose, pose_type) = (&self.arguments.pose, &self.types.pose);
+        let pose_type = self.types.pose.clone();
         let function = ident(name);
-        let signature = quote!(#[must_use] pub fn #function(&self, #pose: &#pose_type<T>) -> #of);
         let code = kernels.zip(matrix).map(|(kernels, (rows, columns))| {
             let entries: Vec<(usize, usize, NodeId)> = (0..columns)
                 .flat_map(|c| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?))))
@@ -35,6 +34,8 @@ impl Methods<'_> {
             let matrix = matrix_of(values, rows.len(), columns);
             Body::new(code, matrix, [])
         });
+        let pose = argument_of(&self.arguments.pose, code.as_ref());
+        let signature = quote!(#[must_use] pub fn #function(&self, #pose: &#pose_type<T>) -> #of);
         self.function(docs, &signature, code);
     }
 
@@ -114,13 +115,13 @@ impl Methods<'_> {
             Body::plain(columns, [&pose], [])
         });
         let pose_type = self.types.pose.clone();
+        let pose = argument_of(&pose, body.as_ref());
         let signature = quote!(#[must_use] pub fn jacobian(&self, #pose: &#pose_type<T>) -> SMatrix<T, #nu, #nq>);
         self.function(&docs, &signature, body);
     }
 
     fn determinant(&mut self, kernels: Option<&mut Kernels>) {
         let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
-        let signature = quote!(#[must_use] pub fn determinant(&self, #pose: &#pose_type<T>) -> T);
         let mut docs = vec!["det J, zero in the singular configurations.".to_owned()];
         let mut blocks_docs =
             vec!["The determinants of the blocks of J, in the order in which the blocks are solved.".to_owned()];
@@ -168,7 +169,10 @@ impl Methods<'_> {
             let tail = quote!([#(#results),*]);
             parts = Some(Body::new(code, tail, []));
         }
+        let own = argument_of(&pose, whole.as_ref());
+        let signature = quote!(#[must_use] pub fn determinant(&self, #own: &#pose_type<T>) -> T);
         self.function(&docs, &signature, whole);
+        let pose = argument_of(&pose, parts.as_ref());
         let count = literal(count);
         let signature = quote!(#[must_use] pub fn block_determinants(&self, #pose: &#pose_type<T>) -> [T; #count]);
         self.function(&blocks_docs, &signature, parts);

@@ -234,7 +234,7 @@ impl Methods<'_> {
     fn function(&mut self, docs: &[String], signature: &TokenStream, body: Option<Body>) {
         let mut lines: Vec<String> =
             docs.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") }).collect();
-        let Body { tokens, operations, arguments, uses } = body.unwrap_or_else(|| Body {
+        let Body { tokens, operations, uses, .. } = body.unwrap_or_else(|| Body {
             tokens: quote!(::core::unreachable!()),
             operations: Operations::default(),
             arguments: Vec::new(),
@@ -246,7 +246,6 @@ impl Methods<'_> {
             self.kernels.push((name_of(signature), operations));
         }
         self.uses.extend(uses);
-        let signature = without_unused(signature, &arguments, &self.reserved);
         let lines = lines.iter().map(|line| string(line));
         self.functions.extend(quote!(#(#[doc = #lines])* #signature));
         // A body in its braces is one token, however long.
@@ -309,21 +308,9 @@ fn name_of(signature: &TokenStream) -> String {
     tokens.next().map(|name| name.to_string()).unwrap_or_default()
 }
 
-/// A signature whose arguments are marked as unused where they are.
-fn without_unused(signature: &TokenStream, used: &[Ident], arguments: &[String]) -> TokenStream {
-    let tokens = signature.clone().into_iter().map(|token| match token {
-        TokenTree::Group(group) if group.delimiter() == Delimiter::Parenthesis => {
-            let inside = group.stream().into_iter().map(|token| match token {
-                TokenTree::Ident(name) if !used.contains(&name) && arguments.iter().any(|a| name == a) => {
-                    TokenTree::Ident(ident(&format!("_{name}")))
-                }
-                token => token,
-            });
-            TokenTree::Group(Group::new(Delimiter::Parenthesis, inside.collect()))
-        }
-        token => token,
-    });
-    tokens.collect()
+/// The name of an argument in the signature of a function: with an underscore if the body ignores it.
+fn argument_of(name: &Ident, body: Option<&Body>) -> Ident {
+    if body.is_some_and(|body| body.arguments.contains(name)) { name.clone() } else { ident(&format!("_{name}")) }
 }
 
 /// A size without suffix, as people write it.

@@ -6,7 +6,7 @@ use quote::quote;
 use super::super::kernel::{Given, Operand};
 use super::super::types::field;
 use super::super::{Types, kernel};
-use super::{Arguments, Body, Kernels, Methods, bind, check_finite, component_names, lines};
+use super::{Arguments, Body, Kernels, Methods, argument_of, bind, check_finite, component_names, lines};
 use crate::derivation::{Form, Quantity};
 use crate::simplify::schedule::Stage;
 
@@ -14,7 +14,6 @@ impl Methods<'_> {
     pub(super) fn motion(&mut self, kernels: Option<&mut Kernels>) {
         let Types { coordinates, inputs, motion, points, outputs, .. } = self.types;
         let Arguments { q, rate, acceleration, .. } = &self.arguments;
-        let signature = quote!(pub fn motion(&self, #q: &#coordinates<T>, #rate: impl Into<#inputs<T>>, #acceleration: impl Into<#inputs<T>>) -> Result<#motion<T>, Error>);
         let code = kernels.map(|kernels| {
             let unknowns = kernels.derivation.unknowns.clone();
             let all: Vec<usize> = (0..kernels.derivation.coordinates.len()).collect();
@@ -108,6 +107,8 @@ impl Methods<'_> {
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
         ]);
+        let [q, rate, acceleration] = [q, rate, acceleration].map(|argument| argument_of(argument, code.as_ref()));
+        let signature = quote!(pub fn motion(&self, #q: &#coordinates<T>, #rate: impl Into<#inputs<T>>, #acceleration: impl Into<#inputs<T>>) -> Result<#motion<T>, Error>);
         self.function(&docs, &signature, code);
     }
 }

@@ -6,7 +6,7 @@ use quote::quote;
 use super::super::kernel;
 use super::super::kernel::Given;
 use super::super::names::ident;
-use super::{Arguments, Body, Kernels, Methods, member};
+use super::{Arguments, Body, Kernels, Methods, argument_of, member};
 use crate::graph::{NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
@@ -15,7 +15,6 @@ impl Methods<'_> {
         let Arguments { q, .. } = &self.arguments;
         let q = q.clone();
         let (coordinates, pose) = (&self.types.coordinates, &self.types.pose);
-        let signature = quote!(fn pose_at(&self, #q: &#coordinates<T>) -> #pose<T>);
         let body = kernels.map(|kernels| {
             let mut stages = Vec::new();
             let blocks = &kernels.derivation.blocks;
@@ -54,7 +53,9 @@ impl Methods<'_> {
             Body::new(code, quote!(#pose { #fields }), [])
         });
         let docs = ["The position at these coordinates, ready for use: one sine and cosine for each angle.".to_owned()];
-        self.function(&docs, &quote!(#[must_use] pub #signature), body);
+        let q = argument_of(&q, body.as_ref());
+        let signature = quote!(#[must_use] pub fn pose_at(&self, #q: &#coordinates<T>) -> #pose<T>);
+        self.function(&docs, &signature, body);
 
         // The name of a function is never that of a `let`, so the trait's can be called beside it.
         let (guess, solution) = (quote!(&#coordinates<T>), quote!(Solution<#coordinates<T>>));

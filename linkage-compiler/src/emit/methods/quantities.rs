@@ -7,7 +7,8 @@ use super::super::kernel::{Operand, Shape, Source};
 use super::super::names::ident;
 use super::super::types::field;
 use super::{
-    Body, Family, Kernels, Methods, bind, check_finite, columns_of, component_names, fenced, lines, literal, member,
+    Body, Family, Kernels, Methods, argument_of, bind, check_finite, columns_of, component_names, fenced, lines,
+    literal, member,
 };
 use crate::derivation::{Formulas, Quantity};
 use crate::graph::NodeId;
@@ -96,6 +97,8 @@ impl Methods<'_> {
             }
             docs.extend(lines(["", "# Errors", "`NotFinite` where a formula has no finite value."]));
             let function = ident(&name);
+            let [pose, rate, acceleration] =
+                [&pose, &rate, &acceleration].map(|argument| argument_of(argument, code.as_ref()));
             let more = [quote!(, #rate: &#coordinates<T>), quote!(, #acceleration: &#coordinates<T>)];
             let more = &more[..order];
             let signature =
@@ -162,6 +165,7 @@ impl Methods<'_> {
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
         ]));
+        let pose = argument_of(&pose, code.as_ref());
         let signature =
             quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
         self.function(&docs, &signature, code);

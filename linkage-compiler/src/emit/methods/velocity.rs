@@ -3,7 +3,7 @@
 use quote::quote;
 
 use super::super::kernel::{Shape, Source};
-use super::{Body, Kernels, Methods, check_finite, columns_of, fenced, lines, literal};
+use super::{Body, Kernels, Methods, argument_of, check_finite, columns_of, fenced, lines, literal};
 use crate::derivation::{Form, Formulas};
 use crate::graph::SymbolId;
 use crate::simplify::schedule::Stage;
@@ -41,7 +41,8 @@ impl Methods<'_> {
             Body::new(code, tail, [])
         });
         let docs = lines(["The x of J x = `right`.", "", "# Errors", "`Singular` where J has no inverse."]);
-        let signature = quote!(pub fn solve_jacobian(&self, #pose: &#pose_type<T>, #right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error>);
+        let [own, right] = [&pose, &right].map(|argument| argument_of(argument, code.as_ref()));
+        let signature = quote!(pub fn solve_jacobian(&self, #own: &#pose_type<T>, #right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error>);
         self.function(&docs, &signature, code);
 
         let code = kernels.as_deref_mut().map(|kernels| {
@@ -71,8 +72,9 @@ impl Methods<'_> {
             }
         }
         docs.extend(lines(["", "# Errors", "`Singular` where J has no inverse."]));
+        let own = argument_of(&pose, code.as_ref());
         let signature =
-            quote!(pub fn velocity_ratios(&self, #pose: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
+            quote!(pub fn velocity_ratios(&self, #own: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
         self.function(&docs, &signature, code);
 
         let code = kernels.map(|kernels| {
@@ -94,6 +96,7 @@ impl Methods<'_> {
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
         ]);
+        let [pose, rate] = [&pose, &rate].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn velocity(&self, #pose: &#pose_type<T>, #rate: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
         self.function(&docs, &signature, code);
     }

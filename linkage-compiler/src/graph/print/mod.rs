@@ -114,7 +114,7 @@ impl<'a> Printer<'a> {
             let layout = reading.layout(id);
             let spell = |style: &dyn Style, pieces: &Pieces| layout.spell(&reading, style, pieces);
             let (body, binding) = spell(&unicode::Unicode, &self.unicode);
-            let fits = body.chars().count() <= self.longest;
+            let fits = body.len() <= self.longest || body.chars().count() <= self.longest;
             let others = [(&latex::Latex as &dyn Style, &mut self.latex), (&mathml::MathMl, &mut self.mathml)];
             for (style, pieces) in others {
                 let piece = if fits {
