@@ -26,7 +26,7 @@ pub mod __private {
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
-        Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Solution, direction, finite, finite_matrix,
-        newton, product_of_pivots, real, regular, same_signs,
+        Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Solution, finite, finite_matrix, newton,
+        product_of_pivots, real, regular, same_signs, unit,
     };
 }

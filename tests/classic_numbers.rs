@@ -73,7 +73,8 @@ fn four_bar_of_pmks() {
     printed(motion.acceleration.theta4, 0.778_081_940_185_146, 15);
     let c = motion.points.c;
     printed(c.velocity.x, 1.628_716_946_874_227, 15);
-    printed(c.velocity.y, 0.183_896_069_934_297, 15);
+    // A difference of terms ten times its size.
+    printed(c.velocity.y, 0.183_896_069_934_297, 14);
     printed(c.acceleration.x, -2.257_927_844_372_62, 14);
     printed(c.acceleration.y, -1.141_877_840_986_47, 14);
 }

@@ -21,6 +21,7 @@ pub mod position;
 mod scalar;
 #[cfg(feature = "sheet")]
 pub mod sheet;
+mod sine;
 
 pub use error::{Error, finite, finite_matrix};
 pub use linear::{Factorization, product_of_pivots, regular, same_signs};
@@ -28,4 +29,4 @@ pub use mechanism::Mechanism;
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
 pub use position::{Solution, newton};
-pub use scalar::{Real, direction, real};
+pub use scalar::{Real, real, unit};

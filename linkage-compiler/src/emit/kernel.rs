@@ -10,7 +10,7 @@ use super::names::{Names, Taken, ident};
 use super::pose::PosePlan;
 use crate::derivation::Derivation;
 use crate::graph::{Function, NodeId, SymbolId};
-use crate::simplify::schedule::{Line, Operations, Schedule, Signed, Stage, Value, schedule};
+use crate::simplify::schedule::{Line, Operations, Schedule, Signed, Stage, Value, ValueId, schedule};
 
 /// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
 /// fields is used.
@@ -81,7 +81,7 @@ pub(super) fn write(
 ) -> Code {
     let directions: BTreeSet<NodeId> = given.pose.map(|pose| pose.angles().collect()).unwrap_or_default();
     let schedule = schedule(&derivation.graph, stages, &directions, named);
-    let own: BTreeSet<SymbolId> = stages.iter().flat_map(introduced).collect();
+    let own: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
     let used: BTreeSet<SymbolId> = schedule
         .used()
         .iter()
@@ -125,15 +125,6 @@ fn used_by(line: &Line) -> Option<&'static str> {
         Line::Factor { .. } => Some("Factorization"),
         Line::Pivots { .. } => Some("product_of_pivots"),
         _ => None,
-    }
-}
-
-fn introduced(stage: &Stage) -> Vec<SymbolId> {
-    match stage {
-        Stage::Let { symbol, .. } => vec![*symbol],
-        Stage::Solve { targets, .. } => targets.clone(),
-        Stage::Pivots { symbol, .. } => vec![*symbol],
-        _ => Vec::new(),
     }
 }
 
@@ -211,6 +202,17 @@ fn write_line(
             let argument = if names.get(schedule, angle.value).is_some() { argument } else { quote!((#argument)) };
             let (sine, cosine) = (names.invent(schedule, *sine), names.invent(schedule, *cosine));
             body.extend(quote!(let (#sine, #cosine) = #argument.sin_cos();));
+        }
+        Line::SinesCosines(several) => {
+            let angles: Vec<_> = several.iter().map(|one| signed(names, schedule, one.angle)).collect();
+            let mut name =
+                |value: Option<ValueId>| value.map_or_else(|| ident("_"), |value| names.invent(schedule, value));
+            let pairs = several.iter().map(|one| {
+                let (sine, cosine) = (name(one.sine), name(one.cosine));
+                quote!((#sine, #cosine))
+            });
+            let pairs: Vec<_> = pairs.collect();
+            body.extend(quote!(let [#(#pairs),*] = T::sines_cosines([#(#angles),*]);));
         }
         Line::Name { symbol, value } => {
             let number = matches!(schedule.value(value.value), Value::Constant(_));

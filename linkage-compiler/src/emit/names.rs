@@ -9,8 +9,17 @@ use crate::graph::{Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 8] =
-    ["direction", "finite", "finite_matrix", "newton", "product_of_pivots", "real", "regular", "same_signs"];
+pub(super) const RUNTIME_FUNCTIONS: [&str; 9] = [
+    "direction",
+    "directions",
+    "finite",
+    "finite_matrix",
+    "newton",
+    "product_of_pivots",
+    "real",
+    "regular",
+    "same_signs",
+];
 
 /// A name longer than this says less than a number.
 const LONGEST: usize = 36;
@@ -180,7 +189,10 @@ impl<'a> Names<'a> {
             }
             Value::Square(base) => Some(format!("{}_squared", self.text(schedule, *base)?)),
             Value::Call(function, arguments) => match arguments.as_slice() {
-                &[argument] => Some(format!("{}_{}", function.operation().name, self.text(schedule, argument.value)?)),
+                &[argument] => {
+                    let inner = self.text(schedule, argument.value).or_else(|| self.describe(schedule, argument.value));
+                    Some(format!("{}_{}", function.operation().name, inner?))
+                }
                 _ => None,
             },
             _ => None,

@@ -7,7 +7,7 @@ use super::super::kernel;
 use super::super::kernel::Given;
 use super::super::names::ident;
 use super::{Arguments, Body, Kernels, Methods, argument_of, member};
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::{Function, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
@@ -24,31 +24,36 @@ impl Methods<'_> {
                 .iter()
                 .filter_map(|(block, _, _)| Some(blocks[*block].determinant?.value))
                 .collect();
-            let angles: Vec<NodeId> = kernels.plan.angles().collect();
+            let graph = &mut kernels.derivation.graph;
+            let circular: Vec<NodeId> = kernels
+                .plan
+                .angles()
+                .flat_map(|angle| [Function::Cos, Function::Sin].map(|function| graph.call(function, &[angle])))
+                .collect();
             let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
             let bare = kernels.variables(&bare);
-            stages.push(Stage::Return(values.iter().chain(&angles).chain(&bare).copied().collect()));
+            stages.push(Stage::Return(values.iter().chain(&circular).chain(&bare).copied().collect()));
             let sources = vec![self.parameters(), self.coordinates(kernels, &q, |c| c.value)];
             let given = Given { sources, pose: None };
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
-            code.operations.functions += kernels.plan.directions.len();
+            if !circular.is_empty() {
+                code.uses.insert("unit");
+            }
             let mut results = code.results.iter();
             let mut fields = TokenStream::new();
             for ((_, field, _), value) in kernels.plan.determinants.iter().zip(results.by_ref()) {
                 let member = member(&ident(field), value);
                 fields.extend(quote!(#member,));
             }
-            for ((_, field), value) in kernels.plan.directions.iter().zip(results.by_ref()) {
+            for field in kernels.plan.directions.values() {
                 let field = ident(field);
-                fields.extend(quote!(#field: direction(#value),));
+                let parts = results.by_ref().take(2);
+                fields.extend(quote!(#field: unit(#(#parts),*),));
             }
             for ((_, field, _), value) in kernels.plan.values.iter().zip(results) {
                 let field = ident(field);
                 let member = member(&field, value);
                 fields.extend(quote!(#member,));
-            }
-            if !kernels.plan.directions.is_empty() {
-                code.uses.insert("direction");
             }
             Body::new(code, quote!(#pose { #fields }), [])
         });

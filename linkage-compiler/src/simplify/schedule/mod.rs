@@ -33,6 +33,16 @@ pub enum Stage {
 }
 
 impl Stage {
+    /// The symbols that a stage gives a value to.
+    #[must_use]
+    pub fn introduced(&self) -> Vec<SymbolId> {
+        match self {
+            Self::Let { symbol, .. } | Self::Pivots { symbol, .. } => vec![*symbol],
+            Self::Solve { targets, .. } => targets.clone(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The expressions of a stage.
     #[must_use]
     pub fn nodes(&self) -> Vec<NodeId> {
@@ -76,13 +86,45 @@ pub enum Value {
 #[derive(Debug, Clone)]
 pub enum Line {
     Let(ValueId),
-    SineCosine { sine: ValueId, cosine: ValueId, angle: Signed },
-    Name { symbol: SymbolId, value: Signed },
-    Guard { block: usize, determinant: Signed, size: Signed },
-    Factor { block: usize, matrix: Vec<Vec<Signed>>, sizes: Vec<Signed> },
-    Solve { block: usize, targets: Vec<SymbolId>, right: Vec<Signed> },
-    Pivots { symbol: SymbolId, matrix: Vec<Vec<Signed>> },
+    SineCosine {
+        sine: ValueId,
+        cosine: ValueId,
+        angle: Signed,
+    },
+    /// The sines and cosines of several angles at once, those that are used.
+    SinesCosines(Vec<Circular>),
+    Name {
+        symbol: SymbolId,
+        value: Signed,
+    },
+    Guard {
+        block: usize,
+        determinant: Signed,
+        size: Signed,
+    },
+    Factor {
+        block: usize,
+        matrix: Vec<Vec<Signed>>,
+        sizes: Vec<Signed>,
+    },
+    Solve {
+        block: usize,
+        targets: Vec<SymbolId>,
+        right: Vec<Signed>,
+    },
+    Pivots {
+        symbol: SymbolId,
+        matrix: Vec<Vec<Signed>>,
+    },
     Return(Vec<Signed>),
+}
+
+/// An angle with its sine and cosine.
+#[derive(Debug, Clone, Copy)]
+pub struct Circular {
+    pub angle: Signed,
+    pub sine: Option<ValueId>,
+    pub cosine: Option<ValueId>,
 }
 
 /// A kernel as straight-line code.
@@ -113,6 +155,8 @@ pub fn schedule(
         })
         .collect();
     let mut ordering = Ordering::new(values, &roots.iter().map(|root| of[root]).collect::<Vec<_>>());
+    let introduced: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
+    ordering.gather_sines(&introduced);
     let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| of[node]).collect() };
     for stage in stages {
         for node in stage.nodes() {
@@ -212,6 +256,7 @@ fn line_values(line: &Line) -> Vec<ValueId> {
     match line {
         Line::Let(id) => vec![*id],
         Line::SineCosine { sine, cosine, .. } => vec![*sine, *cosine],
+        Line::SinesCosines(several) => several.iter().flat_map(|one| one.sine.into_iter().chain(one.cosine)).collect(),
         Line::Name { value, .. } => vec![value.value],
         Line::Guard { determinant, size, .. } => vec![determinant.value, size.value],
         Line::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).map(|signed| signed.value).collect(),

@@ -51,7 +51,15 @@ impl Schedule {
                 Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {}
             }
         }
-        total.functions -= self.lines.iter().filter(|line| matches!(line, Line::SineCosine { .. })).count();
+        for line in &self.lines {
+            total.functions -= match line {
+                Line::SineCosine { .. } => 1,
+                Line::SinesCosines(several) => {
+                    several.iter().filter(|one| one.sine.is_some() && one.cosine.is_some()).count()
+                }
+                _ => 0,
+            };
+        }
         total
     }
 }

@@ -1,0 +1,119 @@
+//! What a sine and cosine cost: `Real::sine_cosine` and `sines_cosines` beside the library's `sin_cos`, timed in
+//! turns.
+//!
+//! `cargo bench --bench sine`
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use linkage_runtime::{Real, real};
+
+/// Angles per pass: they and their sines stay in the nearest cache.
+const ANGLES: usize = 1024;
+
+/// Passes per reading.
+const PASSES: usize = 200;
+
+/// Readings of each function; the median counts.
+const READINGS: usize = 61;
+
+/// One function at a time: each angle waits for the sine and cosine before it.
+#[inline(always)]
+fn chain<T: Real>(angles: &[T], sin_cos: impl Fn(T) -> (T, T)) -> T {
+    angles.iter().fold(T::zero(), |sum, &angle| {
+        let (sine, cosine) = sin_cos(angle + sum);
+        sine + cosine
+    })
+}
+
+/// As many at a time as the processor manages.
+#[inline(always)]
+fn independent<T: Real>(angles: &[T], sines: &mut [T], cosines: &mut [T], sin_cos: impl Fn(T) -> (T, T)) {
+    for ((&angle, s), c) in angles.iter().zip(sines).zip(cosines) {
+        (*s, *c) = sin_cos(angle);
+    }
+}
+
+/// N at a time, as emitted code takes the angles of one position.
+#[inline(always)]
+fn groups<T: Real, const N: usize>(
+    angles: &[T],
+    sines: &mut [T],
+    cosines: &mut [T],
+    all: impl Fn([T; N]) -> [(T, T); N],
+) {
+    let chunks = angles.chunks_exact(N).zip(sines.chunks_exact_mut(N)).zip(cosines.chunks_exact_mut(N));
+    for ((angles, s), c) in chunks {
+        let values = all(std::array::from_fn(|i| angles[i]));
+        for i in 0..N {
+            (s[i], c[i]) = values[i];
+        }
+    }
+}
+
+/// Nanoseconds per angle.
+fn time(mut pass: impl FnMut()) -> f64 {
+    let start = Instant::now();
+    (0..PASSES).for_each(|_| pass());
+    start.elapsed().as_secs_f64() * 1e9 / (PASSES * ANGLES) as f64
+}
+
+fn median(mut readings: Vec<f64>) -> f64 {
+    readings.sort_unstable_by(f64::total_cmp);
+    readings[readings.len() / 2]
+}
+
+fn row(name: &str, mut ours: impl FnMut(), mut library: impl FnMut()) {
+    let (left, right): (Vec<_>, Vec<_>) = (0..READINGS).map(|_| (time(&mut ours), time(&mut library))).unzip();
+    let ratios = left.iter().zip(&right).map(|(ours, library)| library / ours).collect();
+    println!("{name:32}{:9.2}{:9.2}{:9.2}", median(left), median(right), median(ratios));
+}
+
+fn angles<T: Real>(range: f64) -> Vec<T> {
+    // The fractional parts of multiples of the golden section.
+    let part = |i: usize| (i as f64 * 0.618_033_988_749_894_9).fract() * 2.0 - 1.0;
+    (0..ANGLES).map(|i| real(range * part(i))).collect()
+}
+
+fn rows<T: Real>(name: &str, range: f64) {
+    let angles = angles::<T>(range);
+    let (mut s, mut c) = (vec![T::zero(); ANGLES], vec![T::zero(); ANGLES]);
+    let (mut p, mut q) = (s.clone(), c.clone());
+    row(
+        &format!("{name}, to {range}: chain"),
+        || {
+            black_box(chain(black_box(&angles), T::sine_cosine));
+        },
+        || {
+            black_box(chain(black_box(&angles), T::sin_cos));
+        },
+    );
+    row(
+        &format!("{name}, to {range}: independent"),
+        || independent(black_box(&angles), black_box(&mut s), black_box(&mut c), T::sine_cosine),
+        || independent(black_box(&angles), black_box(&mut p), black_box(&mut q), T::sin_cos),
+    );
+}
+
+fn group_row<const N: usize>(range: f64) {
+    let angles = angles::<f64>(range);
+    let (mut s, mut c) = (vec![0.0; ANGLES], vec![0.0; ANGLES]);
+    let (mut p, mut q) = (s.clone(), c.clone());
+    row(
+        &format!("f64, to {range}: {N} together"),
+        || groups::<f64, N>(black_box(&angles), black_box(&mut s), black_box(&mut c), Real::sines_cosines),
+        || groups::<f64, N>(black_box(&angles), black_box(&mut p), black_box(&mut q), |x| x.map(f64::sin_cos)),
+    );
+}
+
+fn main() {
+    println!("ns per angle{:20}{:>9}{:>9}{:>9}", "", "inlined", "library", "ratio");
+    for range in [0.7, 7.0, 1000.0, 1e5, 1e6] {
+        rows::<f64>("f64", range);
+    }
+    group_row::<2>(7.0);
+    group_row::<3>(7.0);
+    group_row::<4>(7.0);
+    group_row::<8>(7.0);
+    rows::<f32>("f32", 7.0);
+}

@@ -1,0 +1,145 @@
+//! Sine and cosine of doubles, one inlined or several side by side.
+//!
+//! The argument is reduced as in Cody and Waite, *Software Manual for the Elementary Functions* (1980); what it
+//! rounds off goes into the polynomials as in fdlibm (Sun Microsystems, 1993). No fused multiplication is used,
+//! so that every target computes the same bits. sin(-x) = -sin x and cos(-x) = cos x to the bit.
+//!
+//! Largest errors found by `tests/sine.rs`, in ulp:
+//!
+//! | 2e7 arguments, 191 000 the last | sine | cosine |
+//! |---------------------------------|------|--------|
+//! | 0 to pi/4, evenly               | 0.77 | 0.76   |
+//! | 0 to 10                         | 0.79 | 0.80   |
+//! | 0 to 1000                       | 0.81 | 0.81   |
+//! | 0 to 1e5                        | 0.83 | 0.80   |
+//! | about every multiple of pi/2    | 0.50 | 0.50   |
+//!
+//! r - t, the reduced argument, is within 2^-63 of itself at the doubles next to every multiple of pi/2.
+
+/// The largest magnitude that is reduced here.
+const LIMIT: f64 = 1e5;
+
+/// pi/2 in three parts: the first two of 35 bits, so that k times them is exact for k < 2^18, and what is
+/// left to the nearest double. Their sum is pi/2 to 2^-130.
+const HALF_PI: [f64; 3] = [
+    f64::from_bits(0x3ff9_21fb_5444_0000),
+    f64::from_bits(0x3d86_8c23_4c4c_0000),
+    f64::from_bits(0x3b29_8a2e_0370_7345),
+];
+
+/// Added to a double below 2^51, rounds it to the nearest integer, ties to even, and leaves that integer in
+/// the lowest bits.
+const SHIFT: f64 = 6_755_399_441_055_744.0;
+
+/// (r - sin r) / r^3 in powers of r^2 for |r| <= pi/4: by Remez's exchange, the largest relative error of sin r
+/// being 2^-57.9.
+const SINE: [f64; 6] = [
+    0.166_666_666_666_666_3,
+    -0.008_333_333_333_321_84,
+    0.000_198_412_698_293_585_1,
+    -2.755_731_353_849_848_3e-6,
+    2.505_073_438_527_633_6e-8,
+    -1.589_543_297_362_344_5e-10,
+];
+
+/// (1 - r^2/2 - cos r) / r^4 in powers of r^2 for |r| <= pi/4: likewise, to 2^-63.9.
+const COSINE: [f64; 6] = [
+    -0.041_666_666_666_666_595,
+    0.001_388_888_888_887_334_2,
+    -2.480_158_728_900_207_6e-5,
+    2.755_731_421_703_596e-7,
+    -2.087_570_539_529_030_2e-9,
+    1.135_874_918_140_979_8e-11,
+];
+
+/// sin x and cos x, for |x| up to `LIMIT`.
+#[inline(always)]
+pub(crate) fn sin_cos(x: f64) -> Option<(f64, f64)> {
+    (x.abs() <= LIMIT).then(|| reduced(x))
+}
+
+/// sin x and cos x of several angles, if all are up to `LIMIT`: to the bit what each gives alone.
+#[inline(always)]
+pub(crate) fn sines_cosines<const N: usize>(angles: &[f64; N]) -> Option<[(f64, f64); N]> {
+    angles.iter().fold(true, |within, x| within & (x.abs() <= LIMIT)).then(|| {
+        let mut values = [(0.0, 0.0); N];
+        for (x, values) in angles.chunks(4).zip(values.chunks_mut(4)) {
+            match *x {
+                [a] => values[0] = reduced(a),
+                [a, b] => values.copy_from_slice(&columns(two(a, b))),
+                [a, b, c] => values.copy_from_slice(&columns(four(a, b, c, c))[..3]),
+                [a, b, c, d] => values.copy_from_slice(&columns(four(a, b, c, d))),
+                _ => {}
+            }
+        }
+        values
+    })
+}
+
+#[inline(always)]
+fn columns<const LANES: usize>([sines, cosines]: [[f64; LANES]; 2]) -> [(f64, f64); LANES] {
+    core::array::from_fn(|i| (sines[i], cosines[i]))
+}
+
+/// Apart, so that the loop becomes vector operations whatever surrounds the call; the angles in registers.
+#[inline(never)]
+fn two(a: f64, b: f64) -> [[f64; 2]; 2] {
+    lanes([a, b])
+}
+
+/// As `two`.
+#[inline(never)]
+fn four(a: f64, b: f64, c: f64, d: f64) -> [[f64; 4]; 2] {
+    lanes([a, b, c, d])
+}
+
+#[inline(always)]
+fn lanes<const LANES: usize>(angles: [f64; LANES]) -> [[f64; LANES]; 2] {
+    let (mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES]);
+    for i in 0..LANES {
+        (sines[i], cosines[i]) = reduced(angles[i]);
+    }
+    [sines, cosines]
+}
+
+/// sin x and cos x, |x| <= `LIMIT`.
+#[inline(always)]
+fn reduced(x: f64) -> (f64, f64) {
+    // x = k pi/2 + r, |r| <= pi/4.
+    let shifted = x * core::f64::consts::FRAC_2_PI + SHIFT;
+    let k = shifted - SHIFT;
+    // Both terms of `near` are exact, and so is `far`; what `head` rounds off is in `tail`, and its zero
+    // has no sign: that of x stays.
+    let near = x - k * HALF_PI[0];
+    let far = k * HALF_PI[1];
+    let head = near - far;
+    let tail = k * HALF_PI[2] - ((near - head) - far);
+
+    let (sine, cosine) = kernel(head, tail);
+
+    // k mod 4: sin, cos; cos, -sin; -sin, -cos; -cos, sin.
+    let quadrant = shifted.to_bits();
+    let swap = (quadrant & 1).wrapping_neg() & (sine.to_bits() ^ cosine.to_bits());
+    let sine_sign = (quadrant & 2) << 62;
+    let cosine_sign = (quadrant.wrapping_add(1) & 2) << 62;
+    (f64::from_bits(sine.to_bits() ^ swap ^ sine_sign), f64::from_bits(cosine.to_bits() ^ swap ^ cosine_sign))
+}
+
+/// sin(r - t) and cos(r - t), |t| below the last place of r or 2^-54.
+#[inline(always)]
+fn kernel(r: f64, t: f64) -> (f64, f64) {
+    let z = r * r;
+    let w = z * z;
+    let half = 0.5 * z;
+    let rest = 1.0 - half;
+    // Both polynomials in the same order of operations: a pair of them is one vector operation.
+    let both = |i: usize| [SINE[i] + z * SINE[i + 1], COSINE[i] + z * COSINE[i + 1]];
+    let ([a, d], [b, e], [c, f]) = (both(0), both(2), both(4));
+    let v = w * w;
+    let polynomials = [a + (w * b + v * c), d + (w * e + v * f)];
+    let factors = [r * z, w];
+    let corrections = [t * rest, (half - (1.0 - rest)) - r * t];
+    let leading = [r, rest];
+    let part = |i: usize| leading[i] - (corrections[i] + factors[i] * polynomials[i]);
+    (part(0), part(1))
+}
