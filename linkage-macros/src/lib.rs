@@ -168,8 +168,9 @@ use proc_macro::TokenStream;
 /// needs no standard library.
 ///
 /// The closures are solved block by block: unknowns that depend on one another form a block, a block of
-/// one or two unknowns has a formula, a larger one a factorisation. A singular block is named by its
-/// unknowns in the error.
+/// one or two unknowns has a formula, a larger one a factorisation. Dyads are recognised by the way their
+/// unknowns enter the closure (RRR, RRP, RPR, two sliders) and named in the documentation and in
+/// `DERIVATION`. A singular block is named by its unknowns in the error.
 ///
 /// # What is rejected
 ///

@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::{self, simplify};
-use crate::structure::{self, Method};
+use crate::structure::{self, Group, Method};
 pub use check::{LARGEST, check};
 pub use formulas::{Formulas, Inverse};
 pub use linear::{Form, solve_closed};
@@ -63,6 +63,7 @@ pub struct Block {
     pub equations: Vec<usize>,
     /// Places in [`Derivation::unknowns`].
     pub unknowns: Vec<usize>,
+    pub group: Group,
     /// Of a block in closed form.
     pub determinant: Option<Determinant>,
 }
@@ -124,8 +125,16 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
     let gamma = graph.differentiate(&psi_rate, &rates);
 
     let is_odd = structure::is_odd(&blocks);
-    let mut blocks: Vec<Block> =
-        blocks.into_iter().map(|block| self::block(&mut graph, &jacobian, &unknowns, block)).collect();
+    let mut blocks: Vec<Block> = blocks
+        .into_iter()
+        .map(|block| {
+            let rows: Vec<NodeId> = block.equations.iter().map(|&equation| residual[equation]).collect();
+            let symbols: Vec<SymbolId> =
+                block.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
+            let group = Group::of(&mut graph, &rows, &symbols);
+            self::block(&mut graph, &jacobian, &unknowns, block, group)
+        })
+        .collect();
     name_determinants(&mut graph, &mut blocks);
     let ratios = ratios::names(&mut graph, &coordinates, &unknowns, &inputs);
     // A pose has the directions of the closures at hand.
@@ -164,7 +173,7 @@ fn angles(graph: &Graph, roots: &[NodeId]) -> BTreeSet<NodeId> {
 /// The place of each coordinate in q.
 type Places = BTreeMap<SymbolId, usize>;
 
-fn block(graph: &mut Graph, jacobian: &[Row], unknowns: &[usize], block: structure::Block) -> Block {
+fn block(graph: &mut Graph, jacobian: &[Row], unknowns: &[usize], block: structure::Block, group: Group) -> Block {
     let method = block.method();
     let structure::Block { equations, unknowns: places } = block;
     let zero = graph.zero();
@@ -178,7 +187,7 @@ fn block(graph: &mut Graph, jacobian: &[Row], unknowns: &[usize], block: structu
         let size = magnitude::of_determinant(graph, value);
         Determinant { value, symbol: SymbolId::NONE, size }
     });
-    Block { equations, unknowns: places, determinant }
+    Block { equations, unknowns: places, group, determinant }
 }
 
 /// A mechanism with one determinant calls it so; of several each has the number of its block.

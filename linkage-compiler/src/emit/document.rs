@@ -170,6 +170,7 @@ impl Document<'_> {
         let unknowns = block.unknowns.iter().map(|&place| written(&Name::Plain(self.unknowns[place]).formula()));
         let unknowns = list(unknowns);
         let equations = list(block.equations.iter().map(ToString::to_string));
+        let group = block.group.words();
         let method = if block.determinant.is_some() { "ClosedForm" } else { "Factorization" };
         let determinant = self.optional(block.determinant, |document, determinant| {
             document.equation(Name::Determinant(number), determinant.value)
@@ -178,7 +179,7 @@ impl Document<'_> {
             document.matrix(Name::Inverse(number), Some(*factor), rows, rows.len())
         });
         format!(
-            "derivation::Block {{ unknowns: {unknowns}, equations: {equations}, \
+            "derivation::Block {{ unknowns: {unknowns}, equations: {equations}, group: {group:?}, \
              method: derivation::Method::{method}, determinant: {determinant}, inverse: {inverse} }}"
         )
     }

@@ -6,8 +6,10 @@
 //! order in which they can be solved (I. S. Duff, J. K. Reid, "An implementation of Tarjan's algorithm
 //! for the block triangularization of a matrix", ACM TOMS 4, 1978).
 
+mod group;
 mod matching;
 
+pub use group::Group;
 use matching::Matching;
 pub use matching::StructurallySingular;
 

@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use super::outline::Pen;
-use super::{Equation, Formula, Kernel, Matrix, Method};
+use super::{Block, Equation, Formula, Kernel, Matrix};
 
 /// A matrix with more rows or columns than this is a list of its entries.
 const LARGEST_MATRIX: usize = 6;
@@ -68,10 +68,15 @@ impl Pen for Latex<'_> {
         writeln!(self.out, "\\end{{pmatrix}} \\]")
     }
 
-    fn block(&mut self, n: usize, equations: &[usize], method: Method) -> fmt::Result {
-        let equations: Vec<_> = equations.iter().map(|equation| format!("({})", equation + 1)).collect();
+    fn block(&mut self, n: usize, block: &Block) -> fmt::Result {
+        let equations: Vec<_> = block.equations.iter().map(|equation| format!("({})", equation + 1)).collect();
         let equations = equations.join(", ");
-        writeln!(self.out, "\\paragraph{{Block {n}}} Equations {equations}, solved {}.\\par", method.words())
+        writeln!(
+            self.out,
+            "\\paragraph{{Block {n}, {}}} Equations {equations}, solved {}.\\par",
+            block.group,
+            block.method.words()
+        )
     }
 
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {

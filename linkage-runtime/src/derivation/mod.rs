@@ -82,6 +82,8 @@ pub struct Block {
     pub unknowns: &'static [Formula],
     /// The closure equations that determine them: indices of [`Derivation::residual`].
     pub equations: &'static [usize],
+    /// The Assur group that the block is, or what else it is, in words.
+    pub group: &'static str,
     /// How the linear system is solved.
     pub method: Method,
     /// The determinant of the block of J, where there is a formula.

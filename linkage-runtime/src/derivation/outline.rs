@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{Derivation, Equation, Formula, Kernel, Matrix, Method, Quantity};
+use super::{Block, Derivation, Equation, Formula, Kernel, Matrix, Quantity};
 
 /// Ψ(u, v) = 0.
 pub(crate) const CLOSURE: Formula = Formula {
@@ -84,8 +84,8 @@ pub(super) trait Pen {
     fn display(&mut self, formula: &Formula) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result;
     fn matrix(&mut self, matrix: &Matrix) -> fmt::Result;
-    /// The n-th block, counted from 1, and the numbers of its equations.
-    fn block(&mut self, n: usize, equations: &[usize], method: Method) -> fmt::Result;
+    /// The n-th block, counted from 1.
+    fn block(&mut self, n: usize, block: &Block) -> fmt::Result;
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result;
 }
 
@@ -121,7 +121,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
         pen.heading(words::STRUCTURE)?;
     }
     for (index, block) in derivation.blocks.iter().enumerate() {
-        pen.block(index + 1, block.equations, block.method)?;
+        pen.block(index + 1, block)?;
         pen.list(words::UNKNOWN, &mut block.unknowns.iter().copied())?;
         if let Some(determinant) = block.determinant {
             equations(pen, &mut number, &[determinant])?;

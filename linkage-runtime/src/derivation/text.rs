@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::outline::Pen;
-use super::{Equation, Formula, Kernel, Matrix, Method};
+use super::{Block, Equation, Formula, Kernel, Matrix};
 
 pub(super) struct Text<'a, 'b> {
     out: &'a mut fmt::Formatter<'b>,
@@ -69,12 +69,12 @@ impl Pen for Text<'_, '_> {
         Ok(())
     }
 
-    fn block(&mut self, n: usize, equations: &[usize], method: Method) -> fmt::Result {
-        write!(self.out, "  Block {n}: equations")?;
-        for (index, equation) in equations.iter().enumerate() {
+    fn block(&mut self, n: usize, block: &Block) -> fmt::Result {
+        write!(self.out, "  Block {n}, {}: equations", block.group)?;
+        for (index, equation) in block.equations.iter().enumerate() {
             write!(self.out, "{} ({})", if index == 0 { "" } else { "," }, equation + 1)?;
         }
-        writeln!(self.out, ", solved {}", method.words())
+        writeln!(self.out, ", solved {}", block.method.words())
     }
 
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {

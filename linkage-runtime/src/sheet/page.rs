@@ -133,7 +133,8 @@ impl Page {
                 }
                 let (several, verb) = if block.equations.len() == 1 { ("", "gives") } else { ("s", "give") };
                 page.push(&format!(
-                    "<p>Equation{several} {links} {verb} {}, solved {}.</p>",
+                    "<p class=\"group\">{}</p><p>Equation{several} {links} {verb} {}, solved {}.</p>",
+                    escape(&sentence(block.group)),
                     list(block.unknowns.iter()),
                     block.method.words()
                 ));
@@ -258,4 +259,10 @@ impl Page {
 /// Formulas in a line, separated by commas.
 fn list<'a>(formulas: impl Iterator<Item = &'a Formula>) -> String {
     formulas.map(inline).collect::<Vec<_>>().join(", ")
+}
+
+/// With a capital at the start.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -140,13 +140,13 @@ impl Methods<'_> {
                     let symbol = kernels.derivation.graph.symbol(format!("pivots_{}", number + 1));
                     stages.push(Stage::Pivots { symbol, matrix: kernels.derivation.block_matrix(block) });
                     factors.push(kernels.derivation.graph.variable(symbol));
-                    lines.push(format!("{names}: the product of the pivots"));
+                    lines.push(format!("{names} ({}): the product of the pivots", block.group.words()));
                     continue;
                 };
                 let varies = kernels.derivation.graph.constant_value(determinant.value).is_none();
                 let named = kernels.derivation.graph.variable(determinant.symbol);
                 factors.push(if varies { named } else { determinant.value });
-                lines.push(format!("{names}: {}", kernels.text(determinant.value)));
+                lines.push(format!("{names} ({}): {}", block.group.words(), kernels.text(determinant.value)));
             }
             blocks_docs.extend(fenced(lines.into_iter()));
             count = factors.len();
