@@ -6,7 +6,9 @@
 pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
-pub use linkage_runtime::{Error, Mechanism, OutputMotion, PointMotion, Solution, derivation, nalgebra, position};
+pub use linkage_runtime::{
+    Error, Mechanism, OutputMotion, PointMotion, Side, Solution, derivation, nalgebra, position,
+};
 
 /// Mechanisms from their closure equations.
 ///
@@ -26,7 +28,7 @@ pub mod __private {
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
-        Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Solution, finite, finite_matrix, newton,
-        product_of_pivots, real, regular, same_signs, unit,
+        Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Side, Solution, chord, finite, finite_matrix,
+        newton, product_of_pivots, real, regular, same_signs, unit,
     };
 }

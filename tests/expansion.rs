@@ -64,6 +64,10 @@ snapshot!(
     four_bar_points,
     functions("four_bar", &["points", "point_velocities", "point_ratios", "output_ratios", "coordinates"])
 );
+snapshot!(four_bar_assemble, functions("four_bar", &["assemble", "branch_of"]));
+snapshot!(inverted_slider_crank, functions("inverted_slider_crank", &["assemble", "branch_of"]));
+snapshot!(offset_slider_crank, functions("offset_slider_crank", &["assemble", "branch_of"]));
+snapshot!(v_twin, functions("v_twin", &["assemble"]));
 snapshot!(four_bar_motion, functions("four_bar", &["motion"]));
 snapshot!(components, functions("components", &["pose_at", "residual", "velocity_ratios"]));
 snapshot!(

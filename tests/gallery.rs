@@ -60,6 +60,26 @@ fn degrees(angle: f64) -> f64 {
     angle.to_radians()
 }
 
+/// Every position of a course in closed form, on the branch that the course is on: the same position, loops
+/// closed to rounding, and the determinant from the half chord as good as from the angles.
+macro_rules! closed_form {
+    ($mechanism:ident, $course:ident, $input:ident) => {
+        for q in &$course.positions {
+            let pose = $mechanism.pose_at(q);
+            let found = $mechanism.assemble(q.$input, $mechanism.branch_of(&pose)).expect("an assembly");
+            assert_eq!($mechanism.branch_of(&found), $mechanism.branch_of(&pose));
+            let size = $mechanism.closure_sizes(&found).sum();
+            exact($mechanism.residual(&found).amax(), 0.0, size);
+            let (ours, theirs) = ($mechanism.block_determinants(&found), $mechanism.block_determinants(&pose));
+            let (j, other) = ($mechanism.jacobian_unknowns(&found), $mechanism.jacobian_unknowns(&pose));
+            close((j - other).amax(), 0.0, 1e-9 * (1.0 + j.amax()));
+            for (ours, theirs) in ours.into_iter().zip(theirs) {
+                close(ours, theirs, 1e-9 * (1.0 + theirs.abs() + size));
+            }
+        }
+    };
+}
+
 /// Where the input stands in a position.
 type Input<M, const U: usize> = fn(&mut <M as Mechanism<f64, U, 1>>::Coordinates) -> &mut f64;
 
@@ -262,6 +282,7 @@ fn four_bar_on_both_branches() {
     for (theta3, theta4, side) in [(70.0, -50.0, 1.0), (-83.0, 38.0, -1.0)] {
         let start = FourBarCoordinates { theta2: degrees(20.0), theta3: degrees(theta3), theta4: degrees(theta4) };
         let course = turn(&m, start, |q| &mut q.theta2);
+        closed_form!(m, course, theta2);
         rigid!(course, b - c = m.l3, b - g3 = m.l3 / 2.0, c - g4 = m.l4 / 2.0);
         // On one branch C is always above the line from B to D, on the other below it.
         assert!(course.positions.iter().all(|q| side * m.outputs(&m.pose_at(q)).unwrap().mu.sin() > 0.0));
@@ -277,6 +298,7 @@ fn offset_slider_crank() {
     let m = OffsetSliderCrank::default();
     let start = OffsetSliderCrankCoordinates { theta2: degrees(60.0), theta3: degrees(153.0), d: 127.0 };
     let course = turn(&m, start, |q| &mut q.theta2);
+    closed_form!(m, course, theta2);
     rigid!(course, o - a = m.a, a - b = m.b);
     // Crank and rod in line at both ends of the stroke.
     let [least, largest] = course.range(|q| q.d);
@@ -289,6 +311,7 @@ fn inverted_slider_crank() {
     let m = InvertedSliderCrank::default();
     let start = InvertedSliderCrankCoordinates { theta2: 0.0, theta4: degrees(109.5), b: 56.6 };
     let course = turn(&m, start, |q| &mut q.theta2);
+    closed_form!(m, course, theta2);
     rigid!(course, o - a = m.a, d - b = m.c);
     for q in &course.positions {
         let points = m.points(&m.pose_at(q)).unwrap();
@@ -307,6 +330,7 @@ fn whitworth_returns_faster() {
     let m = Whitworth::default();
     let start = WhitworthCoordinates { theta: FRAC_PI_2, psi: FRAC_PI_2, s: 80.0, phi: degrees(17.5), x: 191.0 };
     let course = turn(&m, start, |q| &mut q.theta);
+    closed_form!(m, course, theta);
     rigid!(course, o - c = m.offset, o - pin = m.crank, c - e = m.arm, e - ram = m.rod);
     let dip = (m.offset / m.crank).asin();
     let velocity = |q: &WhitworthCoordinates| m.velocity(&m.pose_at(q), 1.0).unwrap().x;
@@ -327,6 +351,7 @@ fn crank_shaper_returns_faster() {
     let m = CrankShaper::default();
     let start = CrankShaperCoordinates { theta: FRAC_PI_2, psi: FRAC_PI_2, s: 170.0, phi: degrees(-8.0), x: 99.0 };
     let course = turn(&m, start, |q| &mut q.theta);
+    closed_form!(m, course, theta);
     rigid!(course, o - c = m.offset, o - pin = m.crank, c - e = m.lever, e - ram = m.rod);
     let swing = (m.crank / m.offset).asin();
     let velocity = |q: &CrankShaperCoordinates| m.velocity(&m.pose_at(q), 1.0).unwrap().x;
@@ -352,6 +377,7 @@ fn watt_i() {
         theta6: degrees(132.3),
     };
     let course = turn(&m, start, |q| &mut q.theta2);
+    closed_form!(m, course, theta2);
     let (bp, dq) = (m.px.hypot(m.py), m.qx.hypot(m.qy));
     let (cp, cq) = ((m.b - m.px).hypot(m.py), (m.c - m.qx).hypot(m.qy));
     rigid!(
@@ -380,6 +406,7 @@ fn watt_ii() {
         theta6: degrees(93.3),
     };
     let course = turn(&m, start, |q| &mut q.theta2);
+    closed_form!(m, course, theta2);
     let cp = (m.c * m.c + m.e * m.e - 2.0 * m.c * m.e * m.delta.cos()).sqrt();
     rigid!(
         course,
@@ -405,6 +432,7 @@ fn stephenson_i() {
         theta6: degrees(151.0),
     };
     let course = turn(&m, start, |q| &mut q.theta2);
+    closed_form!(m, course, theta2);
     let (ap, bp) = (m.px.hypot(m.py), (m.a - m.px).hypot(m.py));
     let (dq, cq) = (m.qx.hypot(m.qy), (m.c - m.qx).hypot(m.qy));
     rigid!(
@@ -458,6 +486,7 @@ fn stephenson_iii() {
         theta6: degrees(99.4),
     };
     let course = turn(&m, start, |q| &mut q.theta2);
+    closed_form!(m, course, theta2);
     let (bp, cp) = (m.px.hypot(m.py), (m.b - m.px).hypot(m.py));
     rigid!(
         course,
@@ -532,6 +561,7 @@ fn jansen_start() -> JansenCoordinates<f64> {
 fn jansen_walks() {
     let m = Jansen::default();
     let course = turn(&m, jansen_start(), |q| &mut q.crank);
+    closed_form!(m, course, crank);
     rigid!(
         course,
         o - pin = m.m,
@@ -581,6 +611,7 @@ fn klann_walks() {
         upper_angle: degrees(165.0),
     };
     let course = turn(&m, start, |q| &mut q.theta);
+    closed_form!(m, course, theta);
     // The third side of a triangle, by the law of cosines.
     let third = |a: f64, b: f64, angle: f64| (a * a + b * b - 2.0 * a * b * angle.cos()).sqrt();
     rigid!(
@@ -619,6 +650,7 @@ fn hoecken_is_nearly_straight() {
     let m = Hoecken::default();
     let start = HoeckenCoordinates { theta2: FRAC_PI_2, theta3: degrees(20.0), theta4: degrees(130.0) };
     let course = turn(&m, start, |q| &mut q.theta2);
+    closed_form!(m, course, theta2);
     rigid!(
         course,
         a - d = m.ground,
@@ -644,6 +676,7 @@ fn chebyshev_is_nearly_straight() {
     let m = ChebyshevCoupler::default();
     let start = ChebyshevCoordinates { theta2: 4.0_f64.atan2(3.0), theta3: PI, theta4: 4.0_f64.atan2(-3.0) };
     let course = turn(&m, start, |q| &mut q.theta3);
+    closed_form!(m, course, theta3);
     rigid!(
         course,
         a - d = m.ground,
@@ -656,6 +689,7 @@ fn chebyshev_is_nearly_straight() {
     let p = point!(m, p);
     for (span, x) in [(FRAC_PI_2, 0.0), (-FRAC_PI_2, 4.0)] {
         let course = follow(&m, start, |q| &mut q.theta3, span);
+        closed_form!(m, course, theta3);
         let end = p(&course.positions[STEPS as usize]);
         exact(end.x, x, size);
         exact(end.y, 4.0, size);
@@ -669,6 +703,7 @@ fn chebyshev_is_nearly_straight() {
     // The rocker drives the same stretch: from y = 4 to y = 4.
     let m = ChebyshevRocker::default();
     let course = follow(&m, start, |q| &mut q.theta2, degrees(36.0) - start.theta2 + degrees(1.0));
+    closed_form!(m, course, theta2);
     exact(course.range(point!(m, p, y))[1] - 4.0, RISE, size);
 }
 
@@ -682,6 +717,7 @@ fn roberts_is_nearly_straight() {
     let first = end + 2.0 * (m.coupler / 2.0 / m.side).asin();
     let start = RobertsCoordinates { theta2: first, theta3: degrees(-27.6), theta4: PI - end };
     let course = follow(&m, start, |q| &mut q.theta2, end - first);
+    closed_form!(m, course, theta2);
     rigid!(course, a - d = m.ground, a - b = m.side, b - c = m.coupler, c - d = m.side, b - p = m.side, c - p = m.side);
     let size = m.ground + 4.0 * m.side + m.coupler;
     let p = point!(m, p);
@@ -702,6 +738,7 @@ fn watt_line_touches_fivefold() {
     let m = WattLine::default();
     let start = WattLineCoordinates { theta: degrees(-20.0), phi: -FRAC_PI_2, psi: degrees(-160.0) };
     let course = follow(&m, start, |q| &mut q.theta, degrees(40.0));
+    closed_form!(m, course, theta);
     rigid!(
         course,
         left - b = m.arm,
@@ -745,6 +782,7 @@ fn peaucellier_is_straight() {
     let line = (m.long * m.long - m.short * m.short) / (2.0 * m.crank);
     for span in [degrees(90.0), degrees(-90.0)] {
         let course = follow(&m, start, |q| &mut q.theta, span);
+        closed_form!(m, course, theta);
         rigid!(
             course,
             o - centre = m.crank,
@@ -780,6 +818,7 @@ fn hart_is_straight() {
     let product = -m.part * (1.0 - m.part) * (m.long * m.long - m.short * m.short);
     for span in [degrees(90.0), degrees(-90.0)] {
         let course = follow(&m, start, |q| &mut q.theta, span);
+        closed_form!(m, course, theta);
         rigid!(
             course,
             o - centre = m.crank,
@@ -812,6 +851,7 @@ fn geneva_turns_one_slot() {
     let engaged = FRAC_PI_2 - PI / m.slots;
     let start = GenevaCoordinates { theta: -engaged, psi: PI / m.slots, s: m.crank };
     let course = follow(&m, start, |q| &mut q.theta, 2.0 * engaged);
+    closed_form!(m, course, theta);
     rigid!(course, o - pin = m.crank, o - wheel = m.crank / (PI / m.slots).sin());
     let [first, middle, last] = [0, 180, 360].map(|step: usize| &course.positions[step]);
     close(last.psi - first.psi, -TAU / m.slots, 1e-15);
@@ -857,6 +897,7 @@ fn pantograph_copies() {
 fn scotch_yoke_is_a_cosine() {
     let m = ScotchYoke::default();
     let course = turn(&m, ScotchYokeCoordinates { phi: 0.0, x: 0.5 }, |q| &mut q.phi);
+    closed_form!(m, course, phi);
     for q in &course.positions {
         assert_eq!(q.x, m.r * q.phi.cos());
         let motion = m.motion(q, 2.0, 0.0).unwrap();
@@ -869,6 +910,7 @@ fn scotch_yoke_is_a_cosine() {
 fn elliptic_trammel_draws_an_ellipse() {
     let m = EllipticTrammel::default();
     let course = turn(&m, EllipticTrammelCoordinates { theta: 0.0, x: -2.0, y: 0.0 }, |q| &mut q.theta);
+    closed_form!(m, course, theta);
     rigid!(course, a - b = m.rod, a - pen = m.reach, b - pen = m.reach - m.rod);
     let pen = point!(m, pen);
     for q in &course.positions {
@@ -889,6 +931,7 @@ fn v_twin_runs_in_phase() {
         s_rear: 225.0,
     };
     let course = turn(&m, start, |q| &mut q.theta);
+    closed_form!(m, course, theta);
     rigid!(course, o - pin = m.crank, pin - front = m.rod, pin - rear = m.rod);
     let later = m.vee.to_degrees().round() as usize;
     for (front, rear) in course.positions.iter().zip(&course.positions[later..]) {
@@ -911,6 +954,7 @@ fn wiper_sweeps() {
         second: degrees(93.8),
     };
     let course = turn(&m, start, |q| &mut q.theta);
+    closed_form!(m, course, theta);
     rigid!(
         course,
         motor - first = m.base,
@@ -945,6 +989,7 @@ fn coupled_wheels_stay_parallel() {
     let half = degrees(0.5);
     let start = CoupledWheelsCoordinates { theta: half, rod: 0.0, follower: half };
     let course = follow(&m, start, |q| &mut q.theta, TAU);
+    closed_form!(m, course, theta);
     rigid!(course, a - b = m.crank, a - d = m.base, b - c = m.base, c - d = m.crank);
     for q in &course.positions {
         // The Jacobian is singular with the sine of the crank's angle.
@@ -962,6 +1007,7 @@ fn coupled_wheels_stay_parallel() {
 fn cardan_is_straight() {
     let m = Cardan::default();
     let course = turn(&m, CardanCoordinates { carrier: 0.0, roll: 0.1 }, |q| &mut q.carrier);
+    closed_form!(m, course, carrier);
     rigid!(course, o - centre = m.ring - m.planet, centre - rim = m.planet, centre - pen = m.pen);
     for q in &course.positions {
         let motion = m.motion(q, 1.0, 0.0).unwrap();
@@ -1002,6 +1048,7 @@ fn geared_five_bar_has_the_period_of_its_slower_crank() {
     let m = GearedFiveBar::default();
     let start = GearedFiveBarCoordinates { theta1: 0.0, theta2: 0.5, theta3: 2.0, theta4: m.phase };
     let course = turn(&m, start, |q| &mut q.theta1);
+    closed_form!(m, course, theta1);
     let [first, half, last] = [0, 180, 360].map(|step: usize| course.positions[step]);
     close(last.theta4 - first.theta4, m.ratio * TAU, 1e-13);
     let p = point!(m, p);

@@ -22,6 +22,16 @@ pub enum Error {
         /// equilibrated Jacobian. 1 is far from singular, 0 is singular.
         regularity: f64,
     },
+    /// A group cannot be assembled at this input: its links do not reach each other.
+    Unbuildable {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group; the groups before it can be assembled.
+        group: &'static str,
+        /// By how much it misses: the root of what is below zero beside its largest value, 0 where the
+        /// links just touch.
+        gap: f64,
+    },
     /// Newton's method found no position: the mechanism cannot be assembled at this input, or the
     /// guess is too far.
     NotConverged {
@@ -50,6 +60,9 @@ impl fmt::Display for Error {
                 f,
                 "{mechanism} is in a singular configuration: the Jacobian of {group} is regular to {regularity:.1e} only"
             ),
+            Self::Unbuildable { mechanism, group, gap } => {
+                write!(f, "{mechanism} cannot be assembled at this input: {group} miss closing by {gap:.1e}")
+            }
             Self::NotConverged { mechanism, iterations, residual, regularity } => write!(
                 f,
                 "no position of {mechanism} found in {iterations} Newton steps: relative residual {residual:.1e}, \

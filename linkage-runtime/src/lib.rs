@@ -10,6 +10,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
 
+mod branch;
 pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
@@ -23,6 +24,7 @@ mod scalar;
 pub mod sheet;
 mod sine;
 
+pub use branch::{Side, chord};
 pub use error::{Error, finite, finite_matrix};
 pub use linear::{Factorization, product_of_pivots, regular, same_signs};
 pub use mechanism::Mechanism;

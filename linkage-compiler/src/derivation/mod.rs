@@ -4,6 +4,7 @@
 //! Rates and accelerations of the coordinates are names of their own and are never replaced
 //! by formulas: substituting them is what makes symbolic tools swell.
 
+mod assembly;
 mod check;
 mod formulas;
 mod linear;
@@ -17,6 +18,7 @@ use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::{self, simplify};
 use crate::structure::{self, Group, Method};
+pub use assembly::Assembly;
 pub use check::{LARGEST, check};
 pub use formulas::{Formulas, Inverse};
 pub use linear::{Form, solve_closed};
@@ -236,6 +238,12 @@ fn quantity(graph: &mut Graph, value: Vec<NodeId>, coordinates: &[Coordinate], p
 }
 
 impl Block {
+    /// The name of its branch: those of its unknowns.
+    #[must_use]
+    pub fn branch(&self, derivation: &Derivation) -> String {
+        self.names(derivation).replace(", ", "_")
+    }
+
     /// The names of the unknowns, by which errors name the block.
     #[must_use]
     pub fn names(&self, derivation: &Derivation) -> String {

@@ -38,6 +38,8 @@ pub(super) struct Given<'a> {
     pub sources: Vec<Source>,
     /// The pose, if sines and cosines are given by one.
     pub pose: Option<&'a PosePlan>,
+    /// The argument that says which solution of a group is meant.
+    pub branch: &'a Ident,
 }
 
 /// A value that a kernel returns.
@@ -112,7 +114,7 @@ pub(super) fn write(
     }
     let mut results = Vec::new();
     for line in &schedule.lines {
-        write_line(&mut body, line, derivation, &schedule, &used, &mut names, &mut results);
+        write_line(&mut body, line, given, derivation, &schedule, &used, &mut names, &mut results);
     }
     let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
     Code { body, results, operations: schedule.operations(), taken: names.into_taken(), arguments, uses }
@@ -123,6 +125,7 @@ fn used_by(line: &Line) -> Option<&'static str> {
     match line {
         Line::Guard { .. } => Some("regular"),
         Line::Factor { .. } => Some("Factorization"),
+        Line::Chord { .. } => Some("chord"),
         Line::Pivots { .. } => Some("product_of_pivots"),
         _ => None,
     }
@@ -185,6 +188,7 @@ fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> T
 fn write_line(
     body: &mut TokenStream,
     line: &Line,
+    given: &Given,
     derivation: &Derivation,
     schedule: &Schedule,
     used: &BTreeSet<SymbolId>,
@@ -246,6 +250,14 @@ fn write_line(
                 .collect();
             let factors = ident(&names.factors[block]);
             body.extend(quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);));
+        }
+        Line::Chord { block, symbol, radicand, size } => {
+            let (radicand, size) = (signed(names, schedule, *radicand), signed(names, schedule, *size));
+            let group = derivation.blocks[*block].names(derivation);
+            let side = ident(&derivation.blocks[*block].branch(derivation));
+            let name = names.introduce(*symbol).ident;
+            let branch = given.branch;
+            body.extend(quote!(let #name = chord(Self::NAME, #group, #radicand, #size, #branch.#side)?;));
         }
         Line::Pivots { symbol, matrix } => {
             let columns = columns(matrix, schedule, names);

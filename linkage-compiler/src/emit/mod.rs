@@ -26,6 +26,7 @@ struct Types {
     points: Ident,
     outputs: Ident,
     motion: Ident,
+    branch: Ident,
 }
 
 impl Types {
@@ -46,6 +47,7 @@ impl Types {
             points: named(shared, "Points"),
             outputs: named(shared, "Outputs"),
             motion: named(own, "Motion"),
+            branch: named(own, "Branch"),
         }
     }
 }

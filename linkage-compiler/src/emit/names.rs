@@ -9,17 +9,8 @@ use crate::graph::{Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 9] = [
-    "direction",
-    "directions",
-    "finite",
-    "finite_matrix",
-    "newton",
-    "product_of_pivots",
-    "real",
-    "regular",
-    "same_signs",
-];
+pub(super) const RUNTIME_FUNCTIONS: [&str; 9] =
+    ["chord", "finite", "finite_matrix", "newton", "product_of_pivots", "real", "regular", "same_signs", "unit"];
 
 /// A name longer than this says less than a number.
 const LONGEST: usize = 36;

@@ -336,3 +336,50 @@ fn coordinate_struct(
         }
     }
 }
+
+/// Which solution of each group that has two.
+pub(super) fn branch(mechanism: &Mechanism, types: &Types, sides: &[Ident], private: &TokenStream) -> TokenStream {
+    let (visibility, derives) = (&mechanism.visibility, derives());
+    let (driver, branch) = (&types.driver, &types.branch);
+    let title = format!(" Which solution is meant of each group of [`{driver}`] that has two.");
+    let members = sides.iter().map(|side| {
+        let docs = format!(" Of the group of `{side}`.");
+        quote!(#[doc = #docs] pub #side: #private::Side)
+    });
+    // Of more groups than this nobody tries all branches.
+    const MOST: usize = 16;
+    let bits = (0..sides.len()).map(|place| match place {
+        0 => quote!(bits & 1),
+        place => {
+            let place = Literal::usize_unsuffixed(place);
+            quote!((bits >> #place) & 1)
+        }
+    });
+    let every = match sides.len() {
+        0 => quote!(::core::iter::once(Self {})),
+        many => {
+            let count = Literal::u32_unsuffixed(1 << many.min(MOST));
+            quote! {
+                ::core::iter::Iterator::map(0..#count, |bits: u32| Self {
+                    #(#sides: if #bits == 0 { #private::Side::Left } else { #private::Side::Right }),*
+                })
+            }
+        }
+    };
+    let all = (sides.len() <= MOST).then(|| {
+        quote! {
+            impl #branch {
+                /// Every branch there could be; at a given input some may not exist.
+                pub fn all() -> impl ::core::iter::Iterator<Item = Self> {
+                    #every
+                }
+            }
+        }
+    });
+    quote! {
+        #[doc = #title]
+        #derives
+        #visibility struct #branch { #(#members),* }
+        #all
+    }
+}

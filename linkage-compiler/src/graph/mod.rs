@@ -9,6 +9,7 @@ mod function;
 mod interpret;
 mod number;
 mod print;
+mod replace;
 
 use std::collections::BTreeSet;
 

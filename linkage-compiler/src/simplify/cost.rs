@@ -11,6 +11,8 @@ pub struct Cost {
     pub divisions: usize,
     pub multiplications: usize,
     pub additions: usize,
+    /// Of equal work the shorter expression is better.
+    pub nodes: usize,
 }
 
 /// The cost of an expression in which everything shared is computed once. The sines and cosines of
@@ -23,8 +25,11 @@ pub fn cost(graph: &Graph, root: NodeId, given: &BTreeSet<NodeId>) -> Cost {
         if graph.constant_value(id).is_some() {
             continue;
         }
+        total.nodes += 1;
         match graph.node(id) {
             Node::Call(Function::Sin | Function::Cos, angle) if given.contains(&angle[0]) => continue,
+            // Taking a sign away costs nothing.
+            Node::Call(Function::Abs, _) => {}
             Node::Call(..) => total.functions += 1,
             Node::Sum { constant, terms } => {
                 total.additions += terms.len() - usize::from(constant.is_zero());

@@ -14,7 +14,9 @@ mod rational;
 pub mod schedule;
 mod trigonometric;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+
+use rustc_hash::FxHashMap;
 
 use crate::graph::{Condition, Graph, Node, NodeId, Number};
 use cost::{Cost, cost};
@@ -32,13 +34,13 @@ const LARGEST: usize = 400;
 /// The cheapest form that the identities find of each of `roots`, where sines and cosines of the
 /// angles in `given` are at hand. Larger expressions than somebody would read are left as they are.
 pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -> Vec<NodeId> {
-    let mut better: BTreeMap<NodeId, NodeId> = BTreeMap::new();
+    let mut better: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     let nodes = graph.reachable(roots);
     if nodes.len() > LARGEST {
         return roots.to_vec();
     }
     for id in nodes {
-        let rebuilt = rebuilt(graph, id, &better);
+        let rebuilt = graph.rebuilt(id, &better);
         let mut forms = Forms { given, best: rebuilt, cost: cost(graph, rebuilt, given), conditions: BTreeSet::new() };
         // What one rule gives may suit another.
         for _ in 0..MOST_ROUNDS {
@@ -52,30 +54,6 @@ pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -
         better.insert(id, forms.best);
     }
     roots.iter().map(|root| better[root]).collect()
-}
-
-/// The same node with better parts.
-fn rebuilt(graph: &mut Graph, id: NodeId, better: &BTreeMap<NodeId, NodeId>) -> NodeId {
-    if graph.children(id).iter().all(|child| better[child] == *child) {
-        return id;
-    }
-    match graph.node(id).clone() {
-        Node::Constant(_) | Node::Pi | Node::Symbol(_) => id,
-        Node::Sum { constant, terms } => {
-            let mut sum: Vec<_> = terms.into_iter().map(|(factor, term)| (factor, better[&term])).collect();
-            sum.push((constant, graph.one()));
-            graph.sum(&sum)
-        }
-        Node::Product { coefficient, factors } => {
-            let mut product: Vec<_> = factors.into_iter().map(|(base, n)| (better[&base], n)).collect();
-            product.push((graph.number(coefficient), 1));
-            graph.product(&product)
-        }
-        Node::Call(function, arguments) => {
-            let arguments: Vec<_> = arguments.iter().map(|argument| better[argument]).collect();
-            graph.call(function, &arguments)
-        }
-    }
 }
 
 /// The cheapest form found of one node so far, and what it takes for granted.

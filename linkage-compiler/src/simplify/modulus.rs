@@ -54,9 +54,10 @@ pub(super) fn form(graph: &mut Graph, id: NodeId) -> Option<NodeId> {
 fn root(graph: &mut Graph, id: NodeId) -> Option<NodeId> {
     let (coefficient, monomial) = match graph.node(id).clone() {
         Node::Product { coefficient, factors } => (coefficient, factors.into_iter().collect()),
-        _ => (Number::ONE, Monomial::new()),
+        Node::Constant(number) => (number, Monomial::new()),
+        _ => return None,
     };
-    if monomial.is_empty() || monomial.values().any(|n| n % 2 != 0) {
+    if monomial.values().any(|n| n % 2 != 0) {
         return None;
     }
     let number = graph.number(coefficient);

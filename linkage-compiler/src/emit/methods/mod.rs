@@ -1,6 +1,7 @@
 //! The functions of a mechanism: one kernel each, in the order in which a mechanic derives them.
 
 mod acceleration;
+mod assemble;
 mod block;
 mod closures;
 mod motion;
@@ -17,7 +18,7 @@ use quote::{ToTokens, TokenStreamExt, quote};
 use super::kernel::{self, Code, Given, Operand, Shape, Source};
 use super::names::{Taken, ident, string};
 use super::pose::PosePlan;
-use super::types::field;
+use super::types::{self, field};
 use super::{Emitted, Types, document};
 use crate::derivation::{Derivation, Form, Formulas};
 use crate::graph::{NodeId, SymbolId, Texts};
@@ -43,6 +44,8 @@ struct Arguments {
     rate: Ident,
     acceleration: Ident,
     right: Ident,
+    branch: Ident,
+    inputs: Ident,
 }
 
 struct Methods<'a> {
@@ -54,6 +57,8 @@ struct Methods<'a> {
     reserved: Vec<String>,
     named: Vec<(NodeId, String)>,
     functions: TokenStream,
+    /// The groups with two solutions, where position has a closed form.
+    branches: Option<Vec<Ident>>,
     /// What each function does, by its name.
     kernels: Vec<(String, Operations)>,
     /// What the functions written so far use of the runtime.
@@ -76,10 +81,20 @@ pub(super) fn of_driver(
         rate: name("rate"),
         acceleration: name("acceleration"),
         right: name("right"),
+        branch: name("branch"),
+        inputs: name("inputs"),
     };
-    let reserved = [&arguments.pose, &arguments.q, &arguments.rate, &arguments.acceleration, &arguments.right]
-        .map(ToString::to_string)
-        .to_vec();
+    let reserved = [
+        &arguments.pose,
+        &arguments.q,
+        &arguments.rate,
+        &arguments.acceleration,
+        &arguments.right,
+        &arguments.branch,
+        &arguments.inputs,
+    ]
+    .map(ToString::to_string)
+    .to_vec();
     let mut methods = Methods {
         mechanism,
         driver,
@@ -88,6 +103,7 @@ pub(super) fn of_driver(
         reserved,
         named: mechanism.named.clone(),
         functions: TokenStream::new(),
+        branches: None,
         kernels: Vec::new(),
         // The block itself compares signs.
         uses: BTreeSet::from(["same_signs"]),
@@ -98,6 +114,7 @@ pub(super) fn of_driver(
         methods.name_points(kernels.derivation);
     }
     methods.position(kernels.as_mut());
+    methods.assemble(kernels.as_mut());
     methods.closures(kernels.as_mut());
     methods.velocity(kernels.as_mut(), formulas.as_ref());
     methods.acceleration(kernels.as_mut());
@@ -105,6 +122,9 @@ pub(super) fn of_driver(
     methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Outputs);
     methods.motion(kernels.as_mut());
     let mut tokens = methods.block(kernels.as_ref(), private);
+    if let Some(sides) = &methods.branches {
+        tokens.extend(types::branch(mechanism, types, sides, private));
+    }
     if let Some((derivation, formulas)) = derivation.zip(formulas) {
         tokens.extend(document::constant(mechanism, driver, derivation, &formulas, &methods.kernels, private));
     }
@@ -224,7 +244,7 @@ impl Methods<'_> {
     fn on_pose(&self, kernels: &Kernels, sources: Vec<Source>, stages: &[Stage]) -> Code {
         let mut all = vec![self.parameters(), self.pose_source(kernels)];
         all.extend(sources);
-        let given = Given { sources: all, pose: Some(kernels.plan) };
+        let given = Given { sources: all, pose: Some(kernels.plan), branch: &self.arguments.branch };
         kernel::write(kernels.derivation, &given, stages, &self.named, &self.reserved)
     }
 

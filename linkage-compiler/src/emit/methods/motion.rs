@@ -45,7 +45,7 @@ impl Methods<'_> {
                 self.inputs(kernels, rate, |c| c.rate),
                 self.inputs(kernels, acceleration, |c| c.acceleration),
             ];
-            let given = Given { sources, pose: None };
+            let given = Given { sources, pose: None, branch: &self.arguments.branch };
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
             let fields = self.coordinate_fields();
             let count = fields.len();

@@ -34,7 +34,7 @@ impl Methods<'_> {
             let bare = kernels.variables(&bare);
             stages.push(Stage::Return(values.iter().chain(&circular).chain(&bare).copied().collect()));
             let sources = vec![self.parameters(), self.coordinates(kernels, &q, |c| c.value)];
-            let given = Given { sources, pose: None };
+            let given = Given { sources, pose: None, branch: &self.arguments.branch };
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
             if !circular.is_empty() {
                 code.uses.insert("unit");

@@ -1,0 +1,395 @@
+//! Position in closed form, group by group (Chace's cases), without a sine of a solved angle.
+//!
+//! What is solved of an angle is its direction (cos, sin). The two solutions of a group are the two signs
+//! of one root, the half chord; it is the determinant of the group's part of J, up to the order of its
+//! columns, and is never computed from rounded sines. In the letters of the code, with vectors of the
+//! plane, a . b their scalar and a x b their vector product:
+//!
+//! - RRR: V + W = D, |V| = p, |W| = q. V x W = K, (2 K)^2 = ((p + q)^2 - D^2) (D^2 - (p - q)^2),
+//!   V . D = (D^2 + p^2 - q^2) / 2, V x D = K
+//! - RRP: V + s E = D, |V| = p. V x E = D x E = h, V . E = g, g^2 = (p n - h) (p n + h), n = |E|
+//! - RPR: (s E + P) e^(i phi) = D. (s E + P) . E = g, g^2 = (|D| n)^2 - (P x E)^2
+//! - an angle: a cos phi + b sin phi = h. b cos phi - a sin phi = g, g^2 = (n - h) (n + h), n = |(a, b)|
+//! - two sliders and one linear unknown have one solution.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap;
+
+use super::{Block, Derivation};
+use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
+use crate::simplify::schedule::Stage;
+use crate::simplify::{cramer, simplify};
+use crate::structure::Group;
+
+/// A vector of the plane.
+type Vector = [NodeId; 2];
+
+/// The stages that solve every group, and what they leave.
+#[derive(Debug, Clone)]
+pub struct Assembly {
+    pub stages: Vec<Stage>,
+    /// The determinant of each block.
+    pub determinants: Vec<NodeId>,
+    /// The blocks that have two solutions, and whether their determinant has the sign opposite to the
+    /// root's.
+    pub chords: Vec<(usize, bool)>,
+    directions: BTreeMap<SymbolId, Vector>,
+}
+
+impl Assembly {
+    /// Expressions in terms of what is solved: cosine and sine of a solved angle by their names.
+    pub fn solved(&self, graph: &mut Graph, roots: &[NodeId]) -> Vec<NodeId> {
+        let mut by = FxHashMap::default();
+        for id in graph.reachable(roots) {
+            let &Node::Call(function @ (Function::Sin | Function::Cos), ref angle) = graph.node(id) else { continue };
+            let angle = angle[0];
+            if let Some([cosine, sine]) = self.direction(graph, angle) {
+                by.insert(id, if function == Function::Cos { cosine } else { sine });
+            }
+        }
+        graph.replace(roots, &by)
+    }
+
+    /// The direction of an angle made of solved ones, whole times each.
+    fn direction(&self, graph: &mut Graph, angle: NodeId) -> Option<Vector> {
+        let (constant, terms) = match graph.node(angle).clone() {
+            Node::Sum { constant, terms } => (constant, terms),
+            Node::Product { coefficient, factors } if !coefficient.is_one() => {
+                (Number::ZERO, vec![(coefficient, graph.product(&factors))])
+            }
+            _ => (Number::ZERO, vec![(Number::ONE, angle)]),
+        };
+        let known = |graph: &Graph, term: NodeId| graph.as_symbol(term).and_then(|s| self.directions.get(&s).copied());
+        let (solved, rest): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(_, term)| known(graph, *term).is_some());
+        if solved.is_empty() {
+            return None;
+        }
+        let mut rest = rest;
+        let one = graph.one();
+        rest.push((constant, one));
+        let rest = graph.sum(&rest);
+        let mut total = [Function::Cos, Function::Sin].map(|function| graph.call(function, &[rest]));
+        for (times, term) in solved {
+            let times = times.as_integer().filter(|times| times.abs() <= 4)?;
+            let [c, s] = known(graph, term)?;
+            let s = if times < 0 { graph.negate(s) } else { s };
+            for _ in 0..times.abs() {
+                total = turned(graph, total, [c, s]);
+            }
+        }
+        Some(total)
+    }
+}
+
+/// a b as complex numbers.
+fn turned(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> Vector {
+    let products = [(a, c), (b, d), (a, d), (b, c)].map(|(x, y)| g.multiply(x, y));
+    [g.subtract(products[0], products[1]), g.add(products[2], products[3])]
+}
+
+fn dot(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> NodeId {
+    let (x, y) = (g.multiply(a, c), g.multiply(b, d));
+    g.add(x, y)
+}
+
+fn cross(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> NodeId {
+    let (x, y) = (g.multiply(a, d), g.multiply(b, c));
+    g.subtract(x, y)
+}
+
+/// The vector whose scalar product with `e` is `along` and whose vector product with it is `across`.
+fn with_products(g: &mut Graph, e: Vector, square: NodeId, along: NodeId, across: NodeId) -> Vector {
+    let minus = g.negate(across);
+    let [x, y] = [[along, across], [minus, along]].map(|row| dot(g, row, e));
+    [g.divide(x, square), g.divide(y, square)]
+}
+
+/// |e| in its simplest form: of one link its length.
+fn length(g: &mut Graph, [x, y]: Vector) -> NodeId {
+    let modulus = g.call(Function::Hypot, &[x, y]);
+    simplify(g, &[modulus], &BTreeSet::new())[0]
+}
+
+/// The square of a length: of |l| it is l^2.
+fn square_of(g: &mut Graph, length: NodeId) -> NodeId {
+    let square = g.power(length, 2);
+    simplify(g, &[square], &BTreeSet::new())[0]
+}
+
+impl Derivation {
+    /// Position in closed form; none if a block has no closed form.
+    pub fn assembly(&mut self) -> Option<Assembly> {
+        let mut assembly =
+            Assembly { stages: Vec::new(), determinants: Vec::new(), chords: Vec::new(), directions: BTreeMap::new() };
+        for number in 0..self.blocks.len() {
+            let block = self.blocks[number].clone();
+            let determinant = self.assemble(number, &block, &mut assembly)?;
+            let has_root =
+                assembly.stages.iter().any(|stage| matches!(stage, Stage::Chord { block, .. } if *block == number));
+            if has_root {
+                assembly.chords.push((number, self.graph.leads_negative(determinant)));
+            }
+            let symbol = block.determinant?.symbol;
+            assembly.stages.push(Stage::Let { symbol, node: determinant });
+            assembly.determinants.push(self.graph.variable(symbol));
+        }
+        Some(assembly)
+    }
+
+    fn assemble(&mut self, number: usize, block: &Block, assembly: &mut Assembly) -> Option<NodeId> {
+        let rows: Vec<NodeId> = block.equations.iter().map(|&equation| self.residual[equation]).collect();
+        let rows = assembly.solved(&mut self.graph, &rows);
+        let symbols: Vec<SymbolId> =
+            block.unknowns.iter().map(|&place| self.coordinates[self.unknowns[place]].value).collect();
+        let mut group = Solver { graph: &mut self.graph, number, assembly };
+        match (block.group, rows.as_slice(), symbols.as_slice()) {
+            (Group::Linear, &[row], &[unknown]) => group.linear(row, unknown),
+            (Group::Angle, &[row], &[phi]) => group.angle(row, phi),
+            (Group::Sliders, &[x, y], &[s, t]) => group.sliders([x, y], s, t),
+            (Group::Rrr, &[x, y], &[a, b]) => {
+                // The first to be taken is the one that may be measured from the other's link.
+                if group.is_link(&[x, y], a, b) {
+                    group.two_links([x, y], a, b)
+                } else {
+                    let determinant = group.two_links([x, y], b, a)?;
+                    Some(group.graph.negate(determinant))
+                }
+            }
+            (Group::Rrp | Group::Rpr, &[x, y], &[a, b]) => {
+                let slope = group.graph.partial(&[x, y], b);
+                let is_slider = |graph: &Graph| slope.iter().all(|&part| !graph.symbols_of(&[part]).contains(&b));
+                let (phi, s, swapped) = if is_slider(group.graph) { (a, b, false) } else { (b, a, true) };
+                let determinant = group.slider([x, y], phi, s, block.group)?;
+                Some(if swapped { group.graph.negate(determinant) } else { determinant })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// One group in the making.
+struct Solver<'a> {
+    graph: &'a mut Graph,
+    number: usize,
+    assembly: &'a mut Assembly,
+}
+
+impl Solver<'_> {
+    fn name(&mut self, symbol: SymbolId, node: NodeId) -> NodeId {
+        self.assembly.stages.push(Stage::Let { symbol, node });
+        self.graph.variable(symbol)
+    }
+
+    fn fresh(&mut self, name: &str, node: NodeId) -> NodeId {
+        let symbol = self.graph.symbol(name);
+        self.name(symbol, node)
+    }
+
+    /// A symbol replaced by zero.
+    fn at_zero<const N: usize>(&mut self, nodes: [NodeId; N], symbols: &[SymbolId]) -> [NodeId; N] {
+        let zero = self.graph.zero();
+        let by = symbols.iter().map(|&symbol| (self.graph.variable(symbol), zero)).collect();
+        let replaced = self.graph.replace(&nodes, &by);
+        std::array::from_fn(|index| replaced[index])
+    }
+
+    /// What of two rows holds a symbol, and the rest.
+    fn parted(&mut self, rows: [NodeId; 2], symbol: SymbolId) -> (Vector, Vector) {
+        let with = rows.map(|row| {
+            let terms = match self.graph.node(row) {
+                Node::Sum { terms, .. } => terms.clone(),
+                _ => vec![(Number::ONE, row)],
+            };
+            let holding: Vec<_> =
+                terms.into_iter().filter(|&(_, term)| self.graph.symbols_of(&[term]).contains(&symbol)).collect();
+            self.graph.sum(&holding)
+        });
+        let rest = [0, 1].map(|row| self.graph.subtract(rows[row], with[row]));
+        (with, rest)
+    }
+
+    fn negated(&mut self, vector: Vector) -> Vector {
+        vector.map(|part| self.graph.negate(part))
+    }
+
+    /// Names a solved direction; the angle itself is there for whoever asks.
+    fn direction(&mut self, angle: SymbolId, [cosine, sine]: Vector) {
+        let name = self.graph.symbol_name(angle).to_owned();
+        let cosine = self.fresh(&format!("cos_{name}"), cosine);
+        let sine = self.fresh(&format!("sin_{name}"), sine);
+        self.assembly.directions.insert(angle, [cosine, sine]);
+        let value = self.graph.call(Function::Atan2, &[sine, cosine]);
+        self.name(angle, value);
+    }
+
+    /// The root of a product of two factors, with the sign of the branch.
+    fn chord(&mut self, factors: [NodeId; 2], size: NodeId) -> NodeId {
+        let symbol = self.graph.symbol(format!("chord_{}", self.number + 1));
+        let [low, high] = factors;
+        let radicand = self.graph.multiply(low, high);
+        self.assembly.stages.push(Stage::Chord { block: self.number, symbol, radicand, size });
+        self.graph.variable(symbol)
+    }
+
+    fn linear(&mut self, row: NodeId, unknown: SymbolId) -> Option<NodeId> {
+        let slope = self.graph.partial(&[row], unknown)[0];
+        let [rest] = self.at_zero([row], &[unknown]);
+        let minus = self.graph.negate(rest);
+        let value = self.graph.divide(minus, slope);
+        self.name(unknown, value);
+        Some(slope)
+    }
+
+    fn angle(&mut self, row: NodeId, phi: SymbolId) -> Option<NodeId> {
+        let zero = self.graph.zero();
+        let ([part, _], [rest, _]) = self.parted([row, zero], phi);
+        let slope = self.graph.partial(&[part], phi)[0];
+        let [a, b] = self.at_zero([part, slope], &[phi]);
+        let h = self.graph.negate(rest);
+        let n = length(self.graph, [a, b]);
+        let factors = [self.graph.subtract(n, h), self.graph.add(n, h)];
+        let size = square_of(self.graph, n);
+        let g = self.chord(factors, size);
+        // (cos, sin) . (a, b) = h and (cos, sin) x (a, b) = g
+        let direction = with_products(self.graph, [a, b], size, h, g);
+        self.direction(phi, direction);
+        Some(g)
+    }
+
+    fn sliders(&mut self, rows: [NodeId; 2], s: SymbolId, t: SymbolId) -> Option<NodeId> {
+        let (along, other) = (self.graph.partial(&rows, s), self.graph.partial(&rows, t));
+        let rest = self.at_zero(rows, &[s, t]);
+        let right = self.negated(rest);
+        let jacobian = [[along[0], other[0]], [along[1], other[1]]];
+        let whole = crate::simplify::determinant(self.graph, jacobian);
+        let [first, second] = cramer(self.graph, jacobian, whole, right);
+        self.name(s, first);
+        self.name(t, second);
+        Some(whole)
+    }
+
+    /// Whether what does not hold `a` turns with `b` alone.
+    fn is_link(&mut self, rows: &[NodeId; 2], a: SymbolId, b: SymbolId) -> bool {
+        let (link, rest) = self.parted(*rows, a);
+        let ([x, y], _) = self.parted(rest, b);
+        let minus = self.graph.negate(y);
+        let [link_x, link_y] = link;
+        let minus_link = self.graph.negate(link_y);
+        self.graph.partial(&[x, y], b) == [minus, x]
+            && self.graph.partial(&link, a) == [minus_link, link_x]
+            && !(self.graph.is_zero(x) && self.graph.is_zero(y))
+    }
+
+    fn two_links(&mut self, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Option<NodeId> {
+        let (v, rest) = self.parted(rows, a);
+        let (w, rest) = self.parted(rest, b);
+        let d = self.negated(rest);
+        // V turns with a + k b.
+        let slope = self.graph.partial(&v, b);
+        let k = (-2..=2).find(|&k| {
+            slope == [self.graph.scale(Number::integer(-k), v[1]), self.graph.scale(Number::integer(k), v[0])]
+        })?;
+        let (at_v, at_w) = (self.at_zero(v, &[a, b]), self.at_zero(w, &[b]));
+        let (p, q) = (length(self.graph, at_v), length(self.graph, at_w));
+        let g = &mut *self.graph;
+        let distance = dot(g, d, d);
+        let distance = self.fresh(&format!("distance_{}", self.number + 1), distance);
+        let g = &mut *self.graph;
+        let (sum, difference) = (g.add(p, q), g.subtract(p, q));
+        let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
+        let factors = [g.subtract(sum, distance), g.subtract(distance, difference)];
+        // The largest the product can be: (2 p q)^2, where the links are at right angles.
+        let (p2, q2) = (square_of(g, p), square_of(g, q));
+        let half = g.multiply(p2, q2);
+        let size = g.scale(Number::integer(4), half);
+        let twice = self.chord(factors, size);
+        let g = &mut *self.graph;
+        let cross_product = g.scale(Number::ratio(1, 2), twice);
+        let along = g.sum(&[(Number::ratio(1, 2), distance), (Number::ratio(1, 2), p2), (Number::ratio(-1, 2), q2)]);
+        let solved = with_products(g, d, distance, along, cross_product);
+        let solved = [("link_x", solved[0]), ("link_y", solved[1])].map(|(name, part)| self.fresh(name, part));
+        let g = &mut *self.graph;
+        let other = [g.subtract(d[0], solved[0]), g.subtract(d[1], solved[1])];
+        // e^(i alpha) = V / V(0)
+        let over = |g: &mut Graph, vector: Vector, at_zero: Vector, square: NodeId| -> Vector {
+            let conjugate = [at_zero[0], g.negate(at_zero[1])];
+            turned(g, vector, conjugate).map(|part| g.divide(part, square))
+        };
+        let alpha = over(g, solved, at_v, p2);
+        let beta = over(g, other, at_w, q2);
+        self.direction(b, beta);
+        let [cosine, sine] = self.assembly.directions[&b];
+        let mut first = alpha;
+        for _ in 0..k.abs() {
+            let back = if k > 0 { self.graph.negate(sine) } else { sine };
+            first = turned(self.graph, first, [cosine, back]);
+        }
+        self.direction(a, first);
+        Some(cross_product)
+    }
+
+    fn slider(&mut self, rows: [NodeId; 2], phi: SymbolId, s: SymbolId, group: Group) -> Option<NodeId> {
+        let slope = self.graph.partial(&rows, s);
+        let line = [slope[0], slope[1]];
+        if group == Group::Rrp {
+            let (v, rest) = self.parted(rows, phi);
+            let rest = self.at_zero(rest, &[s]);
+            let d = self.negated(rest);
+            let at_zero = self.at_zero(v, &[phi]);
+            let (p, n) = (length(self.graph, at_zero), length(self.graph, line));
+            let g = &mut *self.graph;
+            let h = cross(g, d, line);
+            let h = self.fresh(&format!("offset_{}", self.number + 1), h);
+            let g = &mut *self.graph;
+            let reach = g.multiply(p, n);
+            let factors = [g.subtract(reach, h), g.add(reach, h)];
+            let size = square_of(g, reach);
+            let along = self.chord(factors, size);
+            let g = &mut *self.graph;
+            let square = square_of(g, n);
+            let solved = with_products(g, line, square, along, h);
+            let forward = dot(g, d, line);
+            let rest = g.subtract(forward, along);
+            let value = g.divide(rest, square);
+            let p2 = square_of(g, p);
+            let conjugate = [at_zero[0], g.negate(at_zero[1])];
+            let direction = turned(g, solved, conjugate).map(|part| g.divide(part, p2));
+            self.name(s, value);
+            self.direction(phi, direction);
+            return Some(self.graph.negate(along));
+        }
+        let (turning, rest) = self.parted(rows, phi);
+        let d = self.negated(rest);
+        let e = self.at_zero(line, &[phi]);
+        let p = self.at_zero(turning, &[phi, s]);
+        let n = length(self.graph, e);
+        let g = &mut *self.graph;
+        let square = square_of(g, n);
+        let distance = dot(g, d, d);
+        let distance = self.fresh(&format!("distance_{}", self.number + 1), distance);
+        let g = &mut *self.graph;
+        let across = cross(g, p, e);
+        let across = simplify(g, &[across], &BTreeSet::new())[0];
+        let reach = g.call(Function::Sqrt, &[distance]);
+        let reach = g.multiply(reach, n);
+        let factors = [g.subtract(reach, across), g.add(reach, across)];
+        let size = g.multiply(distance, square);
+        let along = self.chord(factors, size);
+        let g = &mut *self.graph;
+        let offset = dot(g, p, e);
+        let offset = simplify(g, &[offset], &BTreeSet::new())[0];
+        let forward = g.subtract(along, offset);
+        let value = g.divide(forward, square);
+        let value = self.name(s, value);
+        let g = &mut *self.graph;
+        let arm = [0, 1].map(|axis| {
+            let part = g.multiply(value, e[axis]);
+            g.add(part, p[axis])
+        });
+        let conjugate = [arm[0], g.negate(arm[1])];
+        let direction = turned(g, d, conjugate).map(|part| g.divide(part, distance));
+        self.direction(phi, direction);
+        Some(self.graph.negate(along))
+    }
+}
