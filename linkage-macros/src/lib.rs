@@ -160,6 +160,8 @@ use proc_macro::TokenStream;
 /// | `velocity`, `gamma`, `acceleration` | q', the quadratic velocity term, q'' |
 /// | `points`, `point_velocities`, `point_accelerations`, `point_ratios` | of all points; the ratios are W_l |
 /// | `outputs`, `output_velocities`, `output_accelerations`, `output_ratios` | of all outputs |
+/// | `assemble(v, FourBarBranch { .. })` | position in closed form where every block has one: group by group, on the branch that is asked for |
+/// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, a `Side` by the names of its unknowns; `all()` of them |
 /// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
 /// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once |
 /// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` makes a document of it |
@@ -170,7 +172,9 @@ use proc_macro::TokenStream;
 /// The closures are solved block by block: unknowns that depend on one another form a block, a block of
 /// one or two unknowns has a formula, a larger one a factorisation. Dyads are recognised by the way their
 /// unknowns enter the closure (RRR, RRP, RPR, two sliders) and named in the documentation and in
-/// `DERIVATION`. A singular block is named by its unknowns in the error.
+/// `DERIVATION`; they, single angles and linear unknowns have their positions in closed form, each with
+/// two branches but for the linear ones. A singular block, and one that cannot be assembled, is named by
+/// its unknowns in the error.
 ///
 /// # What is rejected
 ///
@@ -181,7 +185,7 @@ use proc_macro::TokenStream;
 /// where vectors belong, a name used as an angle and as a modulus, division by zero, constants that are
 /// not finite, and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words
 /// and signs, more than 10 000 expressions, or 16 000 with their derivatives (a chain of four-bars takes
-/// 165 a loop).
+/// 70 a loop).
 ///
 /// ```compile_fail
 /// linkage::linkage! {
