@@ -113,8 +113,9 @@ pub(super) fn write(
         body.extend(directions);
     }
     let mut results = Vec::new();
+    let writer = Writer { given, derivation, schedule: &schedule, used: &used };
     for line in &schedule.lines {
-        write_line(&mut body, line, given, derivation, &schedule, &used, &mut names, &mut results);
+        write_line(&writer, &mut body, line, &mut names, &mut results);
     }
     let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
     Code { body, results, operations: schedule.operations(), taken: names.into_taken(), arguments, uses }
@@ -185,16 +186,17 @@ fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> T
     tokens
 }
 
-fn write_line(
-    body: &mut TokenStream,
-    line: &Line,
-    given: &Given,
-    derivation: &Derivation,
-    schedule: &Schedule,
-    used: &BTreeSet<SymbolId>,
-    names: &mut Names,
-    results: &mut Vec<Operand>,
-) {
+/// What the lines of a kernel refer to.
+struct Writer<'a> {
+    given: &'a Given<'a>,
+    derivation: &'a Derivation,
+    schedule: &'a Schedule,
+    /// The symbols that are used.
+    used: &'a BTreeSet<SymbolId>,
+}
+
+fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut Names, results: &mut Vec<Operand>) {
+    let Writer { given, derivation, schedule, used } = writer;
     match line {
         Line::Let(id) => {
             // What a value is made of has names before it has one itself.
