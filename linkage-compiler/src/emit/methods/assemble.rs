@@ -1,12 +1,11 @@
 //! Position in closed form.
 
-use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::kernel;
 use super::super::kernel::Given;
 use super::super::names::ident;
-use super::{Body, Kernels, Methods, argument_of, bind, check_finite, lines, member};
+use super::{Body, Kernels, Methods, argument_of, bind, check_finite, lines, pose_members};
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
@@ -47,21 +46,7 @@ impl Methods<'_> {
         wishes.extend(kernels.plan.values.iter().map(|(_, field, _)| field.clone()));
         let (bindings, bound) = bind(&code.results, &wishes, &mut code.taken);
         let finite = check_finite(&mut code, "the position", &bound);
-        let mut results = bound.iter();
-        let mut fields = TokenStream::new();
-        for ((_, field, _), value) in kernels.plan.determinants.iter().zip(results.by_ref()) {
-            let member = member(&ident(field), value);
-            fields.extend(quote!(#member,));
-        }
-        for field in kernels.plan.directions.values() {
-            let field = ident(field);
-            let parts = results.by_ref().take(2);
-            fields.extend(quote!(#field: unit(#(#parts),*),));
-        }
-        for ((_, field, _), value) in kernels.plan.values.iter().zip(results) {
-            let member = member(&ident(field), value);
-            fields.extend(quote!(#member,));
-        }
+        let fields = pose_members(kernels.plan, bound.iter());
         if !circular.is_empty() {
             code.uses.insert("unit");
         }

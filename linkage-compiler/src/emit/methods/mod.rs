@@ -338,6 +338,24 @@ fn literal(count: usize) -> Literal {
     Literal::usize_unsuffixed(count)
 }
 
+/// The members of a pose from determinants, cosines and sines, and what is held as a number.
+fn pose_members<'a>(plan: &PosePlan, mut results: impl Iterator<Item = &'a Operand>) -> TokenStream {
+    let mut members = TokenStream::new();
+    for ((_, field, _), value) in plan.determinants.iter().zip(results.by_ref()) {
+        let member = member(&ident(field), value);
+        members.extend(quote!(#member,));
+    }
+    for field in plan.directions.values() {
+        let (field, parts) = (ident(field), results.by_ref().take(2));
+        members.extend(quote!(#field: unit(#(#parts),*),));
+    }
+    for ((_, field, _), value) in plan.values.iter().zip(results) {
+        let member = member(&ident(field), value);
+        members.extend(quote!(#member,));
+    }
+    members
+}
+
 /// `name: value`, or `name` alone if the value is called so.
 fn member(name: &Ident, value: &Operand) -> TokenStream {
     match value {

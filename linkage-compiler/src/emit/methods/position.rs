@@ -1,12 +1,10 @@
 //! The pose of a position, and the position near a guess.
 
-use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::kernel;
 use super::super::kernel::Given;
-use super::super::names::ident;
-use super::{Arguments, Body, Kernels, Methods, argument_of, member};
+use super::{Arguments, Body, Kernels, Methods, argument_of, pose_members};
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
@@ -39,22 +37,7 @@ impl Methods<'_> {
             if !circular.is_empty() {
                 code.uses.insert("unit");
             }
-            let mut results = code.results.iter();
-            let mut fields = TokenStream::new();
-            for ((_, field, _), value) in kernels.plan.determinants.iter().zip(results.by_ref()) {
-                let member = member(&ident(field), value);
-                fields.extend(quote!(#member,));
-            }
-            for field in kernels.plan.directions.values() {
-                let field = ident(field);
-                let parts = results.by_ref().take(2);
-                fields.extend(quote!(#field: unit(#(#parts),*),));
-            }
-            for ((_, field, _), value) in kernels.plan.values.iter().zip(results) {
-                let field = ident(field);
-                let member = member(&field, value);
-                fields.extend(quote!(#member,));
-            }
+            let fields = pose_members(kernels.plan, code.results.iter());
             Body::new(code, quote!(#pose { #fields }), [])
         });
         let docs = ["The position at these coordinates, ready for use: one sine and cosine for each angle.".to_owned()];
