@@ -6,6 +6,8 @@ include!("mechanisms/four_bar.rs");
 include!("mechanisms/six_bar.rs");
 include!("mechanisms/jansen.rs");
 include!("mechanisms/offset_slider_crank.rs");
+include!("mechanisms/inverted_slider_crank.rs");
+include!("mechanisms/v_twin.rs");
 
 fn branch(theta3_theta4: Side) -> FourBarBranch {
     FourBarBranch { theta3_theta4 }
@@ -29,6 +31,45 @@ fn both_branches_of_a_four_bar() {
         let [b, d] = [m.points(&left).unwrap().b, nalgebra::vector![m.l1, 0.0]];
         let across = |pose| (m.points(pose).unwrap().c - b).perp(&(d - b));
         assert!((across(&left) + across(&right)).abs() <= 1e-11);
+    }
+}
+
+/// What `Side` says of each kind of group, which no test of one position against another would notice.
+#[test]
+fn sides_mean_what_they_say() {
+    let both = [Side::Left, Side::Right];
+    for degrees in (0..360).step_by(7) {
+        let angle = f64::from(degrees).to_radians();
+        // RRR: l3 x l4 is positive where l4 turns left from l3.
+        let m = FourBar::default();
+        let crosses = both.map(|side| {
+            let pose = m.assemble(angle, branch(side)).unwrap();
+            let (l3, l4) = (pose.theta3.complex() * m.l3, pose.theta4.complex() * m.l4);
+            l3.re * l4.im - l3.im * l4.re
+        });
+        assert!(crosses[0] > 0.0 && crosses[1] < 0.0, "{crosses:?}");
+        // RPR: the larger modulus.
+        let m = InvertedSliderCrank::default();
+        let lengths = both.map(|theta4_b| m.assemble(angle, InvertedSliderCrankBranch { theta4_b }).unwrap().b);
+        assert!(lengths[0] > lengths[1], "{lengths:?}");
+        // RRP: the scalar product of the rod and the derivative of the closure by the slider.
+        let m = VTwin::default();
+        let products = both.map(|side| {
+            let branch = VTwinBranch { phi_front_s_front: side, phi_rear_s_rear: Side::Left };
+            let pose = m.assemble(angle, branch).unwrap();
+            let j = m.jacobian_unknowns(&pose);
+            // The first column is i times the rod.
+            let [turned, line] = [j.fixed_view::<2, 1>(0, 0), j.fixed_view::<2, 1>(0, 1)];
+            turned[1] * line[0] - turned[0] * line[1]
+        });
+        assert!(products[0] > 0.0 && products[1] < 0.0, "{products:?}");
+        // One angle: its equation, the second row, grows with it.
+        let m = OffsetSliderCrank::default();
+        let slopes = both.map(|theta3| {
+            let pose = m.assemble(angle, OffsetSliderCrankBranch { theta3 }).unwrap();
+            m.jacobian_unknowns(&pose)[(1, 0)]
+        });
+        assert!(slopes[0] > 0.0 && slopes[1] < 0.0, "{slopes:?}");
     }
 }
 

@@ -6,13 +6,15 @@ use crate::{Error, Real, real};
 /// Which of the two solutions of a group is meant: the sign of the determinant of its part of J up to the
 /// order of its columns. It changes only where the group is singular.
 ///
-/// Of two links (RRR) it tells to which side the second turns from the first, going round the closure; of
-/// a slider (RRP, RPR) which of the two positions on its line.
+/// Left means: of two links (RRR) that the second turns left from the first, both taken as they stand in
+/// the closure with all terms on one side; of a link and a slider (RRP) that the link points the way in
+/// which the slider's modulus moves the closure; of a slider on a turning guide (RPR) that it is the one
+/// with the larger modulus; of a single angle that its equation grows with the angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// The root is positive: the second link turns left, the slider is far.
+    /// The root is positive.
     Left,
-    /// The root is negative: the second link turns right, the slider is near.
+    /// The root is negative.
     Right,
 }
 

@@ -4,16 +4,18 @@
 //! formula swells. Children always precede their parents, hence every traversal is a loop
 //! over ascending ids: nothing here recurses, whatever the depth of an expression.
 
+mod circular;
 mod differentiate;
 mod function;
 mod interpret;
 mod number;
 mod print;
 mod replace;
+mod sweep;
 
 use std::collections::BTreeSet;
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
@@ -416,51 +418,6 @@ impl Graph {
         }
     }
 
-    /// sin(-x) = -sin x, cos(-x) = cos x, sin(x + pi/2) = cos x, cos(x + pi/2) = -sin x.
-    fn circular(&mut self, function: Function, angle: NodeId) -> NodeId {
-        let (turn, rest) = self.split_pi(angle);
-        let quarters = turn.multiply(Number::integer(2)).as_integer();
-        let (quarters, rest) = match quarters {
-            Some(quarters) => (quarters.rem_euclid(4), rest),
-            None => (0, angle),
-        };
-        let flip = self.leads_negative(rest);
-        let rest = if flip { self.negate(rest) } else { rest };
-        // cos x is sin(x + pi/2): both are a sine ahead by some quarters.
-        let ahead = quarters + i64::from(function == Function::Cos);
-        let (even, sign) = (ahead % 2 == 1, if ahead % 4 >= 2 { -1 } else { 1 });
-        let sign = if flip && !even { -sign } else { sign };
-        let base = if even { Function::Cos } else { Function::Sin };
-        let (turn, pure) = if self.constant_value(rest).is_some() {
-            let (turn, beside) = self.split_pi(rest);
-            (turn, self.is_zero(beside))
-        } else {
-            (Number::ZERO, false)
-        };
-        let value = match exact_circular(base, turn, pure) {
-            Some(value) => self.number(value),
-            None => self.intern(Node::Call(base, vec![rest])),
-        };
-        self.scale(Number::integer(sign), value)
-    }
-
-    /// angle = turn * pi + rest, where `rest` has no term in pi.
-    fn split_pi(&mut self, angle: NodeId) -> (Number, NodeId) {
-        let pi = self.pi();
-        let turn = match self.node(angle) {
-            Node::Pi => Number::ONE,
-            Node::Product { coefficient, factors } if factors.as_slice() == [(pi, 1)] => *coefficient,
-            Node::Sum { terms, .. } => {
-                terms.iter().find(|(_, term)| *term == pi).map_or(Number::ZERO, |(factor, _)| *factor)
-            }
-            _ => Number::ZERO,
-        };
-        if turn.is_zero() {
-            return (turn, angle);
-        }
-        (turn, self.sum(&[(Number::ONE, angle), (turn.negate(), pi)]))
-    }
-
     /// Whether the first coefficient as written is negative: the sign to take out of an odd function.
     #[must_use]
     pub fn leads_negative(&self, id: NodeId) -> bool {
@@ -470,86 +427,6 @@ impl Graph {
             Node::Sum { terms, .. } => terms.first().is_some_and(|(factor, _)| factor.is_negative()),
             _ => false,
         }
-    }
-
-    /// The direct parts of a node.
-    #[must_use]
-    pub fn children(&self, id: NodeId) -> Vec<NodeId> {
-        let mut children = Vec::new();
-        self.each_child(id, |child| children.push(child));
-        children
-    }
-
-    /// Every node that the roots are made of, children before parents.
-    #[must_use]
-    pub fn reachable(&self, roots: &[NodeId]) -> Vec<NodeId> {
-        self.sweep(roots.iter().copied(), |_| false)
-    }
-
-    /// The nodes that the roots are made of, children before parents, without those that are `done`
-    /// and what only those are made of. The cost is that of what is found, not of the graph.
-    fn sweep(&self, roots: impl IntoIterator<Item = NodeId>, done: impl Fn(NodeId) -> bool) -> Vec<NodeId> {
-        let mut seen: FxHashSet<NodeId> = FxHashSet::default();
-        let mut found: Vec<NodeId> = roots.into_iter().filter(|&root| !done(root) && seen.insert(root)).collect();
-        let mut next = 0;
-        while next < found.len() {
-            let id = found[next];
-            next += 1;
-            self.each_child(id, |child| {
-                if !done(child) && seen.insert(child) {
-                    found.push(child);
-                }
-            });
-        }
-        found.sort_unstable();
-        found
-    }
-
-    fn each_child(&self, id: NodeId, mut visit: impl FnMut(NodeId)) {
-        match self.node(id) {
-            Node::Constant(_) | Node::Pi | Node::Symbol(_) => {}
-            Node::Sum { terms, .. } => {
-                for (_, term) in terms {
-                    visit(*term);
-                }
-            }
-            Node::Product { factors, .. } => {
-                for (base, _) in factors {
-                    visit(*base);
-                }
-            }
-            Node::Call(_, arguments) => {
-                for argument in arguments {
-                    visit(*argument);
-                }
-            }
-        }
-    }
-
-    /// Every node that the roots are made of, children before parents, and of leaves nothing more.
-    pub(crate) fn reachable_but(&self, roots: &[NodeId], is_leaf: impl Fn(NodeId) -> bool) -> Vec<NodeId> {
-        let mut seen: FxHashSet<NodeId> = FxHashSet::default();
-        let mut found: Vec<NodeId> = roots.iter().copied().filter(|&root| seen.insert(root)).collect();
-        let mut next = 0;
-        while next < found.len() {
-            let id = found[next];
-            next += 1;
-            if !is_leaf(id) {
-                self.each_child(id, |child| {
-                    if seen.insert(child) {
-                        found.push(child);
-                    }
-                });
-            }
-        }
-        found.sort_unstable();
-        found
-    }
-
-    /// The symbols that the roots are made of.
-    #[must_use]
-    pub fn symbols_of(&self, roots: &[NodeId]) -> Vec<SymbolId> {
-        self.reachable(roots).into_iter().filter_map(|id| self.as_symbol(id)).collect()
     }
 }
 
@@ -572,31 +449,6 @@ fn square_root(value: Number) -> Option<Number> {
         Number::Ratio(n, d) => Some(Number::ratio(i128::from(root(n)?), i128::from(root(d)?))),
         Number::Float(_) => None,
     }
-}
-
-/// The rational values of sine and cosine at `turn * pi`, quarter turns taken out: 0, 1/2 and 1 (Niven's theorem).
-fn exact_circular(function: Function, turn: Number, pure: bool) -> Option<Number> {
-    if !pure {
-        return None;
-    }
-    let half = Number::ratio(1, 2);
-    let table: &[(Number, Number)] = match function {
-        Function::Sin => &[
-            (Number::ZERO, Number::ZERO),
-            (Number::ratio(1, 6), half),
-            (Number::ratio(5, 6), half),
-            (Number::ratio(7, 6), half.negate()),
-            (Number::ratio(11, 6), half.negate()),
-        ],
-        _ => &[
-            (Number::ZERO, Number::ONE),
-            (Number::ratio(1, 3), half),
-            (Number::ratio(2, 3), half.negate()),
-            (Number::ratio(4, 3), half.negate()),
-            (Number::ratio(5, 3), half),
-        ],
-    };
-    table.iter().find(|(angle, _)| *angle == turn).map(|(_, value)| *value)
 }
 
 #[cfg(test)]

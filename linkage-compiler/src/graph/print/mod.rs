@@ -109,7 +109,7 @@ impl<'a> Printer<'a> {
     /// Writes every part that is not written yet; the length of the Unicode decides what is hidden in
     /// all notations.
     fn prepare(&mut self, root: NodeId) {
-        for id in self.graph.sweep([root], |id| self.unicode.contains_key(&id)) {
+        for id in self.graph.sweep(&[root], |id| self.unicode.contains_key(&id), |_| false) {
             let reading = Reading { graph: self.graph, names: Some(self.names), measured: &self.unicode };
             let layout = reading.layout(id);
             let spell = |style: &dyn Style, pieces: &Pieces| layout.spell(&reading, style, pieces);
@@ -152,7 +152,7 @@ impl Texts {
     /// The expression as text.
     pub fn of(&mut self, graph: &Graph, root: NodeId) -> String {
         let pieces = &mut self.0;
-        for id in graph.sweep([root], |id| pieces.contains_key(&id)) {
+        for id in graph.sweep(&[root], |id| pieces.contains_key(&id), |_| false) {
             let reading = Reading { graph, names: None, measured: pieces };
             let (body, binding) = reading.layout(id).spell(&reading, &language::Language, pieces);
             let fits = body.len() <= LONGEST;

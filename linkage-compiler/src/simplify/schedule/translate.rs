@@ -31,7 +31,7 @@ impl<'a> Builder<'a> {
     }
 
     fn build(&mut self, roots: &[NodeId]) {
-        let ordered = self.graph.reachable_but(roots, |id| self.is_leaf(id));
+        let ordered = self.graph.sweep(roots, |_| false, |id| self.is_leaf(id));
         let shared = self.shared_divisors(&ordered);
         for id in ordered {
             let signed = match self.leaf(id) {
