@@ -6,6 +6,7 @@ include!("mechanisms/four_bar.rs");
 include!("mechanisms/six_bar.rs");
 include!("mechanisms/jansen.rs");
 include!("mechanisms/offset_slider_crank.rs");
+include!("mechanisms/introductory.rs");
 include!("mechanisms/inverted_slider_crank.rs");
 include!("mechanisms/v_twin.rs");
 
@@ -70,6 +71,23 @@ fn sides_mean_what_they_say() {
             m.jacobian_unknowns(&pose)[(1, 0)]
         });
         assert!(slopes[0] > 0.0 && slopes[1] < 0.0, "{slopes:?}");
+    }
+}
+
+/// A link that stands on the guide at an angle of its own, with a part along the guide and a part across.
+#[test]
+fn a_guide_with_an_offset_link() {
+    for delta in [-2.0, -0.7, 0.3, 1.0, 2.4] {
+        let m = Introductory { delta, ..Introductory::default() };
+        for degrees in (0..360).step_by(5) {
+            for phi2_z2 in [Side::Left, Side::Right] {
+                let pose = m.assemble(f64::from(degrees).to_radians(), IntroductoryBranch { phi2_z2 }).unwrap();
+                let size = m.closure_sizes(&pose).sum();
+                assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * size, "{delta}, {degrees} deg");
+                let other = m.pose_at(&pose.coordinates());
+                assert!((pose.determinant - other.determinant).abs() <= 8.0 * f64::EPSILON * size);
+            }
+        }
     }
 }
 
