@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use linkage::{Side, linkage};
+use linkage::{Elbow, linkage};
 
 linkage! {
     /// Nobody asks for an angle here.
@@ -50,12 +50,12 @@ fn by_hand(m: &FourBar, theta2: f64) -> Option<Hand> {
 
 #[inline(never)]
 fn emitted(m: &FourBar, theta2: f64) -> Option<FourBarPose> {
-    m.assemble(theta2, FourBarBranch { theta3_theta4: Side::Right }).ok()
+    m.assemble(theta2, FourBarBranch { theta3_theta4: Elbow::Left }).ok()
 }
 
 #[inline(never)]
 fn emitted_with_motion(m: &FourBar, theta2: f64) -> Option<f64> {
-    let pose = m.assemble(theta2, FourBarBranch { theta3_theta4: Side::Right }).ok()?;
+    let pose = m.assemble(theta2, FourBarBranch { theta3_theta4: Elbow::Left }).ok()?;
     let velocity = m.velocity(&pose, 41.9).ok()?;
     let acceleration = m.acceleration(&pose, &velocity, 0.0).ok()?;
     Some(acceleration.theta3 + acceleration.theta4)

@@ -7,7 +7,7 @@ pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
-    Error, Mechanism, OutputMotion, PointMotion, Side, Solution, derivation, nalgebra, position,
+    Elbow, Error, Mechanism, OutputMotion, PointMotion, Slider, Slope, Solution, derivation, nalgebra, position,
 };
 
 /// Mechanisms from their closure equations.
@@ -28,7 +28,7 @@ pub mod __private {
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
-        Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Side, Solution, chord, finite, finite_matrix,
-        newton, product_of_pivots, real, regular, same_signs, unit,
+        Elbow, Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, chord,
+        existing, finite, finite_matrix, newton, product_of_pivots, real, regular, same_signs, side_of, unit,
     };
 }

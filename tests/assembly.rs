@@ -1,6 +1,6 @@
 //! Position in closed form: what cannot be assembled, what must not matter, and what a branch is.
 
-use linkage::{Error, Side, linkage};
+use linkage::{Elbow, Error, Slider, Slope, linkage};
 
 include!("mechanisms/four_bar.rs");
 include!("mechanisms/six_bar.rs");
@@ -10,7 +10,7 @@ include!("mechanisms/introductory.rs");
 include!("mechanisms/inverted_slider_crank.rs");
 include!("mechanisms/v_twin.rs");
 
-fn branch(theta3_theta4: Side) -> FourBarBranch {
+fn branch(theta3_theta4: Elbow) -> FourBarBranch {
     FourBarBranch { theta3_theta4 }
 }
 
@@ -18,12 +18,12 @@ fn branch(theta3_theta4: Side) -> FourBarBranch {
 #[test]
 fn both_branches_of_a_four_bar() {
     let m = FourBar::default();
-    assert_eq!(FourBarBranch::all().collect::<Vec<_>>(), [branch(Side::Left), branch(Side::Right)]);
+    assert_eq!(FourBarBranch::all().collect::<Vec<_>>(), [branch(Elbow::Left), branch(Elbow::Right)]);
     for degrees in 0..360 {
         let theta2 = f64::from(degrees).to_radians();
-        let [left, right] = [Side::Left, Side::Right].map(|side| m.assemble(theta2, branch(side)).unwrap());
-        assert_eq!(m.branch_of(&left), branch(Side::Left));
-        assert_eq!(m.branch_of(&right), branch(Side::Right));
+        let [left, right] = [Elbow::Left, Elbow::Right].map(|side| m.assemble(theta2, branch(side)).unwrap());
+        assert_eq!(m.branch_of(&left), branch(Elbow::Left));
+        assert_eq!(m.branch_of(&right), branch(Elbow::Right));
         assert_eq!(left.determinant.to_bits(), (-right.determinant).to_bits());
         for pose in [left, right] {
             assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).sum());
@@ -35,42 +35,91 @@ fn both_branches_of_a_four_bar() {
     }
 }
 
-/// What `Side` says of each kind of group, which no test of one position against another would notice.
+/// A knee whose second angle is measured from the first link, the unknowns named in the other order: the line
+/// then runs from D to B.
+mod relative {
+    use linkage::linkage;
+
+    linkage! {
+        #[derive(Debug, Clone, PartialEq)]
+        pub mechanism Knee {
+            param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
+            input theta2;
+            unknown bend, theta3;
+            loop l2@theta2 + l3@theta3 + l4@(theta3 + bend) = l1@0;
+            point B = l2@theta2;
+            point C = B + l3@theta3;
+            point D = (l1, 0);
+        }
+    }
+}
+
+/// What the words say of each kind of group, which no test of one position against another would notice.
 #[test]
-fn sides_mean_what_they_say() {
-    let both = [Side::Left, Side::Right];
+fn branches_mean_what_they_say() {
+    let elbows = [Elbow::Left, Elbow::Right];
+    let sliders = [Slider::Far, Slider::Near];
     for degrees in (0..360).step_by(7) {
         let angle = f64::from(degrees).to_radians();
-        // RRR: l3 x l4 is positive where l4 turns left from l3.
+        // RRR: C beside the line from B, where the link of theta3 starts, to D.
         let m = FourBar::default();
-        let crosses = both.map(|side| {
-            let pose = m.assemble(angle, branch(side)).unwrap();
-            let (l3, l4) = (pose.theta3.complex() * m.l3, pose.theta4.complex() * m.l4);
-            l3.re * l4.im - l3.im * l4.re
+        let left = elbows.map(|elbow| {
+            let points = m.points(&m.assemble(angle, branch(elbow)).unwrap()).unwrap();
+            (nalgebra::vector![m.l1, 0.0] - points.b).perp(&(points.c - points.b))
         });
-        assert!(crosses[0] > 0.0 && crosses[1] < 0.0, "{crosses:?}");
-        // RPR: the larger modulus.
+        assert!(left[0] > 0.0 && left[1] < 0.0, "{left:?}");
+        let m = relative::Knee::default();
+        let left = elbows.map(|bend_theta3| {
+            let points = m.points(&m.assemble(angle, relative::KneeBranch { bend_theta3 }).unwrap()).unwrap();
+            (points.b - points.d).perp(&(points.c - points.d))
+        });
+        assert!(left[0] > 0.0 && left[1] < 0.0, "{left:?}");
+        // RPR and RRP: the modulus of the slider.
         let m = InvertedSliderCrank::default();
-        let lengths = both.map(|theta4_b| m.assemble(angle, InvertedSliderCrankBranch { theta4_b }).unwrap().b);
+        let lengths = sliders.map(|theta4_b| m.assemble(angle, InvertedSliderCrankBranch { theta4_b }).unwrap().b);
         assert!(lengths[0] > lengths[1], "{lengths:?}");
-        // RRP: the scalar product of the rod and the derivative of the closure by the slider.
         let m = VTwin::default();
-        let products = both.map(|side| {
-            let branch = VTwinBranch { phi_front_s_front: side, phi_rear_s_rear: Side::Left };
-            let pose = m.assemble(angle, branch).unwrap();
-            let j = m.jacobian_unknowns(&pose);
-            // The first column is i times the rod.
-            let [turned, line] = [j.fixed_view::<2, 1>(0, 0), j.fixed_view::<2, 1>(0, 1)];
-            turned[1] * line[0] - turned[0] * line[1]
+        let lengths = sliders.map(|phi_front_s_front| {
+            m.assemble(angle, VTwinBranch { phi_front_s_front, phi_rear_s_rear: Slider::Far }).unwrap().s_front
         });
-        assert!(products[0] > 0.0 && products[1] < 0.0, "{products:?}");
+        assert!(lengths[0] > lengths[1], "{lengths:?}");
         // One angle: its equation, the second row, grows with it.
         let m = OffsetSliderCrank::default();
-        let slopes = both.map(|theta3| {
+        let slopes = [Slope::Rising, Slope::Falling].map(|theta3| {
             let pose = m.assemble(angle, OffsetSliderCrankBranch { theta3 }).unwrap();
             m.jacobian_unknowns(&pose)[(1, 0)]
         });
         assert!(slopes[0] > 0.0 && slopes[1] < 0.0, "{slopes:?}");
+    }
+}
+
+/// Of the branches those that exist, and no others; what is not a number is said.
+#[test]
+fn branches_that_exist() {
+    let m = SixBar::default();
+    let found: Vec<_> = m.branches(1.0).map(|position| position.unwrap()).collect();
+    assert_eq!(found.len(), SixBarBranch::all().filter(|&branch| m.assemble(1.0, branch).is_ok()).count());
+    for (branch, pose) in &found {
+        assert_eq!(m.branch_of(pose), *branch);
+        let other = m.assemble(1.0, *branch).unwrap();
+        assert_eq!((other.theta2, other.theta5), (pose.theta2, pose.theta5));
+    }
+    // The second group reaches from one elbow of the first alone.
+    let short = SixBar { f: 3.0, g: 11.0, ..m };
+    let first: Vec<_> = short.branches(1.0).map(|position| position.unwrap().0.theta2_theta3).collect();
+    assert_eq!(first, [Elbow::Right, Elbow::Right]);
+    assert!(FourBar::new(80.0, 20.0, 10.0, 10.0).branches(0.3).next().is_none());
+    assert!(matches!(FourBar::default().branches(f64::NAN).next(), Some(Err(Error::NotFinite { .. }))));
+}
+
+/// Where the links are in line the two branches meet; each keeps its name.
+#[test]
+fn a_dead_point_keeps_its_branch() {
+    let m = FourBar::new(80.0, 20.0, 33.0, 67.0);
+    for elbow in [Elbow::Left, Elbow::Right] {
+        let pose = m.assemble(std::f64::consts::PI, branch(elbow)).unwrap();
+        assert_eq!(pose.determinant, 0.0);
+        assert_eq!(m.branch_of(&pose), branch(elbow));
     }
 }
 
@@ -80,7 +129,7 @@ fn a_guide_with_an_offset_link() {
     for delta in [-2.0, -0.7, 0.3, 1.0, 2.4] {
         let m = Introductory { delta, ..Introductory::default() };
         for degrees in (0..360).step_by(5) {
-            for phi2_z2 in [Side::Left, Side::Right] {
+            for phi2_z2 in [Slider::Far, Slider::Near] {
                 let pose = m.assemble(f64::from(degrees).to_radians(), IntroductoryBranch { phi2_z2 }).unwrap();
                 let size = m.closure_sizes(&pose).sum();
                 assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * size, "{delta}, {degrees} deg");
@@ -96,11 +145,11 @@ fn a_guide_with_an_offset_link() {
 fn steps_leave_no_trace() {
     let m = Jansen::default();
     let branch = JansenBranch {
-        angle_b_angle_j: Side::Left,
-        angle_d_angle_e: Side::Left,
-        angle_c_angle_k: Side::Right,
-        angle_f_angle_g: Side::Right,
-        angle_h_angle_i: Side::Left,
+        angle_b_angle_j: Elbow::Right,
+        angle_d_angle_e: Elbow::Right,
+        angle_c_angle_k: Elbow::Left,
+        angle_f_angle_g: Elbow::Left,
+        angle_h_angle_i: Elbow::Right,
     };
     let mut found = 0;
     for degrees in 0..360_u32 {
@@ -136,13 +185,13 @@ impl Bits for JansenPose<f64> {
 #[test]
 fn what_does_not_reach_is_named() {
     let short = FourBar::new(80.0, 20.0, 10.0, 10.0);
-    match short.assemble(0.3, branch(Side::Left)) {
+    match short.assemble(0.3, branch(Elbow::Right)) {
         Err(Error::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap }) => assert!(gap > 1.0),
         other => panic!("{other:?}"),
     }
     // Of two groups the second: its links are too short, the first assembles.
     let m = SixBar { f: 0.1, g: 0.1, ..SixBar::default() };
-    let branch = SixBarBranch { theta2_theta3: Side::Left, theta4_theta5: Side::Left };
+    let branch = SixBarBranch { theta2_theta3: Elbow::Right, theta4_theta5: Elbow::Right };
     match m.assemble(1.0, branch) {
         Err(Error::Unbuildable { group: "theta4, theta5", .. }) => {}
         other => panic!("{other:?}"),
@@ -150,7 +199,7 @@ fn what_does_not_reach_is_named() {
     // A rod shorter than the offset.
     let m = OffsetSliderCrank { b: 1.0, ..OffsetSliderCrank::default() };
     assert!(matches!(
-        m.assemble(0.0, OffsetSliderCrankBranch { theta3: Side::Left }),
+        m.assemble(0.0, OffsetSliderCrankBranch { theta3: Slope::Rising }),
         Err(Error::Unbuildable { group: "theta3", .. })
     ));
 }
@@ -160,7 +209,7 @@ fn what_does_not_reach_is_named() {
 fn links_in_line_assemble() {
     for (l3, l4) in [(50.0, 50.0), (33.3, 66.7), (0.1, 99.9)] {
         let m = FourBar::new(80.0, 20.0, l3, l4);
-        let pose = m.assemble(std::f64::consts::PI, branch(Side::Left)).unwrap();
+        let pose = m.assemble(std::f64::consts::PI, branch(Elbow::Right)).unwrap();
         assert!(m.residual(&pose).amax() <= 1e-6, "{}", m.residual(&pose).amax());
         assert!(m.velocity_ratios(&pose).is_err());
     }
@@ -170,10 +219,10 @@ fn links_in_line_assemble() {
 #[test]
 fn scale_free() {
     let m = FourBar::default();
-    let pose = m.assemble(0.35, branch(Side::Right)).unwrap();
-    for exponent in [-200, -60, 60, 200] {
+    let pose = m.assemble(0.35, branch(Elbow::Left)).unwrap();
+    for exponent in [-300, -200, -60, 60, 200, 300] {
         let scale = 2_f64.powi(exponent);
-        let scaled = m.clone().map(|length| length * scale).assemble(0.35, branch(Side::Right)).unwrap();
+        let scaled = m.clone().map(|length| length * scale).assemble(0.35, branch(Elbow::Left)).unwrap();
         assert_eq!(scaled.theta3, pose.theta3);
         assert_eq!(scaled.theta4, pose.theta4);
         assert_eq!(scaled.determinant, pose.determinant * scale * scale);
@@ -182,7 +231,7 @@ fn scale_free() {
 
 #[test]
 fn nonsense_is_an_error_and_never_a_number() {
-    let left = branch(Side::Left);
+    let branch = branch(Elbow::Right);
     for m in [
         FourBar::new(80.0, 20.0, f64::NAN, 70.0),
         FourBar::new(f64::INFINITY, 20.0, 50.0, 70.0),
@@ -190,12 +239,12 @@ fn nonsense_is_an_error_and_never_a_number() {
         FourBar::new(20.0, 20.0, 50.0, 50.0),
     ] {
         // The last has its outer joints in one point at 0: every position of the links closes it.
-        let found = m.assemble(0.0, left);
+        let found = m.assemble(0.0, branch);
         assert!(found.is_err(), "{m:?}: {found:?}");
     }
-    assert!(FourBar::default().assemble(f64::NAN, left).is_err());
+    assert!(FourBar::default().assemble(f64::NAN, branch).is_err());
     // A negative length is a link that points the other way.
     let (m, turned) = (FourBar::default(), FourBar::new(80.0, 20.0, -50.0, 70.0));
-    let (pose, other) = (m.assemble(0.35, left).unwrap(), turned.assemble(0.35, left).unwrap());
+    let (pose, other) = (m.assemble(0.35, branch).unwrap(), turned.assemble(0.35, branch).unwrap());
     assert!((m.points(&pose).unwrap().c - turned.points(&other).unwrap().c).amax() <= 1e-13);
 }

@@ -41,7 +41,8 @@ pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
     }
     if !diagnostics.is_empty() {
         let errors = diagnostics.to_tokens();
-        let stubs = mechanisms.iter().map(|mechanism| emit::mechanism(mechanism, None, root).tokens);
+        let stubs = mechanisms.iter().filter(|mechanism| mechanism.is_well_named());
+        let stubs = stubs.map(|mechanism| emit::mechanism(mechanism, None, root).tokens);
         return quote! { #errors #(#stubs)* };
     }
     let derived = mechanisms.iter().zip(&mut derivations);

@@ -161,7 +161,8 @@ use proc_macro::TokenStream;
 /// | `points`, `point_velocities`, `point_accelerations`, `point_ratios` | of all points; the ratios are W_l |
 /// | `outputs`, `output_velocities`, `output_accelerations`, `output_ratios` | of all outputs |
 /// | `assemble(v, FourBarBranch { .. })` | position in closed form where every block has one: group by group, on the branch that is asked for |
-/// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, a `Side` by the names of its unknowns; `all()` of them |
+/// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, by the names of its unknowns; `all()` of them |
+/// | `branches(v)` | every position that exists at these inputs, each with its branch |
 /// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
 /// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once |
 /// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` makes a document of it |
@@ -172,8 +173,10 @@ use proc_macro::TokenStream;
 /// The closures are solved block by block: unknowns that depend on one another form a block, a block of
 /// one or two unknowns has a formula, a larger one a factorisation. Dyads are recognised by the way their
 /// unknowns enter the closure (RRR, RRP, RPR, two sliders) and named in the documentation and in
-/// `DERIVATION`; they, single angles and linear unknowns have their positions in closed form, each with
-/// two branches but for the linear ones. A singular block, and one that cannot be assembled, is named by
+/// `DERIVATION`; they, single angles and linear unknowns have their positions in closed form. Two links
+/// have an `Elbow` left or right of the line between their outer joints, seen from that of the unknown
+/// named first; a link and a slider have the `Slider` far or near; the closure of a single angle has a
+/// rising or falling `Slope` there. Sliders alone and linear unknowns have one solution. A singular block, and one that cannot be assembled, is named by
 /// its unknowns in the error.
 ///
 /// # What is rejected

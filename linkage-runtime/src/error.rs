@@ -28,8 +28,9 @@ pub enum Error {
         mechanism: &'static str,
         /// The unknowns of the group; the groups before it can be assembled.
         group: &'static str,
-        /// By how much it misses: the root of what is below zero beside its largest value, 0 where the
-        /// links just touch.
+        /// By how much it misses, 0 where the links just touch. Of two links (RRR) how far the square of
+        /// the distance of their outer joints lies outside what they span, beside the square of their sum;
+        /// of the other groups what the link misses beside its length.
         gap: f64,
     },
     /// Newton's method found no position: the mechanism cannot be assembled at this input, or the

@@ -24,7 +24,7 @@ mod scalar;
 pub mod sheet;
 mod sine;
 
-pub use branch::{Side, chord};
+pub use branch::{Elbow, Side, Slider, Slope, chord, existing, side_of};
 pub use error::{Error, finite, finite_matrix};
 pub use linear::{Factorization, product_of_pivots, regular, same_signs};
 pub use mechanism::Mechanism;

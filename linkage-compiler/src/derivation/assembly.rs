@@ -5,9 +5,9 @@
 //! columns, and is never computed from rounded sines. In the letters of the code, with vectors of the
 //! plane, a . b their scalar and a x b their vector product:
 //!
-//! - RRR: V + W = D, |V| = p, |W| = q. V x W = K, (2 K)^2 = ((p + q)^2 - D^2) (D^2 - (p - q)^2),
-//!   V . D = (D^2 + p^2 - q^2) / 2, V x D = K
-//! - RRP: V + s E = D, |V| = p. V x E = D x E = h, V . E = g, g^2 = (p n - h) (p n + h), n = |E|
+//! - RRR: V + W = D, |V| = p, |W| = q. D x V = k, (2 k)^2 = ((p + q)^2 - D^2) (D^2 - (p - q)^2),
+//!   V . D = (D^2 + p^2 - q^2) / 2, V x W = -k
+//! - RRP: V + s E = D, |V| = p. V x E = D x E = h, V . E = -g, g^2 = (p n - h) (p n + h), n = |E|
 //! - RPR: (s E + P) e^(i phi) = D. (s E + P) . E = g, g^2 = (|D| n)^2 - (P x E)^2
 //! - an angle: a cos phi + b sin phi = h. b cos phi - a sin phi = g, g^2 = (n - h) (n + h), n = |(a, b)|
 //! - two sliders and one linear unknown have one solution.
@@ -31,10 +31,51 @@ pub struct Assembly {
     pub stages: Vec<Stage>,
     /// The determinant of each block.
     pub determinants: Vec<NodeId>,
-    /// The blocks that have two solutions, and whether their determinant has the sign opposite to the
-    /// root's.
-    pub chords: Vec<(usize, bool)>,
+    /// The blocks that have two solutions.
+    pub chords: Vec<Chord>,
     directions: BTreeMap<SymbolId, Vector>,
+}
+
+/// A block with two solutions.
+#[derive(Debug, Clone, Copy)]
+pub struct Chord {
+    pub block: usize,
+    pub choice: Choice,
+    /// Whether the determinant of the block has the sign opposite to the root's.
+    pub is_opposite: bool,
+}
+
+/// What tells two solutions apart; the first word is that of the positive root.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Choice {
+    /// Left or right of the line between the outer joints.
+    Elbow,
+    /// Far or near.
+    Slider,
+    /// The closure rises or falls with the angle.
+    Slope,
+}
+
+impl Choice {
+    /// The type of the runtime that holds it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Elbow => "Elbow",
+            Self::Slider => "Slider",
+            Self::Slope => "Slope",
+        }
+    }
+
+    /// The solution of the positive root and that of the negative one.
+    #[must_use]
+    pub fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Elbow => ["Left", "Right"],
+            Self::Slider => ["Far", "Near"],
+            Self::Slope => ["Rising", "Falling"],
+        }
+    }
 }
 
 impl Assembly {
@@ -125,11 +166,16 @@ impl Derivation {
         for number in 0..self.blocks.len() {
             let block = self.blocks[number].clone();
             let determinant = self.assemble(number, &block, &mut assembly)?;
-            let has_root =
-                assembly.stages.iter().any(|stage| matches!(stage, Stage::Chord { block, .. } if *block == number));
-            if has_root {
-                assembly.chords.push((number, self.graph.leads_negative(determinant)));
-            }
+            let choice = match block.group {
+                Group::Rrr => Some(Choice::Elbow),
+                Group::Rrp | Group::Rpr => Some(Choice::Slider),
+                Group::Angle => Some(Choice::Slope),
+                _ => None,
+            };
+            assembly.chords.extend(choice.map(|choice| {
+                let is_opposite = self.graph.leads_negative(determinant);
+                Chord { block: number, choice, is_opposite }
+            }));
             let symbol = block.determinant?.symbol;
             assembly.stages.push(Stage::Let { symbol, node: determinant });
             assembly.determinants.push(self.graph.variable(symbol));
@@ -150,9 +196,9 @@ impl Derivation {
             (Group::Rrr, &[x, y], &[a, b]) => {
                 // The first to be taken is the one that may be measured from the other's link.
                 if group.is_link(&[x, y], a, b) {
-                    group.two_links([x, y], a, b)
+                    group.two_links([x, y], a, b, 1)
                 } else {
-                    let determinant = group.two_links([x, y], b, a)?;
+                    let determinant = group.two_links([x, y], b, a, -1)?;
                     Some(group.graph.negate(determinant))
                 }
             }
@@ -226,9 +272,7 @@ impl Solver<'_> {
     /// The root of a product of two factors, with the sign of the branch.
     fn chord(&mut self, factors: [NodeId; 2], size: NodeId) -> NodeId {
         let symbol = self.graph.symbol(format!("chord_{}", self.number + 1));
-        let [low, high] = factors;
-        let radicand = self.graph.multiply(low, high);
-        self.assembly.stages.push(Stage::Chord { block: self.number, symbol, radicand, size });
+        self.assembly.stages.push(Stage::Chord { block: self.number, symbol, factors, size });
         self.graph.variable(symbol)
     }
 
@@ -249,10 +293,10 @@ impl Solver<'_> {
         let h = self.graph.negate(rest);
         let n = length(self.graph, [a, b]);
         let factors = [self.graph.subtract(n, h), self.graph.add(n, h)];
-        let size = square_of(self.graph, n);
-        let g = self.chord(factors, size);
+        let square = square_of(self.graph, n);
+        let g = self.chord(factors, n);
         // (cos, sin) . (a, b) = h and (cos, sin) x (a, b) = g
-        let direction = with_products(self.graph, [a, b], size, h, g);
+        let direction = with_products(self.graph, [a, b], square, h, g);
         self.direction(phi, direction);
         Some(g)
     }
@@ -281,7 +325,8 @@ impl Solver<'_> {
             && !(self.graph.is_zero(x) && self.graph.is_zero(y))
     }
 
-    fn two_links(&mut self, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Option<NodeId> {
+    /// `left` is the sign of D x V where the elbow is left of the line from the first outer joint to the other.
+    fn two_links(&mut self, rows: [NodeId; 2], a: SymbolId, b: SymbolId, left: i128) -> Option<NodeId> {
         let (v, rest) = self.parted(rows, a);
         let (w, rest) = self.parted(rest, b);
         let d = self.negated(rest);
@@ -299,13 +344,11 @@ impl Solver<'_> {
         let (sum, difference) = (g.add(p, q), g.subtract(p, q));
         let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
         let factors = [g.subtract(sum, distance), g.subtract(distance, difference)];
-        // The largest the product can be: (2 p q)^2, where the links are at right angles.
         let (p2, q2) = (square_of(g, p), square_of(g, q));
-        let half = g.multiply(p2, q2);
-        let size = g.scale(Number::integer(4), half);
-        let twice = self.chord(factors, size);
+        let twice = self.chord(factors, sum);
         let g = &mut *self.graph;
-        let cross_product = g.scale(Number::ratio(1, 2), twice);
+        let half_chord = g.scale(Number::ratio(left, 2), twice);
+        let cross_product = g.negate(half_chord);
         let along = g.sum(&[(Number::ratio(1, 2), distance), (Number::ratio(1, 2), p2), (Number::ratio(-1, 2), q2)]);
         let solved = with_products(g, d, distance, along, cross_product);
         let solved = [("link_x", solved[0]), ("link_y", solved[1])].map(|(name, part)| self.fresh(name, part));
@@ -344,20 +387,20 @@ impl Solver<'_> {
             let g = &mut *self.graph;
             let reach = g.multiply(p, n);
             let factors = [g.subtract(reach, h), g.add(reach, h)];
-            let size = square_of(g, reach);
-            let along = self.chord(factors, size);
+            let along = self.chord(factors, reach);
             let g = &mut *self.graph;
             let square = square_of(g, n);
-            let solved = with_products(g, line, square, along, h);
+            let minus = g.negate(along);
+            let solved = with_products(g, line, square, minus, h);
             let forward = dot(g, d, line);
-            let rest = g.subtract(forward, along);
+            let rest = g.add(forward, along);
             let value = g.divide(rest, square);
             let p2 = square_of(g, p);
             let conjugate = [at_zero[0], g.negate(at_zero[1])];
             let direction = turned(g, solved, conjugate).map(|part| g.divide(part, p2));
             self.name(s, value);
             self.direction(phi, direction);
-            return Some(self.graph.negate(along));
+            return Some(along);
         }
         let (turning, rest) = self.parted(rows, phi);
         let d = self.negated(rest);
@@ -374,8 +417,7 @@ impl Solver<'_> {
         let reach = g.call(Function::Sqrt, &[distance]);
         let reach = g.multiply(reach, n);
         let factors = [g.subtract(reach, across), g.add(reach, across)];
-        let size = g.multiply(distance, square);
-        let along = self.chord(factors, size);
+        let along = self.chord(factors, reach);
         let g = &mut *self.graph;
         let offset = dot(g, p, e);
         let offset = simplify(g, &[offset], &BTreeSet::new())[0];

@@ -18,7 +18,7 @@ use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::{self, simplify};
 use crate::structure::{self, Group, Method};
-pub use assembly::Assembly;
+pub use assembly::{Assembly, Choice};
 pub use check::{LARGEST, check};
 pub use formulas::{Formulas, Inverse};
 pub use linear::{Form, solve_closed};

@@ -253,13 +253,13 @@ fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut 
             let factors = ident(&names.factors[block]);
             body.extend(quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);));
         }
-        Line::Chord { block, symbol, radicand, size } => {
-            let (radicand, size) = (signed(names, schedule, *radicand), signed(names, schedule, *size));
+        Line::Chord { block, symbol, factors, size } => {
+            let [low, high, size] = [factors[0], factors[1], *size].map(|value| signed(names, schedule, value));
             let group = derivation.blocks[*block].names(derivation);
             let side = ident(&derivation.blocks[*block].branch(derivation));
             let name = names.introduce(*symbol).ident;
             let branch = given.branch;
-            body.extend(quote!(let #name = chord(Self::NAME, #group, #radicand, #size, #branch.#side)?;));
+            body.extend(quote!(let #name = chord(Self::NAME, #group, [#low, #high], #size, #branch.#side)?;));
         }
         Line::Pivots { symbol, matrix } => {
             let columns = columns(matrix, schedule, names);

@@ -9,8 +9,19 @@ use crate::graph::{Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 9] =
-    ["chord", "finite", "finite_matrix", "newton", "product_of_pivots", "real", "regular", "same_signs", "unit"];
+pub(super) const RUNTIME_FUNCTIONS: [&str; 11] = [
+    "chord",
+    "existing",
+    "finite",
+    "finite_matrix",
+    "newton",
+    "product_of_pivots",
+    "real",
+    "regular",
+    "same_signs",
+    "side_of",
+    "unit",
+];
 
 /// A name longer than this says less than a number.
 const LONGEST: usize = 36;

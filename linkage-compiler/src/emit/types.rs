@@ -7,7 +7,7 @@ use syn::Attribute;
 use super::names::ident;
 use super::pose::PosePlan;
 use super::{Types, expression};
-use crate::derivation::Derivation;
+use crate::derivation::{Choice, Derivation};
 use crate::graph::{Number, Texts};
 use crate::model::{Coordinate, Driver, Mechanism, Name};
 
@@ -337,17 +337,24 @@ fn coordinate_struct(
     }
 }
 
+/// Of more groups than this nobody tries all branches.
+pub(super) const MOST_BRANCHING: usize = 16;
+
 /// Which solution of each group that has two.
-pub(super) fn branch(mechanism: &Mechanism, types: &Types, sides: &[Ident], private: &TokenStream) -> TokenStream {
+pub(super) fn branch(
+    mechanism: &Mechanism,
+    types: &Types,
+    sides: &[(Ident, Choice)],
+    private: &TokenStream,
+) -> TokenStream {
     let (visibility, derives) = (&mechanism.visibility, derives());
     let (driver, branch) = (&types.driver, &types.branch);
     let title = format!(" Which solution is meant of each group of [`{driver}`] that has two.");
-    let members = sides.iter().map(|side| {
-        let docs = format!(" Of the group of `{side}`.");
-        quote!(#[doc = #docs] pub #side: #private::Side)
+    let members = sides.iter().map(|(side, choice)| {
+        let [first, second] = choice.words().map(str::to_lowercase);
+        let (docs, choice) = (format!(" Of the group of `{side}`: {first} or {second}."), ident(choice.name()));
+        quote!(#[doc = #docs] pub #side: #private::#choice)
     });
-    // Of more groups than this nobody tries all branches.
-    const MOST: usize = 16;
     let bits = (0..sides.len()).map(|place| match place {
         0 => quote!(bits & 1),
         place => {
@@ -355,18 +362,23 @@ pub(super) fn branch(mechanism: &Mechanism, types: &Types, sides: &[Ident], priv
             quote!((bits >> #place) & 1)
         }
     });
+    let sides = sides.iter().zip(bits).map(|((side, choice), bit)| {
+        let ([first, second], choice) = (choice.words().map(ident), ident(choice.name()));
+        quote!(#side: if #bit == 0 { #private::#choice::#first } else { #private::#choice::#second })
+    });
+    let sides: Vec<TokenStream> = sides.collect();
     let every = match sides.len() {
         0 => quote!(::core::iter::once(Self {})),
         many => {
-            let count = Literal::u32_unsuffixed(1 << many.min(MOST));
+            let count = Literal::u32_unsuffixed(1 << many.min(MOST_BRANCHING));
             quote! {
                 ::core::iter::Iterator::map(0..#count, |bits: u32| Self {
-                    #(#sides: if #bits == 0 { #private::Side::Left } else { #private::Side::Right }),*
+                    #(#sides),*
                 })
             }
         }
     };
-    let all = (sides.len() <= MOST).then(|| {
+    let all = (sides.len() <= MOST_BRANCHING).then(|| {
         quote! {
             impl #branch {
                 /// Every branch there could be; at a given input some may not exist.

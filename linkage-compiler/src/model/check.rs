@@ -1,6 +1,6 @@
 //! What is checked of a mechanism as a whole.
 
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 
 use super::scope::Scope;
 use super::{Driver, Mechanism};
@@ -17,6 +17,39 @@ pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diag
             diagnostics
                 .error(name.span, format_args!("the {what} `{text}` is never used; remove it, or call it `_{text}`"));
         }
+    }
+}
+
+/// What emitted code calls its own; the types of the user stand beside it.
+const TYPES_OF_EMITTED_CODE: [&str; 14] = [
+    "Error",
+    "Factorization",
+    "From",
+    "Into",
+    "Iterator",
+    "Mechanism",
+    "OutputMotion",
+    "PointMotion",
+    "Real",
+    "Result",
+    "SMatrix",
+    "SVector",
+    "Solution",
+    "Vector2",
+];
+
+/// Mechanisms and drivers called like a type that the code emitted for them uses.
+pub(super) fn misnamed(mechanism: &Mechanism) -> impl Iterator<Item = &Ident> {
+    let drivers = mechanism.drivers.iter().map(|driver| &driver.name);
+    let shared = mechanism.is_driven_by_choice().then_some(&mechanism.name);
+    let names = shared.into_iter().chain(drivers);
+    names.filter(|&name| name == "T" || TYPES_OF_EMITTED_CODE.iter().any(|taken| name == taken))
+}
+
+pub(super) fn types(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
+    for name in misnamed(mechanism) {
+        let advice = format_args!("emitted code uses a type of this name: choose another, such as `{name}Linkage`");
+        diagnostics.error(name.span(), advice);
     }
 }
 

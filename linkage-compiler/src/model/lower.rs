@@ -66,6 +66,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
     // What was not understood above would be missed below.
     if complete && diagnostics.is_empty() {
         check::usage(&result, &scope, diagnostics);
+        check::types(&result, diagnostics);
         check::fields(&result, diagnostics);
         check::closures(&result, diagnostics);
     }

@@ -89,6 +89,12 @@ impl Mechanism {
         !matches!(self.drivers.as_slice(), [only] if only.name == self.name)
     }
 
+    /// Whether its types and those of the emitted code can be told apart.
+    #[must_use]
+    pub fn is_well_named(&self) -> bool {
+        check::misnamed(self).next().is_none()
+    }
+
     /// The unknowns of `driver` that each closure row holds.
     #[must_use]
     pub fn incidence(&self, driver: &Driver) -> Vec<Vec<usize>> {

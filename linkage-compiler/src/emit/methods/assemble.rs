@@ -1,11 +1,13 @@
 //! Position in closed form.
 
+use proc_macro2::Ident;
 use quote::quote;
 
 use super::super::kernel;
 use super::super::kernel::Given;
-use super::super::names::ident;
+use super::super::{names::ident, types};
 use super::{Body, Kernels, Methods, argument_of, bind, check_finite, lines, pose_members};
+use crate::derivation::Choice;
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
@@ -18,7 +20,7 @@ impl Methods<'_> {
         let sides: Vec<_> = assembly
             .chords
             .iter()
-            .map(|&(block, _)| ident(&kernels.derivation.blocks[block].branch(kernels.derivation)))
+            .map(|chord| (ident(&kernels.derivation.blocks[chord.block].branch(kernels.derivation)), chord.choice))
             .collect();
         let chords = assembly.chords.clone();
 
@@ -65,23 +67,49 @@ impl Methods<'_> {
             quote!(pub fn assemble(&self, #v: impl Into<#inputs<T>>, #branch: #branch_type) -> Result<#pose<T>, Error>);
         self.function(&docs, &signature, body);
 
+        self.branches(&sides);
+
         let pose_argument = self.arguments.pose.clone();
-        let roots = chords.iter().filter_map(|(block, negative)| {
-            let (_, field, _) = kernels.plan.determinants.iter().find(|(other, ..)| other == block)?;
-            let (field, minus) = (ident(field), negative.then(|| quote!(-)));
-            Some(quote!(Side::of(#minus #pose_argument.#field)))
+        let members = chords.iter().zip(&sides).filter_map(|(chord, (side, _))| {
+            let (_, field, _) = kernels.plan.determinants.iter().find(|(block, ..)| *block == chord.block)?;
+            let (field, minus) = (ident(field), chord.is_opposite.then(|| quote!(-)));
+            Some(quote!(#side: side_of(#minus #pose_argument.#field)))
         });
-        let members = quote!(#branch_type { #(#sides: #roots),* });
+        let members = quote!(#branch_type { #(#members),* });
         let body = if sides.is_empty() {
             Body::plain(members, [], [])
         } else {
-            Body::plain(members, [&pose_argument], ["Side"])
+            Body::plain(members, [&pose_argument], ["side_of"])
         };
         let docs = lines(["The branch that a position belongs to."]);
         let pose_argument = argument_of(&pose_argument, Some(&body));
         let signature = quote!(#[must_use] pub fn branch_of(&self, #pose_argument: &#pose<T>) -> #branch_type);
         self.function(&docs, &signature, Some(body));
         self.branches = Some(sides);
+    }
+}
+
+impl Methods<'_> {
+    /// All positions at some inputs.
+    fn branches(&mut self, sides: &[(Ident, Choice)]) {
+        if sides.len() > types::MOST_BRANCHING {
+            return;
+        }
+        let (pose, inputs, branch_type) = (&self.types.pose, &self.types.inputs, &self.types.branch);
+        let (v, branch) = (&self.arguments.inputs, &self.arguments.branch);
+        let docs = lines([
+            "Every position that exists at these inputs, each with its branch.",
+            "",
+            "# Errors",
+            "`NotFinite` if a number is not finite; a branch that cannot be assembled is left out.",
+        ]);
+        let signature = quote!(pub fn branches(&self, #v: impl Into<#inputs<T>>)
+            -> impl Iterator<Item = Result<(#branch_type, #pose<T>), Error>> + '_);
+        let tokens = quote!(
+            let #v = #v.into();
+            existing(#branch_type::all(), move |#branch| self.assemble(#v, #branch))
+        );
+        self.function(&docs, &signature, Some(Body::plain(tokens, [v], ["existing"])));
     }
 }
 

@@ -21,6 +21,11 @@ impl Methods<'_> {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
         let (nu, nv) = (literal(u), literal(v));
         let functions = &self.functions;
+        let iterator = self.uses.contains("existing").then(|| {
+            quote!(
+                use ::core::iter::Iterator;
+            )
+        });
         let imports = imports(self.mechanism, &self.uses);
         let members: Vec<Ident> =
             self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
@@ -29,6 +34,7 @@ impl Methods<'_> {
         quote! {
             const _: () = {
                 use ::core::convert::{From, Into};
+                #iterator
                 use ::core::result::Result::{self, Ok};
                 use #private::{#(#imports),*};
                 impl<T: Real> #driver<T> {

@@ -20,7 +20,7 @@ use super::names::{Taken, ident, string};
 use super::pose::PosePlan;
 use super::types::{self, field};
 use super::{Emitted, Types, document};
-use crate::derivation::{Derivation, Form, Formulas};
+use crate::derivation::{Choice, Derivation, Form, Formulas};
 use crate::graph::{NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::schedule::{Operations, Stage};
@@ -58,7 +58,7 @@ struct Methods<'a> {
     named: Vec<(NodeId, String)>,
     functions: TokenStream,
     /// The groups with two solutions, where position has a closed form.
-    branches: Option<Vec<Ident>>,
+    branches: Option<Vec<(Ident, Choice)>>,
     /// What each function does, by its name.
     kernels: Vec<(String, Operations)>,
     /// What the functions written so far use of the runtime.

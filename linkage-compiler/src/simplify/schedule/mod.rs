@@ -26,9 +26,9 @@ pub enum Stage {
     Factor { block: usize, matrix: Vec<Vec<NodeId>>, sizes: Vec<NodeId> },
     /// Solves the factorised system of a block and names the solution.
     Solve { block: usize, targets: Vec<SymbolId>, right: Vec<NodeId> },
-    /// Names the root of `radicand`, with the sign of the branch of a block; refuses one that is less
-    /// than zero beside `size`.
-    Chord { block: usize, symbol: SymbolId, radicand: NodeId, size: NodeId },
+    /// Names the root of a product of two factors, with the sign of the branch of a block; refuses a
+    /// factor that is less than zero beside `size`.
+    Chord { block: usize, symbol: SymbolId, factors: [NodeId; 2], size: NodeId },
     /// Names the product of the pivots of a matrix given by rows.
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
     /// The values that the kernel returns.
@@ -52,7 +52,7 @@ impl Stage {
         match self {
             Self::Let { node, .. } => vec![*node],
             Self::Guard { determinant, size, .. } => vec![*determinant, *size],
-            Self::Chord { radicand, size, .. } => vec![*radicand, *size],
+            Self::Chord { factors: [low, high], size, .. } => vec![*low, *high, *size],
             Self::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).copied().collect(),
             Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
             Self::Solve { right, .. } => right.clone(),
@@ -123,7 +123,7 @@ pub enum Line {
     Chord {
         block: usize,
         symbol: SymbolId,
-        radicand: Signed,
+        factors: [Signed; 2],
         size: Signed,
     },
     Return(Vec<Signed>),
@@ -184,8 +184,8 @@ pub fn schedule(
             Stage::Solve { block, targets, right } => {
                 Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }
             }
-            Stage::Chord { block, symbol, radicand, size } => {
-                Line::Chord { block: *block, symbol: *symbol, radicand: of[radicand], size: of[size] }
+            Stage::Chord { block, symbol, factors, size } => {
+                Line::Chord { block: *block, symbol: *symbol, factors: factors.map(|node| of[&node]), size: of[size] }
             }
             Stage::Pivots { symbol, matrix } => {
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
@@ -272,7 +272,7 @@ fn line_values(line: &Line) -> Vec<ValueId> {
         Line::SinesCosines(several) => several.iter().flat_map(|one| one.sine.into_iter().chain(one.cosine)).collect(),
         Line::Name { value, .. } => vec![value.value],
         Line::Guard { determinant, size, .. } => vec![determinant.value, size.value],
-        Line::Chord { radicand, size, .. } => vec![radicand.value, size.value],
+        Line::Chord { factors: [low, high], size, .. } => vec![low.value, high.value, size.value],
         Line::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).map(|signed| signed.value).collect(),
         Line::Pivots { matrix, .. } => matrix.iter().flatten().map(|signed| signed.value).collect(),
         Line::Solve { right, .. } | Line::Return(right) => of(right),
