@@ -59,6 +59,60 @@ fn jansen_in_products() {
     assert!(found.within(limit), "{found:?}");
 }
 
+/// How often functions are called in position, velocity and acceleration together if nobody asks for an angle:
+/// sines with cosines, roots, anything else.
+fn calls(file: &str) -> [usize; 3] {
+    let source = source::tokens_of(file).to_string();
+    let silent = source.split_inclusive(';').filter(|statement| !statement.contains("output ")).collect::<String>();
+    // The brace that closed the mechanism went with its last statement, if that was an output.
+    let closing = if silent.trim_end().ends_with('}') { "" } else { "}" };
+    let tokens = linkage_compiler::expand(format!("{silent}{closing}").parse().unwrap(), &"::linkage".parse().unwrap());
+    let file: syn::File = syn::parse2(tokens).unwrap();
+    let mut calls = [0; 3];
+    syn::visit::visit_file(&mut Calls { within: false, calls: &mut calls }, &file);
+    calls
+}
+
+struct Calls<'a> {
+    within: bool,
+    calls: &'a mut [usize; 3],
+}
+
+impl Calls<'_> {
+    fn count(&mut self, name: &str) {
+        let known =
+            ["sine_cosine", "chord", "sines_cosines", "sin", "cos", "sin_cos", "atan2", "sqrt", "hypot", "acos"];
+        match known.iter().position(|known| *known == name) {
+            Some(place) if self.within => self.calls[place.min(2)] += 1,
+            _ => {}
+        }
+    }
+}
+
+impl syn::visit::Visit<'_> for Calls<'_> {
+    fn visit_impl_item_fn(&mut self, function: &syn::ImplItemFn) {
+        self.within = ["assemble", "velocity", "acceleration"].iter().any(|name| function.sig.ident == name);
+        syn::visit::visit_impl_item_fn(self, function);
+        self.within = false;
+    }
+
+    fn visit_expr_method_call(&mut self, call: &syn::ExprMethodCall) {
+        self.count(&call.method.to_string());
+        syn::visit::visit_expr_method_call(self, call);
+    }
+
+    fn visit_expr_path(&mut self, path: &syn::ExprPath) {
+        self.count(&path.path.segments.last().unwrap().ident.to_string());
+    }
+}
+
+/// One sine and cosine for the crank and one root for each dyad are all the functions there are.
+#[test]
+fn a_cascade_of_dyads_needs_one_sine_and_a_root_each() {
+    assert_eq!(calls("four_bar"), [1, 1, 0]);
+    assert_eq!(calls("jansen"), [1, 5, 0]);
+}
+
 /// Nodes, operations of each kind and bytes of an expansion.
 fn size(source: &str) -> [usize; 6] {
     let mechanism = linkage_compiler::read(source.parse().unwrap()).unwrap().remove(0);

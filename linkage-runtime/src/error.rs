@@ -86,7 +86,7 @@ pub fn finite<T: Real, const N: usize>(
     quantity: &'static str,
     values: [T; N],
 ) -> Result<(), Error> {
-    if values.iter().all(T::is_finite) { Ok(()) } else { Err(Error::NotFinite { mechanism, quantity }) }
+    all_finite(mechanism, quantity, values.iter())
 }
 
 /// Refuses a matrix with an entry that is infinite or not a number.
@@ -99,5 +99,20 @@ pub fn finite_matrix<T: Real, const R: usize, const C: usize>(
     quantity: &'static str,
     matrix: &SMatrix<T, R, C>,
 ) -> Result<(), Error> {
-    if matrix.iter().all(T::is_finite) { Ok(()) } else { Err(Error::NotFinite { mechanism, quantity }) }
+    all_finite(mechanism, quantity, matrix.iter())
+}
+
+#[inline]
+fn all_finite<'a, T: Real>(
+    mechanism: &'static str,
+    quantity: &'static str,
+    values: impl Iterator<Item = &'a T> + Clone,
+) -> Result<(), Error> {
+    // A sum is finite only if all its terms are, and takes one verdict; but it may be too large where none is.
+    let sum = values.clone().fold(T::zero(), |sum, &value| sum + value);
+    if sum.is_finite() || values.clone().all(T::is_finite) {
+        Ok(())
+    } else {
+        Err(Error::NotFinite { mechanism, quantity })
+    }
 }

@@ -259,6 +259,15 @@ impl Solver<'_> {
         vector.map(|part| self.graph.negate(part))
     }
 
+    /// Names the vector between the outer joints.
+    fn line(&mut self, [x, y]: Vector) -> Vector {
+        let number = self.number + 1;
+        [("x", x), ("y", y)].map(|(axis, part)| match self.graph.node(part) {
+            Node::Sum { .. } | Node::Product { .. } => self.fresh(&format!("line_{number}_{axis}"), part),
+            _ => part,
+        })
+    }
+
     /// Names a solved direction; the angle itself is there for whoever asks.
     fn direction(&mut self, angle: SymbolId, [cosine, sine]: Vector) {
         let name = self.graph.symbol_name(angle).to_owned();
@@ -326,10 +335,11 @@ impl Solver<'_> {
     }
 
     /// `left` is the sign of D x V where the elbow is left of the line from the first outer joint to the other.
-    fn two_links(&mut self, rows: [NodeId; 2], a: SymbolId, b: SymbolId, left: i128) -> Option<NodeId> {
+    fn two_links(&mut self, rows: [NodeId; 2], a: SymbolId, b: SymbolId, left: i64) -> Option<NodeId> {
         let (v, rest) = self.parted(rows, a);
         let (w, rest) = self.parted(rest, b);
         let d = self.negated(rest);
+        let d = self.line(d);
         // V turns with a + k b.
         let slope = self.graph.partial(&v, b);
         let k = (-2..=2).find(|&k| {
@@ -342,15 +352,19 @@ impl Solver<'_> {
         let distance = self.fresh(&format!("distance_{}", self.number + 1), distance);
         let g = &mut *self.graph;
         let (sum, difference) = (g.add(p, q), g.subtract(p, q));
+        let squares = g.multiply(sum, difference);
         let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
         let factors = [g.subtract(sum, distance), g.subtract(distance, difference)];
         let (p2, q2) = (square_of(g, p), square_of(g, q));
         let twice = self.chord(factors, sum);
         let g = &mut *self.graph;
-        let half_chord = g.scale(Number::ratio(left, 2), twice);
+        let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
         let cross_product = g.negate(half_chord);
-        let along = g.sum(&[(Number::ratio(1, 2), distance), (Number::ratio(1, 2), p2), (Number::ratio(-1, 2), q2)]);
-        let solved = with_products(g, d, distance, along, cross_product);
+        // Both products and the square of the line doubled: one factor of a half instead of three.
+        let along = g.add(distance, squares);
+        let across = g.scale(Number::integer(-left), twice);
+        let twice_distance = g.scale(Number::integer(2), distance);
+        let solved = with_products(g, d, twice_distance, along, across);
         let solved = [("link_x", solved[0]), ("link_y", solved[1])].map(|(name, part)| self.fresh(name, part));
         let g = &mut *self.graph;
         let other = [g.subtract(d[0], solved[0]), g.subtract(d[1], solved[1])];
@@ -404,6 +418,7 @@ impl Solver<'_> {
         }
         let (turning, rest) = self.parted(rows, phi);
         let d = self.negated(rest);
+        let d = self.line(d);
         let e = self.at_zero(line, &[phi]);
         let p = self.at_zero(turning, &[phi, s]);
         let n = length(self.graph, e);

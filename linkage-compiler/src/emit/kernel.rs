@@ -207,7 +207,7 @@ fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut 
             let argument = signed(names, schedule, *angle);
             let argument = if names.get(schedule, angle.value).is_some() { argument } else { quote!((#argument)) };
             let (sine, cosine) = (names.invent(schedule, *sine), names.invent(schedule, *cosine));
-            body.extend(quote!(let (#sine, #cosine) = #argument.sin_cos();));
+            body.extend(quote!(let (#sine, #cosine) = #argument.sine_cosine();));
         }
         Line::SinesCosines(several) => {
             let angles: Vec<_> = several.iter().map(|one| signed(names, schedule, one.angle)).collect();

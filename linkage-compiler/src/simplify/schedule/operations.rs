@@ -9,7 +9,7 @@ pub struct Operations {
     pub multiplications: usize,
     pub additions: usize,
     pub divisions: usize,
-    /// Sine and cosine of one angle count as one.
+    /// Roots among them; sine and cosine of one angle count as one.
     pub functions: usize,
 }
 
@@ -51,6 +51,9 @@ impl Schedule {
                 Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {}
             }
         }
+        let chords = self.lines.iter().filter(|line| matches!(line, Line::Chord { .. })).count();
+        total.functions += chords;
+        total.multiplications += chords;
         for line in &self.lines {
             total.functions -= match line {
                 Line::SineCosine { .. } => 1,
