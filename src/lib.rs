@@ -29,6 +29,7 @@ pub mod __private {
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
         Elbow, Error, Factorization, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, chord,
-        existing, finite, finite_matrix, newton, product_of_pivots, real, regular, same_signs, side_of, unit,
+        existing, finite, finite_matrix, newton, newton_group, product_of_pivots, real, regular, same_signs, side_of,
+        unit,
     };
 }

@@ -14,7 +14,7 @@ fn unassemblable_lengths() {
     // The crank's end is 60 to 100 from D, and 10 + 20 do not reach.
     for theta2 in [0.0, 0.35, 1.0, 3.0] {
         let result = FourBar::new(80.0, 20.0, 10.0, 20.0).solve(&FourBarCoordinates { theta2, ..guess() });
-        let Err(Error::NotConverged { mechanism, iterations, residual, regularity }) = result else {
+        let Err(Error::NotConverged { mechanism, iterations, residual, regularity, .. }) = result else {
             panic!("{result:?}");
         };
         assert_eq!(mechanism, "FourBar");

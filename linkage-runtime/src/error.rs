@@ -38,12 +38,23 @@ pub enum Error {
     NotConverged {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
+        /// The unknowns of the group that was solved alone, or that is singular where the search ended; none
+        /// if all were solved together.
+        group: Option<&'static str>,
         /// Newton steps taken.
         iterations: usize,
         /// The largest residual that was left, beside the sum of the magnitudes of its terms.
         residual: f64,
         /// How regular the Jacobian is where the search ended, as in [`Error::Singular`].
         regularity: f64,
+    },
+    /// Newton's method found a position of another assembly branch than the guess belongs to: between the two
+    /// the group is singular.
+    OtherBranch {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group.
+        group: &'static str,
     },
     /// A number given or computed is infinite or not a number.
     NotFinite {
@@ -64,11 +75,18 @@ impl fmt::Display for Error {
             Self::Unbuildable { mechanism, group, gap } => {
                 write!(f, "{mechanism} cannot be assembled at this input: {group} miss closing by {gap:.1e}")
             }
-            Self::NotConverged { mechanism, iterations, residual, regularity } => write!(
-                f,
-                "no position of {mechanism} found in {iterations} Newton steps: relative residual {residual:.1e}, \
-                 Jacobian regular to {regularity:.1e}"
-            ),
+            Self::NotConverged { mechanism, group, iterations, residual, regularity } => {
+                let of = group.map_or("", |_| " of ");
+                write!(
+                    f,
+                    "no position of {mechanism} found in {iterations} Newton steps: relative residual {residual:.1e}, \
+                     Jacobian{of}{} regular to {regularity:.1e}",
+                    group.unwrap_or_default()
+                )
+            }
+            Self::OtherBranch { mechanism, group } => {
+                write!(f, "the position of {mechanism} near the guess has {group} on another branch than the guess")
+            }
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
         }
     }

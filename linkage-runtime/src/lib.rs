@@ -18,6 +18,7 @@ mod error;
 mod linear;
 mod mechanism;
 mod motion;
+mod newton;
 pub mod position;
 mod scalar;
 #[cfg(feature = "sheet")]
@@ -30,5 +31,5 @@ pub use linear::{Factorization, product_of_pivots, regular, same_signs};
 pub use mechanism::Mechanism;
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
-pub use position::{Solution, newton};
+pub use position::{Solution, newton, newton_group};
 pub use scalar::{Real, real, unit};

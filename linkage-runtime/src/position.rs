@@ -1,9 +1,10 @@
-//! Position by Newton's method: u <- u - J^-1 Psi, damped, with honest failure.
+//! Position by Newton's method: of a mechanism as a whole, and of one group of it.
 
-use nalgebra::SVector;
+use nalgebra::{Const, DimMin, SMatrix, SVector};
 
+use crate::newton::{Closures, Iterate, search};
 use crate::scalar::to_f64;
-use crate::{Error, Mechanism, Real, real};
+use crate::{Error, Factorization, Mechanism, Real, product_of_pivots, same_signs};
 
 /// A position and how it was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,23 +18,6 @@ pub struct Solution<Q> {
     /// Whether the determinant of each block of J has the sign it had at the guess: if not, the
     /// position belongs to another assembly branch than the guess, or the guess lay beyond a dead point.
     pub same_branch: bool,
-}
-
-/// Newton steps before the search is given up; from a fair guess it takes four or five.
-const MOST_ITERATIONS: usize = 60;
-
-/// A residual of this many roundings of the sum of the magnitudes of its terms is zero.
-const ROUNDINGS: f64 = 4.0;
-
-/// Halvings of one step before it is given up: a step 2^-40 of its length no longer moves anything.
-const MOST_HALVINGS: usize = 40;
-
-struct Iterate<Q, P, T, const U: usize> {
-    q: Q,
-    pose: P,
-    residual: SVector<T, U>,
-    /// The largest relative residual.
-    size: T,
 }
 
 /// One step of Newton's method without damping: q with u - J^-1 Psi in place of u.
@@ -53,7 +37,7 @@ where
     Ok(M::with_unknowns(q, M::unknowns(q) - step))
 }
 
-/// The position near `guess` whose inputs are those of `guess`.
+/// The position near `guess` whose inputs are those of `guess`, all unknowns together.
 ///
 /// Steps are halved until the residual falls. The search ends at a residual that rounding explains,
 /// after one more step that removes what the last one left.
@@ -68,107 +52,120 @@ where
     T: Real,
     M: Mechanism<T, U, V>,
 {
-    let enough = real::<T>(ROUNDINGS) * T::default_epsilon();
-    let mut here = iterate(mechanism, *guess);
-    if !here.size.is_finite() {
-        return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the residual" });
-    }
-    let start = mechanism.pose_at(guess);
-    let mut iterations = 0;
-    while iterations < MOST_ITERATIONS {
-        let arrived = here.size <= enough;
-        let step = match mechanism.solve_jacobian(&here.pose, &here.residual) {
-            Ok(step) => step,
-            Err(_) if arrived => break,
-            Err(error) => return Err(failure::<M, T, U, V>(iterations, here.size, regularity(&error))),
-        };
-        let next = if arrived { iterate_at(mechanism, &here, step, T::one()) } else { damped(mechanism, &here, step) };
-        // Within rounding a step may help or not; what is better stays.
-        let Some(next) = next.filter(|next| next.size < here.size) else {
-            if arrived {
-                break;
-            }
-            return Err(failure::<M, T, U, V>(iterations, here.size, measure(mechanism, &here.pose)));
-        };
-        here = next;
-        iterations += 1;
-        if arrived {
-            break;
-        }
-    }
-    if here.size > enough {
-        return Err(failure::<M, T, U, V>(iterations, here.size, measure(mechanism, &here.pose)));
-    }
+    let (Iterate { unknowns, point, size, .. }, iterations) =
+        search(&Whole::<_, _, V> { mechanism, guess }, M::unknowns(guess))?;
     Ok(Solution {
-        coordinates: here.q,
+        coordinates: M::with_unknowns(guess, unknowns),
         iterations,
-        residual: to_f64(here.size),
-        same_branch: mechanism.same_branch(&start, &here.pose),
+        residual: to_f64(size),
+        same_branch: mechanism.same_branch(&mechanism.pose_at(guess), &point),
     })
 }
 
-fn iterate<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
-    mechanism: &M,
-    q: M::Coordinates,
-) -> Iterate<M::Coordinates, M::Pose, T, U> {
-    let pose = mechanism.pose_at(&q);
-    let residual = mechanism.residual(&pose);
-    let sizes = mechanism.closure_sizes(&pose);
-    let relative = residual.iter().zip(sizes.iter()).map(|(psi, size)| {
-        // Nothing is left of a closure whose terms are all zero.
-        if psi.is_zero() { T::zero() } else { psi.abs() / *size }
-    });
-    // A residual that is not a number must not be lost in a maximum.
-    let size = relative.fold(T::zero(), |largest, psi| if psi <= largest { largest } else { psi });
-    Iterate { q, pose, residual, size }
-}
-
-fn iterate_at<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
-    mechanism: &M,
-    from: &Iterate<M::Coordinates, M::Pose, T, U>,
-    step: SVector<T, U>,
-    fraction: T,
-) -> Option<Iterate<M::Coordinates, M::Pose, T, U>> {
-    let next = iterate(mechanism, M::with_unknowns(&from.q, M::unknowns(&from.q) - step * fraction));
-    next.size.is_finite().then_some(next)
-}
-
-/// The longest of the steps 1, 1/2, 1/4, … that lowers the residual.
-fn damped<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
-    mechanism: &M,
-    from: &Iterate<M::Coordinates, M::Pose, T, U>,
-    step: SVector<T, U>,
-) -> Option<Iterate<M::Coordinates, M::Pose, T, U>> {
-    let mut fraction = T::one();
-    for _ in 0..MOST_HALVINGS {
-        let next = iterate_at(mechanism, from, step, fraction);
-        if next.as_ref().is_some_and(|next| next.size < from.size) {
-            return next;
-        }
-        fraction *= real::<T>(0.5);
-    }
-    None
-}
-
-fn failure<M: Mechanism<T, U, V>, T: Real, const U: usize, const V: usize>(
-    iterations: usize,
-    residual: T,
-    regularity: f64,
-) -> Error {
-    Error::NotConverged { mechanism: M::NAME, iterations, residual: to_f64(residual), regularity }
-}
-
-fn regularity(error: &Error) -> f64 {
-    match error {
-        Error::Singular { regularity, .. } => *regularity,
-        _ => 0.0,
+/// The unknowns of one group, by their names in `group`, near `start`; the groups before it are solved.
+///
+/// `evaluate` gives the closures of the group, the sums of the magnitudes of their terms, and their derivatives
+/// by the unknowns, column by column. The search is that of [`newton`].
+///
+/// # Errors
+/// [`Error::NotConverged`] if the residual stays, [`Error::OtherBranch`] if the group is singular somewhere
+/// between the start and what was found, [`Error::NotFinite`] if a number is not finite.
+pub fn newton_group<T, const N: usize>(
+    mechanism: &'static str,
+    group: &'static str,
+    start: [T; N],
+    evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
+) -> Result<[T; N], Error>
+where
+    T: Real,
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
+{
+    let (_, _, before) = evaluate(start);
+    let (Iterate { unknowns, point: (_, _, after), .. }, _) =
+        search(&Part { mechanism, group, evaluate }, SVector::from(start))?;
+    if same_signs([product_of_pivots(before)], [product_of_pivots(after)]) {
+        Ok(unknowns.into())
+    } else {
+        Err(Error::OtherBranch { mechanism, group })
     }
 }
 
-/// How regular J is, without a verdict: |det J| beside the product of the sizes of its columns.
-fn measure<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(mechanism: &M, pose: &M::Pose) -> f64 {
-    let determinant = mechanism.determinant(pose);
-    let jacobian = mechanism.jacobian_unknowns(pose);
+/// Psi, the sizes of its terms, and the columns of J.
+type Evaluated<T, const N: usize> = ([T; N], [T; N], [[T; N]; N]);
+
+/// A mechanism whose inputs are those of a guess.
+struct Whole<'a, M, Q, const V: usize> {
+    mechanism: &'a M,
+    guess: &'a Q,
+}
+
+impl<T, M, const U: usize, const V: usize> Closures<T, U> for Whole<'_, M, M::Coordinates, V>
+where
+    T: Real,
+    M: Mechanism<T, U, V>,
+{
+    type Point = M::Pose;
+
+    fn at(&self, unknowns: &SVector<T, U>) -> M::Pose {
+        self.mechanism.pose_at(&M::with_unknowns(self.guess, *unknowns))
+    }
+
+    fn residual(&self, pose: &M::Pose) -> (SVector<T, U>, SVector<T, U>) {
+        (self.mechanism.residual(pose), self.mechanism.closure_sizes(pose))
+    }
+
+    fn solve(&self, pose: &M::Pose, right: &SVector<T, U>) -> Result<SVector<T, U>, Error> {
+        self.mechanism.solve_jacobian(pose, right)
+    }
+
+    fn regularity(&self, pose: &M::Pose) -> f64 {
+        beside_columns(self.mechanism.determinant(pose), &self.mechanism.jacobian_unknowns(pose))
+    }
+
+    fn names(&self) -> (&'static str, Option<&'static str>) {
+        (M::NAME, None)
+    }
+}
+
+/// One group of a mechanism.
+struct Part<F> {
+    mechanism: &'static str,
+    group: &'static str,
+    evaluate: F,
+}
+
+impl<T, F, const N: usize> Closures<T, N> for Part<F>
+where
+    T: Real,
+    F: Fn([T; N]) -> Evaluated<T, N>,
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
+{
+    type Point = Evaluated<T, N>;
+
+    fn at(&self, unknowns: &SVector<T, N>) -> Self::Point {
+        (self.evaluate)((*unknowns).into())
+    }
+
+    fn residual(&self, (residual, sizes, _): &Self::Point) -> (SVector<T, N>, SVector<T, N>) {
+        (SVector::from(*residual), SVector::from(*sizes))
+    }
+
+    fn solve(&self, (_, sizes, columns): &Self::Point, right: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+        let factors = Factorization::new(self.mechanism, self.group, *columns, *sizes)?;
+        Ok(SVector::from(factors.solve((*right).into())))
+    }
+
+    fn regularity(&self, (_, _, columns): &Self::Point) -> f64 {
+        beside_columns(product_of_pivots(*columns), &SMatrix::from(*columns))
+    }
+
+    fn names(&self) -> (&'static str, Option<&'static str>) {
+        (self.mechanism, Some(self.group))
+    }
+}
+
+/// |det J| beside the product of the sizes of its columns.
+fn beside_columns<T: Real, const N: usize>(determinant: T, jacobian: &SMatrix<T, N, N>) -> f64 {
     let product = jacobian.column_iter().fold(T::one(), |product, column| product * column.norm());
     if product > T::zero() { to_f64(determinant.abs() / product) } else { 0.0 }
 }

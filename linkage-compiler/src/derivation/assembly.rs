@@ -26,13 +26,15 @@ use crate::structure::Group;
 type Vector = [NodeId; 2];
 
 /// The stages that solve every group, and what they leave.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Assembly {
     pub stages: Vec<Stage>,
-    /// The determinant of each block.
-    pub determinants: Vec<NodeId>,
+    /// The determinants of the blocks that have a formula.
+    pub determinants: BTreeMap<usize, NodeId>,
     /// The blocks that have two solutions.
     pub chords: Vec<Chord>,
+    /// The coordinates that are not found in closed form, and the names of their guesses.
+    pub guesses: Vec<(usize, SymbolId)>,
     directions: BTreeMap<SymbolId, Vector>,
 }
 
@@ -159,28 +161,31 @@ fn square_of(g: &mut Graph, length: NodeId) -> NodeId {
 }
 
 impl Derivation {
-    /// Position in closed form; none if a block has no closed form.
-    pub fn assembly(&mut self) -> Option<Assembly> {
-        let mut assembly =
-            Assembly { stages: Vec::new(), determinants: Vec::new(), chords: Vec::new(), directions: BTreeMap::new() };
+    /// Position group by group: in closed form where there is one, else by Newton's method.
+    pub fn assembly(&mut self) -> Assembly {
+        let mut assembly = Assembly::default();
         for number in 0..self.blocks.len() {
             let block = self.blocks[number].clone();
-            let determinant = self.assemble(number, &block, &mut assembly)?;
+            let closed = self.assemble(number, &block, &mut assembly);
             let choice = match block.group {
                 Group::Rrr => Some(Choice::Elbow),
                 Group::Rrp | Group::Rpr => Some(Choice::Slider),
                 Group::Angle => Some(Choice::Slope),
                 _ => None,
             };
-            assembly.chords.extend(choice.map(|choice| {
+            if let (Some(determinant), Some(choice)) = (closed, choice) {
                 let is_opposite = self.graph.leads_negative(determinant);
-                Chord { block: number, choice, is_opposite }
-            }));
-            let symbol = block.determinant?.symbol;
-            assembly.stages.push(Stage::Let { symbol, node: determinant });
-            assembly.determinants.push(self.graph.variable(symbol));
+                assembly.chords.push(Chord { block: number, choice, is_opposite });
+            }
+            if closed.is_none() {
+                self.iterate(number, &block, &mut assembly);
+            }
+            let Some(determinant) = block.determinant else { continue };
+            let node = closed.unwrap_or_else(|| assembly.solved(&mut self.graph, &[determinant.value])[0]);
+            assembly.stages.push(Stage::Let { symbol: determinant.symbol, node });
+            assembly.determinants.insert(number, self.graph.variable(determinant.symbol));
         }
-        Some(assembly)
+        assembly
     }
 
     fn assemble(&mut self, number: usize, block: &Block, assembly: &mut Assembly) -> Option<NodeId> {

@@ -7,6 +7,7 @@
 mod assembly;
 mod check;
 mod formulas;
+mod iteration;
 mod linear;
 mod magnitude;
 mod ratios;
@@ -18,7 +19,7 @@ use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::{self, simplify};
 use crate::structure::{self, Group, Method};
-pub use assembly::{Assembly, Choice};
+pub use assembly::{Assembly, Choice, Chord};
 pub use check::{LARGEST, check};
 pub use formulas::{Formulas, Inverse};
 pub use linear::{Form, solve_closed};

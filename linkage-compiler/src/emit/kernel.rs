@@ -127,6 +127,7 @@ fn used_by(line: &Line) -> Option<&'static str> {
         Line::Guard { .. } => Some("regular"),
         Line::Factor { .. } => Some("Factorization"),
         Line::Chord { .. } => Some("chord"),
+        Line::Newton { .. } => Some("newton_group"),
         Line::Pivots { .. } => Some("product_of_pivots"),
         _ => None,
     }
@@ -187,6 +188,7 @@ fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> T
 }
 
 /// What the lines of a kernel refer to.
+#[derive(Clone, Copy)]
 struct Writer<'a> {
     given: &'a Given<'a>,
     derivation: &'a Derivation,
@@ -266,10 +268,42 @@ fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut 
             let name = names.introduce(*symbol).ident;
             body.extend(quote!(let #name = product_of_pivots([#(#columns),*]);));
         }
+        Line::Newton { block, targets, start, system, .. } => {
+            let start: Vec<_> = start.iter().map(|value| signed(names, schedule, *value)).collect();
+            let group = derivation.blocks[*block].names(derivation);
+            let (unknowns, evaluation) = evaluation(writer, targets, system, names);
+            let targets: Vec<_> = targets.iter().map(|&target| names.introduce(target).ident).collect();
+            body.extend(quote!(
+                let [#(#targets),*] =
+                    newton_group(Self::NAME, #group, [#(#start),*], |[#(#unknowns),*]| { #evaluation })?;
+            ));
+        }
         Line::Return(values) => {
             *results = values.iter().map(|value| result(names, schedule, *value)).collect();
         }
     }
+}
+
+/// The body of a closure that evaluates a block: its residual, the sizes of its closures, the columns of its matrix.
+fn evaluation(writer: &Writer, unknowns: &[SymbolId], system: &Schedule, names: &Names) -> (Vec<Ident>, TokenStream) {
+    let mut inner = names.within();
+    let unknowns: Vec<Ident> = unknowns.iter().map(|&unknown| inner.introduce(unknown).ident).collect();
+    let (mut body, mut results) = (TokenStream::new(), Vec::new());
+    let writer = Writer { schedule: system, ..*writer };
+    for line in &system.lines {
+        write_line(&writer, &mut body, line, &mut inner, &mut results);
+    }
+    if inner.takes_numbers() {
+        names.take_number();
+    }
+    let (residual, rest) = results.split_at(unknowns.len());
+    let (sizes, rows) = rest.split_at(unknowns.len());
+    let columns = (0..unknowns.len()).map(|column| {
+        let column = rows.iter().skip(column).step_by(unknowns.len());
+        quote!([#(#column),*])
+    });
+    body.extend(quote!(([#(#residual),*], [#(#sizes),*], [#(#columns),*])));
+    (unknowns, body)
 }
 
 /// `let name = …;`

@@ -9,12 +9,13 @@ use crate::graph::{Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 11] = [
+pub(super) const RUNTIME_FUNCTIONS: [&str; 12] = [
     "chord",
     "existing",
     "finite",
     "finite_matrix",
     "newton",
+    "newton_group",
     "product_of_pivots",
     "real",
     "regular",
@@ -89,6 +90,18 @@ impl<'a> Names<'a> {
             taken,
             values: FxHashMap::default(),
             symbols: FxHashMap::default(),
+            numbers_taken: Cell::new(false),
+            factors: FxHashMap::default(),
+        }
+    }
+
+    /// Names of a scope within this one.
+    pub(super) fn within(&self) -> Self {
+        Self {
+            graph: self.graph,
+            taken: self.taken.clone(),
+            values: FxHashMap::default(),
+            symbols: self.symbols.clone(),
             numbers_taken: Cell::new(false),
             factors: FxHashMap::default(),
         }

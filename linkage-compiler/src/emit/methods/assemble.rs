@@ -1,20 +1,20 @@
-//! Position in closed form.
+//! Position group by group.
 
 use proc_macro2::Ident;
 use quote::quote;
 
 use super::super::kernel;
-use super::super::kernel::Given;
+use super::super::kernel::{Given, Shape, Source};
 use super::super::{names::ident, types};
 use super::{Body, Kernels, Methods, argument_of, bind, check_finite, lines, pose_members};
-use crate::derivation::Choice;
+use crate::derivation::{Choice, Chord};
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
     pub(super) fn assemble(&mut self, kernels: Option<&mut Kernels>) {
         let Some(kernels) = kernels else { return };
-        let Some(assembly) = kernels.derivation.assembly() else { return };
+        let assembly = kernels.derivation.assembly();
         let (pose, inputs, branch_type) = (&self.types.pose, &self.types.inputs, &self.types.branch);
         let (v, branch) = (self.arguments.inputs.clone(), self.arguments.branch.clone());
         let sides: Vec<_> = assembly
@@ -23,9 +23,14 @@ impl Methods<'_> {
             .map(|chord| (ident(&kernels.derivation.blocks[chord.block].branch(kernels.derivation)), chord.choice))
             .collect();
         let chords = assembly.chords.clone();
+        let guess = self.arguments.guess.clone();
+        let is_iterated = |block: usize| {
+            assembly.stages.iter().any(|stage| matches!(stage, Stage::Newton { block: other, .. } if *other == block))
+        };
+        let iterated: Vec<bool> = (0..kernels.derivation.blocks.len()).map(is_iterated).collect();
 
         let determinants: Vec<NodeId> =
-            kernels.plan.determinants.iter().map(|(block, _, _)| assembly.determinants[*block]).collect();
+            kernels.plan.determinants.iter().map(|(block, _, _)| assembly.determinants[block]).collect();
         let angles: Vec<NodeId> = kernels.plan.angles().collect();
         let graph = &mut kernels.derivation.graph;
         let circular: Vec<NodeId> = angles
@@ -35,10 +40,15 @@ impl Methods<'_> {
         let circular = assembly.solved(graph, &circular);
         let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
         let bare = kernels.variables(&bare);
-        let mut stages = assembly.stages;
+        let mut stages = assembly.stages.clone();
         stages.push(Stage::Return(determinants.iter().chain(&circular).chain(&bare).copied().collect()));
         let stages = needed(&kernels.derivation.graph, stages);
-        let sources = vec![self.parameters(), self.inputs(kernels, &v, |c| c.value)];
+        let position = if assembly.guesses.is_empty() {
+            self.inputs(kernels, &v, |c| c.value)
+        } else {
+            self.guess(kernels, &guess, &assembly.guesses)
+        };
+        let sources = vec![self.parameters(), position];
         let given = Given { sources, pose: None, branch: &self.arguments.branch };
         let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
         let mut wishes: Vec<String> = kernels.plan.determinants.iter().map(|(_, field, _)| field.clone()).collect();
@@ -56,40 +66,74 @@ impl Methods<'_> {
             code.arguments.push(branch.clone());
         }
         let body = Some(Body::new(code, quote!(#bindings #finite Ok(#pose { #fields })), []));
-        let docs = lines([
-            "The position at these inputs in closed form: group by group, on the branch that is asked for.",
-            "",
-            "# Errors",
-            "`Unbuildable` if a group does not reach, `NotFinite` if a number is not finite.",
-        ]);
-        let [v, branch] = [&v, &branch].map(|argument| argument_of(argument, body.as_ref()));
-        let signature =
-            quote!(pub fn assemble(&self, #v: impl Into<#inputs<T>>, #branch: #branch_type) -> Result<#pose<T>, Error>);
-        self.function(&docs, &signature, body);
+        let branch = argument_of(&branch, body.as_ref());
+        if assembly.guesses.is_empty() {
+            let docs = lines([
+                "The position at these inputs in closed form: group by group, on the branch that is asked for.",
+                "",
+                "# Errors",
+                "`Unbuildable` if a group does not reach, `NotFinite` if a number is not finite.",
+            ]);
+            let (v, argument) = (argument_of(&v, body.as_ref()), quote!(impl Into<#inputs<T>>));
+            let signature =
+                quote!(pub fn assemble(&self, #v: #argument, #branch: #branch_type) -> Result<#pose<T>, Error>);
+            self.function(&docs, &signature, body);
+            self.branches(&sides);
+        } else {
+            let iterated = kernels.derivation.blocks.iter().zip(iterated).filter(|(_, iterated)| *iterated);
+            let iterated: Vec<_> = iterated.map(|(block, _)| block.names(kernels.derivation)).collect();
+            let docs = lines([
+                "The position at the inputs of a guess: group by group, in closed form on the branch that is asked for,",
+                &format!("but {} by Newton's method from the guess.", iterated.join(", then ")),
+                "",
+                "# Errors",
+                "`Unbuildable` if a group does not reach, `NotConverged` if Newton's method finds no position,",
+                "`OtherBranch` if it finds one beyond a dead point, `NotFinite` if a number is not finite.",
+            ]);
+            let coordinates = &self.types.coordinates;
+            let signature = quote!(pub fn assemble_near(&self, #guess: &#coordinates<T>, #branch: #branch_type)
+                -> Result<#pose<T>, Error>);
+            self.function(&docs, &signature, body);
+        }
+        self.branch_of(kernels, &chords, &sides);
+        self.branches = Some(sides);
+    }
 
-        self.branches(&sides);
-
-        let pose_argument = self.arguments.pose.clone();
-        let members = chords.iter().zip(&sides).filter_map(|(chord, (side, _))| {
+    fn branch_of(&mut self, kernels: &Kernels, chords: &[Chord], sides: &[(Ident, Choice)]) {
+        let (pose, branch_type) = (&self.types.pose, &self.types.branch);
+        let argument = self.arguments.pose.clone();
+        let members = chords.iter().zip(sides).filter_map(|(chord, (side, _))| {
             let (_, field, _) = kernels.plan.determinants.iter().find(|(block, ..)| *block == chord.block)?;
             let (field, minus) = (ident(field), chord.is_opposite.then(|| quote!(-)));
-            Some(quote!(#side: side_of(#minus #pose_argument.#field)))
+            Some(quote!(#side: side_of(#minus #argument.#field)))
         });
         let members = quote!(#branch_type { #(#members),* });
         let body = if sides.is_empty() {
             Body::plain(members, [], [])
         } else {
-            Body::plain(members, [&pose_argument], ["side_of"])
+            Body::plain(members, [&argument], ["side_of"])
         };
         let docs = lines(["The branch that a position belongs to."]);
-        let pose_argument = argument_of(&pose_argument, Some(&body));
-        let signature = quote!(#[must_use] pub fn branch_of(&self, #pose_argument: &#pose<T>) -> #branch_type);
+        let argument = argument_of(&argument, Some(&body));
+        let signature = quote!(#[must_use] pub fn branch_of(&self, #argument: &#pose<T>) -> #branch_type);
         self.function(&docs, &signature, Some(body));
-        self.branches = Some(sides);
     }
 }
 
 impl Methods<'_> {
+    /// The inputs of a guess, and the unknowns that have no closed form under names of their own.
+    fn guess(&self, kernels: &Kernels, guess: &Ident, guesses: &[(usize, SymbolId)]) -> Source {
+        let coordinates = &kernels.derivation.coordinates;
+        let inputs = kernels.derivation.inputs.iter().map(|&index| (index, coordinates[index].value));
+        let fields = inputs.chain(guesses.iter().copied());
+        let mut fields: Vec<_> = fields.map(|(index, symbol)| (coordinates[index].name.clone(), symbol)).collect();
+        // The others are fields as well, so that the pattern is complete only if it names them all.
+        let named = fields.len();
+        fields.extend((named..coordinates.len()).map(|_| (String::new(), SymbolId::NONE)));
+        let of = &self.types.coordinates;
+        Source { argument: Some(guess.clone()), from: quote!(*#guess), of: Shape::Fields(quote!(#of)), fields }
+    }
+
     /// All positions at some inputs.
     fn branches(&mut self, sides: &[(Ident, Choice)]) {
         if sides.len() > types::MOST_BRANCHING {

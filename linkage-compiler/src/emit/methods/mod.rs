@@ -46,6 +46,7 @@ struct Arguments {
     right: Ident,
     branch: Ident,
     inputs: Ident,
+    guess: Ident,
 }
 
 struct Methods<'a> {
@@ -83,6 +84,7 @@ pub(super) fn of_driver(
         right: name("right"),
         branch: name("branch"),
         inputs: name("inputs"),
+        guess: name("guess"),
     };
     let reserved = [
         &arguments.pose,
@@ -92,6 +94,7 @@ pub(super) fn of_driver(
         &arguments.right,
         &arguments.branch,
         &arguments.inputs,
+        &arguments.guess,
     ]
     .map(ToString::to_string)
     .to_vec();

@@ -29,6 +29,9 @@ pub enum Stage {
     /// Names the root of a product of two factors, with the sign of the branch of a block; refuses a
     /// factor that is less than zero beside `size`.
     Chord { block: usize, symbol: SymbolId, factors: [NodeId; 2], size: NodeId },
+    /// Names the unknowns of a block, found by Newton's method from `start`: its residual, the sizes of its
+    /// closures and its matrix row by row are `system`, made of the unknowns and of what is `known`.
+    Newton { block: usize, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
     /// Names the product of the pivots of a matrix given by rows.
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
     /// The values that the kernel returns.
@@ -41,7 +44,7 @@ impl Stage {
     pub fn introduced(&self) -> Vec<SymbolId> {
         match self {
             Self::Let { symbol, .. } | Self::Pivots { symbol, .. } | Self::Chord { symbol, .. } => vec![*symbol],
-            Self::Solve { targets, .. } => targets.clone(),
+            Self::Solve { targets, .. } | Self::Newton { targets, .. } => targets.clone(),
             _ => Vec::new(),
         }
     }
@@ -56,6 +59,7 @@ impl Stage {
             Self::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).copied().collect(),
             Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
             Self::Solve { right, .. } => right.clone(),
+            Self::Newton { start, known, .. } => start.iter().chain(known).copied().collect(),
             Self::Return(nodes) => nodes.clone(),
         }
     }
@@ -126,6 +130,14 @@ pub enum Line {
         factors: [Signed; 2],
         size: Signed,
     },
+    Newton {
+        block: usize,
+        targets: Vec<SymbolId>,
+        start: Vec<Signed>,
+        known: Vec<Signed>,
+        /// One evaluation of the block.
+        system: Box<Schedule>,
+    },
     Return(Vec<Signed>),
 }
 
@@ -189,6 +201,11 @@ pub fn schedule(
             }
             Stage::Pivots { symbol, matrix } => {
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
+            }
+            Stage::Newton { block, targets, start, known, system } => {
+                let system = Box::new(schedule(graph, &[Stage::Return(system.clone())], directions, &[]));
+                let (targets, start, known) = (targets.clone(), signed(start), signed(known));
+                Line::Newton { block: *block, targets, start, known, system }
             }
             Stage::Return(nodes) => Line::Return(signed(nodes)),
         });
@@ -275,6 +292,7 @@ fn line_values(line: &Line) -> Vec<ValueId> {
         Line::Chord { factors: [low, high], size, .. } => vec![low.value, high.value, size.value],
         Line::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).map(|signed| signed.value).collect(),
         Line::Pivots { matrix, .. } => matrix.iter().flatten().map(|signed| signed.value).collect(),
+        Line::Newton { start, known, .. } => start.iter().chain(known).map(|signed| signed.value).collect(),
         Line::Solve { right, .. } | Line::Return(right) => of(right),
     }
 }

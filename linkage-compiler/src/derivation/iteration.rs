@@ -1,0 +1,127 @@
+//! A group that has no closed form: Newton's method on its own closures, with all that does not change from step
+//! to step computed before.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::assembly::Assembly;
+use super::{Block, Derivation};
+use crate::graph::{Node, NodeId, Number, SymbolId};
+use crate::simplify::schedule::Stage;
+
+impl Derivation {
+    /// Names what the groups before know, and then the unknowns.
+    pub(super) fn iterate(&mut self, number: usize, block: &Block, assembly: &mut Assembly) {
+        let columns: Vec<usize> = block.unknowns.iter().map(|&place| self.unknowns[place]).collect();
+        let targets: Vec<SymbolId> = columns.iter().map(|&column| self.coordinates[column].value).collect();
+        let of = |all: &[NodeId]| block.equations.iter().map(|&equation| all[equation]).collect::<Vec<_>>();
+        let mut system = of(&self.residual);
+        system.extend(of(&self.sizes));
+        system.extend(self.block_matrix(block).into_iter().flatten());
+        let system = assembly.solved(&mut self.graph, &system);
+        let mut split = Split::new(self, &targets, &system);
+        let system = split.changing(&system);
+        assembly.stages.append(&mut split.stages);
+        let known = self.graph.symbols_of(&system).into_iter().filter(|symbol| !targets.contains(symbol));
+        let known: Vec<SymbolId> = known.collect();
+        let known = known.into_iter().map(|symbol| self.graph.variable(symbol)).collect();
+        let guesses = columns.iter().map(|&column| {
+            let name = format!("{}_guess", self.coordinates[column].name);
+            (column, self.graph.symbol(name))
+        });
+        let guesses: Vec<(usize, SymbolId)> = guesses.collect();
+        let start = guesses.iter().map(|&(_, symbol)| self.graph.variable(symbol)).collect();
+        assembly.guesses.extend(guesses);
+        assembly.stages.push(Stage::Newton { block: number, targets, start, known, system });
+    }
+}
+
+/// Expressions parted into what holds some symbols and what does not.
+struct Split<'a> {
+    derivation: &'a mut Derivation,
+    /// The nodes that hold one of the symbols.
+    holding: FxHashSet<NodeId>,
+    /// The names of what does not change.
+    names: FxHashMap<NodeId, NodeId>,
+    stages: Vec<Stage>,
+}
+
+impl<'a> Split<'a> {
+    fn new(derivation: &'a mut Derivation, symbols: &[SymbolId], roots: &[NodeId]) -> Self {
+        let graph = &derivation.graph;
+        let mut holding = FxHashSet::default();
+        for id in graph.reachable(roots) {
+            let itself = graph.as_symbol(id).is_some_and(|symbol| symbols.contains(&symbol));
+            if itself || graph.children(id).iter().any(|child| holding.contains(child)) {
+                holding.insert(id);
+            }
+        }
+        Self { derivation, holding, names: FxHashMap::default(), stages: Vec::new() }
+    }
+
+    /// The same expressions with names in place of what does not change.
+    fn changing(&mut self, roots: &[NodeId]) -> Vec<NodeId> {
+        let mut new: FxHashMap<NodeId, NodeId> = FxHashMap::default();
+        for id in self.derivation.graph.reachable(roots) {
+            if self.holding.contains(&id) {
+                let rebuilt = self.rebuilt(id, &new);
+                new.insert(id, rebuilt);
+            }
+        }
+        roots.iter().map(|root| new.get(root).copied().unwrap_or_else(|| self.named(*root))).collect()
+    }
+
+    /// A node that holds a symbol: its parts that hold none taken together under one name.
+    fn rebuilt(&mut self, id: NodeId, new: &FxHashMap<NodeId, NodeId>) -> NodeId {
+        match self.derivation.graph.node(id).clone() {
+            Node::Constant(_) | Node::Pi | Node::Symbol(_) => id,
+            Node::Sum { constant, terms } => {
+                let (changing, still): (Vec<_>, Vec<_>) =
+                    terms.into_iter().partition(|(_, term)| self.holding.contains(term));
+                let one = self.derivation.graph.one();
+                let mut still = still;
+                still.push((constant, one));
+                let still = self.derivation.graph.sum(&still);
+                let mut sum: Vec<_> = changing.into_iter().map(|(factor, term)| (factor, new[&term])).collect();
+                sum.push((Number::ONE, self.named(still)));
+                self.derivation.graph.sum(&sum)
+            }
+            Node::Product { coefficient, factors } => {
+                let (changing, still): (Vec<_>, Vec<_>) =
+                    factors.into_iter().partition(|(base, _)| self.holding.contains(base));
+                let mut still = still;
+                still.push((self.derivation.graph.number(coefficient), 1));
+                let still = self.derivation.graph.product(&still);
+                let mut product: Vec<_> = changing.into_iter().map(|(base, power)| (new[&base], power)).collect();
+                product.push((self.named(still), 1));
+                self.derivation.graph.product(&product)
+            }
+            Node::Call(function, arguments) => {
+                let arguments: Vec<NodeId> = arguments
+                    .into_iter()
+                    .map(|argument| new.get(&argument).copied().unwrap_or_else(|| self.named(argument)))
+                    .collect();
+                self.derivation.graph.call(function, &arguments)
+            }
+        }
+    }
+
+    /// What does not change by a name, unless it is a symbol, a number or one with a sign.
+    fn named(&mut self, id: NodeId) -> NodeId {
+        let graph = &mut self.derivation.graph;
+        if graph.symbols_of(&[id]).is_empty() || graph.as_symbol(id).is_some() {
+            return id;
+        }
+        let negative = graph.negate(id);
+        if graph.as_symbol(negative).is_some() {
+            return id;
+        }
+        if let Some(&name) = self.names.get(&id) {
+            return name;
+        }
+        let symbol = graph.symbol(format!("known_{}", self.names.len() + 1));
+        let name = graph.variable(symbol);
+        self.stages.push(Stage::Let { symbol, node: id });
+        self.names.insert(id, name);
+        name
+    }
+}

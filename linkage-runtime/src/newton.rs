@@ -1,0 +1,139 @@
+//! Newton's method: u <- u - J^-1 Psi, damped, with honest failure.
+
+use nalgebra::SVector;
+
+use crate::scalar::to_f64;
+use crate::{Error, Real, real};
+
+/// Newton steps before the search is given up; from a fair guess it takes four or five.
+const MOST_ITERATIONS: usize = 60;
+
+/// A residual of this many roundings of the sum of the magnitudes of its terms is zero.
+const ROUNDINGS: f64 = 4.0;
+
+/// Halvings of one step before it is given up: a step 2^-40 of its length no longer moves anything.
+const MOST_HALVINGS: usize = 40;
+
+/// Closures in some unknowns.
+pub(crate) trait Closures<T: Real, const N: usize> {
+    /// All that follows from values of the unknowns.
+    type Point;
+    fn at(&self, unknowns: &SVector<T, N>) -> Self::Point;
+    /// Psi, and the sum of the magnitudes of the terms of each closure.
+    fn residual(&self, point: &Self::Point) -> (SVector<T, N>, SVector<T, N>);
+    /// J^-1 `right`.
+    fn solve(&self, point: &Self::Point, right: &SVector<T, N>) -> Result<SVector<T, N>, Error>;
+    /// How regular J is, without a verdict.
+    fn regularity(&self, point: &Self::Point) -> f64;
+    /// The mechanism, and the group if it is one alone.
+    fn names(&self) -> (&'static str, Option<&'static str>);
+}
+
+/// Where a search is or ends.
+pub(crate) struct Iterate<P, T, const N: usize> {
+    pub(crate) unknowns: SVector<T, N>,
+    pub(crate) point: P,
+    residual: SVector<T, N>,
+    /// The largest relative residual.
+    pub(crate) size: T,
+}
+
+/// What a search finds from `start`, and the steps it took.
+///
+/// Steps are halved until the residual falls. The search ends at a residual that rounding explains,
+/// after one more step that removes what the last one left.
+pub(crate) fn search<T: Real, C: Closures<T, N>, const N: usize>(
+    closures: &C,
+    start: SVector<T, N>,
+) -> Result<(Iterate<C::Point, T, N>, usize), Error> {
+    let enough = real::<T>(ROUNDINGS) * T::default_epsilon();
+    let mut here = iterate(closures, start);
+    if !here.size.is_finite() {
+        return Err(Error::NotFinite { mechanism: closures.names().0, quantity: "the residual" });
+    }
+    let mut iterations = 0;
+    while iterations < MOST_ITERATIONS {
+        let arrived = here.size <= enough;
+        let step = match closures.solve(&here.point, &here.residual) {
+            Ok(step) => step,
+            Err(_) if arrived => break,
+            Err(error) => return Err(failure(closures, iterations, here.size, &error)),
+        };
+        let next = if arrived { iterate_at(closures, &here, step) } else { damped(closures, &here, step) };
+        // Within rounding a step may help or not; what is better stays.
+        let Some(next) = next.filter(|next| next.size < here.size) else {
+            if arrived {
+                break;
+            }
+            return Err(stopped(closures, iterations, &here));
+        };
+        here = next;
+        iterations += 1;
+        if arrived {
+            break;
+        }
+    }
+    if here.size > enough { Err(stopped(closures, iterations, &here)) } else { Ok((here, iterations)) }
+}
+
+fn iterate<T: Real, C: Closures<T, N>, const N: usize>(
+    closures: &C,
+    unknowns: SVector<T, N>,
+) -> Iterate<C::Point, T, N> {
+    let point = closures.at(&unknowns);
+    let (residual, sizes) = closures.residual(&point);
+    let relative = residual.iter().zip(sizes.iter()).map(|(psi, size)| {
+        // Nothing is left of a closure whose terms are all zero.
+        if psi.is_zero() { T::zero() } else { psi.abs() / *size }
+    });
+    // A residual that is not a number must not be lost in a maximum.
+    let size = relative.fold(T::zero(), |largest, psi| if psi <= largest { largest } else { psi });
+    Iterate { unknowns, point, residual, size }
+}
+
+fn iterate_at<T: Real, C: Closures<T, N>, const N: usize>(
+    closures: &C,
+    from: &Iterate<C::Point, T, N>,
+    step: SVector<T, N>,
+) -> Option<Iterate<C::Point, T, N>> {
+    let next = iterate(closures, from.unknowns - step);
+    next.size.is_finite().then_some(next)
+}
+
+/// The longest of the steps 1, 1/2, 1/4, … that lowers the residual.
+fn damped<T: Real, C: Closures<T, N>, const N: usize>(
+    closures: &C,
+    from: &Iterate<C::Point, T, N>,
+    step: SVector<T, N>,
+) -> Option<Iterate<C::Point, T, N>> {
+    let mut fraction = T::one();
+    for _ in 0..MOST_HALVINGS {
+        let next = iterate_at(closures, from, step * fraction);
+        if next.as_ref().is_some_and(|next| next.size < from.size) {
+            return next;
+        }
+        fraction *= real::<T>(0.5);
+    }
+    None
+}
+
+/// A search that ends where J has no inverse.
+fn failure<T: Real, C: Closures<T, N>, const N: usize>(closures: &C, iterations: usize, size: T, why: &Error) -> Error {
+    let (mechanism, _) = closures.names();
+    match *why {
+        Error::Singular { group, regularity, .. } => {
+            Error::NotConverged { mechanism, group: Some(group), iterations, residual: to_f64(size), regularity }
+        }
+        other => other,
+    }
+}
+
+fn stopped<T: Real, C: Closures<T, N>, const N: usize>(
+    closures: &C,
+    iterations: usize,
+    at: &Iterate<C::Point, T, N>,
+) -> Error {
+    let (mechanism, group) = closures.names();
+    let (residual, regularity) = (to_f64(at.size), closures.regularity(&at.point));
+    Error::NotConverged { mechanism, group, iterations, residual, regularity }
+}
