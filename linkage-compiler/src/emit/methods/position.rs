@@ -30,7 +30,9 @@ impl Methods<'_> {
                 .collect();
             let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
             let bare = kernels.variables(&bare);
-            stages.push(Stage::Return(values.iter().chain(&circular).chain(&bare).copied().collect()));
+            let externals: Vec<NodeId> = kernels.plan.externals.iter().map(|(node, ..)| *node).collect();
+            let results = values.iter().chain(&circular).chain(&bare).chain(&externals);
+            stages.push(Stage::Return(results.copied().collect()));
             let sources = vec![self.parameters(), self.coordinates(kernels, &q, |c| c.value)];
             let given = Given { sources, pose: None, branch: &self.arguments.branch };
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
