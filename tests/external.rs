@@ -52,7 +52,7 @@ fn one_call_for_each_argument() {
     assert_eq!(count, 2);
     let (_, count) = calls(|| {
         assert!(cam.residual(&pose).amax() < 1e-14);
-        assert_eq!(cam.jacobian(&pose)[(0, 2)], -13.5);
+        assert_eq!(cam.jacobian(&pose)[(0, 0)], -13.5);
         let velocity = cam.velocity(&pose, 1.0).unwrap();
         cam.acceleration(&pose, &velocity, 1.0).unwrap();
         cam.output_accelerations(&pose, &velocity, &velocity).unwrap();

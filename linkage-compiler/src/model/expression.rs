@@ -255,7 +255,7 @@ impl Lowering<'_> {
             } else {
                 let known = crate::graph::OPERATIONS.iter().map(|row| row.name);
                 let known = known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)).chain(self.scope.functions());
-                let hint = suggestion(&text, known);
+                let hint = self.value_of(&text).unwrap_or_else(|| suggestion(&text, known));
                 self.diagnostics.error(name.span(), format_args!("no function is called `{text}`{hint}"));
             }
             return Value::Poison;
@@ -294,6 +294,15 @@ impl Lowering<'_> {
             }
             _ => return Value::Poison,
         })
+    }
+
+    /// What to write for a function of the user's in place of its path.
+    fn value_of(&self, function: &str) -> Option<String> {
+        let mut named = self
+            .externals
+            .iter()
+            .filter(|external| external.path.segments.last().is_some_and(|segment| segment.ident == function));
+        Some(format!(": its value is `{}(…)`", named.next()?.names.first()?.text))
     }
 
     fn takes(&mut self, name: &str, arity: usize, arguments: &[ExpressionId], region: Region) -> bool {

@@ -42,7 +42,9 @@ impl Methods<'_> {
             let fields = pose_members(kernels.plan, code.results.iter());
             Body::new(code, quote!(#pose { #fields }), [])
         });
-        let docs = ["The position at these coordinates, ready for use: one sine and cosine for each angle.".to_owned()];
+        let calls = if self.mechanism.externals.is_empty() { "" } else { ", one call for each function of the user's" };
+        let docs =
+            [format!("The position at these coordinates, ready for use: one sine and cosine for each angle{calls}.")];
         let q = argument_of(&q, body.as_ref());
         let signature = quote!(#[must_use] pub fn pose_at(&self, #q: &#coordinates<T>) -> #pose<T>);
         self.function(&docs, &signature, body);
