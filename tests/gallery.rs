@@ -300,8 +300,8 @@ fn four_bar_on_both_branches() {
 }
 
 /// Peak velocity and acceleration of the 3-4-5 polynomial are 1.875 h / beta and 5.7735 h / beta^2, those of
-/// cycloidal motion 2 h / beta and 6.2832 h / beta^2: R. L. Norton, *Design of Machinery*, chapter 8, factors for
-/// peak velocity and acceleration.
+/// cycloidal motion 2 h / beta and 2 pi h / beta^2: R. L. Norton, *Design of Machinery*, chapter 8, factors for peak
+/// velocity and acceleration.
 #[test]
 fn cams_reach_their_published_peaks() {
     let m = CamFollower::default();
@@ -320,7 +320,7 @@ fn cams_reach_their_published_peaks() {
     let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().acceleration.psi);
     for (sign, velocity, acceleration) in [(-1.0, velocity[0], acceleration[0]), (1.0, velocity[1], acceleration[1])] {
         close(velocity * m.rise / m.swing, sign * 2.0, 1e-14);
-        close(acceleration * m.rise.powi(2) / m.swing, sign * 6.2832, 5e-5);
+        close(acceleration * m.rise.powi(2) / m.swing, sign * TAU, 1e-12);
     }
 }
 

@@ -50,6 +50,7 @@ pub enum Node {
         factors: Vec<(NodeId, i32)>,
     },
     Call(Function, Vec<NodeId>),
+    /// A function of the user's, or a derivative of it.
     External(External, Vec<NodeId>),
 }
 
