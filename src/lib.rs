@@ -7,7 +7,7 @@ pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
-    Elbow, Error, Mechanism, OutputMotion, PointMotion, Slider, Slope, Solution, derivation, nalgebra, position,
+    Elbow, Error, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, derivation, nalgebra, position,
 };
 
 /// Mechanisms from their closure equations.

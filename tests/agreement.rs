@@ -1,6 +1,8 @@
 //! Two independent roads to every number: the compiler's interpreter against the emitted code, and
 //! the emitted derivatives against dual numbers, at random poses.
 
+#[path = "source/cam_laws.rs"]
+mod cam_laws;
 mod oracle;
 mod source;
 
@@ -356,6 +358,28 @@ agreement!(
     ScotchYokeInputs,
     ScotchYokePoints,
     ScotchYokeOutputs
+);
+agreement!(
+    cam_follower,
+    "mechanisms/cam_follower.rs",
+    "cam_follower",
+    0,
+    CamFollower,
+    CamFollowerCoordinates,
+    CamFollowerInputs,
+    CamFollowerPoints,
+    CamFollowerOutputs
+);
+agreement!(
+    cam_rocker,
+    "mechanisms/cam_rocker.rs",
+    "cam_rocker",
+    0,
+    CamRocker,
+    CamRockerCoordinates,
+    CamRockerInputs,
+    CamRockerPoints,
+    CamRockerOutputs
 );
 agreement!(
     every_function,

@@ -112,6 +112,71 @@ fn branches_that_exist() {
     assert!(matches!(FourBar::default().branches(f64::NAN).next(), Some(Err(Error::NotFinite { .. }))));
 }
 
+/// A dyad, then Kepler's equation, which has no closed form, then what follows from it.
+mod kepler {
+    use linkage::linkage;
+
+    linkage! {
+        #[derive(Debug, Clone, PartialEq)]
+        pub mechanism Kepler {
+            param l1 = 80, l2 = 20, l3 = 50, l4 = 70, e = 0.3;
+            input theta2;
+            unknown theta3, theta4, psi, s;
+            loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+            equation psi - e * sin(psi + theta3) = theta4;
+            equation s = l4 * cos(psi - theta4);
+        }
+    }
+}
+
+/// Group by group: what has a closed form takes the branch, what has none the guess.
+#[test]
+fn a_group_without_closed_form() {
+    use kepler::{Kepler, KeplerBranch, KeplerCoordinates};
+
+    let m = Kepler::default();
+    for degrees in (0..360).step_by(3) {
+        let theta2 = f64::from(degrees).to_radians();
+        for theta3_theta4 in [Elbow::Left, Elbow::Right] {
+            // Nothing of the guess but psi counts.
+            let guess = KeplerCoordinates { theta2, psi: 0.5, theta3: f64::NAN, theta4: f64::NAN, s: f64::NAN };
+            let branch = KeplerBranch { theta3_theta4 };
+            let pose = m.assemble_near(&guess, branch).unwrap();
+            assert_eq!(m.branch_of(&pose), branch);
+            assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).max());
+            let solved = m.solve(&pose.coordinates()).unwrap();
+            let (found, whole) = (pose.coordinates(), solved.coordinates);
+            assert!((found.psi - whole.psi).abs() <= 1e-14 && (found.s - whole.s).abs() <= 1e-12, "{found:?} {whole:?}");
+            // The determinant of the group is that of its formula.
+            let [_, psi, _] = m.block_determinants(&pose);
+            assert!((psi - (1.0 - m.e * (whole.psi + whole.theta3).cos())).abs() <= 1e-14);
+        }
+    }
+    // Beyond a dead point of psi, and nowhere.
+    let left = KeplerBranch { theta3_theta4: Elbow::Left };
+    let steep = Kepler { e: 3.0, ..Kepler::default() };
+    let at = |psi| KeplerCoordinates { theta2: 0.35, psi, theta3: 0.0, theta4: 0.0, s: 0.0 };
+    let (mut others, mut lost) = (0, 0);
+    for step in -300..300 {
+        let guess = at(f64::from(step) / 100.0);
+        let before = steep.pose_at(&KeplerCoordinates { theta3: 1.230_926_1, ..guess });
+        match steep.assemble_near(&guess, left) {
+            Ok(pose) => {
+                let [before, after] = [&before, &pose].map(|pose| steep.block_determinants(pose)[1]);
+                assert!(before * after > 0.0, "{guess:?}");
+            }
+            Err(Error::OtherBranch { group: "psi", .. }) => others += 1,
+            Err(Error::NotConverged { group: Some("psi"), .. }) => lost += 1,
+            Err(error) => panic!("{error}"),
+        }
+    }
+    assert!((1..100).contains(&others) && (1..100).contains(&lost), "{others}, {lost}");
+    let error = steep.assemble_near(&at(f64::INFINITY), left).unwrap_err();
+    assert_eq!(error, Error::NotFinite { mechanism: "Kepler", quantity: "the residual" });
+    let short = Kepler { l3: 1.0, l4: 1.0, ..Kepler::default() };
+    assert!(matches!(short.assemble_near(&at(0.0), left), Err(Error::Unbuildable { group: "theta3, theta4", .. })));
+}
+
 /// Where the links are in line the two branches meet; each keeps its name.
 #[test]
 fn a_dead_point_keeps_its_branch() {

@@ -3,6 +3,9 @@
 use linkage::derivation::{Derivation, Equation};
 use linkage::linkage;
 
+#[path = "source/cam_laws.rs"]
+mod cam_laws;
+
 include!("mechanisms/four_bar.rs");
 include!("mechanisms/introductory.rs");
 include!("mechanisms/slider_crank.rs");
@@ -11,6 +14,8 @@ include!("mechanisms/rpr.rs");
 include!("mechanisms/six_bar.rs");
 include!("mechanisms/geared_five_bar.rs");
 include!("mechanisms/jansen.rs");
+include!("mechanisms/cam_follower.rs");
+include!("mechanisms/cam_rocker.rs");
 
 macro_rules! snapshot {
     ($name:ident, $value:expr) => {
@@ -32,6 +37,7 @@ snapshot!(rpr, Rpr::DERIVATION);
 snapshot!(six_bar, SixBar::DERIVATION);
 snapshot!(geared_five_bar, GearedFiveBar::DERIVATION);
 snapshot!(jansen, Jansen::DERIVATION);
+snapshot!(cam_rocker, CamRocker::DERIVATION);
 snapshot!(four_bar_in_latex, FourBar::DERIVATION.to_latex());
 
 fn texts(equations: &[Equation]) -> Vec<String> {
@@ -81,4 +87,14 @@ fn latex_is_balanced() {
             assert_eq!(latex.matches(opening).count(), latex.matches(closing).count(), "{opening}");
         }
     }
+}
+
+/// tan(pressure) = (s' - offset) / (s + sqrt(prime^2 - offset^2)): R. L. Norton, *Design of Machinery*, chapter 8.
+#[test]
+fn pressure_angle_of_a_cam() {
+    let value = CamFollower::DERIVATION.outputs[0].value[0].right;
+    assert_eq!(value.text, "arctan((lift′(θ, height, rise) − offset)/(s + √(prime² − offset²)))");
+    let prime = r"\mathrm{lift}'(\theta, \mathrm{height}, \mathrm{rise})";
+    assert!(value.latex.contains(prime), "{}", value.latex);
+    assert!(value.mathml.contains("<msup><mi>lift</mi><mo>′</mo></msup>"), "{}", value.mathml);
 }

@@ -7,7 +7,9 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-const MECHANISMS: [&str; 11] = [
+const MECHANISMS: [&str; 13] = [
+    "cam_follower",
+    "cam_rocker",
     "components",
     "every_function",
     "five_bar",
@@ -53,7 +55,8 @@ fn passes_pedantic_lints() {
     fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
     // The versions under test are those of this workspace.
     fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    let mut library = String::from("//! Expansions of the mechanisms under test.\n#![no_std]\n\n");
+    fs::copy(Path::new(root).join("tests/source/cam_laws.rs"), folder.join("src/cam_laws.rs")).unwrap();
+    let mut library = String::from("//! Expansions of the mechanisms under test.\n#![no_std]\n\npub mod cam_laws;\n");
     for mechanism in MECHANISMS {
         let tokens = linkage_compiler::expand(source::tokens_of(mechanism), &"::linkage".parse().unwrap());
         let text = prettyplease::unparse(&syn::parse2(tokens).unwrap());

@@ -18,14 +18,24 @@ fn expand(file: &str) -> syn::File {
 fn functions(file: &str, names: &[&str]) -> String {
     let mut file = expand(file);
     let mut kept = Vec::new();
+    let mut keep = |item: syn::Item| {
+        let syn::Item::Impl(mut item) = item else { return };
+        item.items.retain(
+            |item| matches!(item, syn::ImplItem::Fn(function) if names.iter().any(|name| function.sig.ident == name)),
+        );
+        if item.trait_.is_none() && !item.items.is_empty() {
+            kept.push(syn::Item::Impl(item));
+        }
+    };
     for item in std::mem::take(&mut file.items) {
-        let syn::Item::Const(block) = item else { continue };
+        let syn::Item::Const(block) = item else {
+            keep(item);
+            continue;
+        };
         let syn::Expr::Block(block) = *block.expr else { continue };
         for statement in block.block.stmts {
-            let syn::Stmt::Item(syn::Item::Impl(mut item)) = statement else { continue };
-            item.items.retain(|item| matches!(item, syn::ImplItem::Fn(function) if names.iter().any(|name| function.sig.ident == name)));
-            if item.trait_.is_none() && !item.items.is_empty() {
-                kept.push(syn::Item::Impl(item));
+            if let syn::Stmt::Item(item) = statement {
+                keep(item);
             }
         }
     }
@@ -87,6 +97,11 @@ snapshot!(five_bar, functions("five_bar", &["velocity_ratios", "velocity", "poin
 snapshot!(six_bar, functions("six_bar", &["pose_at", "residual", "determinant", "velocity_ratios", "acceleration"]));
 snapshot!(geared_five_bar, functions("geared_five_bar", &["pose_at", "residual", "velocity", "outputs"]));
 snapshot!(scotch_yoke, functions("scotch_yoke", &["pose_at", "residual", "velocity_ratios", "motion"]));
+snapshot!(
+    cam_rocker,
+    functions("cam_rocker", &["extern_turn", "pose_at", "assemble", "residual", "velocity", "acceleration", "motion"])
+);
+snapshot!(cam_follower, functions("cam_follower", &["pose_at", "outputs", "output_velocities"]));
 snapshot!(every_function, functions("every_function", &["outputs"]));
 
 #[test]

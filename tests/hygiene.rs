@@ -21,6 +21,35 @@ mod bare {
     }
 }
 
+/// Functions of the user's that are called like those that emitted code calls, and like their own arguments.
+#[no_implicit_prelude]
+mod functions {
+    pub fn finite<T: ::kinematics::Real>(x: T) -> (T, T, T) {
+        (x * x, x + x, T::one() + T::one())
+    }
+
+    mod table {
+        pub fn sine<T: ::kinematics::Real>(x: T, factor: T) -> (T, T, T, T) {
+            let (sine, cosine) = x.sin_cos();
+            (factor * sine, factor * cosine, -factor * sine, -factor * cosine)
+        }
+    }
+
+    ::kinematics::linkage! {
+        pub mechanism Functions {
+            param real = 2, extern_real = 3;
+            input x;
+            unknown pose, y;
+            extern fn finite(finite) -> (finite, regular, unit);
+            extern fn self::table::sine(X, motion) -> (Self_, newton, dd, rate_);
+            equation pose = finite(-x) * real + finite(2 * x);
+            equation y = pose + Self_(finite(x), extern_real) + finite(1);
+            output slope = newton(x, 1);
+            output still = newton(extern_real, real);
+        }
+    }
+}
+
 /// Two mechanisms in one invocation, one without parameters.
 mod two {
     linkage::linkage! {
@@ -78,6 +107,39 @@ fn in_a_function_body() {
     let local = Local::default();
     let q = local.solve(&LocalCoordinates { phi: 0.3, x: 0.0 }).unwrap().coordinates;
     assert_eq!(q.x, 2.0 * 0.3_f64.cos());
+}
+
+#[test]
+fn functions_of_the_user() {
+    let m = functions::Functions::default();
+    let q = m.solve(&functions::FunctionsCoordinates { pose: 0.0, y: 0.0, x: 0.5 }).unwrap().coordinates;
+    assert_eq!(q.pose, 0.25 * 2.0 + 1.0);
+    assert_eq!(q.y, q.pose + 3.0 * 0.25_f64.sin() + 1.0);
+    let motion = m.motion(&q, 2.0, 0.0).unwrap();
+    assert_eq!(motion.velocity.pose, 2.0 * (2.0 * 1.0 + 4.0));
+    assert_eq!(motion.outputs.slope.value, 0.5_f64.cos());
+    assert_eq!(motion.outputs.slope.acceleration, -4.0 * 0.5_f64.cos());
+    assert_eq!(motion.outputs.still.velocity, 0.0);
+    assert_eq!(motion.outputs.still.value, 2.0 * 3.0_f64.cos());
+}
+
+#[test]
+fn a_function_in_a_function_body() {
+    fn square<T: linkage::Real>(x: T) -> (T, T, T) {
+        (x * x, x + x, T::one() + T::one())
+    }
+    linkage::linkage! {
+        mechanism Squared {
+            input x;
+            unknown y;
+            extern fn square(x) -> (square, slope, bend);
+            equation y = square(x) + square(3 * x);
+        }
+    }
+    let squared = Squared::<f64>::new();
+    let q = squared.solve(&SquaredCoordinates { y: 0.0, x: 2.0 }).unwrap().coordinates;
+    assert_eq!(q.y, 40.0);
+    assert_eq!(squared.velocity_ratios(&squared.pose_at(&q)).unwrap()[0], 40.0);
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod families;
 mod source;
 
 use linkage_compiler::derivation::{Derivation, Form};
-use linkage_compiler::simplify::schedule::{Operations, Stage, schedule};
+use linkage_compiler::simplify::schedule::{Given, Operations, Stage, schedule};
 
 fn derivation(file: &str) -> Derivation {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);
@@ -37,7 +37,7 @@ fn velocity_and_acceleration_in_products(file: &str) -> Operations {
     }
     let results = rates.into_iter().chain(accelerations).map(|symbol| d.graph.variable(symbol)).collect();
     stages.push(Stage::Return(results));
-    schedule(&d.graph, &stages, &std::collections::BTreeSet::new(), &[]).operations()
+    schedule(&d.graph, &stages, &Given::default(), &[]).operations()
 }
 
 /// Of the generators measured on the same four-bar CasADi emits 38 / 11 / 4, SymPy's `cse` 41 / 11 / 1,

@@ -42,7 +42,7 @@ fn with_output(expression: &str) -> String {
 #[test]
 fn no_token_missing_or_doubled_makes_it_panic() {
     let root: TokenStream = "::linkage".parse().unwrap();
-    for file in ["four_bar", "slider_crank", "geared_five_bar"] {
+    for file in ["four_bar", "slider_crank", "geared_five_bar", "cam_rocker"] {
         let tokens: Vec<TokenTree> = source::tokens_of(file).into_iter().collect();
         let Some(TokenTree::Group(body)) = tokens.last() else { panic!("{file} ends in its braces") };
         let inside: Vec<TokenTree> = body.stream().into_iter().collect();

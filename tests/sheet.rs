@@ -6,6 +6,11 @@ use linkage::derivation::{Entry, Formula, Matrix};
 use linkage::linkage;
 use linkage::sheet::Sheet;
 
+#[path = "source/cam_laws.rs"]
+mod cam_laws;
+
+include!("mechanisms/cam_follower.rs");
+include!("mechanisms/cam_rocker.rs");
 include!("mechanisms/four_bar.rs");
 
 const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 4 3\"><script>alert(1)</script>\
@@ -43,7 +48,9 @@ fn assert_balanced(html: &str) {
 #[test]
 fn tags_are_balanced() {
     assert_balanced(&sheet());
-    assert_balanced(&Sheet::new(FourBar::DERIVATION).to_html());
+    for derivation in [FourBar::DERIVATION, CamFollower::DERIVATION, CamRocker::DERIVATION] {
+        assert_balanced(&Sheet::new(derivation).to_html());
+    }
 }
 
 #[test]

@@ -58,6 +58,7 @@ use proc_macro::TokenStream;
 /// | `let NAME = EXPRESSION;` | a named subexpression, scalar or vector |
 /// | `point NAME = VECTOR;` | a point whose position, velocity and acceleration are wanted |
 /// | `output NAME = SCALAR;` | any scalar quantity of interest |
+/// | `extern fn PATH(x, p) -> (f, df, ddf);` | a function of your own with its derivatives, see below |
 /// | `coordinate q;` and `drive NAME by q;` | the same mechanism with a choice of input, see below |
 ///
 /// Fields are snake case: the point `G3` is the field `g3`.
@@ -73,6 +74,7 @@ use proc_macro::TokenStream;
 /// | `x^n`, `powi(x, n)`, `x.powi(n)` | whole powers |
 /// | `sin cos tan asin acos atan atan2 sqrt abs exp ln hypot` | scalar functions; `x.sqrt()` is `sqrt(x)` |
 /// | `x(P) y(P) norm(V) angle(V) dot(A, B) cross(A, B)` | of vectors |
+/// | `f(x, p)` | a function of your own, or a derivative of one, under the name that `extern fn` gives it |
 /// | `pi`, `20deg`, `1.5`, `3` | constants; integers, decimals and their ratios stay exact |
 ///
 /// `@` binds tighter than `+ -` and looser than `* /`, so `l3/2 @ phi + s @ (phi - delta)` needs no
@@ -117,6 +119,50 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
+/// # Functions of your own
+///
+/// A cam law or a table is a generic function that returns its value and its derivatives by the first argument:
+///
+/// ```
+/// use linkage::{Real, linkage};
+///
+/// /// Rise of the height h over the angle beta by cycloidal motion, with three derivatives.
+/// fn rise<T: Real>(phi: T, h: T, beta: T) -> (T, T, T, T) {
+///     let k = T::two_pi() / beta;
+///     let (sine, cosine) = (k * phi).sin_cos();
+///     let mean = h / beta;
+///     (mean * (phi - sine / k), mean * (T::one() - cosine), mean * k * sine, mean * k * k * cosine)
+/// }
+///
+/// linkage! {
+///     /// Disc cam with a translating roller follower.
+///     pub mechanism Cam {
+///         param radius = 40, h = 20, beta = 120deg;
+///         input phi;
+///         unknown s;
+///         extern fn rise(phi, h, beta) -> (lift, slope, bend, change);
+///         equation s = lift(phi, h, beta);
+///         point Pitch = (radius + s)@(-phi);
+///         output pressure = atan(slope(phi, h, beta) / (radius + s));
+///     }
+/// }
+/// let cam = Cam::default();
+/// let pose = cam.assemble(60_f64.to_radians(), CamBranch {})?;
+/// // In the middle of the rise the follower is fastest: 2 h / beta.
+/// assert!((cam.velocity(&pose, 1.0)?.s - 2.0 * cam.h / cam.beta).abs() < 1e-14);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
+/// The function behind the path takes as many `T` as there are arguments, and returns a tuple of as many `T` as
+/// there are names: its value, and its first, second, ... derivative by the first argument. In expressions each
+/// of these is a function under its name. The further arguments are parameters: what is written there must not
+/// move. Closures, points and outputs take two derivatives more than the highest that they name; an error says
+/// if the function gives fewer.
+///
+/// The function is called once for each argument at which it is used, however many derivatives are taken, and a
+/// pose holds the values. NaN, where it has no value, becomes the error `NotFinite`. The argument may be an
+/// unknown; such a position is found by `solve`, and there is no `assemble`.
+///
 /// # Driven by another coordinate
 ///
 /// Which configurations are singular depends on the coordinate that drives. A mechanism may leave the
@@ -152,7 +198,7 @@ use proc_macro::TokenStream;
 /// | `FourBarCoordinates<T>` | q by name, also q' and q''; u before v; conversions from and to `SVector` |
 /// | `FourBarInputs<T>`, `FourBarUnknowns<T>` | v and u by name; a single input also from the bare number |
 /// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | the points and outputs by name |
-/// | `FourBarPose<T>`, `pose_at(&q)` | directions and determinant: what follows takes a pose and needs no trigonometry; `coordinates()` gives the angles back |
+/// | `FourBarPose<T>`, `pose_at(&q)` | directions, determinant, values of your own functions: what follows takes a pose and needs no trigonometry; `coordinates()` gives the angles back |
 /// | `residual`, `closure_sizes` | Psi, and the sum of the magnitudes of its terms |
 /// | `jacobian_unknowns`, `jacobian_inputs`, `jacobian` | J, A and the whole of `Psi_q` |
 /// | `determinant`, `block_determinants` | det J, and the determinants of its blocks in the order in which they are solved |
@@ -161,6 +207,7 @@ use proc_macro::TokenStream;
 /// | `points`, `point_velocities`, `point_accelerations`, `point_ratios` | of all points; the ratios are W_l |
 /// | `outputs`, `output_velocities`, `output_accelerations`, `output_ratios` | of all outputs |
 /// | `assemble(v, FourBarBranch { .. })` | position in closed form where every block has one: group by group, on the branch that is asked for |
+/// | `assemble_near(&guess, FourBarBranch { .. })` | instead of `assemble` where a block has no closed form: that block by Newton's method from the guess, all others in closed form |
 /// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, by the names of its unknowns; `all()` of them |
 /// | `branches(v)` | every position that exists at these inputs, each with its branch |
 /// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
@@ -185,10 +232,10 @@ use proc_macro::TokenStream;
 /// names, names used twice, unused parameters and coordinates (unless they begin with `_`), rows and
 /// unknowns that do not match, closures in which nothing unknown appears, unknowns that compete for too
 /// few closures, closures that are singular at every position, vectors where scalars belong and scalars
-/// where vectors belong, a name used as an angle and as a modulus, division by zero, constants that are
-/// not finite, and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words
-/// and signs, more than 10 000 expressions, or 16 000 with their derivatives (a chain of four-bars takes
-/// 70 a loop).
+/// where vectors belong, a name used as an angle and as a modulus, a function of your own that gives too few
+/// derivatives, division by zero, constants that are not finite, and what is too large: parentheses nested
+/// deeper than 64 levels, more than 100 000 words and signs, more than 10 000 expressions, or 16 000 with their
+/// derivatives (a chain of four-bars takes 70 a loop).
 ///
 /// ```compile_fail
 /// linkage::linkage! {

@@ -41,6 +41,6 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     /// The x of J x = `right`.
     ///
     /// # Errors
-    /// [`Error::Singular`] where J has no inverse.
+    /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] if the solution is not finite.
     fn solve_jacobian(&self, pose: &Self::Pose, right: &SVector<T, U>) -> Result<SVector<T, U>, Error>;
 }

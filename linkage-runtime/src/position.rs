@@ -23,7 +23,7 @@ pub struct Solution<Q> {
 /// One step of Newton's method without damping: q with u - J^-1 Psi in place of u.
 ///
 /// # Errors
-/// [`Error::Singular`] where J has no inverse.
+/// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] if the step is not finite.
 pub fn newton_step<T, M, const U: usize, const V: usize>(
     mechanism: &M,
     q: &M::Coordinates,

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use linkage_compiler::derivation::{Derivation, Row};
-use linkage_compiler::graph::NodeId;
+use linkage_compiler::graph::{External, NodeId};
 use linkage_compiler::model::{Kind, Mechanism};
 use nalgebra::DMatrix;
 use rand::rngs::SmallRng;
@@ -64,7 +64,20 @@ impl Oracle {
 
     pub fn values(&self, sample: &Sample, nodes: &[NodeId]) -> Vec<f64> {
         let graph = &self.derivation.graph;
-        graph.evaluate(nodes, |symbol| sample.values[graph.symbol_name(symbol)])
+        let bind = |symbol| sample.values[graph.symbol_name(symbol)];
+        graph.evaluate_with(nodes, bind, |external, arguments| self.external(external, arguments))
+    }
+
+    /// A derivative of one of the cam laws.
+    fn external(&self, external: &External, arguments: &[f64]) -> f64 {
+        let path = &self.mechanism.externals[external.function.index()].path;
+        let &[angle, height, rise] = arguments else { panic!("a cam law takes an angle, a height and a rise") };
+        let given: Vec<f64> = match path.segments.last().expect("a path").ident.to_string().as_str() {
+            "cycloidal_strokes" => <[f64; 3]>::from(crate::cam_laws::cycloidal_strokes(angle, height, rise)).to_vec(),
+            "polynomial_strokes" => <[f64; 4]>::from(crate::cam_laws::polynomial_strokes(angle, height, rise)).to_vec(),
+            other => panic!("no cam law is called {other}"),
+        };
+        given[external.order().expect("a derivative by the first argument")]
     }
 
     /// A matrix of `columns` columns.

@@ -1,8 +1,11 @@
 //! What can be told of a mechanism only once it is derived.
 
+use std::collections::BTreeSet;
+
 use super::Derivation;
 use crate::diagnostics::Diagnostics;
-use crate::model::Mechanism;
+use crate::graph::{External, SymbolId};
+use crate::model::{Call, ExternalFunction, Mechanism};
 
 /// A derivation of more expressions than this is refused: emitting it takes longer than anybody waits.
 pub const LARGEST: usize = 16_000;
@@ -19,6 +22,9 @@ pub fn check(mechanism: &Mechanism, derivations: &[Derivation], diagnostics: &mu
                     derivation.graph.len()
                 ),
             );
+        }
+        if !given(mechanism, derivation, diagnostics) {
+            return;
         }
         for block in &derivation.blocks {
             if block.determinant.is_some_and(|determinant| derivation.graph.is_zero(determinant.value)) {
@@ -38,4 +44,62 @@ pub fn check(mechanism: &Mechanism, derivations: &[Derivation], diagnostics: &mu
             }
         }
     }
+}
+
+/// Whether every derivative of the user's functions that is needed is given.
+fn given(mechanism: &Mechanism, derivation: &Derivation, diagnostics: &mut Diagnostics) -> bool {
+    let mut complete = true;
+    for external in &mechanism.externals {
+        let ExternalFunction { path, names, arguments, .. } = external;
+        let Some(name) = names.first() else { continue };
+        let derived = || derivation.graph.applied().filter(|applied| applied.function == external.id);
+        let other = derived().find_map(|applied| applied.by.iter().skip(1).position(|&times| times > 0));
+        let needed = derived().filter_map(External::order).max().unwrap_or(0);
+        let (argument, message) = if let Some(other) = other {
+            let (first, moving) = (&arguments[0], &arguments[other + 1]);
+            let message =
+                format!("the derivatives of `{}` are by `{first}` alone: `{moving}` must not vary", name.text);
+            (other + 1, message)
+        } else if needed >= names.len() {
+            let path: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+            let list: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
+            let message = format!(
+                "motion takes the {} derivative of `{}`, and `{}` gives {}\nlet it give more: `-> ({}{})`",
+                ordinal(needed),
+                name.text,
+                path.join("::"),
+                names.len() - 1,
+                list.join(", "),
+                ", …".repeat(needed + 1 - names.len()),
+            );
+            (0, message)
+        } else {
+            continue;
+        };
+        complete = false;
+        let call = moving(mechanism, derivation, &external.calls, argument);
+        diagnostics.error(call.map_or_else(|| name.span.into(), |call| call.region), message);
+    }
+    complete
+}
+
+fn ordinal(number: usize) -> String {
+    let ending = match number {
+        1 => "st",
+        2 => "nd",
+        3 => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
+}
+
+/// The call of the highest order in which this argument holds a coordinate.
+fn moving<'a>(mechanism: &Mechanism, derivation: &Derivation, calls: &'a [Call], argument: usize) -> Option<&'a Call> {
+    let coordinates: BTreeSet<SymbolId> = mechanism.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let moves = |call: &&Call| {
+        let symbols = derivation.graph.symbols_of(&call.arguments[argument..=argument]);
+        symbols.iter().any(|symbol| coordinates.contains(symbol))
+    };
+    // Of several the first.
+    calls.iter().rev().filter(moves).max_by_key(|call| call.order)
 }

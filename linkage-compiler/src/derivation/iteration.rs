@@ -96,13 +96,19 @@ impl<'a> Split<'a> {
                 self.derivation.graph.product(&product)
             }
             Node::Call(function, arguments) => {
-                let arguments: Vec<NodeId> = arguments
-                    .into_iter()
-                    .map(|argument| new.get(&argument).copied().unwrap_or_else(|| self.named(argument)))
-                    .collect();
+                let arguments = self.parts(&arguments, new);
                 self.derivation.graph.call(function, &arguments)
             }
+            Node::External(external, arguments) => {
+                let arguments = self.parts(&arguments, new);
+                self.derivation.graph.apply(external, arguments)
+            }
         }
+    }
+
+    fn parts(&mut self, arguments: &[NodeId], new: &FxHashMap<NodeId, NodeId>) -> Vec<NodeId> {
+        let part = |argument: &NodeId| new.get(argument).copied().unwrap_or_else(|| self.named(*argument));
+        arguments.iter().map(part).collect()
     }
 
     /// What does not change by a name, unless it is a symbol, a number or one with a sign.

@@ -113,6 +113,8 @@ fn compute(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: 
         Value::Symbol(symbol) => tokens.append(names.symbol(*symbol)),
         // Given directions are named before any expression is written.
         Value::Direction(..) => tokens.append(ident("direction")),
+        // Calls of the user's functions have lines of their own.
+        Value::External(..) => tokens.append(ident("external")),
         Value::Sum(terms) => sum(tokens, names, schedule, terms),
         Value::Product(factors) => {
             part(tokens, factors[0], Binding::Product);

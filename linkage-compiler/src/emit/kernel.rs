@@ -6,11 +6,11 @@ use proc_macro2::{Ident, Punct, Spacing, TokenStream};
 use quote::{ToTokens, TokenStreamExt, quote};
 
 use super::expression::{define, direction_name, signed};
-use super::names::{Names, Taken, ident};
+use super::names::{Names, Taken, call_of, ident};
 use super::pose::PosePlan;
 use crate::derivation::Derivation;
-use crate::graph::{Function, NodeId, SymbolId};
-use crate::simplify::schedule::{Line, Operations, Schedule, Signed, Stage, Value, ValueId, schedule};
+use crate::graph::{ExternalId, Function, NodeId, SymbolId};
+use crate::simplify::schedule::{self, Line, Operations, Schedule, Signed, Stage, Value, ValueId};
 
 /// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
 /// fields is used.
@@ -71,6 +71,8 @@ pub(super) struct Code {
     pub arguments: Vec<Ident>,
     /// What the body uses of the runtime.
     pub uses: BTreeSet<&'static str>,
+    /// The functions of the user's that it calls.
+    pub externals: BTreeSet<ExternalId>,
 }
 
 /// Writes a kernel. The last stage is the `Return`, whose values are given back as expressions.
@@ -81,8 +83,8 @@ pub(super) fn write(
     named: &[(NodeId, String)],
     reserved: &[String],
 ) -> Code {
-    let directions: BTreeSet<NodeId> = given.pose.map(|pose| pose.angles().collect()).unwrap_or_default();
-    let schedule = schedule(&derivation.graph, stages, &directions, named);
+    let at_hand = given.pose.map(PosePlan::given).unwrap_or_default();
+    let schedule = schedule::schedule(&derivation.graph, stages, &at_hand, named);
     let own: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
     let used: BTreeSet<SymbolId> = schedule
         .used()
@@ -118,7 +120,8 @@ pub(super) fn write(
         write_line(&writer, &mut body, line, &mut names, &mut results);
     }
     let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
-    Code { body, results, operations: schedule.operations(), taken: names.into_taken(), arguments, uses }
+    let externals = std::mem::take(&mut names.externals);
+    Code { body, results, operations: schedule.operations(), taken: names.into_taken(), arguments, uses, externals }
 }
 
 /// What a line uses of the runtime.
@@ -222,6 +225,16 @@ fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut 
             let pairs: Vec<_> = pairs.collect();
             body.extend(quote!(let [#(#pairs),*] = T::sines_cosines([#(#angles),*]);));
         }
+        Line::External { function, arguments, values } => {
+            let arguments: Vec<_> = arguments.iter().map(|value| signed(names, schedule, *value)).collect();
+            let call = call_of(derivation.graph.external_names(*function));
+            let mut name =
+                |value: &Option<ValueId>| value.map_or_else(|| ident("_"), |value| names.invent(schedule, value));
+            let values: Vec<_> = values.iter().map(&mut name).collect();
+            let pattern = if let [only] = values.as_slice() { quote!(#only) } else { quote!((#(#values),*)) };
+            body.extend(quote!(let #pattern = Self::#call(#(#arguments),*);));
+            names.externals.insert(*function);
+        }
         Line::Name { symbol, value } => {
             let number = matches!(schedule.value(value.value), Value::Constant(_));
             let fresh = !value.negative && !number && names.get(schedule, value.value).is_none();
@@ -285,7 +298,12 @@ fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut 
 }
 
 /// The body of a closure that evaluates a block: its residual, the sizes of its closures, the columns of its matrix.
-fn evaluation(writer: &Writer, unknowns: &[SymbolId], system: &Schedule, names: &Names) -> (Vec<Ident>, TokenStream) {
+fn evaluation(
+    writer: &Writer,
+    unknowns: &[SymbolId],
+    system: &Schedule,
+    names: &mut Names,
+) -> (Vec<Ident>, TokenStream) {
     let mut inner = names.within();
     let unknowns: Vec<Ident> = unknowns.iter().map(|&unknown| inner.introduce(unknown).ident).collect();
     let (mut body, mut results) = (TokenStream::new(), Vec::new());
@@ -296,6 +314,7 @@ fn evaluation(writer: &Writer, unknowns: &[SymbolId], system: &Schedule, names: 
     if inner.takes_numbers() {
         names.take_number();
     }
+    names.externals.append(&mut inner.externals);
     let (residual, rest) = results.split_at(unknowns.len());
     let (sizes, rows) = rest.split_at(unknowns.len());
     let columns = (0..unknowns.len()).map(|column| {

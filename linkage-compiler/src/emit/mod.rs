@@ -69,9 +69,9 @@ pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, 
     let mut derivations = derivations.map(|derivations| derivations.iter_mut());
     for driver in &mechanism.drivers {
         let names = Types::new(mechanism, driver);
-        let derivation = derivations.as_mut().and_then(Iterator::next);
+        let mut derivation = derivations.as_mut().and_then(Iterator::next);
         let plan = derivation
-            .as_deref()
+            .as_deref_mut()
             .map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
         tokens.extend(types::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref(), &private));
         let emitted = methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation, &private);

@@ -1,11 +1,12 @@
 //! Names of the emitted code: the user's own, and fresh ones beside them.
 
 use std::cell::Cell;
+use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Literal, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::graph::{Graph, Number, SymbolId};
+use crate::graph::{ExternalId, Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
@@ -23,6 +24,11 @@ pub(super) const RUNTIME_FUNCTIONS: [&str; 12] = [
     "side_of",
     "unit",
 ];
+
+/// The private function that calls a function of the user's.
+pub(super) fn call_of(names: &[String]) -> Ident {
+    ident(&format!("extern_{}", names.first().map_or("", String::as_str)))
+}
 
 /// A name longer than this says less than a number.
 const LONGEST: usize = 36;
@@ -76,6 +82,8 @@ pub(super) struct Names<'a> {
     symbols: FxHashMap<SymbolId, Name>,
     /// Whether a number had to be made a scalar.
     numbers_taken: Cell<bool>,
+    /// The functions of the user's that are called.
+    pub(super) externals: BTreeSet<ExternalId>,
     /// The factorisations, by block.
     pub(super) factors: FxHashMap<usize, String>,
 }
@@ -91,6 +99,7 @@ impl<'a> Names<'a> {
             values: FxHashMap::default(),
             symbols: FxHashMap::default(),
             numbers_taken: Cell::new(false),
+            externals: BTreeSet::new(),
             factors: FxHashMap::default(),
         }
     }
@@ -104,6 +113,7 @@ impl<'a> Names<'a> {
             symbols: self.symbols.clone(),
             numbers_taken: Cell::new(false),
             factors: FxHashMap::default(),
+            externals: BTreeSet::new(),
         }
     }
 
@@ -210,6 +220,7 @@ impl<'a> Names<'a> {
                 }
                 _ => None,
             },
+            Value::External(external, _) => self.graph.external_name(external).map(str::to_owned),
             _ => None,
         }
     }

@@ -1,10 +1,11 @@
 //! What a pose carries: the direction of every angle that a formula takes a sine or cosine of, the
-//! coordinates that formulas use as they are, and the determinant.
+//! coordinates that formulas use as they are, the determinant, and the values of the user's functions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::derivation::{Derivation, Row};
 use crate::graph::{Function, Node, NodeId, SymbolId, Texts};
+use crate::simplify::schedule::Given;
 
 use super::names::{Taken, angle_name};
 
@@ -18,16 +19,19 @@ pub(super) struct PosePlan {
     pub values: Vec<(usize, String, SymbolId)>,
     /// Determinants that vary: block, field, symbol.
     pub determinants: Vec<(usize, String, SymbolId)>,
+    /// Values of the user's functions: expression, field, symbol.
+    pub externals: Vec<(NodeId, String, SymbolId)>,
 }
 
 impl PosePlan {
-    pub(super) fn new(derivation: &Derivation, argument: String) -> Self {
+    pub(super) fn new(derivation: &mut Derivation, argument: String) -> Self {
         let formulas = formulas(derivation);
-        let graph = &derivation.graph;
+        let graph = &mut derivation.graph;
         // Sines inside the determinant alone are taken when the pose is made.
         let mut wanted: BTreeSet<NodeId> = formulas.iter().copied().collect();
         let mut angles = BTreeSet::new();
         let mut bare = BTreeSet::new();
+        let mut externals = BTreeSet::new();
         while let Some(id) = wanted.pop_last() {
             match graph.node(id) {
                 _ if graph.constant_value(id).is_some() => {}
@@ -36,6 +40,9 @@ impl PosePlan {
                 }
                 Node::Symbol(symbol) => {
                     bare.insert(*symbol);
+                }
+                Node::External(..) => {
+                    externals.insert(id);
                 }
                 _ => wanted.extend(graph.children(id)),
             }
@@ -64,12 +71,25 @@ impl PosePlan {
                 values.push((index, unique(coordinate.name.clone()), coordinate.value));
             }
         }
-        Self { argument, directions, values, determinants }
+        let mut given = Vec::new();
+        for id in externals {
+            let Node::External(external, _) = graph.node(id) else { continue };
+            let name = graph.external_name(external).unwrap_or_default().to_owned();
+            let field = unique(name);
+            given.push((id, field.clone(), graph.symbol(field)));
+        }
+        Self { argument, directions, values, determinants, externals: given }
     }
 
     /// The angles whose directions a pose holds.
     pub(super) fn angles(&self) -> impl Iterator<Item = NodeId> {
         self.directions.keys().copied()
+    }
+
+    /// What a kernel on a pose need not compute.
+    pub(super) fn given(&self) -> Given {
+        let values = self.externals.iter().map(|(node, _, symbol)| (*node, *symbol)).collect();
+        Given { directions: self.angles().collect(), values }
     }
 
     pub(super) fn direction(&self, angle: NodeId) -> &str {

@@ -203,6 +203,11 @@ fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &Token
         let text = format!(" `{}` itself.", derivation.coordinates[*index].name);
         members.extend(quote!(#[doc = #text] pub #ident: T,));
     }
+    for (node, name, _) in &plan.externals {
+        let ident = ident(name);
+        let text = format!(" `{}`.", texts.of(&derivation.graph, *node));
+        members.extend(quote!(#[doc = #text] pub #ident: T,));
+    }
     for (block, name, _) in &plan.determinants {
         let Some(determinant) = derivation.blocks[*block].determinant else { continue };
         let of = if derivation.blocks.len() == 1 {

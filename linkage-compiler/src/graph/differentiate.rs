@@ -53,6 +53,18 @@ impl Graph {
                         self.sum(&terms)
                     }
                 }
+                // f(a, p)' = f_a a' + f_p p'
+                Node::External(external, arguments) => {
+                    let mut terms = Vec::new();
+                    for (index, argument) in arguments.iter().enumerate() {
+                        let inner = derivative[argument];
+                        if !self.is_zero(inner) {
+                            let partial = self.apply(external.derived(index), arguments.clone());
+                            terms.push((Number::ONE, self.multiply(partial, inner)));
+                        }
+                    }
+                    self.sum(&terms)
+                }
             };
             derivative.insert(id, result);
         }

@@ -2,15 +2,28 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Graph, Node, NodeId, SymbolId};
+use super::{External, Graph, Node, NodeId, SymbolId};
 
 impl Graph {
-    /// The values of `roots` where `bind` gives the value of each symbol.
+    /// The values of `roots` where `bind` gives the value of each symbol; functions of the user's have none.
     #[must_use]
     pub fn evaluate(&self, roots: &[NodeId], bind: impl Fn(SymbolId) -> f64) -> Vec<f64> {
+        self.evaluate_with(roots, bind, |_, _| f64::NAN)
+    }
+
+    /// The same where `external` gives the values of the user's functions and of their derivatives.
+    #[must_use]
+    pub fn evaluate_with(
+        &self,
+        roots: &[NodeId],
+        bind: impl Fn(SymbolId) -> f64,
+        external: impl Fn(&External, &[f64]) -> f64,
+    ) -> Vec<f64> {
         let mut values: FxHashMap<NodeId, f64> = FxHashMap::default();
         for id in self.reachable(roots) {
-            let value = node_value(self.node(id), |symbol| Some(bind(symbol)), |child| values.get(&child).copied());
+            let call = |function: &External, arguments: &[f64]| Some(external(function, arguments));
+            let value =
+                node_value(self.node(id), |symbol| Some(bind(symbol)), call, |child| values.get(&child).copied());
             values.insert(id, value.unwrap_or(f64::NAN));
         }
         roots.iter().map(|root| values.get(root).copied().unwrap_or(f64::NAN)).collect()
@@ -21,6 +34,7 @@ impl Graph {
 pub(super) fn node_value(
     node: &Node,
     bind: impl Fn(SymbolId) -> Option<f64>,
+    external: impl Fn(&External, &[f64]) -> Option<f64>,
     child: impl Fn(NodeId) -> Option<f64>,
 ) -> Option<f64> {
     match node {
@@ -36,6 +50,10 @@ pub(super) fn node_value(
         Node::Call(function, arguments) => {
             let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
             arguments.map(|arguments| (function.operation().value)(&arguments))
+        }
+        Node::External(function, arguments) => {
+            let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
+            external(function, &arguments?)
         }
     }
 }

@@ -6,6 +6,7 @@
 
 mod circular;
 mod differentiate;
+mod external;
 mod function;
 mod interpret;
 mod number;
@@ -17,6 +18,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
+pub use external::{External, ExternalId};
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
 pub use print::{Formula, Name, Notation, Printer, Texts};
@@ -48,6 +50,8 @@ pub enum Node {
         factors: Vec<(NodeId, i32)>,
     },
     Call(Function, Vec<NodeId>),
+    /// A function of the user's, or a derivative of it.
+    External(External, Vec<NodeId>),
 }
 
 /// Why an expression has no value at all.
@@ -86,6 +90,8 @@ pub struct Graph {
     /// Whether a node has no value for some values of its symbols.
     partial: Vec<bool>,
     symbols: Vec<String>,
+    /// The names of the value and the derivatives of each function of the user's.
+    externals: Vec<Vec<String>>,
     fault: Option<Fault>,
     conditions: BTreeSet<Condition>,
 }
@@ -195,6 +201,8 @@ impl Graph {
             Node::Call(function, arguments) => {
                 function.operation().partial || arguments.iter().any(|&argument| self.is_partial(argument))
             }
+            // A table ends somewhere.
+            Node::External(..) => true,
         }
     }
 
@@ -202,7 +210,7 @@ impl Graph {
         if let Some(&id) = self.ids.get(&node) {
             return id;
         }
-        let value = interpret::node_value(&node, |_| None, |id| self.values[id.index()]);
+        let value = interpret::node_value(&node, |_| None, |_, _| None, |id| self.values[id.index()]);
         if value.is_some_and(|value| !value.is_finite()) {
             self.fault.get_or_insert(Fault::NotFinite);
         }

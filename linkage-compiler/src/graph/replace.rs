@@ -38,6 +38,10 @@ impl Graph {
                 let arguments: Vec<_> = arguments.iter().map(|argument| parts[argument]).collect();
                 self.call(function, &arguments)
             }
+            Node::External(external, arguments) => {
+                let arguments = arguments.iter().map(|argument| parts[argument]).collect();
+                self.apply(external, arguments)
+            }
         }
     }
 }

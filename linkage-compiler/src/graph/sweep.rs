@@ -64,7 +64,7 @@ impl Graph {
                     visit(*base);
                 }
             }
-            Node::Call(_, arguments) => {
+            Node::Call(_, arguments) | Node::External(_, arguments) => {
                 for argument in arguments {
                     visit(*argument);
                 }

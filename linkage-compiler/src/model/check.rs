@@ -18,6 +18,16 @@ pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diag
                 .error(name.span, format_args!("the {what} `{text}` is never used; remove it, or call it `_{text}`"));
         }
     }
+    externals(mechanism, diagnostics);
+}
+
+/// A function that is declared is called.
+fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
+    for external in mechanism.externals.iter().filter(|external| external.calls.is_empty()) {
+        if let Some(name) = external.names.first() {
+            diagnostics.error(name.span, format_args!("the function `{}` is never used; remove it", name.text));
+        }
+    }
 }
 
 /// What emitted code calls its own; the types of the user stand beside it.
@@ -58,9 +68,10 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     let parameters: Vec<_> = mechanism.parameters.iter().map(|p| &p.name).collect();
     let coordinates: Vec<_> = mechanism.coordinates.iter().map(|c| &c.name).collect();
     let symbols: Vec<_> = parameters.into_iter().chain(coordinates).collect();
+    let functions: Vec<_> = mechanism.externals.iter().flat_map(|external| &external.names).collect();
     let points: Vec<_> = mechanism.points.iter().map(|p| &p.name).collect();
     let outputs: Vec<_> = mechanism.outputs.iter().map(|o| &o.name).collect();
-    for names in [symbols, points, outputs] {
+    for names in [symbols, functions, points, outputs] {
         for (index, name) in names.iter().enumerate() {
             if let Some(first) = names[..index].iter().find(|other| other.field == name.field) {
                 diagnostics.error(

@@ -3,14 +3,11 @@
 use proc_macro2::Ident;
 
 use super::kind::{Kind, bare_symbols};
-use super::scope::{Scope, Value};
+use super::scope::{Scope, VECTOR_FUNCTIONS, Value};
+use super::{Call, ExternalFunction};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
-use crate::graph::{Fault, Function, Graph, NodeId, Number, SymbolId};
+use crate::graph::{External, ExternalId, Fault, Function, Graph, NodeId, Number, SymbolId};
 use crate::syntax::{Expression, ExpressionId, Expressions, Operator};
-
-/// What the language calls besides the op table.
-const VECTOR_FUNCTIONS: [(&str, usize); 7] =
-    [("x", 1), ("y", 1), ("norm", 1), ("angle", 1), ("dot", 2), ("cross", 2), ("powi", 2)];
 
 /// The names and values of one mechanism while its statements are read.
 pub(super) struct Lowering<'a> {
@@ -20,6 +17,7 @@ pub(super) struct Lowering<'a> {
     pub(super) values: Vec<Value>,
     pub(super) expressions: &'a Expressions,
     pub(super) kinds: Vec<(SymbolId, Kind)>,
+    pub(super) externals: Vec<ExternalFunction>,
     /// Names that are lengths if nothing else is known.
     pub(super) supposed: Vec<SymbolId>,
     pub(super) diagnostics: &'a mut Diagnostics,
@@ -244,6 +242,9 @@ impl Lowering<'_> {
 
     fn call(&mut self, name: &Ident, arguments: &[ExpressionId], region: Region) -> Value {
         let text = name.to_string();
+        if let Some((function, order)) = self.scope.function(&text) {
+            return self.external(name, function, order, arguments, region);
+        }
         let function = Function::named(&text);
         let arity = function
             .map(|function| function.operation().arity)
@@ -253,15 +254,13 @@ impl Lowering<'_> {
                 self.diagnostics.error(region, "`rate(…)` has a meaning only in the forces of a scene");
             } else {
                 let known = crate::graph::OPERATIONS.iter().map(|row| row.name);
-                let hint = suggestion(&text, known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)));
+                let known = known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)).chain(self.scope.functions());
+                let hint = self.value_of(&text).unwrap_or_else(|| suggestion(&text, known));
                 self.diagnostics.error(name.span(), format_args!("no function is called `{text}`{hint}"));
             }
             return Value::Poison;
         };
-        if arguments.len() != arity {
-            let plural = if arity == 1 { "argument" } else { "arguments" };
-            self.diagnostics
-                .error(region, format_args!("`{text}` takes {arity} {plural}, here are {}", arguments.len()));
+        if !self.takes(&text, arity, arguments, region) {
             return Value::Poison;
         }
         if let Some(function) = function {
@@ -295,6 +294,43 @@ impl Lowering<'_> {
             }
             _ => return Value::Poison,
         })
+    }
+
+    /// What to write for a function of the user's in place of its path.
+    fn value_of(&self, function: &str) -> Option<String> {
+        let mut named = self
+            .externals
+            .iter()
+            .filter(|external| external.path.segments.last().is_some_and(|segment| segment.ident == function));
+        Some(format!(": its value is `{}(…)`", named.next()?.names.first()?.text))
+    }
+
+    fn takes(&mut self, name: &str, arity: usize, arguments: &[ExpressionId], region: Region) -> bool {
+        if arguments.len() != arity {
+            let plural = if arity == 1 { "argument" } else { "arguments" };
+            self.diagnostics
+                .error(region, format_args!("`{name}` takes {arity} {plural}, here are {}", arguments.len()));
+        }
+        arguments.len() == arity
+    }
+
+    /// A function of the user's, or a derivative of it.
+    fn external(
+        &mut self,
+        name: &Ident,
+        function: ExternalId,
+        order: usize,
+        arguments: &[ExpressionId],
+        region: Region,
+    ) -> Value {
+        let arity = self.externals[function.index()].arguments.len();
+        if !self.takes(&name.to_string(), arity, arguments, region) {
+            return Value::Poison;
+        }
+        let nodes: Option<Vec<NodeId>> = arguments.iter().map(|&argument| self.scalar(argument)).collect();
+        let Some(nodes) = nodes else { return Value::Poison };
+        self.externals[function.index()].calls.push(Call { region, order, arguments: nodes.clone() });
+        Value::Scalar(self.graph.apply(External::new(function, arity, order), nodes))
     }
 
     /// A component is a length unless it is known to be something else: an angle may be plotted.

@@ -1,13 +1,15 @@
 //! Statements: names first, then what they say, then the checks on the whole.
 
 use proc_macro2::Ident;
-use syn::Attribute;
+use quote::ToTokens;
+use syn::spanned::Spanned;
+use syn::{Attribute, Path};
 
 use super::expression::Lowering;
 use super::kind::Kind;
 use super::name::Name;
 use super::scope::{Scope, Value};
-use super::{Closure, Coordinate, Driver, Mechanism, Output, Parameter, Point, check};
+use super::{Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check};
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::syntax::{self, ExpressionId, StatementKind};
@@ -24,6 +26,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         expressions: &expressions,
         kinds: Vec::new(),
         supposed: Vec::new(),
+        externals: Vec::new(),
         diagnostics,
     };
     let complete = lowering.diagnostics.is_empty();
@@ -38,14 +41,16 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         drivers: Vec::new(),
         points: Vec::new(),
         outputs: Vec::new(),
+        externals: Vec::new(),
         named: Vec::new(),
     };
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
     lowering.define(&statements, &mut result);
     lowering.drivers(&statements, &mut result, roles);
-    let Lowering { graph, scope, kinds, supposed, diagnostics, .. } = lowering;
+    let Lowering { graph, scope, kinds, supposed, externals, diagnostics, .. } = lowering;
     result.graph = graph;
+    result.externals = externals;
     let kind_of = |symbol| match kinds.iter().find(|(other, _)| *other == symbol) {
         Some((_, kind)) => *kind,
         None if supposed.contains(&symbol) => Kind::Length,
@@ -121,9 +126,39 @@ impl Lowering<'_> {
                 | StatementKind::Output { name, .. } => {
                     self.scope.claim(name, self.diagnostics);
                 }
+                StatementKind::External { path, arguments, names } => {
+                    self.declare_external(&statement.attributes, path, arguments, names);
+                }
                 _ => {}
             }
         }
+    }
+
+    fn declare_external(&mut self, attributes: &[Attribute], path: &Path, arguments: &[Ident], names: &[Ident]) {
+        let written = |path: &Path| path.to_token_stream().to_string().replace(' ', "");
+        if self.externals.iter().any(|other| written(&other.path) == written(path)) {
+            let span = path.segments.last().map_or_else(|| path.span(), |segment| segment.ident.span());
+            self.diagnostics.error(span, format_args!("the function `{}` is declared twice", written(path)));
+        }
+        let arguments: Vec<Name> = arguments.iter().map(Name::new).collect();
+        for (index, argument) in arguments.iter().enumerate() {
+            if arguments[..index].iter().any(|other| other.field == argument.field) {
+                self.diagnostics
+                    .error(argument.span, format_args!("an argument is called `{}` already", argument.text));
+            }
+        }
+        let id = self.graph.external(names.iter().map(|name| Name::new(name).field).collect());
+        for (order, name) in names.iter().enumerate() {
+            self.scope.claim_function(name, id, order, self.diagnostics);
+        }
+        self.externals.push(ExternalFunction {
+            path: path.clone(),
+            attributes: attributes.to_vec(),
+            id,
+            arguments: arguments.into_iter().map(|argument| argument.field).collect(),
+            names: names.iter().map(Name::new).collect(),
+            calls: Vec::new(),
+        });
     }
 
     fn new_symbol(&mut self, ident: &Ident) -> Option<(Name, SymbolId)> {
@@ -187,6 +222,7 @@ impl Lowering<'_> {
                 StatementKind::Inputs(_)
                 | StatementKind::Unknowns(_)
                 | StatementKind::Coordinates(_)
+                | StatementKind::External { .. }
                 | StatementKind::Drive { .. } => {}
             }
         }

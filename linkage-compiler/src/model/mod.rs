@@ -13,8 +13,8 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Visibility};
 
-use crate::diagnostics::Diagnostics;
-use crate::graph::{Graph, NodeId, SymbolId};
+use crate::diagnostics::{Diagnostics, Region};
+use crate::graph::{ExternalId, Graph, NodeId, SymbolId};
 use crate::syntax;
 pub use kind::Kind;
 pub use name::Name;
@@ -31,6 +31,7 @@ pub struct Mechanism {
     pub drivers: Vec<Driver>,
     pub points: Vec<Point>,
     pub outputs: Vec<Output>,
+    pub externals: Vec<ExternalFunction>,
     /// Expressions that the user named with `let`.
     pub named: Vec<(NodeId, String)>,
 }
@@ -80,6 +81,27 @@ pub struct Output {
     pub name: Name,
     pub attributes: Vec<Attribute>,
     pub value: NodeId,
+}
+
+/// A function of the user's.
+pub struct ExternalFunction {
+    pub path: syn::Path,
+    pub attributes: Vec<Attribute>,
+    pub id: ExternalId,
+    /// What it takes; the derivatives are by the first.
+    pub arguments: Vec<String>,
+    /// Its value and its derivatives in order.
+    pub names: Vec<Name>,
+    /// Where it is called.
+    pub calls: Vec<Call>,
+}
+
+/// A call of a function of the user's in an expression.
+pub struct Call {
+    pub region: Region,
+    /// The place among the names.
+    pub order: usize,
+    pub arguments: Vec<NodeId>,
 }
 
 impl Mechanism {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::Ident;
 
 use crate::diagnostics::{Diagnostics, suggestion};
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::{ExternalId, Function, NodeId, SymbolId};
 
 /// What an expression is worth: `Poison` stands for one already reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub(super) enum Value {
 enum Entry {
     Symbol(SymbolId, NodeId),
     Value(Value),
+    /// The derivative of this order of a function of the user's.
+    Function(ExternalId, usize),
     /// Declared further down.
     Later,
 }
@@ -31,6 +33,10 @@ pub(super) struct Scope {
 
 /// Words that are values of the language itself.
 const VALUES: [&str; 2] = ["pi", "t"];
+
+/// What the language calls besides the op table.
+pub(super) const VECTOR_FUNCTIONS: [(&str, usize); 7] =
+    [("x", 1), ("y", 1), ("norm", 1), ("angle", 1), ("dot", 2), ("cross", 2), ("powi", 2)];
 
 impl Scope {
     /// Claims a name; a second claim is reported and refused.
@@ -56,6 +62,38 @@ impl Scope {
         self.entries.insert(name.to_string(), Entry::Value(value));
     }
 
+    /// Claims the name of a function; that of one of the language is refused.
+    pub(super) fn claim_function(
+        &mut self,
+        name: &Ident,
+        function: ExternalId,
+        order: usize,
+        diagnostics: &mut Diagnostics,
+    ) {
+        let text = name.to_string();
+        if Function::named(&text).is_some()
+            || VECTOR_FUNCTIONS.iter().any(|(other, _)| *other == text)
+            || text == "rate"
+        {
+            diagnostics.error(name.span(), format_args!("`{text}` is a function of the language; choose another name"));
+        } else if self.claim(name, diagnostics) {
+            self.entries.insert(text, Entry::Function(function, order));
+        }
+    }
+
+    /// A function of the user's and the order of its derivative.
+    pub(super) fn function(&self, name: &str) -> Option<(ExternalId, usize)> {
+        match self.entries.get(name) {
+            Some(Entry::Function(function, order)) => Some((*function, *order)),
+            _ => None,
+        }
+    }
+
+    /// The names of all functions of the user's.
+    pub(super) fn functions(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().filter(|(_, entry)| matches!(entry, Entry::Function(..))).map(|(name, _)| name.as_str())
+    }
+
     /// The value of a name; an unknown one is reported.
     pub(super) fn look_up(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> Value {
         let text = name.to_string();
@@ -65,6 +103,10 @@ impl Scope {
                 Value::Scalar(*node)
             }
             Some(Entry::Value(value)) => *value,
+            Some(Entry::Function(..)) => {
+                diagnostics.error(name.span(), format_args!("`{text}` is a function: write `{text}(…)`"));
+                Value::Poison
+            }
             Some(Entry::Later) => {
                 diagnostics
                     .error(name.span(), format_args!("`{text}` is used before it is defined; move its statement up"));

@@ -30,7 +30,7 @@ pub fn cost(graph: &Graph, root: NodeId, given: &BTreeSet<NodeId>) -> Cost {
             Node::Call(Function::Sin | Function::Cos, angle) if given.contains(&angle[0]) => continue,
             // Taking a sign away costs nothing.
             Node::Call(Function::Abs, _) => {}
-            Node::Call(..) => total.functions += 1,
+            Node::Call(..) | Node::External(..) => total.functions += 1,
             Node::Sum { constant, terms } => {
                 total.additions += terms.len() - usize::from(constant.is_zero());
                 total.multiplications += terms.iter().filter(|(factor, _)| !factor.absolute().is_one()).count();

@@ -1,9 +1,9 @@
 //! Statements: one a line of the language, each ended by `;`.
 
-use proc_macro2::{Ident, TokenTree};
+use proc_macro2::{Ident, Span, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
-use syn::{Attribute, Token};
+use syn::{Attribute, Path, Token};
 
 use super::expression::{self, ExpressionId, Expressions};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
@@ -20,19 +20,43 @@ pub enum StatementKind {
     Inputs(Vec<Ident>),
     Unknowns(Vec<Ident>),
     Coordinates(Vec<Ident>),
-    Drive { name: Ident, by: Vec<Ident> },
-    Loop { left: ExpressionId, right: ExpressionId },
-    Equation { left: ExpressionId, right: ExpressionId },
-    Let { name: Ident, value: ExpressionId },
-    Point { name: Ident, value: ExpressionId },
-    Output { name: Ident, value: ExpressionId },
+    Drive {
+        name: Ident,
+        by: Vec<Ident>,
+    },
+    Loop {
+        left: ExpressionId,
+        right: ExpressionId,
+    },
+    Equation {
+        left: ExpressionId,
+        right: ExpressionId,
+    },
+    Let {
+        name: Ident,
+        value: ExpressionId,
+    },
+    Point {
+        name: Ident,
+        value: ExpressionId,
+    },
+    Output {
+        name: Ident,
+        value: ExpressionId,
+    },
+    /// A function of the user's: where it is found, what it takes and gives.
+    External {
+        path: Path,
+        arguments: Vec<Ident>,
+        names: Vec<Ident>,
+    },
 }
 
-const KEYWORDS: [&str; 10] =
-    ["param", "input", "unknown", "coordinate", "drive", "loop", "equation", "let", "point", "output"];
+const KEYWORDS: [&str; 11] =
+    ["param", "input", "unknown", "coordinate", "drive", "loop", "equation", "let", "point", "output", "extern"];
 
 /// Words of the language that this version does not understand yet.
-const RESERVED: [&str; 3] = ["body", "scene", "extern"];
+const RESERVED: [&str; 2] = ["body", "scene"];
 
 /// Every statement up to the end of the braces.
 pub(super) fn statements(
@@ -122,6 +146,7 @@ fn kind(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<State
                 _ => StatementKind::Output { name, value },
             }
         }
+        "extern" => external(stream, keyword.span())?,
         reserved if RESERVED.contains(&reserved) => {
             return Err(syn::Error::new(keyword.span(), format!("`{reserved}` is not understood by this version yet")));
         }
@@ -150,6 +175,41 @@ fn names(stream: ParseStream) -> syn::Result<Vec<Ident>> {
         names.push(name(stream)?);
     }
     Ok(names)
+}
+
+/// The rest of `extern fn path::of(x, p) -> (f, df, ddf)`.
+fn external(stream: ParseStream, keyword: Span) -> syn::Result<StatementKind> {
+    const FORM: &str = "`extern fn path::to(x) -> (f, df, ddf);`";
+    let expected = |found: Span, what: &str| syn::Error::new(found, format!("expected {what}: {FORM}"));
+    let found = if stream.is_empty() { keyword } else { stream.span() };
+    stream.parse::<Token![fn]>().map_err(|_| expected(found, "`fn`"))?;
+    let found = stream.span();
+    let path = Path::parse_mod_style(stream).map_err(|_| expected(found, "the path of a function"))?;
+    let arguments = list(stream, |found| expected(found, "what it takes"))?;
+    let found = stream.span();
+    stream.parse::<Token![->]>().map_err(|_| expected(found, "what it gives"))?;
+    let names = list(stream, |found| expected(found, "the names of its value and its derivatives"))?;
+    Ok(StatementKind::External { path, arguments, names })
+}
+
+/// Names in parentheses, at least one.
+fn list(stream: ParseStream, missing: impl Fn(Span) -> syn::Error) -> syn::Result<Vec<Ident>> {
+    let found = stream.span();
+    if !stream.peek(syn::token::Paren) {
+        return Err(missing(found));
+    }
+    let content;
+    syn::parenthesized!(content in stream);
+    let mut names = Vec::new();
+    while !content.is_empty() {
+        names.push(name(&content)?);
+        if content.is_empty() {
+            break;
+        }
+        let found = content.span();
+        content.parse::<Token![,]>().map_err(|_| syn::Error::new(found, "expected `,` or `)`"))?;
+    }
+    if names.is_empty() { Err(missing(found)) } else { Ok(names) }
 }
 
 fn equals(stream: ParseStream) -> syn::Result<()> {

@@ -40,8 +40,11 @@ impl Methods<'_> {
         let circular = assembly.solved(graph, &circular);
         let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
         let bare = kernels.variables(&bare);
+        let externals: Vec<NodeId> = kernels.plan.externals.iter().map(|(node, ..)| *node).collect();
+        let externals = assembly.solved(&mut kernels.derivation.graph, &externals);
         let mut stages = assembly.stages.clone();
-        stages.push(Stage::Return(determinants.iter().chain(&circular).chain(&bare).copied().collect()));
+        let results = determinants.iter().chain(&circular).chain(&bare).chain(&externals);
+        stages.push(Stage::Return(results.copied().collect()));
         let stages = needed(&kernels.derivation.graph, stages);
         let position = if assembly.guesses.is_empty() {
             self.inputs(kernels, &v, |c| c.value)
@@ -56,6 +59,7 @@ impl Methods<'_> {
             kernels.plan.directions.values().flat_map(|field| [format!("cos_{field}"), format!("sin_{field}")]),
         );
         wishes.extend(kernels.plan.values.iter().map(|(_, field, _)| field.clone()));
+        wishes.extend(kernels.plan.externals.iter().map(|(_, field, _)| field.clone()));
         let (bindings, bound) = bind(&code.results, &wishes, &mut code.taken);
         let finite = check_finite(&mut code, "the position", &bound);
         let fields = pose_members(kernels.plan, bound.iter());

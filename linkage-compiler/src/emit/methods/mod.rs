@@ -4,6 +4,7 @@ mod acceleration;
 mod assemble;
 mod block;
 mod closures;
+mod external;
 mod motion;
 mod position;
 mod quantities;
@@ -21,7 +22,7 @@ use super::pose::PosePlan;
 use super::types::{self, field};
 use super::{Emitted, Types, document};
 use crate::derivation::{Choice, Derivation, Form, Formulas};
-use crate::graph::{NodeId, SymbolId, Texts};
+use crate::graph::{ExternalId, NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::schedule::{Operations, Stage};
 
@@ -64,6 +65,8 @@ struct Methods<'a> {
     kernels: Vec<(String, Operations)>,
     /// What the functions written so far use of the runtime.
     uses: BTreeSet<&'static str>,
+    /// The functions of the user's that they call.
+    externals: BTreeSet<ExternalId>,
 }
 
 /// The `impl` blocks of one driver; without a derivation every body is left open.
@@ -110,6 +113,7 @@ pub(super) fn of_driver(
         kernels: Vec::new(),
         // The block itself compares signs.
         uses: BTreeSet::from(["same_signs"]),
+        externals: BTreeSet::new(),
     };
     let formulas = derivation.as_deref_mut().map(Formulas::new);
     let mut kernels = derivation.as_deref_mut().zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
@@ -125,6 +129,7 @@ pub(super) fn of_driver(
     methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Outputs);
     methods.motion(kernels.as_mut());
     let mut tokens = methods.block(kernels.as_ref(), private);
+    tokens.extend(methods.calls(private));
     if let Some(sides) = &methods.branches {
         tokens.extend(types::branch(mechanism, types, sides, private));
     }
@@ -209,6 +214,7 @@ impl Methods<'_> {
         let mut fields: Vec<_> =
             kernels.plan.values.iter().map(|(_, field, symbol)| (field.clone(), *symbol)).collect();
         fields.extend(kernels.plan.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol)));
+        fields.extend(kernels.plan.externals.iter().map(|(_, field, symbol)| (field.clone(), *symbol)));
         // Directions are fields as well, so that the pattern is never complete.
         fields.extend(kernels.plan.directions.values().map(|field| (field.clone(), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
@@ -257,11 +263,12 @@ impl Methods<'_> {
     fn function(&mut self, docs: &[String], signature: &TokenStream, body: Option<Body>) {
         let mut lines: Vec<String> =
             docs.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") }).collect();
-        let Body { tokens, operations, uses, .. } = body.unwrap_or_else(|| Body {
+        let Body { tokens, operations, uses, externals, .. } = body.unwrap_or_else(|| Body {
             tokens: quote!(::core::unreachable!()),
             operations: Operations::default(),
             arguments: Vec::new(),
             uses: BTreeSet::new(),
+            externals: BTreeSet::new(),
         });
         if operations != Operations::default() {
             lines.push(String::new());
@@ -269,6 +276,7 @@ impl Methods<'_> {
             self.kernels.push((name_of(signature), operations));
         }
         self.uses.extend(uses);
+        self.externals.extend(externals);
         let lines = lines.iter().map(|line| string(line));
         self.functions.extend(quote!(#(#[doc = #lines])* #signature));
         // A body in its braces is one token, however long.
@@ -289,15 +297,17 @@ struct Body {
     arguments: Vec<Ident>,
     /// What it uses of the runtime.
     uses: BTreeSet<&'static str>,
+    /// The functions of the user's that it calls.
+    externals: BTreeSet<ExternalId>,
 }
 
 impl Body {
     /// A kernel with its last lines, which use these names of the runtime.
     fn new<const N: usize>(code: Code, tail: TokenStream, also: [&'static str; N]) -> Self {
-        let Code { mut body, operations, arguments, mut uses, .. } = code;
+        let Code { mut body, operations, arguments, mut uses, externals, .. } = code;
         body.extend(tail);
         uses.extend(also);
-        Self { tokens: body, operations, arguments, uses }
+        Self { tokens: body, operations, arguments, uses, externals }
     }
 
     /// Lines that compute nothing themselves.
@@ -307,7 +317,8 @@ impl Body {
         uses: [&'static str; M],
     ) -> Self {
         let arguments = arguments.into_iter().cloned().collect();
-        Self { tokens, operations: Operations::default(), arguments, uses: BTreeSet::from(uses) }
+        let (operations, externals) = (Operations::default(), BTreeSet::new());
+        Self { tokens, operations, arguments, uses: BTreeSet::from(uses), externals }
     }
 }
 
@@ -341,7 +352,8 @@ fn literal(count: usize) -> Literal {
     Literal::usize_unsuffixed(count)
 }
 
-/// The members of a pose from determinants, cosines and sines, and what is held as a number.
+/// The members of a pose from determinants, cosines and sines, what is held as a number, and the values of
+/// the user's functions.
 fn pose_members<'a>(plan: &PosePlan, mut results: impl Iterator<Item = &'a Operand>) -> TokenStream {
     let mut members = TokenStream::new();
     for ((_, field, _), value) in plan.determinants.iter().zip(results.by_ref()) {
@@ -352,7 +364,8 @@ fn pose_members<'a>(plan: &PosePlan, mut results: impl Iterator<Item = &'a Opera
         let (field, parts) = (ident(field), results.by_ref().take(2));
         members.extend(quote!(#field: unit(#(#parts),*),));
     }
-    for ((_, field, _), value) in plan.values.iter().zip(results) {
+    let values = plan.values.iter().map(|(_, field, _)| field);
+    for (field, value) in values.chain(plan.externals.iter().map(|(_, field, _)| field)).zip(results) {
         let member = member(&ident(field), value);
         members.extend(quote!(#member,));
     }

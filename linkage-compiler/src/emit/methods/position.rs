@@ -30,7 +30,9 @@ impl Methods<'_> {
                 .collect();
             let bare: Vec<SymbolId> = kernels.plan.values.iter().map(|(_, _, symbol)| *symbol).collect();
             let bare = kernels.variables(&bare);
-            stages.push(Stage::Return(values.iter().chain(&circular).chain(&bare).copied().collect()));
+            let externals: Vec<NodeId> = kernels.plan.externals.iter().map(|(node, ..)| *node).collect();
+            let results = values.iter().chain(&circular).chain(&bare).chain(&externals);
+            stages.push(Stage::Return(results.copied().collect()));
             let sources = vec![self.parameters(), self.coordinates(kernels, &q, |c| c.value)];
             let given = Given { sources, pose: None, branch: &self.arguments.branch };
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
@@ -40,7 +42,9 @@ impl Methods<'_> {
             let fields = pose_members(kernels.plan, code.results.iter());
             Body::new(code, quote!(#pose { #fields }), [])
         });
-        let docs = ["The position at these coordinates, ready for use: one sine and cosine for each angle.".to_owned()];
+        let calls = if self.mechanism.externals.is_empty() { "" } else { ", one call for each function of the user's" };
+        let docs =
+            [format!("The position at these coordinates, ready for use: one sine and cosine for each angle{calls}.")];
         let q = argument_of(&q, body.as_ref());
         let signature = quote!(#[must_use] pub fn pose_at(&self, #q: &#coordinates<T>) -> #pose<T>);
         self.function(&docs, &signature, body);

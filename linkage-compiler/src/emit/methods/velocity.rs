@@ -1,9 +1,10 @@
 //! Linear systems in J: velocity ratios and velocities.
 
+use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::super::kernel::{Shape, Source};
-use super::{Body, Kernels, Methods, argument_of, check_finite, columns_of, fenced, lines, literal};
+use super::super::kernel::{Code, Operand, Shape, Source};
+use super::{Body, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines, literal};
 use crate::derivation::{Form, Formulas};
 use crate::graph::SymbolId;
 use crate::simplify::schedule::Stage;
@@ -35,12 +36,17 @@ impl Methods<'_> {
             let fields = sides.iter().map(|&side| (String::new(), side)).collect();
             let source =
                 Source { argument: Some(right.clone()), from: quote!(#right.data.0), of: Shape::Columns(u), fields };
-            let code = self.on_pose(kernels, vec![source], &stages);
-            let results = &code.results;
-            let tail = quote!(Ok(SVector::from([#(#results),*])));
-            Body::new(code, tail, [])
+            let mut code = self.on_pose(kernels, vec![source], &stages);
+            let (bindings, solution) = bound(kernels, &symbols, &mut code);
+            let finite = check_finite(&mut code, "the solution", &solution);
+            Body::new(code, quote!(#bindings #finite Ok(SVector::from([#(#solution),*]))), [])
         });
-        let docs = lines(["The x of J x = `right`.", "", "# Errors", "`Singular` where J has no inverse."]);
+        let docs = lines([
+            "The x of J x = `right`.",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if the solution is not finite.",
+        ]);
         let [own, right] = [&pose, &right].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn solve_jacobian(&self, #own: &#pose_type<T>, #right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error>);
         self.function(&docs, &signature, code);
@@ -49,9 +55,11 @@ impl Methods<'_> {
             let mut stages = kernels.ratio_stages();
             let flat: Vec<SymbolId> = kernels.derivation.ratios.iter().flatten().copied().collect();
             stages.push(Stage::Return(kernels.variables(&flat)));
-            let code = self.on_pose(kernels, Vec::new(), &stages);
-            let matrix = columns_of(&code.results, u);
-            Body::new(code, quote!(Ok(#matrix)), [])
+            let mut code = self.on_pose(kernels, Vec::new(), &stages);
+            let (bindings, ratios) = bound(kernels, &flat, &mut code);
+            let finite = check_finite(&mut code, "velocity ratios", &ratios);
+            let matrix = columns_of(&ratios, u);
+            Body::new(code, quote!(#bindings #finite Ok(#matrix)), [])
         });
         let meaning = if v == 1 {
             "The velocity ratios W = -J^-1 A with u' = W v'; for one input they are the transmission ratios."
@@ -71,7 +79,11 @@ impl Methods<'_> {
                 docs.extend(fenced(lines.into_iter()));
             }
         }
-        docs.extend(lines(["", "# Errors", "`Singular` where J has no inverse."]));
+        docs.extend(lines([
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if a ratio is not finite.",
+        ]));
         let own = argument_of(&pose, code.as_ref());
         let signature =
             quote!(pub fn velocity_ratios(&self, #own: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
@@ -100,4 +112,11 @@ impl Methods<'_> {
         let signature = quote!(pub fn velocity(&self, #pose: &#pose_type<T>, #rate: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
         self.function(&docs, &signature, code);
     }
+}
+
+/// The results of a kernel that returns these symbols, each by a name.
+fn bound(kernels: &Kernels, symbols: &[SymbolId], code: &mut Code) -> (TokenStream, Vec<Operand>) {
+    let graph = &kernels.derivation.graph;
+    let wishes: Vec<String> = symbols.iter().map(|&symbol| graph.symbol_name(symbol).to_owned()).collect();
+    bind(&code.results, &wishes, &mut code.taken)
 }

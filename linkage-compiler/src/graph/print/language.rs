@@ -62,6 +62,10 @@ impl Style for Language {
         let call = format!("{}({})", function.operation().name, arguments.join(", "));
         if exponent == 1 { call } else { self.power(&call, exponent) }
     }
+
+    fn external(&self, names: &[String], order: usize, arguments: &[String]) -> String {
+        format!("{}({})", names.get(order).map_or("…", String::as_str), arguments.join(", "))
+    }
 }
 
 /// Terms joined by their signs, with a space about each but the first.

@@ -3,7 +3,7 @@
 use crate::graph::{Function, Number};
 
 use super::Name;
-use super::style::{Binding, Style, digits, function_name, is_circular};
+use super::style::{Binding, Style, digits, function_name, is_circular, primes};
 
 pub(super) struct Latex;
 
@@ -66,5 +66,11 @@ impl Style for Latex {
         };
         let name = if exponent > 1 && is_circular(function) { self.power(&name, exponent) } else { name };
         if bare { format!("{name} {arguments}") } else { format!("{name}{}", self.brackets(&arguments)) }
+    }
+
+    fn external(&self, names: &[String], order: usize, arguments: &[String]) -> String {
+        let name = names.first().map(|name| Name::Plain(name).latex()).unwrap_or_default();
+        let order = primes(order).map_or_else(|| format!("^{{({order})}}"), |_| "'".repeat(order));
+        format!("{name}{order}{}", self.brackets(&arguments.join(", ")))
     }
 }

@@ -1,6 +1,6 @@
 //! How an expression is put on paper, before any notation spells it.
 
-use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
+use crate::graph::{External, Function, Graph, Node, NodeId, Number, SymbolId};
 
 use super::style::{Binding, Style, is_circular};
 use super::{Name, Pieces, is_hidden};
@@ -27,6 +27,7 @@ pub(super) enum Layout {
     /// A number or product, and whether it is negative.
     Product(bool, Quotient),
     Call(Function, Vec<NodeId>),
+    External(External, Vec<NodeId>),
 }
 
 /// The factors above and below a fraction's bar; 1 where there are none.
@@ -67,6 +68,7 @@ impl Reading<'_, '_> {
                 Layout::Sum(written)
             }
             Node::Call(function, arguments) => Layout::Call(*function, arguments.clone()),
+            Node::External(external, arguments) => Layout::External(external.clone(), arguments.clone()),
         }
     }
 
@@ -119,7 +121,7 @@ impl Reading<'_, '_> {
                 Name::Determinant(_) | Name::Inverse(_) => 6,
             },
             (Node::Symbol(_) | Node::Product { .. }, _) => 1,
-            (Node::Call(..), _) => 4,
+            (Node::Call(..) | Node::External(..), _) => 4,
             (Node::Sum { .. }, _) => 5,
         }
     }
@@ -170,6 +172,11 @@ impl Layout {
             Self::Call(function, arguments) => {
                 let bare = reading.bare(*function, arguments);
                 (style.call(*function, &bodies(arguments, parts), 1, bare), Binding::Atom)
+            }
+            Self::External(external, arguments) => {
+                let names = reading.graph.external_names(external.function);
+                let order = external.order().unwrap_or(names.len());
+                (style.external(names, order, &bodies(arguments, parts)), Binding::Atom)
             }
         }
     }

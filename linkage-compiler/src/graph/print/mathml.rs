@@ -3,7 +3,7 @@
 use crate::graph::{Function, Number};
 
 use super::Name;
-use super::style::{Binding, Style, digits, function_name, is_circular};
+use super::style::{Binding, Style, digits, function_name, is_circular, primes};
 
 /// U+2062, which separates factors for readers that speak.
 const INVISIBLE_TIMES: &str = "<mo>\u{2062}</mo>";
@@ -109,6 +109,21 @@ impl Style for MathMl {
             return format!("<mrow>{name}{SPACED_APPLICATION}{arguments}</mrow>");
         }
         format!("<mrow>{name}{FUNCTION_APPLICATION}{}</mrow>", self.brackets(&arguments))
+    }
+
+    fn external(&self, names: &[String], order: usize, arguments: &[String]) -> String {
+        let name = names.first().map(|name| Name::Plain(name).mathml()).unwrap_or_default();
+        let arguments = self.brackets(&arguments.join("<mo>,</mo>"));
+        let above = match primes(order) {
+            Some(primes) => format!("<mo>{primes}</mo>"),
+            None => self.brackets(&format!("<mn>{order}</mn>")),
+        };
+        let name = match (order, name.strip_prefix("<msub>").and_then(|inner| inner.strip_suffix("</msub>"))) {
+            (0, _) => name,
+            (_, Some(inner)) => format!("<msubsup>{inner}{above}</msubsup>"),
+            (_, None) => format!("<msup>{name}{above}</msup>"),
+        };
+        format!("<mrow>{name}{FUNCTION_APPLICATION}{arguments}</mrow>")
     }
 }
 

@@ -35,6 +35,13 @@ pub(super) trait Style {
     fn power(&self, base: &str, exponent: u32) -> String;
     /// A function to a power of at least one; `bare` if its argument may go without brackets.
     fn call(&self, function: Function, arguments: &[String], exponent: u32, bare: bool) -> String;
+    /// A derivative of a function of the user's; `names` are those of the value and of its derivatives.
+    fn external(&self, names: &[String], order: usize, arguments: &[String]) -> String;
+}
+
+/// As many primes, if that many are written.
+pub(super) fn primes(order: usize) -> Option<&'static str> {
+    ["", "′", "″", "‴"].get(order).copied()
 }
 
 /// The functions whose argument may go without brackets and whose power is written at the name.

@@ -1,4 +1,4 @@
-use crate::graph::{Function, Graph, NodeId, Number, SymbolId};
+use crate::graph::{External, Function, Graph, NodeId, Number, SymbolId};
 
 use super::{Formula, Name, Notation, Printer};
 
@@ -245,4 +245,34 @@ fn what_is_too_long_is_an_ellipsis_in_all_notations() {
     for (longest, shown) in [5, 4].into_iter().zip(shown) {
         assert_eq!(Printer::new(&other, &names).longest(longest).write(sum, Notation::Unicode), shown);
     }
+}
+
+#[test]
+fn functions_of_the_user() {
+    let (mut g, [theta, h]) = graph(["theta", "h"]);
+    let lift = g.external(["lift1", "dlift", "ddlift"].map(str::to_owned).to_vec());
+    let [value, first, second] = [0, 1, 2].map(|order| g.apply(External::new(lift, 2, order), vec![theta, h]));
+    assert_eq!(g.text(second), "ddlift(theta, h)");
+    for (node, unicode, latex, mathml) in [
+        (value, "lift₁(θ, h)", r"\mathrm{lift}_1(\theta, h)", "<msub><mi>lift</mi><mn>1</mn></msub>"),
+        (first, "lift₁′(θ, h)", r"\mathrm{lift}_1'(\theta, h)", "<msubsup><mi>lift</mi><mn>1</mn><mo>′</mo></msubsup>"),
+        (
+            second,
+            "lift₁″(θ, h)",
+            r"\mathrm{lift}_1''(\theta, h)",
+            "<msubsup><mi>lift</mi><mn>1</mn><mo>″</mo></msubsup>",
+        ),
+    ] {
+        let found = formula(&g, node);
+        assert_eq!((found.unicode.as_str(), found.latex.as_str()), (unicode, latex));
+        let arguments = "<mo>\u{2061}</mo><mrow><mo>(</mo><mi>θ</mi><mo>,</mo><mi>h</mi><mo>)</mo></mrow>";
+        assert_eq!(found.mathml, format!("<mrow>{mathml}{arguments}</mrow>"));
+    }
+    let law = g.external(vec!["s".to_owned(); 6]);
+    let fourth = g.apply(External::new(law, 1, 4), vec![theta]);
+    let product = g.product(&[(fourth, 2), (h, 1)]);
+    let Formula { unicode, latex, mathml } = formula(&g, product);
+    assert_eq!((unicode.as_str(), latex.as_str()), ("h·s⁽⁴⁾(θ)²", r"h s^{(4)}(\theta)^2"));
+    let derivative = "<msup><mi>s</mi><mrow><mo>(</mo><mn>4</mn><mo>)</mo></mrow></msup>";
+    assert!(mathml.contains(derivative), "{mathml}");
 }

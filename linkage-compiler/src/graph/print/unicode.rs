@@ -4,7 +4,7 @@ use crate::graph::{Function, Number};
 
 use super::Name;
 use super::language::join;
-use super::style::{Binding, Style, digits, function_name, is_circular};
+use super::style::{Binding, Style, digits, function_name, is_circular, primes};
 
 pub(super) struct Unicode;
 
@@ -69,6 +69,13 @@ impl Style for Unicode {
             (_, 2..) if is_circular(function) => format!("{}({arguments})", self.power(name, exponent)),
             _ => format!("{name}({arguments})"),
         }
+    }
+
+    fn external(&self, names: &[String], order: usize, arguments: &[String]) -> String {
+        let name = names.first().map(|name| Name::Plain(name).unicode()).unwrap_or_default();
+        let order =
+            primes(order).map_or_else(|| format!("⁽{}⁾", shifted(&order.to_string(), Shift::Up)), str::to_owned);
+        format!("{name}{order}({})", arguments.join(", "))
     }
 }
 

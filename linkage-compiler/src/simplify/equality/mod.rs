@@ -53,6 +53,8 @@ pub enum Verdict {
 pub enum Reason {
     /// The difference holds a function that is not rational in sines and cosines.
     OutsideClass(&'static str),
+    /// The difference holds this function of the user's.
+    External(String),
     /// The difference holds the sine or cosine of a quotient of sums.
     AngleIsQuotient,
     /// The difference holds a number that is no exact ratio.
@@ -72,6 +74,7 @@ impl fmt::Display for Reason {
         write!(f, "cannot decide: ")?;
         match self {
             Self::OutsideClass(name) => write!(f, "`{name}` is not rational in sines and cosines"),
+            Self::External(name) => write!(f, "nothing is known of the function `{name}`"),
             Self::AngleIsQuotient => write!(f, "an angle is a quotient of sums"),
             Self::Inexact(value) => write!(f, "the number {value} is not exact"),
             Self::Undefined => write!(f, "a denominator is identically zero"),

@@ -81,7 +81,7 @@ impl<'g> NormalForms<'g> {
                 let [sine, cosine] = self.circular(arguments[0])?.map(Fraction::from);
                 Fraction::product(&self.ring, Polynomial::one(), [(&sine, 1), (&cosine, -1)])
             }
-            Node::Call(function, arguments) => self.opaque(id, *function, arguments),
+            Node::Call(_, arguments) | Node::External(_, arguments) => self.opaque(id, arguments),
         }
     }
 
@@ -95,11 +95,10 @@ impl<'g> NormalForms<'g> {
     }
 
     /// A call of a function outside the class: the letter of an earlier one with equal arguments, or its own.
-    fn opaque(&mut self, id: NodeId, function: Function, arguments: &[NodeId]) -> Outcome<Fraction> {
+    fn opaque(&mut self, id: NodeId, arguments: &[NodeId]) -> Outcome<Fraction> {
         for (index, variable) in (0..).zip(&self.variables) {
             if let Meaning::Call(earlier) = variable.meaning
-                && let Node::Call(other, theirs) = self.graph.node(earlier)
-                && *other == function
+                && let Some(theirs) = self.same_function(id, earlier)
             {
                 let mut equal = true;
                 for (argument, other) in arguments.iter().zip(theirs) {
@@ -112,6 +111,15 @@ impl<'g> NormalForms<'g> {
             }
         }
         Ok(self.letter(Meaning::Call(id))?.into())
+    }
+
+    /// The arguments of `earlier`, if both are calls of one function.
+    fn same_function(&self, id: NodeId, earlier: NodeId) -> Option<&'g [NodeId]> {
+        match (self.graph.node(id), self.graph.node(earlier)) {
+            (Node::Call(one, _), Node::Call(other, theirs)) if one == other => Some(theirs),
+            (Node::External(one, _), Node::External(other, theirs)) if one == other => Some(theirs),
+            _ => None,
+        }
     }
 
     /// The sine and cosine of an angle.
@@ -179,6 +187,10 @@ impl<'g> NormalForms<'g> {
             Meaning::Inexact(bits) => (Some(Reason::Inexact(Number::Float(f64::from_bits(*bits)))), None),
             Meaning::Call(id) => match self.graph.node(*id) {
                 Node::Call(function, _) => (Some(Reason::OutsideClass(function.operation().name)), None),
+                Node::External(external, _) => {
+                    let value = self.graph.external_names(external.function).first();
+                    (Some(Reason::External(value.cloned().unwrap_or_default())), None)
+                }
                 _ => (None, None),
             },
             Meaning::Exponential(monomial, denominator) if denominator.is_empty() => {

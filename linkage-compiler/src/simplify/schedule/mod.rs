@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use crate::graph::{Function, Graph, NodeId, Number, SymbolId};
+use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
 pub use operations::Operations;
 use order::Ordering;
 use translate::Builder;
@@ -88,6 +88,8 @@ pub enum Value {
     Quotient(ValueId, ValueId),
     Square(ValueId),
     Call(Function, Vec<Signed>),
+    /// A function of the user's or a derivative of it.
+    External(External, Vec<Signed>),
 }
 
 /// One line of straight-line code.
@@ -101,6 +103,12 @@ pub enum Line {
     },
     /// The sines and cosines of several angles at once, those that are used.
     SinesCosines(Vec<Circular>),
+    /// One call of a function of the user's, for its value and its derivatives: those that are used.
+    External {
+        function: ExternalId,
+        arguments: Vec<Signed>,
+        values: Vec<Option<ValueId>>,
+    },
     Name {
         symbol: SymbolId,
         value: Signed,
@@ -159,16 +167,20 @@ pub struct Schedule {
     used: Vec<ValueId>,
 }
 
-/// Orders the stages of a kernel. `directions` are the angles whose sine and cosine are given.
+/// What a kernel need not compute.
+#[derive(Debug, Clone, Default)]
+pub struct Given {
+    /// The angles whose sine and cosine are given.
+    pub directions: BTreeSet<NodeId>,
+    /// Expressions that are given by a name.
+    pub values: FxHashMap<NodeId, SymbolId>,
+}
+
+/// Orders the stages of a kernel.
 #[must_use]
-pub fn schedule(
-    graph: &Graph,
-    stages: &[Stage],
-    directions: &BTreeSet<NodeId>,
-    named: &[(NodeId, String)],
-) -> Schedule {
+pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId, String)]) -> Schedule {
     let roots: Vec<NodeId> = stages.iter().flat_map(Stage::nodes).collect();
-    let (mut values, of) = Builder::translate_all(graph, directions, &roots);
+    let (mut values, of) = Builder::translate_all(graph, given, &roots);
     sharing::share(&mut values, &roots.iter().map(|root| of[root].value).collect::<Vec<_>>());
     let names = named
         .iter()
@@ -176,7 +188,7 @@ pub fn schedule(
             of.get(node).filter(|signed| !signed.negative).map(|signed| (signed.value, name.clone()))
         })
         .collect();
-    let mut ordering = Ordering::new(values, &roots.iter().map(|root| of[root]).collect::<Vec<_>>());
+    let mut ordering = Ordering::new(graph, values, &roots.iter().map(|root| of[root]).collect::<Vec<_>>());
     let introduced: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
     ordering.gather_sines(&introduced);
     let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| of[node]).collect() };
@@ -203,7 +215,7 @@ pub fn schedule(
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
             }
             Stage::Newton { block, targets, start, known, system } => {
-                let system = Box::new(schedule(graph, &[Stage::Return(system.clone())], directions, &[]));
+                let system = Box::new(schedule(graph, &[Stage::Return(system.clone())], given, &[]));
                 let (targets, start, known) = (targets.clone(), signed(start), signed(known));
                 Line::Newton { block: *block, targets, start, known, system }
             }
@@ -219,7 +231,7 @@ impl Value {
     fn each_part(&self, mut visit: impl FnMut(ValueId)) {
         match self {
             Self::Symbol(_) | Self::Direction(..) | Self::Constant(_) => {}
-            Self::Sum(parts) | Self::Call(_, parts) => {
+            Self::Sum(parts) | Self::Call(_, parts) | Self::External(_, parts) => {
                 for part in parts {
                     visit(part.value);
                 }
@@ -287,6 +299,7 @@ fn line_values(line: &Line) -> Vec<ValueId> {
         Line::Let(id) => vec![*id],
         Line::SineCosine { sine, cosine, .. } => vec![*sine, *cosine],
         Line::SinesCosines(several) => several.iter().flat_map(|one| one.sine.into_iter().chain(one.cosine)).collect(),
+        Line::External { values, .. } => values.iter().flatten().copied().collect(),
         Line::Name { value, .. } => vec![value.value],
         Line::Guard { determinant, size, .. } => vec![determinant.value, size.value],
         Line::Chord { factors: [low, high], size, .. } => vec![low.value, high.value, size.value],

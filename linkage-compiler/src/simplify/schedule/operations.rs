@@ -9,7 +9,8 @@ pub struct Operations {
     pub multiplications: usize,
     pub additions: usize,
     pub divisions: usize,
-    /// Roots among them; sine and cosine of one angle count as one.
+    /// Roots among them; sine and cosine of one angle count as one, and so do a function of the user's and its
+    /// derivatives.
     pub functions: usize,
 }
 
@@ -47,7 +48,7 @@ impl Schedule {
                 Value::Quotient(..) => total.divisions += 1,
                 Value::Square(_) => total.multiplications += 1,
                 Value::Call(Function::Abs, _) => {}
-                Value::Call(..) => total.functions += 1,
+                Value::Call(..) | Value::External(..) => total.functions += 1,
                 Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {}
             }
         }
@@ -60,6 +61,7 @@ impl Schedule {
                 Line::SinesCosines(several) => {
                     several.iter().filter(|one| one.sine.is_some() && one.cosine.is_some()).count()
                 }
+                Line::External { values, .. } => values.iter().flatten().count().saturating_sub(1),
                 _ => 0,
             };
         }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap;
 
 use super::{Circular, Line, Signed, Value, ValueId};
-use crate::graph::{Function, SymbolId};
+use crate::graph::{ExternalId, Function, Graph, SymbolId};
 
 /// An inline expression nested deeper than this is hard to read; it gets a line of its own.
 const DEEPEST_INLINE: usize = 5;
@@ -19,10 +19,12 @@ pub(super) struct Ordering {
     pub(super) lines: Vec<Line>,
     /// Sines and cosines that are used, by function and argument.
     circular: FxHashMap<(Function, Signed), ValueId>,
+    /// What is used of each function of the user's, by its arguments: the value and its derivatives.
+    externals: FxHashMap<(ExternalId, Vec<Signed>), Vec<Option<ValueId>>>,
 }
 
 impl Ordering {
-    pub(super) fn new(values: Vec<Value>, roots: &[Signed]) -> Self {
+    pub(super) fn new(graph: &Graph, values: Vec<Value>, roots: &[Signed]) -> Self {
         let mut uses = vec![0; values.len()];
         let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
         while let Some(id) = stack.pop() {
@@ -40,7 +42,16 @@ impl Ordering {
                 _ => None,
             })
             .collect();
-        Self { height: vec![None; values.len()], values, uses, lines: Vec::new(), circular }
+        let mut externals = FxHashMap::default();
+        for (index, value) in values.iter().enumerate().filter(|(index, _)| uses[*index] > 0) {
+            let Value::External(external, arguments) = value else { continue };
+            let given = graph.external_names(external.function).len();
+            let call = externals.entry((external.function, arguments.clone())).or_insert_with(|| vec![None; given]);
+            if let Some(place) = external.order().and_then(|order| call.get_mut(order)) {
+                *place = Some(ValueId(index));
+            }
+        }
+        Self { height: vec![None; values.len()], values, uses, lines: Vec::new(), circular, externals }
     }
 
     /// Emits the lines that `root` stands on; `named` if its own line is about to follow.
@@ -58,14 +69,14 @@ impl Ordering {
                 stack[first..].reverse();
                 continue;
             }
-            if named && id == root {
+            if named && id == root && !matches!(self.values[id.0], Value::External(..)) {
                 self.height[id.0] = Some(0);
                 continue;
             }
             let mut height = 0;
             self.values[id.0].each_part(|part| height = height.max(self.height[part.0].map_or(0, |inside| inside + 1)));
             let deserves = self.uses[id.0] > 1 || height > DEEPEST_INLINE;
-            self.height[id.0] = Some(if self.values[id.0].is_leaf() || self.pair(id) {
+            self.height[id.0] = Some(if self.values[id.0].is_leaf() || self.pair(id) || self.call(id) {
                 0
             } else if deserves {
                 self.lines.push(Line::Let(id));
@@ -128,6 +139,18 @@ impl Ordering {
         let (sine, cosine) = if *function == Function::Sin { (id, partner) } else { (partner, id) };
         self.height[partner.0] = Some(0);
         self.lines.push(Line::SineCosine { sine, cosine, angle });
+        true
+    }
+
+    /// Writes all that is used of a function of the user's as one call.
+    fn call(&mut self, id: ValueId) -> bool {
+        let Value::External(external, arguments) = &self.values[id.0] else { return false };
+        let (function, arguments) = (external.function, arguments.clone());
+        let values = self.externals.get(&(function, arguments.clone())).cloned().unwrap_or_default();
+        for value in values.iter().flatten() {
+            self.height[value.0] = Some(0);
+        }
+        self.lines.push(Line::External { function, arguments, values });
         true
     }
 }

@@ -5,13 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
-use super::{Signed, Value, ValueId};
+use super::{Given, Signed, Value, ValueId};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 
 /// Translates nodes to values.
 pub(super) struct Builder<'a> {
     graph: &'a Graph,
-    directions: &'a BTreeSet<NodeId>,
+    given: &'a Given,
     values: Vec<Value>,
     ids: FxHashMap<Value, ValueId>,
     of: FxHashMap<NodeId, Signed>,
@@ -21,11 +21,11 @@ impl<'a> Builder<'a> {
     /// The values that the roots stand on, and which of them each node became.
     pub(super) fn translate_all(
         graph: &'a Graph,
-        directions: &'a BTreeSet<NodeId>,
+        given: &'a Given,
         roots: &[NodeId],
     ) -> (Vec<Value>, FxHashMap<NodeId, Signed>) {
         let mut builder =
-            Self { graph, directions, values: Vec::new(), ids: FxHashMap::default(), of: FxHashMap::default() };
+            Self { graph, given, values: Vec::new(), ids: FxHashMap::default(), of: FxHashMap::default() };
         builder.build(roots);
         (builder.values, builder.of)
     }
@@ -44,20 +44,23 @@ impl<'a> Builder<'a> {
 
     fn is_leaf(&self, id: NodeId) -> bool {
         let given = match self.graph.node(id) {
-            Node::Call(Function::Sin | Function::Cos, angle) => self.directions.contains(&angle[0]),
-            _ => false,
+            Node::Call(Function::Sin | Function::Cos, angle) => self.given.directions.contains(&angle[0]),
+            _ => self.given.values.contains_key(&id),
         };
         given || self.graph.constant_value(id).is_some()
     }
 
-    /// Constants, symbols and given directions need nothing else.
+    /// Constants, symbols and what is given need nothing else.
     fn leaf(&mut self, id: NodeId) -> Option<Signed> {
         let value = match self.graph.node(id) {
             Node::Constant(number) => return Some(self.constant(*number)),
             Node::Symbol(symbol) => Value::Symbol(*symbol),
-            Node::Call(function @ (Function::Sin | Function::Cos), angle) if self.directions.contains(&angle[0]) => {
+            Node::Call(function @ (Function::Sin | Function::Cos), angle)
+                if self.given.directions.contains(&angle[0]) =>
+            {
                 Value::Direction(*function, angle[0])
             }
+            _ if let Some(symbol) = self.given.values.get(&id) => Value::Symbol(*symbol),
             _ => return self.graph.constant_value(id).map(|value| self.constant(Number::Float(value))),
         };
         Some(self.positive(value))
@@ -109,6 +112,10 @@ impl<'a> Builder<'a> {
             Node::Call(function, arguments) => {
                 let arguments = arguments.iter().map(|argument| self.of[argument]).collect();
                 self.positive(Value::Call(*function, arguments))
+            }
+            Node::External(external, arguments) => {
+                let arguments = arguments.iter().map(|argument| self.of[argument]).collect();
+                self.positive(Value::External(external.clone(), arguments))
             }
             Node::Constant(_) | Node::Pi | Node::Symbol(_) => self.constant(Number::ZERO),
         }

@@ -1,6 +1,6 @@
 //! What is not decided, and what is in spite of functions outside the class.
 
-use linkage_compiler::graph::Number;
+use linkage_compiler::graph::{External, Number};
 use linkage_compiler::simplify::equality::{MOST_TERMS, Reason, Verdict, compare, is_zero};
 
 use crate::formula::Formulas;
@@ -48,6 +48,26 @@ fn functions_outside_the_class_may_cancel() {
     }
     // The function is gone from the difference, which is 2 a.
     assert_eq!(Formulas::default().compare("sqrt(x) + a", "sqrt(x) - a"), Verdict::Different);
+}
+
+#[test]
+fn functions_of_the_user_are_letters() {
+    let mut formulas = Formulas::default();
+    let [lift, other] = [&["lift", "slope"][..], &["other"]]
+        .map(|names| formulas.graph.external(names.iter().map(ToString::to_string).collect()));
+    let [left, right, third] = ["(x + y)^2", "x^2 + 2*x*y + y^2", "x^2"].map(|text| formulas.node(text));
+    let g = &mut formulas.graph;
+    let mut apply = |function, order, at| g.apply(External::new(function, 1, order), vec![at]);
+    let (one, same) = (apply(lift, 0, left), apply(lift, 0, right));
+    let strangers = [apply(lift, 0, third), apply(lift, 1, left), apply(other, 0, left)];
+    assert_ne!(one, same);
+    assert_eq!(compare(g, one, same), Verdict::Equal);
+    for stranger in strangers {
+        let verdict = compare(g, one, stranger);
+        let Verdict::Undecided(Reason::External(name)) = &verdict else { panic!("{verdict}") };
+        assert!(["lift", "other"].contains(&name.as_str()));
+        assert_eq!(verdict.to_string(), format!("cannot decide: nothing is known of the function `{name}`"));
+    }
 }
 
 #[test]

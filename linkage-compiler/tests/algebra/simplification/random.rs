@@ -200,6 +200,7 @@ fn value_of(graph: &Graph, root: NodeId, at: &[f64; SYMBOLS], symbols: &[SymbolI
                 let arguments: Vec<Value> = arguments.iter().map(|argument| values[argument]).collect();
                 Value::call(*function, &arguments)
             }
+            Node::External(..) => unreachable!("no expression here has a function of the user's"),
         };
         values.insert(id, value);
     }
