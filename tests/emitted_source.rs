@@ -7,13 +7,18 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-const MECHANISMS: [&str; 11] = [
+const MECHANISMS: [&str; 16] = [
     "components",
+    "double_butterfly",
+    "elliptic_trammel",
     "every_function",
     "five_bar",
     "four_bar",
     "geared_five_bar",
     "introductory",
+    "jansen",
+    "norton_four_bar",
+    "offset_slider_crank",
     "rpr",
     "rrr",
     "scotch_yoke",

@@ -68,6 +68,28 @@ snapshot!(four_bar_assemble, functions("four_bar", &["assemble", "branch_of"]));
 snapshot!(inverted_slider_crank, functions("inverted_slider_crank", &["assemble", "branch_of"]));
 snapshot!(offset_slider_crank, functions("offset_slider_crank", &["assemble", "branch_of"]));
 snapshot!(v_twin, functions("v_twin", &["assemble"]));
+snapshot!(
+    higher_orders,
+    functions(
+        "norton_four_bar",
+        &[
+            "jerk",
+            "point_jerks",
+            "output_jerks",
+            "velocity_ratio_derivatives",
+            "point_ratio_derivatives",
+            "output_ratio_derivatives",
+            "sensitivity",
+            "point_sensitivities",
+            "output_sensitivities",
+        ]
+    )
+);
+snapshot!(
+    five_bar_ratio_derivatives,
+    functions("five_bar", &["velocity_ratio_derivatives", "point_ratio_derivatives"])
+);
+snapshot!(double_butterfly_jerk, functions("double_butterfly", &["jerk"]));
 snapshot!(four_bar_motion, functions("four_bar", &["motion"]));
 snapshot!(components, functions("components", &["pose_at", "residual", "velocity_ratios"]));
 snapshot!(

@@ -1,5 +1,7 @@
 //! Statements: names first, then what they say, then the checks on the whole.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::Ident;
 use syn::Attribute;
 
@@ -7,7 +9,7 @@ use super::expression::Lowering;
 use super::kind::Kind;
 use super::name::Name;
 use super::scope::{Scope, Value};
-use super::{Closure, Coordinate, Driver, Mechanism, Output, Parameter, Point, check};
+use super::{Closure, Coordinate, Driver, Mechanism, Output, Parameter, Point, check, request};
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::syntax::{self, ExpressionId, StatementKind};
@@ -39,11 +41,13 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         points: Vec::new(),
         outputs: Vec::new(),
         named: Vec::new(),
+        requests: BTreeSet::new(),
     };
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
     lowering.define(&statements, &mut result);
     lowering.drivers(&statements, &mut result, roles);
+    result.requests = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
     let Lowering { graph, scope, kinds, supposed, diagnostics, .. } = lowering;
     result.graph = graph;
     let kind_of = |symbol| match kinds.iter().find(|(other, _)| *other == symbol) {
@@ -187,7 +191,8 @@ impl Lowering<'_> {
                 StatementKind::Inputs(_)
                 | StatementKind::Unknowns(_)
                 | StatementKind::Coordinates(_)
-                | StatementKind::Drive { .. } => {}
+                | StatementKind::Drive { .. }
+                | StatementKind::Derive(_) => {}
             }
         }
     }

@@ -26,10 +26,11 @@ pub enum StatementKind {
     Let { name: Ident, value: ExpressionId },
     Point { name: Ident, value: ExpressionId },
     Output { name: Ident, value: ExpressionId },
+    Derive(Vec<Ident>),
 }
 
-const KEYWORDS: [&str; 10] =
-    ["param", "input", "unknown", "coordinate", "drive", "loop", "equation", "let", "point", "output"];
+const KEYWORDS: [&str; 11] =
+    ["param", "input", "unknown", "coordinate", "drive", "loop", "equation", "let", "point", "output", "derive"];
 
 /// Words of the language that this version does not understand yet.
 const RESERVED: [&str; 3] = ["body", "scene", "extern"];
@@ -122,6 +123,7 @@ fn kind(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<State
                 _ => StatementKind::Output { name, value },
             }
         }
+        "derive" => StatementKind::Derive(names(stream)?),
         reserved if RESERVED.contains(&reserved) => {
             return Err(syn::Error::new(keyword.span(), format!("`{reserved}` is not understood by this version yet")));
         }

@@ -4,9 +4,12 @@ mod acceleration;
 mod assemble;
 mod block;
 mod closures;
+mod jerk;
 mod motion;
 mod position;
 mod quantities;
+mod ratio_derivatives;
+mod sensitivity;
 mod velocity;
 
 use std::cell::RefCell;
@@ -20,9 +23,9 @@ use super::names::{Taken, ident, string};
 use super::pose::PosePlan;
 use super::types::{self, field};
 use super::{Emitted, Types, document};
-use crate::derivation::{Choice, Derivation, Form, Formulas};
+use crate::derivation::{Choice, Derivation, Form, Formulas, QuantityFormulas};
 use crate::graph::{NodeId, SymbolId, Texts};
-use crate::model::{Driver, Mechanism};
+use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
 
 /// The name of an argument, beside which no name of the user's may stand.
@@ -43,6 +46,7 @@ struct Arguments {
     q: Ident,
     rate: Ident,
     acceleration: Ident,
+    jerk: Ident,
     right: Ident,
     branch: Ident,
     inputs: Ident,
@@ -81,6 +85,7 @@ pub(super) fn of_driver(
         q: name("q"),
         rate: name("rate"),
         acceleration: name("acceleration"),
+        jerk: name("jerk"),
         right: name("right"),
         branch: name("branch"),
         inputs: name("inputs"),
@@ -91,6 +96,7 @@ pub(super) fn of_driver(
         &arguments.q,
         &arguments.rate,
         &arguments.acceleration,
+        &arguments.jerk,
         &arguments.right,
         &arguments.branch,
         &arguments.inputs,
@@ -124,6 +130,13 @@ pub(super) fn of_driver(
     methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Points);
     methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Outputs);
     methods.motion(kernels.as_mut());
+    for request in &mechanism.requests {
+        match request {
+            Request::Jerk => methods.jerk(kernels.as_mut()),
+            Request::VelocityRatioDerivatives => methods.ratio_derivatives(kernels.as_mut(), formulas.as_ref()),
+            Request::Sensitivity => methods.sensitivity(kernels.as_mut(), formulas.as_ref()),
+        }
+    }
     let mut tokens = methods.block(kernels.as_ref(), private);
     if let Some(sides) = &methods.branches {
         tokens.extend(types::branch(mechanism, types, sides, private));
@@ -147,6 +160,15 @@ struct Kernels<'a> {
 enum Family {
     Points,
     Outputs,
+}
+
+impl Formulas {
+    fn of(&self, family: Family) -> &[QuantityFormulas] {
+        match family {
+            Family::Points => &self.points,
+            Family::Outputs => &self.outputs,
+        }
+    }
 }
 
 impl<'a> Kernels<'a> {
@@ -190,6 +212,7 @@ impl Methods<'_> {
             name(&quantity.value, declared, "");
             name(&quantity.rate, declared, "_rate");
             name(&quantity.acceleration, declared, "_acceleration");
+            name(&quantity.jerk, declared, "_jerk");
         }
         for (quantity, declared) in derivation.outputs.iter().zip(self.mechanism.outputs.iter().map(|o| &o.name.field))
         {
