@@ -1,8 +1,12 @@
 //! Jerk, derivatives of the velocity ratios and sensitivities against numbers that carry their own
-//! derivatives, at random poses: put into the closures, what was solved for must leave nothing over.
+//! derivatives, at random poses: put into the closures, what was solved for must leave nothing over. And
+//! against finite differences in so many digits that nothing of them is lost.
 
 mod oracle;
 mod source;
+
+/// By finite differences in 90-digit arithmetic, from closures written by hand: see `oracle/orders.py`.
+const DIFFERENCES: &str = include_str!("oracle/orders.json");
 
 /// Poses per mechanism.
 const POSES: usize = 200;
@@ -222,6 +226,72 @@ macro_rules! orders {
                     }
                 }
                 assert!(regular > POSES / 2, "{regular}");
+            }
+
+            #[test]
+            fn finite_differences() {
+                let cases: serde_json::Value = serde_json::from_str(super::DIFFERENCES).unwrap();
+                let case =
+                    cases.as_array().unwrap().iter().find(|case| case["mechanism"] == stringify!($test)).unwrap();
+                let numbers = |list: &serde_json::Value| -> Vec<f64> {
+                    list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+                };
+                let rows = |list: &serde_json::Value| -> Vec<Vec<f64>> {
+                    list.as_array().unwrap().iter().map(numbers).collect()
+                };
+                let all = |of_unknowns: &str, of_inputs: &str| {
+                    let mut all = numbers(&case[of_unknowns]);
+                    all.extend(numbers(&case[of_inputs]));
+                    all
+                };
+                let inputs = |name: &str| $Inputs::from(SVector::<f64, V>::from_vec(numbers(&case[name])));
+                let m = $Mechanism::from(<[f64; P]>::try_from(numbers(&case["parameters"])).unwrap());
+                let given = all("unknowns", "inputs");
+                let solution = m.solve(&coordinates(|i| given[i])).unwrap();
+                let q = solution.coordinates;
+                all_close("position", &array(q), &given, 0.0, TOLERANCE);
+                let pose = m.pose_at(&q);
+
+                let velocity = m.velocity(&pose, inputs("input_rates")).unwrap();
+                all_close("velocity", &array(velocity), &all("rates", "input_rates"), 0.0, TOLERANCE);
+                let acceleration = m.acceleration(&pose, &velocity, inputs("input_accelerations")).unwrap();
+                let expected = all("accelerations", "input_accelerations");
+                all_close("acceleration", &array(acceleration), &expected, 0.0, TOLERANCE);
+                let jerk = m.jerk(&pose, &velocity, &acceleration, inputs("input_jerks")).unwrap();
+                let points: [Vector2<f64>; POINTS] =
+                    m.point_jerks(&pose, &velocity, &acceleration, &jerk).unwrap().into();
+                let outputs: [f64; OUTPUTS] = m.output_jerks(&pose, &velocity, &acceleration, &jerk).unwrap().into();
+                let points: Vec<f64> = points.iter().flat_map(|point| [point.x, point.y]).collect();
+                same("jerk", &array(jerk)[..Q - V], &points, &outputs, &numbers(&case["jerks"]));
+
+                let ratios = m.velocity_ratio_derivatives(&pose).unwrap();
+                let points: [[SMatrix<f64, V, V>; 2]; POINTS] = m.point_ratio_derivatives(&pose).unwrap().into();
+                let outputs: [SMatrix<f64, V, V>; OUTPUTS] = m.output_ratio_derivatives(&pose).unwrap().into();
+                for (pair, expected) in rows(&case["by_inputs"]).iter().enumerate() {
+                    let entry = |matrix: &SMatrix<f64, V, V>| matrix[(pair / V, pair % V)];
+                    let points: Vec<f64> = points.as_flattened().iter().map(entry).collect();
+                    same("d2/dv dv", &ratios.each_ref().map(entry), &points, &outputs.each_ref().map(entry), expected);
+                }
+
+                let unknowns = m.sensitivity(&pose).unwrap();
+                let points: [SMatrix<f64, 2, P>; POINTS] = m.point_sensitivities(&pose).unwrap().into();
+                let outputs: [SMatrix<f64, 1, P>; OUTPUTS] = m.output_sensitivities(&pose).unwrap().into();
+                for (p, expected) in rows(&case["by_parameters"]).iter().enumerate() {
+                    let points: Vec<f64> = points.iter().flat_map(|point| [point[(0, p)], point[(1, p)]]).collect();
+                    let unknowns: Vec<f64> = unknowns.column(p).iter().copied().collect();
+                    same("d/dp", &unknowns, &points, &outputs.map(|output| output[p]), expected);
+                }
+            }
+
+            /// Unknowns and points beside the largest of them, outputs one by one.
+            fn same(what: &str, unknowns: &[f64], points: &[f64], outputs: &[f64], expected: &[f64]) {
+                let (expected, of_outputs) = expected.split_at(expected.len() - OUTPUTS);
+                let (of_unknowns, of_points) = expected.split_at(unknowns.len());
+                all_close(what, unknowns, of_unknowns, 0.0, TOLERANCE);
+                all_close(&format!("{what} of points"), points, of_points, 0.0, TOLERANCE);
+                for (output, expected) in outputs.iter().zip(of_outputs) {
+                    close(&format!("{what} of an output"), *output, *expected, expected.abs().max(0.01), TOLERANCE);
+                }
             }
         }
     };
