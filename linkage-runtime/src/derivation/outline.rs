@@ -100,8 +100,9 @@ pub(crate) mod words {
     pub(crate) const LEAD_RATIO_DERIVATIVES: &str = "With w, the motion of all coordinates for a unit rate of one input, and γ as the bilinear form of two motions,";
     pub(crate) const LEAD_JERK: &str = "Differentiated three times, the closure equations give";
     pub(crate) const LEAD_ETA: &str = "with the terms that remain where no coordinate jerks:";
-    pub(crate) const LEAD_SENSITIVITY: &str =
-        "With the inputs held, the unknowns follow the parameters p by what is zero but for these:";
+    pub(crate) const LEAD_SENSITIVITY: &str = "With the inputs held, the unknowns follow the parameters p by";
+    pub(crate) const LEAD_PARAMETERS: &str =
+        "with the derivatives of the closure equations with respect to the parameters, where they are not zero:";
     pub(crate) const LEAD_CONDITIONS: &str = "The formulas take for granted that";
 }
 
@@ -199,6 +200,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
         pen.heading(words::SENSITIVITY)?;
         pen.lead(words::LEAD_SENSITIVITY)?;
         pen.display(&SENSITIVITY)?;
+        pen.lead(words::LEAD_PARAMETERS)?;
         pen.matrix(&sensitivity.jacobian)?;
         equations(pen, &mut number, sensitivity.formulas)?;
     }

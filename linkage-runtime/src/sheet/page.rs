@@ -194,6 +194,7 @@ impl Page {
             self.section(words::SENSITIVITY, |page| {
                 page.lead(words::LEAD_SENSITIVITY);
                 page.law(&outline::SENSITIVITY);
+                page.lead(words::LEAD_PARAMETERS);
                 page.matrix(&sensitivity.jacobian, None);
                 page.equations(sensitivity.formulas);
             });

@@ -127,15 +127,18 @@ pub(super) fn of_driver(
     methods.closures(kernels.as_mut());
     methods.velocity(kernels.as_mut(), formulas.as_ref());
     methods.acceleration(kernels.as_mut());
+    let wanted = |request| mechanism.requests.contains(&request);
+    if wanted(Request::Jerk) {
+        methods.jerk(kernels.as_mut());
+    }
     methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Points);
     methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Outputs);
     methods.motion(kernels.as_mut());
-    for request in &mechanism.requests {
-        match request {
-            Request::Jerk => methods.jerk(kernels.as_mut()),
-            Request::VelocityRatioDerivatives => methods.ratio_derivatives(kernels.as_mut(), formulas.as_ref()),
-            Request::Sensitivity => methods.sensitivity(kernels.as_mut(), formulas.as_ref()),
-        }
+    if wanted(Request::VelocityRatioDerivatives) {
+        methods.ratio_derivatives(kernels.as_mut(), formulas.as_ref());
+    }
+    if wanted(Request::Sensitivity) {
+        methods.sensitivity(kernels.as_mut(), formulas.as_ref());
     }
     let mut tokens = methods.block(kernels.as_ref(), private);
     if let Some(sides) = &methods.branches {

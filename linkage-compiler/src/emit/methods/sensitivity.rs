@@ -11,6 +11,7 @@ use super::{Body, Family, Kernels, Methods, argument_of, fenced, lines, literal}
 use crate::derivation::{Form, Formulas};
 use crate::graph::{NodeId, SymbolId};
 use crate::simplify::schedule::{Stage, needed};
+use crate::simplify::simplify;
 
 const ERRORS: [&str; 3] =
     ["", "# Errors", "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value."];
@@ -44,8 +45,15 @@ impl Methods<'_> {
             if !laws.is_empty() {
                 docs.extend(fenced(laws.into_iter()));
             }
-            let stages;
+            let mut stages;
             (stages, solved) = kernels.derivation.solve(&systems, Form::Factored);
+            // The length of a link turns its own side of J: cos^2 + sin^2 is 1.
+            let given = kernels.plan.angles().collect();
+            for stage in &mut stages {
+                if let Stage::Let { node, .. } = stage {
+                    *node = simplify(&mut kernels.derivation.graph, &[*node], &given)[0];
+                }
+            }
             let places = (0..p).flat_map(|column| (0..u).map(move |row| (row, column)));
             let entries = places.zip(solved.concat());
             let entries: Vec<_> = entries.filter(|(_, node)| !kernels.derivation.graph.is_zero(*node)).collect();
