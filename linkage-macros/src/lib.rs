@@ -228,8 +228,8 @@ use proc_macro::TokenStream;
 /// few closures, closures that are singular at every position, vectors where scalars belong and scalars
 /// where vectors belong, a name used as an angle and as a modulus, division by zero, constants that are
 /// not finite, `derive` of what is unknown or named already, and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words
-/// and signs, more than 10 000 expressions, or 16 000 with their derivatives (a chain of four-bars takes
-/// 70 a loop).
+/// and signs, more than 10 000 expressions, or 16 000 with their derivatives, each entry of
+/// a `sensitivity` being one (a chain of four-bars takes 70 a loop).
 ///
 /// ```compile_fail
 /// linkage::linkage! {

@@ -4,6 +4,10 @@ use super::{Derivation, Places, Quantity, Row, jacobian};
 use crate::graph::{NodeId, SymbolId};
 use crate::model::Mechanism;
 
+/// Of a larger du/dp the reader is told Psi_p alone: it grows with the square of the mechanism, and nobody reads
+/// so many formulas.
+const MOST_FORMULAS: usize = 400;
+
 /// What is derived for the sensitivities.
 #[derive(Debug, Clone)]
 pub struct Sensitivity {
@@ -41,8 +45,12 @@ impl Derivation {
         systems
     }
 
-    /// du/dp by parameter and unknown, as formulas, and as later formulas refer to them.
+    /// du/dp by parameter and unknown, as formulas, and as later formulas refer to them; nothing where they are
+    /// too many to be read.
     pub(super) fn sensitivity_formulas(&mut self) -> (Vec<Vec<Option<NodeId>>>, Vec<Vec<NodeId>>) {
+        if self.sensitivity.as_ref().is_some_and(|first| first.names.len() * self.unknowns.len() > MOST_FORMULAS) {
+            return (Vec::new(), Vec::new());
+        }
         self.sensitivity_systems().iter().map(|(side, names)| self.solution_formulas(side, names)).unzip()
     }
 
