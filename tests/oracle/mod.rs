@@ -15,13 +15,12 @@ pub struct Oracle {
     pub derivation: Derivation,
 }
 
-/// A pose with rates, accelerations and jerks, none of them consistent: the formulas hold everywhere.
+/// A pose with rates and accelerations, none of them consistent: the formulas hold everywhere.
 pub struct Sample {
     pub parameters: Vec<f64>,
     pub q: Vec<f64>,
     pub rate: Vec<f64>,
     pub acceleration: Vec<f64>,
-    pub jerk: Vec<f64>,
     values: HashMap<String, f64>,
 }
 
@@ -45,7 +44,7 @@ impl Oracle {
                 values.insert(parameter.name.field.clone(), value);
                 parameters.push(value);
             }
-            let (mut q, mut rate, mut acceleration, mut jerk) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+            let (mut q, mut rate, mut acceleration) = (Vec::new(), Vec::new(), Vec::new());
             for coordinate in &self.derivation.coordinates {
                 let declared = self.mechanism.coordinates.iter().find(|c| c.name.field == coordinate.name);
                 let value = match declared.map(|c| c.kind) {
@@ -55,12 +54,11 @@ impl Oracle {
                 q.push(value);
                 rate.push(random.random_range(-2.0..2.0));
                 acceleration.push(random.random_range(-5.0..5.0));
-                jerk.push(random.random_range(-9.0..9.0));
                 values.insert(coordinate.name.clone(), value);
                 values.insert(format!("{}_rate", coordinate.name), rate[rate.len() - 1]);
                 values.insert(format!("{}_acceleration", coordinate.name), acceleration[acceleration.len() - 1]);
             }
-            Sample { parameters, q, rate, acceleration, jerk, values }
+            Sample { parameters, q, rate, acceleration, values }
         })
     }
 
