@@ -15,6 +15,8 @@ use crate::graph::{Graph, NodeId, SymbolId};
 pub struct RatioDerivatives {
     /// The inputs j <= k, each pair once.
     pub pairs: Vec<(usize, usize)>,
+    /// What stands behind the name of what is derived, by pair.
+    pub endings: Vec<String>,
     /// The names of L: by pair, and then by unknown.
     pub names: Vec<Vec<SymbolId>>,
     /// (Psi_q w_j)_q w_k, by pair and row, in terms of W.
@@ -34,19 +36,23 @@ impl Derivation {
     pub(super) fn derive_ratio_derivatives(&mut self) {
         let count = self.inputs.len();
         let pairs: Vec<(usize, usize)> = (0..count).flat_map(|j| (j..count).map(move |k| (j, k))).collect();
+        let by = |input: usize| self.coordinates[self.inputs[input]].name.as_str();
+        let ending = |&(j, k): &(usize, usize)| match count {
+            1 => "ratio_derivative".to_owned(),
+            _ => format!("by_{}_by_{}", by(j), by(k)),
+        };
+        let endings: Vec<String> = pairs.iter().map(ending).collect();
         let mut names = Vec::new();
-        for &(j, k) in &pairs {
-            let [first, second] = [j, k].map(|input| self.coordinates[self.inputs[input]].name.clone());
-            let ending = if count == 1 { "ratio_derivative".to_owned() } else { format!("by_{first}_by_{second}") };
-            let of = self.unknowns.iter().map(|&unknown| format!("{}_{ending}", self.coordinates[unknown].name));
-            names.push(of.map(|name| self.graph.symbol(name)).collect());
+        for ending in &endings {
+            let of = self.unknowns.iter().map(|&unknown| &self.coordinates[unknown].name);
+            names.push(of.map(|of| self.graph.symbol(format!("{of}_{ending}"))).collect());
         }
         let motions: Vec<_> = (0..count).map(|input| self.unit_motion(input)).collect();
         let terms = second_derivatives(&mut self.graph, &self.residual, &motions);
         for quantity in self.points.iter_mut().chain(&mut self.outputs) {
             quantity.along_inputs = second_derivatives(&mut self.graph, &quantity.value, &motions);
         }
-        self.ratio_derivatives = Some(RatioDerivatives { pairs, names, terms });
+        self.ratio_derivatives = Some(RatioDerivatives { pairs, endings, names, terms });
     }
 
     /// w_j = (W_j, e_j).

@@ -397,11 +397,12 @@ fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
     lines.map(str::to_owned).to_vec()
 }
 
+/// A paragraph of formulas, if there are any.
 fn fenced(lines: impl Iterator<Item = String>) -> Vec<String> {
     let mut block = vec![String::new(), "```text".to_owned()];
     block.extend(lines);
     block.push("```".to_owned());
-    block
+    if block.len() > 3 { block } else { Vec::new() }
 }
 
 fn count(operations: Operations) -> String {

@@ -7,7 +7,7 @@ use super::super::kernel::Operand;
 use super::super::names::ident;
 use super::quantities::Members;
 use super::{Body, Family, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines, literal};
-use crate::derivation::{Form, Formulas, RatioDerivatives};
+use crate::derivation::{Form, Formulas};
 use crate::graph::NodeId;
 use crate::simplify::schedule::{Stage, needed};
 
@@ -18,18 +18,6 @@ impl Kernels<'_> {
         let (stages, mut solved) = self.derivation.solve(&systems, Form::Entries);
         let derivatives = solved.split_off(self.derivation.inputs.len());
         (stages, derivatives)
-    }
-
-    /// What a pair of inputs is called behind the name of what is derived.
-    fn pair_endings(&self) -> Vec<String> {
-        let derivation = &self.derivation;
-        let Some(RatioDerivatives { pairs, .. }) = &derivation.ratio_derivatives else { return Vec::new() };
-        let by = |input: usize| derivation.coordinates[derivation.inputs[input]].name.as_str();
-        let ending = |&(j, k): &(usize, usize)| match derivation.inputs.len() {
-            1 => "ratio_derivative".to_owned(),
-            _ => format!("by_{}_by_{}", by(j), by(k)),
-        };
-        pairs.iter().map(ending).collect()
     }
 
     /// A symmetric matrix from its entries by pair, each of which is a name.
@@ -65,9 +53,7 @@ impl Methods<'_> {
                     Some(format!("{} = {}", kernels.derivation.graph.symbol_name(name), kernels.text((*formula)?)))
                 })
                 .collect();
-            if !laws.is_empty() {
-                docs.extend(fenced(laws.into_iter()));
-            }
+            docs.extend(fenced(laws.into_iter()));
             let (mut stages, solved) = kernels.ratio_derivative_stages();
             stages.push(Stage::Return(solved.concat()));
             let stages = needed(&kernels.derivation.graph, stages);
@@ -102,16 +88,13 @@ impl Methods<'_> {
         let Members { names, group, word, dimension, .. } = &members;
         let nv = literal(self.driver.inputs.len());
         let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
-        let mut docs = vec![match family {
-            Family::Points => {
-                format!("The second derivatives of the {word}s by the inputs: of x and of y a symmetric matrix.")
-            }
-            Family::Outputs => {
-                format!("The second derivatives of the {word}s by the inputs: of each a symmetric matrix.")
-            }
-        }];
+        let mut docs = lines([match family {
+            Family::Points => "The second derivatives of the points by the inputs: of x and of y a symmetric matrix.",
+            Family::Outputs => "The second derivatives of the outputs by the inputs: of each a symmetric matrix.",
+        }]);
         let code = kernels.map(|kernels| {
-            let endings = kernels.pair_endings();
+            let second = kernels.derivation.ratio_derivatives.as_ref();
+            let endings = second.map(|second| second.endings.clone()).unwrap_or_default();
             let mut laws = Vec::new();
             for (name, formulas) in names.iter().zip(formulas.map_or(&[][..], |formulas| formulas.of(family))) {
                 for (ending, nodes) in endings.iter().zip(&formulas.ratio_derivatives) {

@@ -42,9 +42,7 @@ impl Methods<'_> {
                     format!("{} = {}", kernels.derivation.graph.symbol_name(name), kernels.text(formula))
                 })
                 .collect();
-            if !laws.is_empty() {
-                docs.extend(fenced(laws.into_iter()));
-            }
+            docs.extend(fenced(laws.into_iter()));
             let mut stages;
             (stages, solved) = kernels.derivation.solve(&systems, Form::Factored);
             // The length of a link turns its own side of J: cos^2 + sin^2 is 1.
