@@ -146,7 +146,10 @@ fn a_group_without_closed_form() {
             assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).max());
             let solved = m.solve(&pose.coordinates()).unwrap();
             let (found, whole) = (pose.coordinates(), solved.coordinates);
-            assert!((found.psi - whole.psi).abs() <= 1e-14 && (found.s - whole.s).abs() <= 1e-12, "{found:?} {whole:?}");
+            assert!(
+                (found.psi - whole.psi).abs() <= 1e-14 && (found.s - whole.s).abs() <= 1e-12,
+                "{found:?} {whole:?}"
+            );
             // The determinant of the group is that of its formula.
             let [_, psi, _] = m.block_determinants(&pose);
             assert!((psi - (1.0 - m.e * (whole.psi + whole.theta3).cos())).abs() <= 1e-14);

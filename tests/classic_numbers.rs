@@ -4,6 +4,7 @@ use linkage::linkage;
 
 include!("mechanisms/andrews.rs");
 include!("mechanisms/four_bar.rs");
+include!("mechanisms/norton_four_bar.rs");
 include!("mechanisms/offset_slider_crank.rs");
 
 /// Agrees to the last of the digits given, whose unit is 10^-`decimals`.
@@ -38,6 +39,25 @@ fn four_bar_of_norton() {
     printed(motion.velocity.theta4, 6.997_985_242_176_77, 14);
     printed(motion.acceleration.theta3, 296.089_193_174_310, 12);
     printed(motion.acceleration.theta4, 470.133_530_261_023, 12);
+}
+
+/// The same in his own layout, with its jerk at constant acceleration of the crank.
+#[test]
+fn jerk_of_the_four_bar_of_norton() {
+    let m = NortonFourBar::default();
+    let guess = NortonFourBarCoordinates { theta2: 40_f64.to_radians(), theta3: 0.35, theta4: 1.0 };
+    let solution = m.solve(&guess).unwrap();
+    let pose = m.pose_at(&solution.coordinates);
+    let velocity = m.velocity(&pose, 25.0).unwrap();
+    let acceleration = m.acceleration(&pose, &velocity, 15.0).unwrap();
+    let jerk = m.jerk(&pose, &velocity, &acceleration, 0.0).unwrap();
+    printed(solution.coordinates.theta3.to_degrees(), 20.297_882_788_196_5, 13);
+    printed(solution.coordinates.theta4.to_degrees(), 57.324_880_070_360_8, 13);
+    // Sums of terms ten times their size.
+    printed(jerk.theta3, -12_679.510_094_600_2, 9);
+    printed(jerk.theta4, -25_354.568_765_286_5, 9);
+    let jerk_of_mu = m.output_jerks(&pose, &velocity, &acceleration, &jerk).unwrap().mu;
+    printed(jerk_of_mu, -12_675.058_670_686_3, 9);
 }
 
 /// The offset slider-crank of the same book: a 40, b 120, c -20 at theta2 = 60 deg, -30 rad/s, open.

@@ -16,6 +16,8 @@ include!("mechanisms/geared_five_bar.rs");
 include!("mechanisms/jansen.rs");
 include!("mechanisms/cam_follower.rs");
 include!("mechanisms/cam_rocker.rs");
+include!("mechanisms/norton_four_bar.rs");
+include!("mechanisms/five_bar.rs");
 
 macro_rules! snapshot {
     ($name:ident, $value:expr) => {
@@ -38,6 +40,9 @@ snapshot!(six_bar, SixBar::DERIVATION);
 snapshot!(geared_five_bar, GearedFiveBar::DERIVATION);
 snapshot!(jansen, Jansen::DERIVATION);
 snapshot!(cam_rocker, CamRocker::DERIVATION);
+snapshot!(norton_four_bar, NortonFourBar::DERIVATION);
+snapshot!(norton_four_bar_in_latex, NortonFourBar::DERIVATION.to_latex());
+snapshot!(five_bar, FiveBar::DERIVATION);
 snapshot!(four_bar_in_latex, FourBar::DERIVATION.to_latex());
 
 fn texts(equations: &[Equation]) -> Vec<String> {
@@ -79,9 +84,24 @@ fn inverse_of_the_dyad_rrr() {
     assert_eq!(entries, ["−z₂·cos(φ₂)", "−z₂·sin(φ₂)", "−z₁·cos(φ₁)", "−z₁·sin(φ₁)"]);
 }
 
+/// What is not asked for is not there.
+#[test]
+fn only_on_request() {
+    let (without, with) = (FourBar::DERIVATION, NortonFourBar::DERIVATION);
+    assert!(without.jerk.is_none() && without.ratio_derivatives.is_none() && without.sensitivity.is_none());
+    let points = without.points.iter().all(|point| point.ratio_derivatives.len() + point.sensitivities.len() == 0);
+    assert!(points && !without.to_string().contains("Jerk"));
+    let functions = |derivation: &Derivation| derivation.kernels.iter().filter(|k| k.function.contains("jerk")).count();
+    assert_eq!((functions(without), functions(with)), (0, 3));
+    assert_eq!(
+        texts(with.sensitivity.unwrap().formulas)[..2],
+        ["∂θ₃/∂a = cos(θ₂ − θ₄)/(b·sin(θ₃ − θ₄))", "∂θ₄/∂a = cos(θ₂ − θ₃)/(c·sin(θ₃ − θ₄))"]
+    );
+}
+
 #[test]
 fn latex_is_balanced() {
-    for derivation in [FourBar::DERIVATION, SixBar::DERIVATION, Jansen::DERIVATION] {
+    for derivation in [FourBar::DERIVATION, SixBar::DERIVATION, Jansen::DERIVATION, NortonFourBar::DERIVATION] {
         let latex = derivation.to_latex();
         for (opening, closing) in [("{", "}"), ("\\begin", "\\end"), ("\\[", "\\]"), ("\\left", "\\right")] {
             assert_eq!(latex.matches(opening).count(), latex.matches(closing).count(), "{opening}");

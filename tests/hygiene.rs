@@ -17,6 +17,8 @@ mod bare {
             loop r@phi1 + l@phi2 = (x, 0);
             point P = r@phi1;
             output lift = l - x;
+            derive jerk, velocity_ratio_derivatives;
+            derive sensitivity;
         }
     }
 }
@@ -83,8 +85,45 @@ mod greedy {
             point Factors = (inverse_determinant, factors);
             output sin_right = right * inverse_determinant;
             output factors_x = right;
+            derive sensitivity, jerk, velocity_ratio_derivatives;
         }
     }
+}
+
+/// Names of the functions of higher order, two inputs, a choice of drivers, and a large matrix of zeros.
+mod orders {
+    linkage::linkage! {
+        #[derive(Clone)]
+        pub mechanism Orders {
+            param jerk = 1, sensitivity = 2.5, matrix = 2.2, eta = 0.8, e = 2, x_by_jerk = 1, _f, _g, _h, _i;
+            coordinate sensitivity_by_jerk, p_sensitivity, x, y;
+            loop jerk@x + sensitivity@sensitivity_by_jerk = e@0 + eta@y + matrix@p_sensitivity;
+            point P = (x_by_jerk, matrix)@x;
+            output x_ratio_derivative = x * y;
+            derive velocity_ratio_derivatives, sensitivity, jerk;
+            drive Both by x, y;
+            drive Other by x, p_sensitivity;
+        }
+    }
+}
+
+#[test]
+fn greedy_names_of_higher_order() {
+    let orders = orders::Both::from([1.0, 2.5, 2.2, 0.8, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+    let guess = orders::OrdersCoordinates::<f64> { sensitivity_by_jerk: 0.8, p_sensitivity: 1.2, x: 1.1, y: 2.3 };
+    let q = orders.solve(&guess).unwrap().coordinates;
+    let pose = orders.pose_at(&q);
+    let sensitivity = orders.sensitivity(&pose).unwrap();
+    assert!(sensitivity.columns(5, 5).iter().all(|entry| *entry == 0.0), "{sensitivity}");
+    // P = (x_by_jerk, matrix)@x turns with an input: its derivative by `matrix` is the unit vector across.
+    let by_matrix = orders.point_sensitivities(&pose).unwrap().p.column(2).into_owned();
+    assert!((by_matrix[0] + q.x.sin()).abs() + (by_matrix[1] - q.x.cos()).abs() < 1e-15, "{by_matrix}");
+    let curved = orders.output_ratio_derivatives(&pose).unwrap().x_ratio_derivative;
+    assert_eq!(curved.as_slice(), [0.0, 1.0, 1.0, 0.0]);
+    // The other driver holds what the first one lets go.
+    let other = orders::Other::from(orders::Orders::from(<[f64; 10]>::from(orders)));
+    let pose = other.pose_at(&q);
+    assert!(other.velocity_ratio_derivatives(&pose).is_ok() && other.sensitivity(&pose).is_ok());
 }
 
 #[test]
@@ -163,5 +202,8 @@ fn greedy_names() {
     let motion = greedy.motion(&q, 1.0, 0.0).unwrap();
     assert_eq!(motion.points.factors.position.x, 2.0);
     assert_eq!(motion.outputs.factors_x.value, q.right);
+    let sensitivity = greedy.sensitivity(&pose).unwrap();
+    let by_ground = q.finite.cos() / (50.0 * (q.finite - q.right).sin());
+    assert!((sensitivity[(0, 0)] - by_ground).abs() < 1e-16, "{sensitivity} {by_ground}");
     assert!((motion.outputs.sin_right.value - 2.0 * q.right).abs() < 1e-15);
 }

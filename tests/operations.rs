@@ -4,8 +4,12 @@
 mod families;
 mod source;
 
+use linkage::linkage;
 use linkage_compiler::derivation::{Derivation, Form};
 use linkage_compiler::simplify::schedule::{Given, Operations, Stage, schedule};
+
+include!("mechanisms/five_bar.rs");
+include!("mechanisms/norton_four_bar.rs");
 
 fn derivation(file: &str) -> Derivation {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);
@@ -119,6 +123,44 @@ fn size(source: &str) -> [usize; 6] {
     let expansion = linkage_compiler::compile(&mechanism, &"::linkage".parse().unwrap());
     let Operations { functions, divisions, multiplications, additions } = expansion.operations;
     [expansion.nodes, functions, divisions, multiplications, additions, expansion.tokens.to_string().len()]
+}
+
+/// What one call of a function of a derivation costs.
+fn cost(derivation: &linkage::derivation::Derivation, function: &str) -> Operations {
+    let kernel = derivation.kernels.iter().find(|kernel| kernel.function == function).expect(function);
+    let linkage::derivation::Operations { functions, divisions, multiplications, additions } = kernel.operations;
+    Operations { functions, divisions, multiplications, additions }
+}
+
+/// At given directions, each alone. By hand a link takes of the jerk 10 multiplications: x and y, the square and
+/// the cube of its rate, 3 theta' theta'', and two for each row.
+#[test]
+fn higher_orders() {
+    let limits = [
+        (NortonFourBar::DERIVATION, "jerk", 39, 14),
+        (NortonFourBar::DERIVATION, "velocity_ratio_derivatives", 25, 8),
+        (NortonFourBar::DERIVATION, "sensitivity", 15, 3),
+        (FiveBar::DERIVATION, "velocity_ratio_derivatives", 57, 20),
+    ];
+    for (derivation, function, multiplications, additions) in limits {
+        let found = cost(derivation, function);
+        println!("{function} {found:?}");
+        let limit = Operations { functions: 0, divisions: 1, multiplications, additions };
+        assert!(found.within(limit), "{function} {found:?}");
+    }
+}
+
+/// Jerk and second derivatives of a chain are linear in its length; du/dp has an entry for every parameter of
+/// each block before.
+#[test]
+fn higher_orders_of_a_chain() {
+    let asking = |words: &str, loops| size(&families::chain(loops).replacen('{', &format!("{{ derive {words};"), 1));
+    for (words, most) in [("jerk, velocity_ratio_derivatives", 2.1), ("sensitivity", 4.1)] {
+        for (whole, half) in asking(words, 16).into_iter().zip(asking(words, 8)) {
+            let ratio = whole as f64 / half as f64;
+            assert!((1.9..=most).contains(&ratio), "{words}: {half} became {whole}");
+        }
+    }
 }
 
 /// Solved as one block, a chain's Jacobian would cost the square of its length.

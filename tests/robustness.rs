@@ -1,5 +1,7 @@
 //! The macro never panics, never hangs and never floods: broken, huge and deep inputs.
 
+#[path = "source/families.rs"]
+mod families;
 #[path = "source/hopeless.rs"]
 mod hopeless;
 mod source;
@@ -42,7 +44,7 @@ fn with_output(expression: &str) -> String {
 #[test]
 fn no_token_missing_or_doubled_makes_it_panic() {
     let root: TokenStream = "::linkage".parse().unwrap();
-    for file in ["four_bar", "slider_crank", "geared_five_bar", "cam_rocker"] {
+    for file in ["four_bar", "slider_crank", "geared_five_bar", "norton_four_bar", "cam_rocker"] {
         let tokens: Vec<TokenTree> = source::tokens_of(file).into_iter().collect();
         let Some(TokenTree::Group(body)) = tokens.last() else { panic!("{file} ends in its braces") };
         let inside: Vec<TokenTree> = body.stream().into_iter().collect();
@@ -89,6 +91,24 @@ fn deep_names_need_no_deep_stack() {
         let found = thread.spawn(move || expansion_messages(&source)).unwrap().join().unwrap();
         assert_eq!(found.len(), usize::from(!message.is_empty()), "{found:?}");
         assert!(found.iter().all(|found| found.starts_with(message)), "{found:?}");
+    }
+}
+
+/// Third derivatives and a full du/dp are refused as well before anybody waits for them.
+#[test]
+fn higher_orders_of_hopeless_inputs() {
+    let asking = |source: String| source.replacen('{', "{ derive jerk, velocity_ratio_derivatives, sensitivity;", 1);
+    for (source, refused) in [
+        (hopeless::nested(20), false),
+        (hopeless::nested(3000), true),
+        (hopeless::wide(300), false),
+        (families::chain(8), false),
+        (families::dense(3), false),
+        (families::chain(64), true),
+    ] {
+        let found = expansion_messages(&asking(source));
+        assert_eq!(found.len(), usize::from(refused), "{found:?}");
+        assert!(found.iter().all(|found| found.contains("the derivatives of `")), "{found:?}");
     }
 }
 

@@ -12,6 +12,7 @@ mod cam_laws;
 include!("mechanisms/cam_follower.rs");
 include!("mechanisms/cam_rocker.rs");
 include!("mechanisms/four_bar.rs");
+include!("mechanisms/norton_four_bar.rs");
 
 const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 4 3\"><script>alert(1)</script>\
                    <path d=\"M0 0L3 2\" stroke=\"#b00\"/></svg>";
@@ -89,11 +90,14 @@ fn numbers_stand_beside_formulas() {
 
 #[test]
 fn equations_are_numbered_as_in_the_text() {
-    let (html, text) = (sheet(), FourBar::DERIVATION.to_string());
-    let last = text.matches("\n  (").count();
-    assert!(
-        html.contains(&format!("id=\"equation-{last}\"")) && !html.contains(&format!("id=\"equation-{}\"", last + 1))
-    );
+    let html = sheet();
+    let orders = Sheet::new(NortonFourBar::DERIVATION).to_html();
+    assert_balanced(&orders);
+    for (html, derivation) in [(&html, FourBar::DERIVATION), (&orders, NortonFourBar::DERIVATION)] {
+        let last = derivation.to_string().matches("\n  (").count();
+        assert!(html.contains(&format!("id=\"equation-{last}\"")));
+        assert!(!html.contains(&format!("id=\"equation-{}\"", last + 1)));
+    }
     assert!(html.contains("href=\"#equation-2\""));
 }
 

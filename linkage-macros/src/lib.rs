@@ -60,6 +60,7 @@ use proc_macro::TokenStream;
 /// | `output NAME = SCALAR;` | any scalar quantity of interest |
 /// | `extern fn PATH(x, p) -> (f, df, ddf);` | a function of your own with its derivatives, see below |
 /// | `coordinate q;` and `drive NAME by q;` | the same mechanism with a choice of input, see below |
+/// | `derive jerk, sensitivity;` | higher orders and sensitivities, see below |
 ///
 /// Fields are snake case: the point `G3` is the field `g3`.
 ///
@@ -187,6 +188,45 @@ use proc_macro::TokenStream;
 /// assert!(engine.velocity_ratios(&engine.pose_at(&dead_centre)).is_err());
 /// ```
 ///
+/// # Higher orders and sensitivities
+///
+/// What not every mechanism needs is derived where a `derive` statement names it, for every driver, with the
+/// same formulas of the blocks or the same factorisation as velocity:
+///
+/// | word | functions |
+/// |---|---|
+/// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), of any number of inputs and along any input path; `point_jerks`, `output_jerks` |
+/// | `velocity_ratio_derivatives` | the function of this name: d2u/dv dv, of each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
+/// | `sensitivity` | the function of this name: du/dp = -J^-1 `Psi_p` at fixed inputs, one column a parameter; `point_sensitivities`, `output_sensitivities`, which hold what depends on the parameters directly, too |
+///
+/// ```
+/// linkage::linkage! {
+///     /// A piston: what a tolerance of its rod does to it, and how smoothly it moves.
+///     pub mechanism Piston {
+///         param r = 1, l = 3;
+///         input phi;
+///         unknown psi, x;
+///         loop r@phi + l@psi = (x, 0);
+///         output stroke = x - l;
+///         derive jerk, velocity_ratio_derivatives, sensitivity;
+///     }
+/// }
+/// let piston = Piston::default();
+/// let q = piston.solve(&PistonCoordinates { phi: 0.0, psi: 0.1, x: 3.9 })?.coordinates;
+/// let pose = piston.pose_at(&q);
+/// // At the dead centre: x = 4, dx/dr = dx/dl = 1, and the output less its l does not depend on the rod.
+/// assert_eq!(piston.sensitivity(&pose)?.row(1).iter().copied().collect::<Vec<f64>>(), [1.0, 1.0]);
+/// assert_eq!(piston.output_sensitivities(&pose)?.stroke[1], 0.0);
+/// // d2x/dphi2 = -r (1 + r/l).
+/// let [_, x] = piston.velocity_ratio_derivatives(&pose)?;
+/// assert!((x[(0, 0)] + 4.0 / 3.0).abs() < 1e-14);
+/// // x is even in phi, so that at constant speed there is no jerk here.
+/// let velocity = piston.velocity(&pose, 1.0)?;
+/// let acceleration = piston.acceleration(&pose, &velocity, 0.0)?;
+/// assert!(piston.jerk(&pose, &velocity, &acceleration, 0.0)?.x.abs() < 1e-14);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
 /// # What is emitted for `mechanism FourBar`
 ///
 /// q are all coordinates, v the inputs, u the unknowns, Psi(q) = 0 the closures, J = `Psi_u`,
@@ -212,6 +252,7 @@ use proc_macro::TokenStream;
 /// | `branches(v)` | every position that exists at these inputs, each with its branch |
 /// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
 /// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once |
+/// | `jerk`, `velocity_ratio_derivatives`, `sensitivity` and the like of points and outputs | where a `derive` statement asks for them |
 /// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` makes a document of it |
 ///
 /// `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates nothing, cannot panic and
@@ -233,9 +274,10 @@ use proc_macro::TokenStream;
 /// unknowns that do not match, closures in which nothing unknown appears, unknowns that compete for too
 /// few closures, closures that are singular at every position, vectors where scalars belong and scalars
 /// where vectors belong, a name used as an angle and as a modulus, a function of your own that gives too few
-/// derivatives, division by zero, constants that are not finite, and what is too large: parentheses nested
-/// deeper than 64 levels, more than 100 000 words and signs, more than 10 000 expressions, or 16 000 with their
-/// derivatives (a chain of four-bars takes 70 a loop).
+/// derivatives, `derive` of what is unknown or named already, division by zero, constants that are not finite,
+/// and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words and signs, more than
+/// 10 000 expressions, or 16 000 with their derivatives, each entry of a `sensitivity` being one (a chain of
+/// four-bars takes 70 a loop).
 ///
 /// ```compile_fail
 /// linkage::linkage! {

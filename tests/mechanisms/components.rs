@@ -11,5 +11,7 @@ linkage! {
 
         point C = (l1, 0) - l4@theta4;
         output mu = theta3 - theta4;
+
+        derive jerk, velocity_ratio_derivatives, sensitivity;
     }
 }

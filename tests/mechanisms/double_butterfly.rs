@@ -32,5 +32,7 @@ linkage! {
         point I = d + (ix, iy)@lower;
         point J = b + (jx, jy)@rocker;
         output swing = rocker;
+
+        derive jerk, velocity_ratio_derivatives, sensitivity;
     }
 }

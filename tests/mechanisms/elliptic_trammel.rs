@@ -17,5 +17,7 @@ linkage! {
         point B = (0, y);
         point Pen = A + reach@theta;
         output radius = norm(Pen);
+
+        derive jerk, velocity_ratio_derivatives, sensitivity;
     }
 }

@@ -11,5 +11,7 @@ linkage! {
         point P = a@theta1 + b@theta2;
         point Pen = P + (0.3, -0.2)@theta2;
         output reach = norm(P);
+
+        derive jerk, velocity_ratio_derivatives, sensitivity;
     }
 }

@@ -24,5 +24,7 @@ linkage! {
         point Ankle = Knee + g@angle_g;
         point Foot = Knee + i@angle_i;
         output bend = angle_h - angle_d;
+
+        derive jerk, velocity_ratio_derivatives, sensitivity;
     }
 }

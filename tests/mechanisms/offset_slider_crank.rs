@@ -16,5 +16,7 @@ linkage! {
         point B = (d, c);
         /// Angle between rod and slideway.
         output mu = 180deg - theta3;
+
+        derive jerk, velocity_ratio_derivatives, sensitivity;
     }
 }

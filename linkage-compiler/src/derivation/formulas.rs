@@ -15,21 +15,37 @@ pub type Inverse = (NodeId, Vec<Row>);
 pub struct Formulas {
     /// W, by input and unknown; none where a block is solved by factorisation.
     pub ratios: Vec<Vec<Option<NodeId>>>,
+    /// L, by pair of inputs and unknown; like what follows empty unless asked for.
+    pub ratio_derivatives: Vec<Vec<Option<NodeId>>>,
+    /// du/dp, by parameter and unknown.
+    pub sensitivities: Vec<Vec<Option<NodeId>>>,
     /// det J.
     pub determinant: Option<NodeId>,
     /// By block.
     pub inverses: Vec<Option<Inverse>>,
-    /// W_l, by quantity, input and component.
-    pub points: Vec<Vec<Vec<NodeId>>>,
-    pub outputs: Vec<Vec<Vec<NodeId>>>,
+    pub points: Vec<QuantityFormulas>,
+    pub outputs: Vec<QuantityFormulas>,
     /// What the formulas take for granted.
     pub conditions: BTreeSet<Condition>,
+}
+
+/// The derivatives of a point or output, each by component, in terms of W, L and du/dp.
+#[derive(Debug, Clone)]
+pub struct QuantityFormulas {
+    /// W_l by input.
+    pub ratios: Vec<Vec<NodeId>>,
+    /// L_l by pair of inputs.
+    pub ratio_derivatives: Vec<Vec<NodeId>>,
+    /// dl/dp by parameter.
+    pub sensitivities: Vec<Vec<NodeId>>,
 }
 
 impl Formulas {
     /// Derives them from a derivation.
     pub fn new(derivation: &mut Derivation) -> Self {
         let ratios = derivation.ratio_formulas();
+        let (ratio_derivatives, second) = derivation.ratio_derivative_formulas();
+        let (sensitivities, by_parameters) = derivation.sensitivity_formulas();
         let determinant = derivation.determinant();
         let mut inverses = Vec::new();
         for block in derivation.blocks.clone() {
@@ -46,22 +62,23 @@ impl Formulas {
             });
         }
         let (points, outputs) = (derivation.points.clone(), derivation.outputs.clone());
-        let points = quantity_ratios(derivation, &points);
-        let outputs = quantity_ratios(derivation, &outputs);
+        let mut of = |quantity: Quantity| QuantityFormulas {
+            ratios: quantity_ratios(derivation, &quantity),
+            ratio_derivatives: derivation.quantity_ratio_derivatives(&quantity, &second),
+            sensitivities: derivation.quantity_sensitivities(&quantity, &by_parameters),
+        };
+        let points = points.into_iter().map(&mut of).collect();
+        let outputs = outputs.into_iter().map(of).collect();
         let conditions = derivation.graph.take_conditions();
-        Self { ratios, determinant, inverses, points, outputs, conditions }
+        Self { ratios, ratio_derivatives, sensitivities, determinant, inverses, points, outputs, conditions }
     }
 }
 
-/// W_l by quantity, input and component.
-fn quantity_ratios(derivation: &mut Derivation, quantities: &[Quantity]) -> Vec<Vec<Vec<NodeId>>> {
+/// W_l by input and component.
+fn quantity_ratios(derivation: &mut Derivation, quantity: &Quantity) -> Vec<Vec<NodeId>> {
     let mut all = Vec::new();
-    for quantity in quantities {
-        let mut of_quantity = Vec::new();
-        for input in 0..derivation.inputs.len() {
-            of_quantity.push(quantity.jacobian.iter().map(|row| derivation.quantity_ratio(row, input)).collect());
-        }
-        all.push(of_quantity);
+    for input in 0..derivation.inputs.len() {
+        all.push(quantity.jacobian.iter().map(|row| derivation.quantity_ratio(row, input)).collect());
     }
     all
 }

@@ -8,32 +8,38 @@ mod assembly;
 mod check;
 mod formulas;
 mod iteration;
+mod jerk;
 mod linear;
 mod magnitude;
+mod ratio_derivatives;
 mod ratios;
+mod sensitivity;
 mod solution;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::model::{Driver, Mechanism};
+use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::{self, simplify};
 use crate::structure::{self, Group, Method};
 pub use assembly::{Assembly, Choice, Chord};
 pub use check::{LARGEST, check};
-pub use formulas::{Formulas, Inverse};
+pub use formulas::{Formulas, Inverse, QuantityFormulas};
 pub use linear::{Form, solve_closed};
+pub use ratio_derivatives::RatioDerivatives;
+pub use sensitivity::Sensitivity;
 
 /// The derivatives of one scalar by the coordinates, by their place in q; those not named are zero.
 pub type Row = BTreeMap<usize, NodeId>;
 
-/// A coordinate with the names of its velocity and acceleration.
+/// A coordinate with the names of its velocity, acceleration and jerk.
 #[derive(Debug, Clone)]
 pub struct Coordinate {
     pub name: String,
     pub value: SymbolId,
     pub rate: SymbolId,
     pub acceleration: SymbolId,
+    pub jerk: SymbolId,
 }
 
 /// A point or an output with all that is derived from it.
@@ -47,6 +53,12 @@ pub struct Quantity {
     pub rate: Vec<NodeId>,
     /// In terms of q, q' and q''.
     pub acceleration: Vec<NodeId>,
+    /// In terms of q to q'''; like the rest, empty unless asked for.
+    pub jerk: Vec<NodeId>,
+    /// (l_q w_j)_q w_k, by pair of inputs and component, in terms of q and W.
+    pub along_inputs: Vec<Vec<NodeId>>,
+    /// l_p, by the place of the parameter, one row a component.
+    pub by_parameters: Vec<Row>,
 }
 
 /// The determinant of a block in closed form.
@@ -95,6 +107,10 @@ pub struct Derivation {
     pub gamma: Vec<NodeId>,
     pub points: Vec<Quantity>,
     pub outputs: Vec<Quantity>,
+    /// What is left of Psi''' where no coordinate jerks; like what follows only if it is asked for.
+    pub eta: Option<Vec<NodeId>>,
+    pub ratio_derivatives: Option<RatioDerivatives>,
+    pub sensitivity: Option<Sensitivity>,
 }
 
 /// Derives a mechanism whose closures the structure stage found solvable in the order of `blocks`.
@@ -110,6 +126,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
                 value: mechanism.coordinates[index].symbol,
                 rate: graph.symbol(format!("{name}_rate")),
                 acceleration: graph.symbol(format!("{name}_acceleration")),
+                jerk: graph.symbol(format!("{name}_jerk")),
                 name,
             }
         })
@@ -147,7 +164,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
     let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates, &place_of);
     let points = mechanism.points.iter().map(|point| quantity(vec![point.x, point.y])).collect();
     let outputs = outputs.into_iter().map(|output| quantity(vec![output])).collect();
-    Derivation {
+    let mut derivation = Derivation {
         coordinates,
         unknowns,
         inputs,
@@ -160,8 +177,19 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
         gamma,
         points,
         outputs,
+        eta: None,
+        ratio_derivatives: None,
+        sensitivity: None,
         graph,
+    };
+    for request in &mechanism.requests {
+        match request {
+            Request::Jerk => derivation.derive_jerk(),
+            Request::VelocityRatioDerivatives => derivation.derive_ratio_derivatives(),
+            Request::Sensitivity => derivation.derive_sensitivity(mechanism),
+        }
     }
+    derivation
 }
 
 /// The angles whose sines and cosines some expressions take.
@@ -235,7 +263,15 @@ fn quantity(graph: &mut Graph, value: Vec<NodeId>, coordinates: &[Coordinate], p
         seeds.insert(coordinate.rate, graph.variable(coordinate.acceleration));
     }
     let acceleration = graph.differentiate(&rate, &seeds);
-    Quantity { value, jacobian, rate, acceleration }
+    Quantity {
+        value,
+        jacobian,
+        rate,
+        acceleration,
+        jerk: Vec::new(),
+        along_inputs: Vec::new(),
+        by_parameters: Vec::new(),
+    }
 }
 
 impl Block {
@@ -250,6 +286,19 @@ impl Block {
     pub fn names(&self, derivation: &Derivation) -> String {
         let name = |&place: &usize| derivation.coordinates[derivation.unknowns[place]].name.as_str();
         self.unknowns.iter().map(name).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl Quantity {
+    /// direct + l_u x of a component with these derivatives.
+    fn through_unknowns(graph: &mut Graph, direct: NodeId, row: &Row, unknowns: &[usize], x: &[NodeId]) -> NodeId {
+        let mut terms = vec![(Number::ONE, direct)];
+        for (unknown, &x) in unknowns.iter().zip(x) {
+            if let Some(&entry) = row.get(unknown) {
+                terms.push((Number::ONE, graph.multiply(entry, x)));
+            }
+        }
+        graph.sum(&terms)
     }
 }
 

@@ -34,18 +34,30 @@ impl Derivation {
 
     /// W by input and unknown, each simplified; none where a block is solved by factorisation.
     pub fn ratio_formulas(&mut self) -> Vec<Vec<Option<NodeId>>> {
-        (0..self.inputs.len()).map(|input| self.ratio_formulas_of(input)).collect()
+        let ratios = self.ratios.clone().into_iter().enumerate();
+        ratios
+            .map(|(input, names)| {
+                let side = self.ratio_side(input);
+                self.solution_formulas(&side, &names).0
+            })
+            .collect()
     }
 
-    fn ratio_formulas_of(&mut self, input: usize) -> Vec<Option<NodeId>> {
+    /// The x of J x = `side` by Cramer's rule, none where a block is solved by factorisation; and x as later
+    /// formulas refer to it, by its names or as zero.
+    pub(super) fn solution_formulas(
+        &mut self,
+        side: &[NodeId],
+        names: &[SymbolId],
+    ) -> (Vec<Option<NodeId>>, Vec<NodeId>) {
         let mut formulas = vec![None; self.unknowns.len()];
-        let side = self.ratio_side(input);
         let mut solved = Row::new();
         for block in self.blocks.clone() {
             let right: Vec<NodeId> =
                 block.equations.iter().map(|&equation| self.remainder(equation, side[equation], &solved)).collect();
             let matrix = self.block_matrix(&block);
             let solution: Vec<Option<NodeId>> = match (block.determinant, matrix.as_slice(), right.as_slice()) {
+                _ if right.iter().all(|&side| self.graph.is_zero(side)) => right.into_iter().map(Some).collect(),
                 (Some(determinant), [_], &[right]) => {
                     let right = factor(&mut self.graph, right);
                     vec![Some(self.graph.divide(right, determinant.value))]
@@ -58,11 +70,12 @@ impl Derivation {
             };
             for (&place, formula) in block.unknowns.iter().zip(solution) {
                 let still = formula.is_some_and(|formula| self.graph.is_zero(formula));
-                let name = self.graph.variable(self.ratios[input][place]);
+                let name = self.graph.variable(names[place]);
                 solved.insert(self.unknowns[place], if still { self.graph.zero() } else { name });
                 formulas[place] = formula;
             }
         }
-        formulas
+        let values = self.unknowns.iter().map(|unknown| solved[unknown]).collect();
+        (formulas, values)
     }
 }

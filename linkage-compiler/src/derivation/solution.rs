@@ -10,6 +10,11 @@ impl Derivation {
     ///
     /// A later system may refer to the solution of an earlier one: within a block they stand in order.
     pub fn solution(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> Vec<Stage> {
+        self.solve(systems, form).0
+    }
+
+    /// The same stages, and each solution by unknown: its names, or zero where nothing moves.
+    pub fn solve(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> (Vec<Stage>, Vec<Vec<NodeId>>) {
         let mut stages = Vec::new();
         let mut solved: Vec<Row> = vec![Row::new(); systems.len()];
         for number in 0..self.blocks.len() {
@@ -21,24 +26,28 @@ impl Derivation {
                     block.equations.iter().map(|&equation| self.remainder(equation, right[equation], solved)).collect();
                 let targets: Vec<SymbolId> = block.unknowns.iter().map(|&place| targets[place]).collect();
                 let mut solution = targets.iter().map(|&symbol| self.graph.variable(symbol)).collect::<Vec<_>>();
-                match divisor {
-                    Some(divisor) => {
-                        let formulas = solve_closed(&mut self.graph, &matrix, divisor, &right, form);
-                        for ((&symbol, node), name) in targets.iter().zip(formulas).zip(&mut solution) {
-                            stages.push(Stage::Let { symbol, node });
-                            // What does not move needs no name in what follows.
-                            if self.graph.is_zero(node) {
-                                *name = node;
-                            }
-                        }
+                let formulas = match divisor {
+                    _ if right.iter().all(|&side| self.graph.is_zero(side)) => right,
+                    Some(divisor) => solve_closed(&mut self.graph, &matrix, divisor, &right, form),
+                    None => {
+                        stages.push(Stage::Solve { block: number, targets: targets.clone(), right });
+                        Vec::new()
                     }
-                    None => stages.push(Stage::Solve { block: number, targets, right }),
+                };
+                for ((symbol, node), name) in targets.into_iter().zip(formulas).zip(&mut solution) {
+                    stages.push(Stage::Let { symbol, node });
+                    // What does not move needs no name in what follows.
+                    if self.graph.is_zero(node) {
+                        *name = node;
+                    }
                 }
                 let places = block.unknowns.iter().map(|&place| self.unknowns[place]);
                 solved.extend(places.zip(solution));
             }
         }
-        stages
+        let columns = &self.unknowns;
+        let values = solved.iter().map(|solved| columns.iter().map(|column| solved[column]).collect());
+        (stages, values.collect())
     }
 
     /// The verdict on a block, and what its closed form divides by.

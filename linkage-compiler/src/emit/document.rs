@@ -7,7 +7,7 @@ use quote::quote;
 use rustc_hash::FxHashMap;
 
 use super::names::quoted;
-use crate::derivation::{Derivation, Formulas, Inverse, Quantity, Row};
+use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row};
 use crate::graph::{Condition, Formula, Name, NodeId, Printer, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::schedule::Operations;
@@ -27,8 +27,9 @@ pub(super) fn constant(
     let names = names(mechanism, derivation, &inputs, &unknowns);
     let graph = &derivation.graph;
     let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
-    let mut document =
-        Document { printer: Printer::new(graph, &shown), inputs: inputs.clone(), unknowns: unknowns.clone() };
+    let parameters = mechanism.parameters.iter().map(|parameter| parameter.name.text.as_str()).collect();
+    let printer = Printer::new(graph, &shown);
+    let mut document = Document { printer, parameters, inputs: inputs.clone(), unknowns: unknowns.clone() };
 
     let title = driver.name.to_string();
     let residual = document.numbered("Psi", &derivation.residual);
@@ -40,10 +41,19 @@ pub(super) fn constant(
         document.optional(formulas.determinant, |document, node| document.equation(Name::Determinant(None), node));
     let ratios = document.ratios(&formulas.ratios);
     let gamma = document.numbered("gamma", &derivation.gamma);
+    let jerk = document.optional(derivation.eta.as_ref(), |document, eta| list(document.numbered("eta", eta)));
+    let ratio_derivatives = document.optional(derivation.ratio_derivatives.as_ref(), |document, second| {
+        list(document.ratio_derivatives(&second.pairs, &formulas.ratio_derivatives))
+    });
+    let sensitivity = document.optional(derivation.sensitivity.as_ref(), |document, first| {
+        let jacobian = document.matrix(Name::Plain("Psi_p"), None, &first.jacobian, document.parameters.len());
+        let equations = list(document.sensitivities(derivation, &formulas.sensitivities));
+        format!("derivation::Sensitivity {{ jacobian: {jacobian}, formulas: {equations} }}")
+    });
     let points: Vec<&str> = mechanism.points.iter().map(|point| point.name.text.as_str()).collect();
-    let points = document.quantities(&points, &["x_", "y_"], &derivation.points, &formulas.points);
+    let points = document.quantities(&points, &["x_", "y_"], derivation, &derivation.points, &formulas.points);
     let outputs: Vec<&str> = mechanism.outputs.iter().map(|output| output.name.text.as_str()).collect();
-    let outputs = document.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs);
+    let outputs = document.quantities(&outputs, &[""], derivation, &derivation.outputs, &formulas.outputs);
     let conditions = document.conditions(&formulas.conditions);
     let kernels = kernels.iter().map(|(function, operations)| {
         let Operations { functions, divisions, multiplications, additions } = *operations;
@@ -60,7 +70,10 @@ pub(super) fn constant(
         ("blocks", list(blocks)),
         ("determinant", determinant),
         ("ratios", list(ratios)),
+        ("ratio_derivatives", ratio_derivatives),
         ("gamma", list(gamma)),
+        ("jerk", jerk),
+        ("sensitivity", sensitivity),
         ("points", list(points)),
         ("outputs", list(outputs)),
         ("conditions", list(conditions)),
@@ -71,9 +84,11 @@ pub(super) fn constant(
     let text = format!("&derivation::Derivation {{ mechanism: {title:?}, {} }}", fields.join(", "));
     let value: TokenStream = text.parse().unwrap_or_default();
     let driver = &driver.name;
+    // J stands without a factor before it; a determinant may have no formula.
+    let options = if text.contains("Some(") { quote!({None, Some}) } else { quote!(None) };
     quote! {
         const _: () = {
-            use ::core::option::Option::{None, Some};
+            use ::core::option::Option::#options;
             use #private::derivation::{self, entry, equation, formula, kernel, symbol};
             impl #driver {
                 /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution
@@ -111,6 +126,16 @@ fn names<'a>(
     for (ratios, &by) in derivation.ratios.iter().zip(inputs) {
         names.extend(ratios.iter().zip(unknowns).map(|(&ratio, &of)| (ratio, Name::Ratio { of, by })));
     }
+    if let Some(RatioDerivatives { pairs, names: second, .. }) = &derivation.ratio_derivatives {
+        for (of_pair, &(j, k)) in second.iter().zip(pairs) {
+            let by = [inputs[j], inputs[k]];
+            names.extend(of_pair.iter().zip(unknowns).map(|(&name, &of)| (name, Name::RatioDerivative { of, by })));
+        }
+    }
+    for (first, parameter) in derivation.sensitivity.iter().flat_map(|first| &first.names).zip(&mechanism.parameters) {
+        let by = parameter.name.text.as_str();
+        names.extend(first.iter().zip(unknowns).map(|(&name, &of)| (name, Name::Ratio { of, by })));
+    }
     names
 }
 
@@ -126,6 +151,7 @@ fn named(name: &str) -> String {
 /// Writes formulas.
 struct Document<'a> {
     printer: Printer<'a>,
+    parameters: Vec<&'a str>,
     inputs: Vec<&'a str>,
     unknowns: Vec<&'a str>,
 }
@@ -195,30 +221,75 @@ impl Document<'_> {
         ratios
     }
 
+    fn ratio_derivatives(&mut self, pairs: &[(usize, usize)], formulas: &[Vec<Option<NodeId>>]) -> Vec<String> {
+        let unknowns = self.unknowns.clone();
+        let mut derivatives = Vec::new();
+        for (&(j, k), of_pair) in pairs.iter().zip(formulas) {
+            let by = [self.inputs[j], self.inputs[k]];
+            for (&of, node) in unknowns.iter().zip(of_pair) {
+                derivatives.extend(node.map(|node| self.equation(Name::RatioDerivative { of, by }, node)));
+            }
+        }
+        derivatives
+    }
+
+    /// Those that are not zero.
+    fn sensitivities(&mut self, derivation: &Derivation, formulas: &[Vec<Option<NodeId>>]) -> Vec<String> {
+        let (parameters, unknowns) = (self.parameters.clone(), self.unknowns.clone());
+        let mut sensitivities = Vec::new();
+        for (by, of_parameter) in parameters.into_iter().zip(formulas) {
+            for (&of, node) in unknowns.iter().zip(of_parameter) {
+                let node = node.filter(|&node| !derivation.graph.is_zero(node));
+                sensitivities.extend(node.map(|node| self.equation(Name::Ratio { of, by }, node)));
+            }
+        }
+        sensitivities
+    }
+
     /// Points and outputs, each component called by its prefix and the name.
     fn quantities(
         &mut self,
         names: &[&str],
         prefixes: &[&str],
+        derivation: &Derivation,
         quantities: &[Quantity],
-        ratios: &[Vec<Vec<NodeId>>],
+        formulas: &[QuantityFormulas],
     ) -> Vec<String> {
         let inputs = self.inputs.clone();
         let mut all = Vec::new();
-        for ((name, quantity), ratios) in names.iter().zip(quantities).zip(ratios) {
+        for ((name, quantity), formulas) in names.iter().zip(quantities).zip(formulas) {
             let components: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{name}")).collect();
             let mut values = Vec::new();
             for (component, &node) in components.iter().zip(&quantity.value) {
                 values.push(self.equation(Name::Plain(component), node));
             }
             let mut rates = Vec::new();
-            for (by, of_input) in inputs.iter().zip(ratios) {
+            for (by, of_input) in inputs.iter().zip(&formulas.ratios) {
                 for (of, &node) in components.iter().zip(of_input) {
                     rates.push(self.equation(Name::Ratio { of, by }, node));
                 }
             }
-            let (values, rates) = (list(values), list(rates));
-            all.push(format!("derivation::Quantity {{ name: {name:?}, value: {values}, ratios: {rates} }}"));
+            let mut second = Vec::new();
+            let pairs = derivation.ratio_derivatives.iter().flat_map(|second| &second.pairs);
+            for (&(j, k), of_pair) in pairs.zip(&formulas.ratio_derivatives) {
+                let by = [inputs[j], inputs[k]];
+                for (of, &node) in components.iter().zip(of_pair) {
+                    second.push(self.equation(Name::RatioDerivative { of, by }, node));
+                }
+            }
+            let mut sensitivities = Vec::new();
+            for (by, of_parameter) in self.parameters.clone().into_iter().zip(&formulas.sensitivities) {
+                for (of, &node) in components.iter().zip(of_parameter) {
+                    if !derivation.graph.is_zero(node) {
+                        sensitivities.push(self.equation(Name::Ratio { of, by }, node));
+                    }
+                }
+            }
+            let [values, rates, second, sensitivities] = [values, rates, second, sensitivities].map(list);
+            all.push(format!(
+                "derivation::Quantity {{ name: {name:?}, value: {values}, ratios: {rates}, \
+                 ratio_derivatives: {second}, sensitivities: {sensitivities} }}"
+            ));
         }
         all
     }

@@ -257,7 +257,10 @@ fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut 
             let ident = ident(&factors);
             names.factors.insert(*block, factors);
             let group = derivation.blocks[*block].names(derivation);
-            body.extend(quote!(let #ident = Factorization::new(Self::NAME, #group, [#(#columns),*], [#(#sizes),*])?;));
+            // Where nothing is solved for, the verdict is still wanted.
+            let solves = |line: &Line| matches!(line, Line::Solve { block: other, .. } if other == block);
+            let named = schedule.lines.iter().any(solves).then(|| quote!(let #ident =));
+            body.extend(quote!(#named Factorization::new(Self::NAME, #group, [#(#columns),*], [#(#sizes),*])?;));
         }
         Line::Solve { block, targets, right } => {
             let right: Vec<_> = right.iter().map(|value| signed(names, schedule, *value)).collect();

@@ -102,12 +102,18 @@ fn formulas(derivation: &Derivation) -> Vec<NodeId> {
     formulas.extend(&derivation.sizes);
     formulas.extend(derivation.jacobian.iter().flat_map(Row::values));
     formulas.extend(&derivation.gamma);
+    formulas.extend(derivation.eta.iter().flatten());
+    formulas.extend(derivation.ratio_derivatives.iter().flat_map(|second| second.terms.iter().flatten()));
+    formulas.extend(derivation.sensitivity.iter().flat_map(|first| first.jacobian.iter().flat_map(Row::values)));
     formulas.extend(derivation.blocks.iter().filter_map(|block| Some(block.determinant?.size)));
     for quantity in derivation.points.iter().chain(&derivation.outputs) {
         formulas.extend(&quantity.value);
         formulas.extend(quantity.jacobian.iter().flat_map(Row::values));
         formulas.extend(&quantity.rate);
         formulas.extend(&quantity.acceleration);
+        formulas.extend(&quantity.jerk);
+        formulas.extend(quantity.along_inputs.iter().flatten());
+        formulas.extend(quantity.by_parameters.iter().flat_map(Row::values));
     }
     formulas
 }

@@ -213,7 +213,10 @@ fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &Token
         let of = if derivation.blocks.len() == 1 {
             "det J".to_owned()
         } else {
-            format!("The determinant of the block of {},", derivation.blocks[*block].names(derivation))
+            format!(
+                "The determinant of the block of `{}`,",
+                derivation.blocks[*block].names(derivation).replace(", ", "`, `")
+            )
         };
         let text = format!(" {of} = `{}`, from the angles themselves.", derivation.graph.text(determinant.value));
         let ident = ident(name);

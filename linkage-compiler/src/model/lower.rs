@@ -1,5 +1,7 @@
 //! Statements: names first, then what they say, then the checks on the whole.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::Ident;
 use quote::ToTokens;
 use syn::spanned::Spanned;
@@ -9,7 +11,7 @@ use super::expression::Lowering;
 use super::kind::Kind;
 use super::name::Name;
 use super::scope::{Scope, Value};
-use super::{Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check};
+use super::{Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check, request};
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::syntax::{self, ExpressionId, StatementKind};
@@ -43,11 +45,13 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         outputs: Vec::new(),
         externals: Vec::new(),
         named: Vec::new(),
+        requests: BTreeSet::new(),
     };
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
     lowering.define(&statements, &mut result);
     lowering.drivers(&statements, &mut result, roles);
+    result.requests = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
     let Lowering { graph, scope, kinds, supposed, externals, diagnostics, .. } = lowering;
     result.graph = graph;
     result.externals = externals;
@@ -223,7 +227,8 @@ impl Lowering<'_> {
                 | StatementKind::Unknowns(_)
                 | StatementKind::Coordinates(_)
                 | StatementKind::External { .. }
-                | StatementKind::Drive { .. } => {}
+                | StatementKind::Drive { .. }
+                | StatementKind::Derive(_) => {}
             }
         }
     }

@@ -6,9 +6,10 @@ mod expression;
 mod kind;
 mod lower;
 mod name;
+mod request;
 mod scope;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Visibility};
@@ -18,6 +19,7 @@ use crate::graph::{ExternalId, Graph, NodeId, SymbolId};
 use crate::syntax;
 pub use kind::Kind;
 pub use name::Name;
+pub use request::Request;
 
 /// A mechanism as meant.
 pub struct Mechanism {
@@ -34,6 +36,8 @@ pub struct Mechanism {
     pub externals: Vec<ExternalFunction>,
     /// Expressions that the user named with `let`.
     pub named: Vec<(NodeId, String)>,
+    /// What is derived beyond what every mechanism has.
+    pub requests: BTreeSet<Request>,
 }
 
 /// Geometric or physical data.

@@ -50,10 +50,23 @@ pub enum StatementKind {
         arguments: Vec<Ident>,
         names: Vec<Ident>,
     },
+    Derive(Vec<Ident>),
 }
 
-const KEYWORDS: [&str; 11] =
-    ["param", "input", "unknown", "coordinate", "drive", "loop", "equation", "let", "point", "output", "extern"];
+const KEYWORDS: [&str; 12] = [
+    "param",
+    "input",
+    "unknown",
+    "coordinate",
+    "drive",
+    "loop",
+    "equation",
+    "let",
+    "point",
+    "output",
+    "extern",
+    "derive",
+];
 
 /// Words of the language that this version does not understand yet.
 const RESERVED: [&str; 2] = ["body", "scene"];
@@ -147,6 +160,7 @@ fn kind(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<State
             }
         }
         "extern" => external(stream, keyword.span())?,
+        "derive" => StatementKind::Derive(names(stream)?),
         reserved if RESERVED.contains(&reserved) => {
             return Err(syn::Error::new(keyword.span(), format!("`{reserved}` is not understood by this version yet")));
         }

@@ -101,6 +101,20 @@ pub struct Quantity {
     pub value: &'static [Equation],
     /// The derivatives of its components with respect to the inputs.
     pub ratios: &'static [Equation],
+    /// The second derivatives of its components with respect to the inputs; like what follows empty unless
+    /// the mechanism asks for them.
+    pub ratio_derivatives: &'static [Equation],
+    /// The derivatives of its components with respect to the parameters, but for those that are zero.
+    pub sensitivities: &'static [Equation],
+}
+
+/// How the unknowns follow the parameters while the inputs are held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sensitivity {
+    /// ∂Ψ/∂p, the columns in the order of the parameters.
+    pub jacobian: Matrix,
+    /// ∂u/∂p where there is a formula, but for those that are zero.
+    pub formulas: &'static [Equation],
 }
 
 /// What a function computes, counted.
@@ -149,8 +163,15 @@ pub struct Derivation {
     pub determinant: Option<Equation>,
     /// The velocity ratios ∂u/∂v.
     pub ratios: &'static [Equation],
+    /// ∂²u/∂v∂v where there is a formula; none unless the mechanism asks for them.
+    pub ratio_derivatives: Option<&'static [Equation]>,
     /// γ: what is left of the second derivative of Ψ where no coordinate accelerates.
     pub gamma: &'static [Equation],
+    /// η: what is left of the third derivative of Ψ where no coordinate jerks; none unless the mechanism asks
+    /// for the jerk.
+    pub jerk: Option<&'static [Equation]>,
+    /// None unless the mechanism asks for it.
+    pub sensitivity: Option<Sensitivity>,
     /// Points and how they move.
     pub points: &'static [Quantity],
     /// Outputs and how they change.

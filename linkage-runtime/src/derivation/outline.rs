@@ -38,6 +38,29 @@ pub(crate) const VELOCITY: Formula = Formula {
     mathml: "<mrow><mover><mi>u</mi><mo>˙</mo></mover><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow>\
              <mo>∂</mo><mi>v</mi></mrow></mfrac><mover><mi>v</mi><mo>˙</mo></mover></mrow>",
 };
+/// J·∂²u/∂vⱼ∂vₖ = −γ(wⱼ, wₖ).
+pub(crate) const RATIO_DERIVATIVES: Formula = Formula {
+    text: "J·∂²u/∂vⱼ∂vₖ = −γ(wⱼ, wₖ)",
+    latex: "J \\frac{\\partial^2 u}{\\partial v_j \\partial v_k} = -\\gamma(w_j, w_k)",
+    mathml: "<mrow><mi>J</mi><mfrac><mrow><msup><mo>∂</mo><mn>2</mn></msup><mi>u</mi></mrow><mrow><mo>∂</mo><msub><mi>v\
+             </mi><mi>j</mi></msub><mo>∂</mo><msub><mi>v</mi><mi>k</mi></msub></mrow></mfrac><mo>=</mo><mrow><mo>−</mo>\
+             <mi>γ</mi><mo>(</mo><msub><mi>w</mi><mi>j</mi></msub><mo>,</mo><msub><mi>w</mi><mi>k</mi></msub><mo>)</mo>\
+             </mrow></mrow>",
+};
+/// J·u⃛ = −(A·v⃛ + η).
+pub(crate) const JERK: Formula = Formula {
+    text: "J·u⃛ = −(A·v⃛ + η)",
+    latex: "J \\dddot{u} = -(A \\dddot{v} + \\eta)",
+    mathml: "<mrow><mi>J</mi><mover><mi>u</mi><mo>⃛</mo></mover><mo>=</mo><mrow><mo>−</mo><mrow><mo>(</mo><mi>A</mi>\
+             <mover><mi>v</mi><mo>⃛</mo></mover><mo>+</mo><mi>η</mi><mo>)</mo></mrow></mrow></mrow>",
+};
+/// J·∂u/∂p = −Ψ_p.
+pub(crate) const SENSITIVITY: Formula = Formula {
+    text: "J·∂u/∂p = −Ψ_p",
+    latex: "J \\frac{\\partial u}{\\partial p} = -\\Psi_p",
+    mathml: "<mrow><mi>J</mi><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow><mo>∂</mo><mi>p</mi></mrow></mfrac>\
+             <mo>=</mo><mrow><mo>−</mo><msub><mi>Ψ</mi><mi>p</mi></msub></mrow></mrow>",
+};
 /// J·ü = −(A·v̈ + γ).
 pub(crate) const ACCELERATION: Formula = Formula {
     text: "J·ü = −(A·v̈ + γ)",
@@ -54,6 +77,9 @@ pub(crate) mod words {
     pub(crate) const STRUCTURE: &str = "Order of solution";
     pub(crate) const RATIOS: &str = "Velocity ratios";
     pub(crate) const ACCELERATION: &str = "Acceleration";
+    pub(crate) const RATIO_DERIVATIVES: &str = "Derivatives of the velocity ratios";
+    pub(crate) const JERK: &str = "Jerk";
+    pub(crate) const SENSITIVITY: &str = "Sensitivity";
     pub(crate) const POINTS: &str = "Points";
     pub(crate) const OUTPUTS: &str = "Outputs";
     pub(crate) const OPERATIONS: &str = "Operations";
@@ -71,6 +97,12 @@ pub(crate) mod words {
     pub(crate) const LEAD_VELOCITY: &str = "so that";
     pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the closure equations give";
     pub(crate) const LEAD_GAMMA: &str = "with the terms that remain where no coordinate accelerates:";
+    pub(crate) const LEAD_RATIO_DERIVATIVES: &str = "With w, the motion of all coordinates for a unit rate of one input, and γ as the bilinear form of two motions,";
+    pub(crate) const LEAD_JERK: &str = "Differentiated three times, the closure equations give";
+    pub(crate) const LEAD_ETA: &str = "with the terms that remain where no coordinate jerks:";
+    pub(crate) const LEAD_SENSITIVITY: &str = "With the inputs held, the unknowns follow the parameters p by";
+    pub(crate) const LEAD_PARAMETERS: &str =
+        "with the derivatives of the closure equations with respect to the parameters, where they are not zero:";
     pub(crate) const LEAD_CONDITIONS: &str = "The formulas take for granted that";
 }
 
@@ -151,6 +183,28 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     }
     equations(pen, &mut number, derivation.gamma)?;
 
+    if let Some(formulas) = derivation.ratio_derivatives {
+        pen.heading(words::RATIO_DERIVATIVES)?;
+        pen.lead(words::LEAD_RATIO_DERIVATIVES)?;
+        pen.display(&RATIO_DERIVATIVES)?;
+        equations(pen, &mut number, formulas)?;
+    }
+    if let Some(eta) = derivation.jerk {
+        pen.heading(words::JERK)?;
+        pen.lead(words::LEAD_JERK)?;
+        pen.display(&JERK)?;
+        pen.lead(words::LEAD_ETA)?;
+        equations(pen, &mut number, eta)?;
+    }
+    if let Some(sensitivity) = derivation.sensitivity {
+        pen.heading(words::SENSITIVITY)?;
+        pen.lead(words::LEAD_SENSITIVITY)?;
+        pen.display(&SENSITIVITY)?;
+        pen.lead(words::LEAD_PARAMETERS)?;
+        pen.matrix(&sensitivity.jacobian)?;
+        equations(pen, &mut number, sensitivity.formulas)?;
+    }
+
     quantities(pen, &mut number, words::POINTS, derivation.points)?;
     quantities(pen, &mut number, words::OUTPUTS, derivation.outputs)?;
     if !derivation.kernels.is_empty() {
@@ -183,6 +237,8 @@ fn quantities(pen: &mut dyn Pen, number: &mut usize, heading: &str, quantities: 
         pen.lead(quantity.name)?;
         equations(pen, number, quantity.value)?;
         equations(pen, number, quantity.ratios)?;
+        equations(pen, number, quantity.ratio_derivatives)?;
+        equations(pen, number, quantity.sensitivities)?;
     }
     Ok(())
 }

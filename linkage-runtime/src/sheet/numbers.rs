@@ -1,6 +1,6 @@
 //! Tables of numbers: how names and values are shown.
 
-use crate::derivation::{Derivation, Equation, Symbol};
+use crate::derivation::{Derivation, Equation, Quantity, Symbol};
 
 use super::html::escape;
 
@@ -30,7 +30,12 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
         .chain(derivation.residual)
         .chain(derivation.gamma)
         .chain(derivation.blocks.iter().filter_map(|block| block.determinant.as_ref()))
-        .chain(quantities.flat_map(|quantity| quantity.value.iter().chain(quantity.ratios)));
+        .chain(derivation.ratio_derivatives.into_iter().flatten())
+        .chain(derivation.sensitivity.iter().flat_map(|sensitivity| sensitivity.formulas))
+        .chain(quantities.flat_map(|quantity| {
+            let Quantity { value, ratios, ratio_derivatives, sensitivities, .. } = quantity;
+            value.iter().chain(*ratios).chain(*ratio_derivatives).chain(*sensitivities)
+        }));
     if let Some(Equation { left, .. }) = equations.find(|equation| equation.left.text == name) {
         return Some(left.mathml.to_owned());
     }

@@ -24,6 +24,7 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     page.structure(derivation);
     page.ratios(derivation);
     page.acceleration(derivation);
+    page.requests(derivation);
     page.quantities(words::POINTS, derivation.points);
     page.quantities(words::OUTPUTS, derivation.outputs);
     page.numbers(derivation, &sheet.tables);
@@ -172,6 +173,34 @@ impl Page {
         });
     }
 
+    /// What the mechanism asks for beyond acceleration.
+    fn requests(&mut self, derivation: &Derivation) {
+        if let Some(formulas) = derivation.ratio_derivatives {
+            self.section(words::RATIO_DERIVATIVES, |page| {
+                page.lead(words::LEAD_RATIO_DERIVATIVES);
+                page.law(&outline::RATIO_DERIVATIVES);
+                page.equations(formulas);
+            });
+        }
+        if let Some(eta) = derivation.jerk {
+            self.section(words::JERK, |page| {
+                page.lead(words::LEAD_JERK);
+                page.law(&outline::JERK);
+                page.lead(words::LEAD_ETA);
+                page.equations(eta);
+            });
+        }
+        if let Some(sensitivity) = derivation.sensitivity {
+            self.section(words::SENSITIVITY, |page| {
+                page.lead(words::LEAD_SENSITIVITY);
+                page.law(&outline::SENSITIVITY);
+                page.lead(words::LEAD_PARAMETERS);
+                page.matrix(&sensitivity.jacobian, None);
+                page.equations(sensitivity.formulas);
+            });
+        }
+    }
+
     fn quantities(&mut self, heading: &str, quantities: &[Quantity]) {
         if quantities.is_empty() {
             return;
@@ -181,6 +210,8 @@ impl Page {
                 page.push(&format!("<article>\n<h3><code>{}</code></h3>", escape(quantity.name)));
                 page.equations(quantity.value);
                 page.equations(quantity.ratios);
+                page.equations(quantity.ratio_derivatives);
+                page.equations(quantity.sensitivities);
                 page.push("</article>");
             }
         });

@@ -5,7 +5,7 @@ use quote::{TokenStreamExt, quote};
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use super::super::kernel::Operand;
-use super::super::names::ident;
+use super::super::names::{Taken, ident};
 use super::super::types::field;
 use super::{Body, Kernels, Methods, argument_of, columns_of, fenced, literal};
 use crate::derivation::{Derivation, Row};
@@ -28,11 +28,11 @@ impl Methods<'_> {
                 .flat_map(|c| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?))))
                 .collect();
             let nodes = entries.iter().map(|(_, _, node)| *node).collect();
-            let code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
+            let mut code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
             let values = entries.into_iter().zip(&code.results);
             let values = values.map(|((row, column, _), value)| (row, column, value.clone()));
-            let matrix = matrix_of(values, rows.len(), columns);
-            Body::new(code, matrix, [])
+            let (lines, matrix) = matrix_of(values, rows.len(), columns, &mut code.taken);
+            Body::new(code, quote!(#lines #matrix), [])
         });
         let pose = argument_of(&self.arguments.pose, code.as_ref());
         let signature = quote!(#[must_use] pub fn #function(&self, #pose: &#pose_type<T>) -> #of);
@@ -182,22 +182,33 @@ impl Methods<'_> {
 /// A matrix larger than this is written entry by entry if most entries are zero.
 const LARGEST_DENSE: usize = 16;
 
-/// A matrix from its entries, which come column by column; those not named are zero.
-fn matrix_of(entries: impl Iterator<Item = (usize, usize, Operand)>, rows: usize, columns: usize) -> TokenStream {
+/// A matrix from its entries, which come column by column, as an expression after the lines that it needs;
+/// those not named are zero.
+pub(super) fn matrix_of(
+    entries: impl Iterator<Item = (usize, usize, Operand)>,
+    rows: usize,
+    columns: usize,
+    taken: &mut Taken,
+) -> (TokenStream, TokenStream) {
     let entries: Vec<_> = entries.collect();
+    if entries.is_empty() && rows * columns > LARGEST_DENSE {
+        return (TokenStream::new(), quote!(SMatrix::zeros()));
+    }
     if rows * columns > LARGEST_DENSE && 2 * entries.len() < rows * columns {
+        let matrix = ident(&taken.unique("matrix"));
         let lines = entries.iter().map(|(row, column, value)| {
             let (row, column) = (literal(*row), literal(*column));
-            quote!(matrix[#column][#row] = #value;)
+            quote!(#matrix[#column][#row] = #value;)
         });
         let (rows, columns) = (literal(rows), literal(columns));
-        return quote!(let mut matrix = [[T::zero(); #rows]; #columns]; #(#lines)* SMatrix::from(matrix));
+        let lines = quote!(let mut #matrix = [[T::zero(); #rows]; #columns]; #(#lines)*);
+        return (lines, quote!(SMatrix::from(#matrix)));
     }
     let mut flat = vec![Operand::Constant(quote!(T::zero())); rows * columns];
     for (row, column, value) in entries {
         flat[column * rows + row] = value;
     }
-    columns_of(&flat, rows)
+    (TokenStream::new(), columns_of(&flat, rows))
 }
 
 /// What the user said of a closure, as a paragraph.

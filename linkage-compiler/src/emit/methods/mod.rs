@@ -5,9 +5,12 @@ mod assemble;
 mod block;
 mod closures;
 mod external;
+mod jerk;
 mod motion;
 mod position;
 mod quantities;
+mod ratio_derivatives;
+mod sensitivity;
 mod velocity;
 
 use std::cell::RefCell;
@@ -21,9 +24,9 @@ use super::names::{Taken, ident, string};
 use super::pose::PosePlan;
 use super::types::{self, field};
 use super::{Emitted, Types, document};
-use crate::derivation::{Choice, Derivation, Form, Formulas};
+use crate::derivation::{Choice, Derivation, Form, Formulas, QuantityFormulas};
 use crate::graph::{ExternalId, NodeId, SymbolId, Texts};
-use crate::model::{Driver, Mechanism};
+use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
 
 /// The name of an argument, beside which no name of the user's may stand.
@@ -44,6 +47,7 @@ struct Arguments {
     q: Ident,
     rate: Ident,
     acceleration: Ident,
+    jerk: Ident,
     right: Ident,
     branch: Ident,
     inputs: Ident,
@@ -84,6 +88,7 @@ pub(super) fn of_driver(
         q: name("q"),
         rate: name("rate"),
         acceleration: name("acceleration"),
+        jerk: name("jerk"),
         right: name("right"),
         branch: name("branch"),
         inputs: name("inputs"),
@@ -94,6 +99,7 @@ pub(super) fn of_driver(
         &arguments.q,
         &arguments.rate,
         &arguments.acceleration,
+        &arguments.jerk,
         &arguments.right,
         &arguments.branch,
         &arguments.inputs,
@@ -125,9 +131,19 @@ pub(super) fn of_driver(
     methods.closures(kernels.as_mut());
     methods.velocity(kernels.as_mut(), formulas.as_ref());
     methods.acceleration(kernels.as_mut());
+    let wanted = |request| mechanism.requests.contains(&request);
+    if wanted(Request::Jerk) {
+        methods.jerk(kernels.as_mut());
+    }
     methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Points);
     methods.quantities(kernels.as_mut(), formulas.as_ref(), Family::Outputs);
     methods.motion(kernels.as_mut());
+    if wanted(Request::VelocityRatioDerivatives) {
+        methods.ratio_derivatives(kernels.as_mut(), formulas.as_ref());
+    }
+    if wanted(Request::Sensitivity) {
+        methods.sensitivity(kernels.as_mut(), formulas.as_ref());
+    }
     let mut tokens = methods.block(kernels.as_ref(), private);
     tokens.extend(methods.calls(private));
     if let Some(sides) = &methods.branches {
@@ -152,6 +168,15 @@ struct Kernels<'a> {
 enum Family {
     Points,
     Outputs,
+}
+
+impl Formulas {
+    fn of(&self, family: Family) -> &[QuantityFormulas] {
+        match family {
+            Family::Points => &self.points,
+            Family::Outputs => &self.outputs,
+        }
+    }
 }
 
 impl<'a> Kernels<'a> {
@@ -195,6 +220,7 @@ impl Methods<'_> {
             name(&quantity.value, declared, "");
             name(&quantity.rate, declared, "_rate");
             name(&quantity.acceleration, declared, "_acceleration");
+            name(&quantity.jerk, declared, "_jerk");
         }
         for (quantity, declared) in derivation.outputs.iter().zip(self.mechanism.outputs.iter().map(|o| &o.name.field))
         {
@@ -384,11 +410,12 @@ fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
     lines.map(str::to_owned).to_vec()
 }
 
+/// A paragraph of formulas, if there are any.
 fn fenced(lines: impl Iterator<Item = String>) -> Vec<String> {
     let mut block = vec![String::new(), "```text".to_owned()];
     block.extend(lines);
     block.push("```".to_owned());
-    block
+    if block.len() > 3 { block } else { Vec::new() }
 }
 
 fn count(operations: Operations) -> String {

@@ -1,6 +1,6 @@
 //! Points and outputs: value, rate, acceleration and their own velocity ratios.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::kernel::{Operand, Shape, Source};
@@ -12,47 +12,90 @@ use super::{
 };
 use crate::derivation::{Formulas, Quantity};
 use crate::graph::NodeId;
+use crate::model::Request;
 use crate::simplify::schedule::Stage;
 
-impl Methods<'_> {
-    pub(super) fn quantities(&mut self, kernels: Option<&mut Kernels>, formulas: Option<&Formulas>, family: Family) {
-        let (names, group, word) = match family {
-            Family::Points => (
-                self.mechanism.points.iter().map(|p| field(&p.name)).collect::<Vec<_>>(),
-                self.types.points.clone(),
-                "point",
-            ),
-            Family::Outputs => {
-                (self.mechanism.outputs.iter().map(|o| field(&o.name)).collect(), self.types.outputs.clone(), "output")
-            }
-        };
-        if names.is_empty() {
-            return;
+/// The points or the outputs: what they are called and what holds them.
+pub(super) struct Members {
+    pub names: Vec<Ident>,
+    /// The type that holds one of each.
+    pub group: Ident,
+    /// "point" or "output".
+    pub word: &'static str,
+    /// 2 of a point, 1 of an output.
+    pub dimension: usize,
+    /// The type of one.
+    pub item: TokenStream,
+}
+
+impl Members {
+    /// The group from the components of all.
+    fn build(&self, results: &[Operand]) -> TokenStream {
+        let members = self.names.iter().zip(results.chunks(self.dimension)).map(|(name, parts)| match parts {
+            [only] => member(name, only),
+            parts => quote!(#name: Vector2::new(#(#parts),*)),
+        });
+        let group = &self.group;
+        quote!(#group { #(#members),* })
+    }
+
+    /// The endings of the names of the components.
+    pub(super) fn axes(&self) -> &'static [&'static str] {
+        if self.dimension == 2 { &["_x", "_y"] } else { &[""] }
+    }
+
+    /// `name_ending = formula` of each component, for the documentation.
+    pub(super) fn laws(&self, kernels: &Kernels, name: &Ident, ending: &str, nodes: &[NodeId]) -> Vec<String> {
+        let components = self.axes().iter().zip(nodes);
+        components.map(|(axis, &node)| format!("{name}{axis}_{ending} = {}", kernels.text(node))).collect()
+    }
+}
+
+impl Kernels<'_> {
+    pub(super) fn quantities(&self, family: Family) -> Vec<Quantity> {
+        match family {
+            Family::Points => self.derivation.points.clone(),
+            Family::Outputs => self.derivation.outputs.clone(),
         }
+    }
+}
+
+impl Methods<'_> {
+    /// None if nothing of this family is declared.
+    pub(super) fn members(&self, family: Family) -> Option<Members> {
+        let members = match family {
+            Family::Points => Members {
+                names: self.mechanism.points.iter().map(|p| field(&p.name)).collect(),
+                group: self.types.points.clone(),
+                word: "point",
+                dimension: 2,
+                item: quote!(Vector2<T>),
+            },
+            Family::Outputs => Members {
+                names: self.mechanism.outputs.iter().map(|o| field(&o.name)).collect(),
+                group: self.types.outputs.clone(),
+                word: "output",
+                dimension: 1,
+                item: quote!(T),
+            },
+        };
+        (!members.names.is_empty()).then_some(members)
+    }
+
+    pub(super) fn quantities(&mut self, kernels: Option<&mut Kernels>, formulas: Option<&Formulas>, family: Family) {
+        let Some(members) = self.members(family) else { return };
+        let Members { names, group, word, dimension, item } = &members;
+        let dimension = *dimension;
         let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
         let (rate, acceleration) = (self.arguments.rate.clone(), self.arguments.acceleration.clone());
+        let jerk = self.arguments.jerk.clone();
         let coordinates = self.types.coordinates.clone();
         let v = self.driver.inputs.len();
         let nv = literal(v);
-        let item = if family == Family::Points { quote!(Vector2<T>) } else { quote!(T) };
-        let quantities = |kernels: &Kernels| -> Vec<Quantity> {
-            match family {
-                Family::Points => kernels.derivation.points.clone(),
-                Family::Outputs => kernels.derivation.outputs.clone(),
-            }
-        };
-        let dimension = if family == Family::Points { 2 } else { 1 };
         let rows = literal(dimension);
-        let build = |results: &[Operand]| -> TokenStream {
-            let members = names.iter().zip(results.chunks(dimension)).map(|(name, parts)| match parts {
-                [only] => member(name, only),
-                parts => quote!(#name: Vector2::new(#(#parts),*)),
-            });
-            quote!(#group { #(#members),* })
-        };
         let what = if family == Family::Points { "positions of the points" } else { "values of the outputs" };
         type Part = fn(&Quantity) -> &Vec<NodeId>;
-        let kinds: [(String, String, usize, Part); 3] = [
+        let mut kinds: Vec<(String, String, usize, Part)> = vec![
             (format!("{word}s"), format!("The {what}."), 0, |quantity| &quantity.value),
             (format!("{word}_velocities"), format!("The rates of the {word}s at the velocity q'."), 1, |quantity| {
                 &quantity.rate
@@ -64,10 +107,15 @@ impl Methods<'_> {
                 |quantity| &quantity.acceleration,
             ),
         ];
+        if self.mechanism.requests.contains(&Request::Jerk) {
+            let meaning =
+                format!("The jerks of the {word}s at the velocity q', the acceleration q'' and the jerk q'''.");
+            kinds.push((format!("{word}_jerks"), meaning, 3, |quantity| &quantity.jerk));
+        }
         for (name, meaning, order, part) in kinds {
             let code = kernels.as_deref().map(|kernels| {
                 let nodes: Vec<NodeId> =
-                    quantities(kernels).iter().flat_map(|quantity| part(quantity).clone()).collect();
+                    kernels.quantities(family).iter().flat_map(|quantity| part(quantity).clone()).collect();
                 let mut sources = Vec::new();
                 if order > 0 {
                     sources.push(self.coordinates(kernels, &rate, |c| c.rate));
@@ -75,13 +123,16 @@ impl Methods<'_> {
                 if order > 1 {
                     sources.push(self.coordinates(kernels, &acceleration, |c| c.acceleration));
                 }
+                if order > 2 {
+                    sources.push(self.coordinates(kernels, &jerk, |c| c.jerk));
+                }
                 let mut code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
                 let (bindings, results) = bind(
                     &code.results,
-                    &component_names(&names, dimension, &["", "_rate", "_acceleration"][order..=order]),
+                    &component_names(names, dimension, &["", "_rate", "_acceleration", "_jerk"][order..=order]),
                     &mut code.taken,
                 );
-                let (built, verdict) = (build(&results), check_finite(&mut code, &name, &results));
+                let (built, verdict) = (members.build(&results), check_finite(&mut code, &name, &results));
                 Body::new(code, quote!(#bindings #verdict Ok(#built)), [])
             });
             let mut docs = vec![meaning];
@@ -89,7 +140,7 @@ impl Methods<'_> {
                 && let Some(kernels) = kernels.as_deref()
             {
                 let axes: &[&str] = if dimension == 2 { &[".x", ".y"] } else { &[""] };
-                let list = quantities(kernels);
+                let list = kernels.quantities(family);
                 let formulas = names.iter().zip(&list).flat_map(|(name, quantity)| {
                     axes.iter().zip(&quantity.value).map(move |(axis, &node)| (format!("{name}{axis}"), node))
                 });
@@ -97,30 +148,26 @@ impl Methods<'_> {
             }
             docs.extend(lines(["", "# Errors", "`NotFinite` where a formula has no finite value."]));
             let function = ident(&name);
-            let [pose, rate, acceleration] =
-                [&pose, &rate, &acceleration].map(|argument| argument_of(argument, code.as_ref()));
-            let more = [quote!(, #rate: &#coordinates<T>), quote!(, #acceleration: &#coordinates<T>)];
-            let more = &more[..order];
+            let pose = argument_of(&pose, code.as_ref());
+            let motion = [&rate, &acceleration, &jerk];
+            let more = motion[..order].iter().map(|argument| {
+                let argument = argument_of(argument, code.as_ref());
+                quote!(, #argument: &#coordinates<T>)
+            });
             let signature =
                 quote!(pub fn #function(&self, #pose: &#pose_type<T> #(#more)*) -> Result<#group<#item>, Error>);
             self.function(&docs, &signature, code);
         }
         let laws = kernels.as_deref().zip(formulas).map(|(kernels, formulas)| {
-            let all = if family == Family::Points { &formulas.points } else { &formulas.outputs };
-            let axes: &[&str] = if dimension == 2 { &["_x", "_y"] } else { &[""] };
             let mut lines = Vec::new();
-            for (name, of_name) in names.iter().zip(all) {
-                for (&input, nodes) in kernels.derivation.inputs.iter().zip(of_name) {
+            for (name, of_name) in names.iter().zip(formulas.of(family)) {
+                for (&input, nodes) in kernels.derivation.inputs.iter().zip(&of_name.ratios) {
                     let by = if v == 1 {
                         "ratio".to_owned()
                     } else {
                         format!("by_{}", kernels.derivation.coordinates[input].name)
                     };
-                    lines.extend(
-                        axes.iter()
-                            .zip(nodes)
-                            .map(|(axis, &node)| format!("{name}{axis}_{by} = {}", kernels.text(node))),
-                    );
+                    lines.extend(members.laws(kernels, name, &by, nodes));
                 }
             }
             fenced(lines.into_iter())
@@ -129,7 +176,7 @@ impl Methods<'_> {
         // W_l = l_u W + l_v.
         let code = kernels.map(|kernels| {
             let mut nodes = Vec::new();
-            for quantity in quantities(kernels) {
+            for quantity in kernels.quantities(family) {
                 for input in 0..v {
                     nodes.extend(quantity.jacobian.iter().map(|row| kernels.derivation.quantity_ratio(row, input)));
                 }

@@ -75,9 +75,7 @@ impl Methods<'_> {
                     Some(format!("{} = {}", derivation.graph.symbol_name(name), kernels.text((*formula)?)))
                 })
                 .collect();
-            if !lines.is_empty() {
-                docs.extend(fenced(lines.into_iter()));
-            }
+            docs.extend(fenced(lines.into_iter()));
         }
         docs.extend(lines([
             "",

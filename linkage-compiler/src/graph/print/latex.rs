@@ -29,7 +29,7 @@ impl Style for Latex {
 
     fn name(&self, name: Name) -> (String, Binding) {
         let binding = match name {
-            Name::Ratio { .. } | Name::Determinant(_) => Binding::Product,
+            Name::Ratio { .. } | Name::RatioDerivative { .. } | Name::Determinant(_) => Binding::Product,
             _ => Binding::Atom,
         };
         (name.latex(), binding)

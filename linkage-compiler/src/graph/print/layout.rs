@@ -117,7 +117,7 @@ impl Reading<'_, '_> {
             (Node::Symbol(symbol), Some(names)) => match names(*symbol) {
                 Name::Plain(_) => 1,
                 Name::Rate(_) | Name::Acceleration(_) => 2,
-                Name::Ratio { .. } => 3,
+                Name::Ratio { .. } | Name::RatioDerivative { .. } => 3,
                 Name::Determinant(_) | Name::Inverse(_) => 6,
             },
             (Node::Symbol(_) | Node::Product { .. }, _) => 1,

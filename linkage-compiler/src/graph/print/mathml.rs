@@ -44,7 +44,7 @@ impl Style for MathMl {
 
     fn name(&self, name: Name) -> (String, Binding) {
         let binding = match name {
-            Name::Ratio { .. } | Name::Determinant(_) => Binding::Product,
+            Name::Ratio { .. } | Name::RatioDerivative { .. } | Name::Determinant(_) => Binding::Product,
             _ => Binding::Atom,
         };
         (name.mathml(), binding)

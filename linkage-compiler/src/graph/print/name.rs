@@ -16,6 +16,8 @@ pub enum Name<'a> {
     Acceleration(&'a str),
     /// The velocity ratio ∂`of`/∂`by`.
     Ratio { of: &'a str, by: &'a str },
+    /// The derivative of a velocity ratio, ∂²`of`/∂`by`∂`by`.
+    RatioDerivative { of: &'a str, by: [&'a str; 2] },
     /// The determinant of J, or of the block of J with this number.
     Determinant(Option<usize>),
     /// The inverse of J, or of the block of J with this number.
@@ -122,7 +124,11 @@ impl<'a> Name<'a> {
     /// The name that is shown.
     pub(super) fn subject(self) -> &'a str {
         match self {
-            Self::Plain(name) | Self::Rate(name) | Self::Acceleration(name) | Self::Ratio { of: name, .. } => name,
+            Self::Plain(name)
+            | Self::Rate(name)
+            | Self::Acceleration(name)
+            | Self::Ratio { of: name, .. }
+            | Self::RatioDerivative { of: name, .. } => name,
             Self::Determinant(_) | Self::Inverse(_) => "J",
         }
     }
@@ -149,6 +155,14 @@ impl<'a> Name<'a> {
             Self::Rate(name) => unicode(name, "\u{307}"),
             Self::Acceleration(name) => unicode(name, "\u{308}"),
             Self::Ratio { of, by } => format!("∂{}/∂{}", unicode(of, ""), unicode(by, "")),
+            Self::RatioDerivative { of, by: [first, second] } => {
+                let (of, first, second) = (unicode(of, ""), unicode(first, ""), unicode(second, ""));
+                if first == second {
+                    format!("∂²{of}/∂{first}²")
+                } else {
+                    format!("∂²{of}/∂{first}∂{second}")
+                }
+            }
             Self::Determinant(block) => format!("det {}", unicode(&block_name(block), "")),
             Self::Inverse(block) => format!("{}⁻¹", unicode(&block_name(block), "")),
         }
@@ -161,6 +175,15 @@ impl<'a> Name<'a> {
             Self::Acceleration(name) => latex(name, "\\ddot"),
             Self::Ratio { of, by } => {
                 format!("\\frac{{\\partial {}}}{{\\partial {}}}", latex(of, ""), latex(by, ""))
+            }
+            Self::RatioDerivative { of, by: [first, second] } => {
+                let (of, first, second) = (latex(of, ""), latex(first, ""), latex(second, ""));
+                let below = if first == second {
+                    format!("\\partial {{{first}}}^2")
+                } else {
+                    format!("\\partial {first} \\partial {second}")
+                };
+                format!("\\frac{{\\partial^2 {of}}}{{{below}}}")
             }
             Self::Determinant(block) => format!("\\det {}", latex(&block_name(block), "")),
             Self::Inverse(block) => format!("{}^{{-1}}", latex(&block_name(block), "")),
@@ -175,6 +198,17 @@ impl<'a> Name<'a> {
             Self::Ratio { of, by } => {
                 let side = |name| format!("<mrow><mo>∂</mo>{}</mrow>", mathml(name, ""));
                 format!("<mfrac>{}{}</mfrac>", side(of), side(by))
+            }
+            Self::RatioDerivative { of, by: [first, second] } => {
+                let (of, first, second) = (mathml(of, ""), mathml(first, ""), mathml(second, ""));
+                let square = |body: &str| format!("<msup>{body}<mn>2</mn></msup>");
+                let below = if first == second {
+                    square(&format!("<mrow>{first}</mrow>"))
+                } else {
+                    format!("{first}<mo>∂</mo>{second}")
+                };
+                let above = square("<mo>∂</mo>");
+                format!("<mfrac><mrow>{above}{of}</mrow><mrow><mo>∂</mo>{below}</mrow></mfrac>")
             }
             Self::Determinant(block) => {
                 format!(

@@ -100,6 +100,19 @@ fn names_have_letters_indices_and_dots() {
         all(Name::Ratio { of: "theta3", by: "theta2" })[..2],
         ["∂θ₃/∂θ₂", "\\frac{\\partial \\theta_3}{\\partial \\theta_2}"]
     );
+    assert_eq!(
+        all(Name::RatioDerivative { of: "theta3", by: ["theta2", "theta2"] })[..2],
+        ["∂²θ₃/∂θ₂²", "\\frac{\\partial^2 \\theta_3}{\\partial {\\theta_2}^2}"]
+    );
+    assert_eq!(
+        all(Name::RatioDerivative { of: "s", by: ["x", "y"] }),
+        [
+            "∂²s/∂x∂y",
+            "\\frac{\\partial^2 s}{\\partial x \\partial y}",
+            "<mfrac><mrow><msup><mo>∂</mo><mn>2</mn></msup><mi>s</mi></mrow>\
+             <mrow><mo>∂</mo><mi>x</mi><mo>∂</mo><mi>y</mi></mrow></mfrac>"
+        ]
+    );
     assert_eq!(all(Name::Determinant(Some(2)))[..2], ["det J₂", "\\det J_2"]);
     assert_eq!(all(Name::Inverse(None))[..2], ["J⁻¹", "J^{-1}"]);
     // Names that cannot come from the language do no harm.

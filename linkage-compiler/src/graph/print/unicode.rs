@@ -30,7 +30,7 @@ impl Style for Unicode {
 
     fn name(&self, name: Name) -> (String, Binding) {
         let binding = match name {
-            Name::Ratio { .. } => Binding::Slash,
+            Name::Ratio { .. } | Name::RatioDerivative { .. } => Binding::Slash,
             Name::Determinant(_) => Binding::Product,
             _ => Binding::Atom,
         };

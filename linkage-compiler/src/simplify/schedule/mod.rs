@@ -1,6 +1,7 @@
 //! From shared nodes to straight-line steps: every subexpression once, every sum or product of two
 //! parts that several have in common once, one sine-cosine pair an angle.
 
+mod needed;
 mod operations;
 mod order;
 mod sharing;
@@ -11,6 +12,7 @@ use std::collections::BTreeSet;
 use rustc_hash::FxHashMap;
 
 use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
+pub use needed::needed;
 pub use operations::Operations;
 use order::Ordering;
 use translate::Builder;
