@@ -102,9 +102,9 @@ fn geneva() -> Result<Figure, Box<dyn Error>> {
         let turned = (theta - TAU).clamp(-engaged, engaged);
         let pose = m.assemble(turned, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
-        frame!(figure, Geneva, m, &pose, points => [("Crank", polar(m.crank, theta)), ("Disc", polar(1.0, theta))]);
+        frame!(figure, Geneva, m, &pose, points => [("Crank", polar(m.crank, theta))]);
     }
-    figure.picture.plate("Wheel", "Mouth", cross(&m)).plate("O", "Disc", locking_disc(&m));
+    figure.picture.plate("Wheel", "Mouth", cross(&m)).plate("O", "Crank", locking_disc(&m));
     figure.picture.crank(&["O", "Crank"]).ground("O").ground("Wheel").trace("Crank");
     Ok(figure.words(
         "The pin enters a slot square to its path, turns the wheel by one slot, and leaves it to the locking disc.",

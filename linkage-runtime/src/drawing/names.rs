@@ -4,8 +4,12 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-/// Names stand this far from their points.
-const DISTANCE: f64 = 18.0;
+/// Names stand this far from their points, or, where points are crowded, that far.
+const NEAR: f64 = 18.0;
+const FAR: f64 = 30.0;
+
+/// More room than this counts for little, so that no name is far that has it near.
+const ENOUGH: f64 = 16.0;
 
 /// Half the width of a letter of a name.
 const HALF_LETTER: f64 = 4.0;
@@ -15,8 +19,27 @@ const HALF_LETTER: f64 = 4.0;
 pub(super) struct Scene {
     /// Bars and vectors.
     pub segments: Vec<[Vector2<f64>; 2]>,
-    /// Points and the names that stand already.
-    pub taken: Vec<Vector2<f64>>,
+    /// Points.
+    pub points: Vec<Vector2<f64>>,
+    /// Beginning, middle and end of the names that stand already.
+    names: Vec<Vector2<f64>>,
+}
+
+impl Scene {
+    pub(super) fn new(segments: Vec<[Vector2<f64>; 2]>, points: Vec<Vector2<f64>>) -> Self {
+        Self { segments, points, names: Vec::new() }
+    }
+
+    /// Others keep clear of a name that stands here.
+    pub(super) fn stand(&mut self, name: &str, at: Vector2<f64>) {
+        self.names.extend(extent(name).map(|part| at + part));
+    }
+}
+
+/// Beginning, middle and end of a name.
+fn extent(name: &str) -> [Vector2<f64>; 3] {
+    let letters = u32::try_from(name.chars().count()).map_or(1.0, f64::from);
+    [-1.0, 0.0, 1.0].map(|side| Vector2::new(side * HALF_LETTER * letters, 0.0))
 }
 
 /// The sides of the triangle under a pivot on the frame.
@@ -25,7 +48,7 @@ pub(super) fn foot(at: Vector2<f64>) -> [[Vector2<f64>; 2]; 3] {
     [[at, left], [left, right], [right, at]]
 }
 
-/// Of sixteen places around a point the one that is farthest from bars, vectors and other names, on the
+/// Of sixteen directions from a point the one that is farthest from bars, vectors and other names, on the
 /// average over all scenes; `inside` says which places are in the picture.
 pub(super) fn offset(
     name: &str,
@@ -33,22 +56,22 @@ pub(super) fn offset(
     scenes: &[Scene],
     at: impl Fn(&Scene) -> Vector2<f64>,
 ) -> Vector2<f64> {
-    let letters = u32::try_from(name.chars().count()).map_or(1.0, f64::from);
-    let half = Vector2::new(HALF_LETTER * letters, 0.0);
+    let extent = extent(name);
     let mut best = (f64::NEG_INFINITY, Vector2::zeros());
-    for step in 0..16_u32 {
+    for step in 0..32_u32 {
         let angle = TAU / 16.0 * (f64::from(step) + 0.5);
         let direction = Vector2::new(angle.cos(), -angle.sin());
-        let candidate = direction * DISTANCE + half * 0.5 * direction.x;
+        let (away, cost) = if step < 16 { (NEAR, 0.0) } else { (FAR, 4.0) };
+        let candidate = direction * away + extent[2] * 0.5 * direction.x;
         let mut sum = 0.0;
         for scene in scenes {
             let at = at(scene);
-            let parts = [-half, Vector2::zeros(), half].map(|part| at + candidate + part);
+            let parts = extent.map(|part| at + candidate + part);
             let lines = scene.segments.iter().flat_map(|ends| parts.map(|part| distance(part, *ends)));
-            let others = scene.taken.iter().filter(|other| **other != at);
-            let names = others.map(|other| (at + candidate - other).norm());
+            let others = scene.points.iter().filter(|other| **other != at).chain(&scene.names);
+            let names = others.flat_map(|other| parts.map(|part| (part - other).norm()));
             let room = lines.chain(names).fold(f64::INFINITY, f64::min);
-            sum += if parts.into_iter().all(&inside) { room } else { -DISTANCE };
+            sum += if parts.into_iter().all(&inside) { room.min(ENOUGH) + room * 0.01 - cost } else { -FAR };
         }
         if sum > best.0 + 1e-9 {
             best = (sum, candidate);

@@ -53,7 +53,7 @@ pub(super) fn svg(drawing: &Drawing) -> String {
         let points: Vec<String> = path.iter().map(|at| frame.pixel(*at)).map(|p| format!("{},{}", p.x, p.y)).collect();
         document = document.add(Polyline::new().set("class", "path").set("points", points.join(" ")));
     }
-    let mut scene = Scene::default();
+    let mut scene = Scene::new(Vec::new(), Vec::new());
     for (from, to) in &drawing.bars {
         let ends = [from, to].map(|name| frame.pixel(drawing.at(name).unwrap_or_default()));
         scene.segments.push(ends);
@@ -72,12 +72,12 @@ pub(super) fn svg(drawing: &Drawing) -> String {
         }
         document = document.add(mark(at, place.mark));
     }
-    scene.taken = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
+    scene.points = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
     for (index, place) in drawing.places.iter().enumerate() {
-        let at = scene.taken[index];
-        let name = at + offset(&place.name, |_| true, std::slice::from_ref(&scene), |scene| scene.taken[index]);
-        scene.taken.push(name);
-        document = document.add(text(&place.name, "name", name + Vector2::new(0.0, 5.0), "middle"));
+        let beside = offset(&place.name, |_| true, std::slice::from_ref(&scene), |scene| scene.points[index]);
+        let at = scene.points[index] + beside;
+        scene.stand(&place.name, at);
+        document = document.add(text(&place.name, "name", at + Vector2::new(0.0, 5.0), "middle"));
     }
     let mut x = LEFT;
     for (class, words) in legend {

@@ -115,9 +115,8 @@ impl Stage<'_> {
                 self.behind([hatched(&line)]);
             }
             Part::Trace(point) => {
-                let mut track = film.track(film.index(point)?);
-                track.dedup_by(|a, b| (*a - *b).amax() < 0.05);
-                self.behind([path("curve", Pen::default().lines(&track).path())]);
+                let track = film.track(film.index(point)?);
+                self.behind([path("curve", Pen::default().curve(&track).path())]);
             }
             Part::Link { points, driven } => {
                 let (points, body) = self.link(points)?;
@@ -170,6 +169,10 @@ impl Stage<'_> {
             Part::Spring([from, to]) => {
                 let (from, to) = (film.index(from)?, film.index(to)?);
                 let lengths: Vec<f64> = film.frames().iter().map(|frame| (frame[to] - frame[from]).norm()).collect();
+                if lengths[0] == 0.0 {
+                    let [from, to] = [from, to].map(|point| &film.names()[point]);
+                    return Err(DrawingError::NotFinite(format!("the stretch of the spring from `{from}` to `{to}`")));
+                }
                 let drawn = Group::new().add(path("spring", spring(lengths[0])));
                 self.items.push(Item { body: film.body(from, [from, to]), drawn, lengths });
             }
@@ -216,21 +219,31 @@ impl Stage<'_> {
             }
         }
         let named: Vec<usize> = (0..met.len()).filter(|point| met[*point] > 1 || traced[*point]).collect();
-        let mut scenes = self.scenes(animation, &named)?;
-        for (place, &point) in named.iter().enumerate() {
-            let (class, radius) = if traced[point] { ("dot", 4.5) } else { ("joint", 4.5) };
-            let inside = |at: Vector2<f64>| at >= Vector2::repeat(6.0) && at <= SIZE - Vector2::repeat(6.0);
-            let name = &film.names()[point];
-            let beside = offset(name, inside, &scenes, |scene| scene.taken[place]);
-            for scene in &mut scenes {
-                scene.taken.push(scene.taken[place] + beside);
-            }
-            let drawn = Group::new()
-                .add(path(class, Pen::default().circle(Vector2::zeros(), radius).close().path()))
-                .add(Text::new(name.as_str()).set("x", short(beside.x, 1)).set("y", short(beside.y + 4.5, 1)));
+        let beside = self.beside(&named, self.scenes(animation, &named)?);
+        for (&point, beside) in named.iter().zip(beside) {
+            let class = if traced[point] { "dot" } else { "joint" };
+            let drawn = Group::new().add(path(class, Pen::default().circle(Vector2::zeros(), 4.5).close().path())).add(
+                Text::new(film.names()[point].as_str()).set("x", short(beside.x, 1)).set("y", short(beside.y + 4.5, 1)),
+            );
             self.items.push(Item { body: Body::sliding(film.track(point)), drawn, lengths: Vec::new() });
         }
         Ok(())
+    }
+
+    /// Where the names stand beside their points. Long names are the hardest to place, and come first.
+    fn beside(&self, named: &[usize], mut scenes: Vec<Scene>) -> Vec<Vector2<f64>> {
+        let inside = |at: Vector2<f64>| at >= Vector2::repeat(6.0) && at <= SIZE - Vector2::repeat(6.0);
+        let name = |place: usize| self.film.names()[named[place]].as_str();
+        let mut order: Vec<usize> = (0..named.len()).collect();
+        order.sort_by_key(|place| std::cmp::Reverse(name(*place).len()));
+        let mut beside = vec![Vector2::zeros(); named.len()];
+        for place in order {
+            beside[place] = offset(name(place), inside, &scenes, |scene| scene.points[place]);
+            for scene in &mut scenes {
+                scene.stand(name(place), scene.points[place] + beside[place]);
+            }
+        }
+        beside
     }
 
     /// What the names keep clear of, in some of the frames.
@@ -238,8 +251,8 @@ impl Stage<'_> {
         let frames = self.film.frames();
         let mut scenes = Vec::new();
         for frame in frames.iter().step_by(frames.len().div_ceil(SAMPLES)) {
-            let mut scene =
-                Scene { segments: self.arrows.clone(), taken: named.iter().map(|point| frame[*point]).collect() };
+            let points = named.iter().map(|point| frame[*point]).collect();
+            let mut scene = Scene::new(self.arrows.clone(), points);
             for part in &animation.parts {
                 let points: Vec<Vector2<f64>> =
                     part.joins().map(|name| Ok(frame[self.film.index(name)?])).collect::<Result<_, DrawingError>>()?;
@@ -275,11 +288,11 @@ impl Item {
             })
         };
         if let Some(&length) = self.lengths.first() {
-            let stretch =
-                animate("scale", self.lengths.iter().map(|now| format!("{} 1", short(now / length, 3))).collect());
-            drawn = stretch.into_iter().fold(drawn, Group::add);
-            let angle = self.body.angles[0].to_degrees();
-            drawn = Group::new().set("transform", format!("rotate({})", short(angle, 2))).add(drawn);
+            let stretch = self.lengths.iter().map(|now| format!("{} 1", short(now / length, 3))).collect();
+            drawn = animate("scale", stretch).into_iter().fold(drawn, Group::add);
+            let along = format!("rotate({})", short(self.body.angles[0].to_degrees(), 2));
+            drawn = Group::new().add(drawn).set("transform", along);
+            drawn = Group::new().add(drawn);
         }
         let place = |at: &Vector2<f64>| format!("{} {}", short(at.x, 1), short(at.y, 1));
         let moves = animate("translate", self.body.places.iter().map(place).collect());
