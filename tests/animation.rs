@@ -2,7 +2,8 @@
 
 #![cfg(feature = "drawing")]
 
-use linkage::Side::{Left, Right};
+use linkage::Elbow::Left;
+use linkage::Slope::Rising;
 use linkage::drawing::{Animation, DrawingError};
 use linkage::linkage;
 use linkage::nalgebra::{Rotation2, Vector2, vector};
@@ -24,7 +25,7 @@ fn four_bar(scale: f64) -> Vec<Frame> {
     let m = FourBar::<f64>::default().map(|length| length * scale);
     let frame = |step: u32| {
         let theta2 = f64::from(step * 360 / STEPS).to_radians();
-        let points = m.points(&m.assemble(theta2, FourBarBranch { theta3_theta4: Right }).unwrap()).unwrap();
+        let points = m.points(&m.assemble(theta2, FourBarBranch { theta3_theta4: Left }).unwrap()).unwrap();
         vec![("A", vector![0.0, 0.0]), ("B", points.b), ("C", points.c), ("D", vector![m.l1, 0.0]), ("G3", points.g3)]
     };
     (0..=STEPS).map(frame).collect()
@@ -199,7 +200,7 @@ fn sliders_stay_on_their_guides() {
     let frames: Vec<Frame> = (0..=STEPS)
         .map(|step| {
             let theta2 = f64::from(step * 360 / STEPS).to_radians();
-            let pose = m.assemble(theta2, OffsetSliderCrankBranch { theta3: Left }).unwrap();
+            let pose = m.assemble(theta2, OffsetSliderCrankBranch { theta3: Rising }).unwrap();
             let points = m.points(&pose).unwrap();
             vec![("O", points.o), ("A", points.a), ("B", points.b), ("Foot", vector![0.0, m.c])]
         })
@@ -288,13 +289,13 @@ fn contradictions_are_named() {
     let name = |name: &str| name.to_owned();
     assert_eq!(error(&|picture| picture), DrawingError::Empty);
     assert_eq!(Animation::new("Nothing", 6.0).ground("A").to_svg(), Err(DrawingError::Empty));
-    assert_eq!(error(&|picture| picture.link(&[]).ground("A"))), DrawingError::Empty;
-    assert_eq!(error(&|picture| picture.link(&["A", "E"]))), DrawingError::UnknownPoint(name("E"));
-    assert_eq!(error(&|picture| picture.link(&["A", "C"]))), DrawingError::NotRigid(name("A-C"));
-    assert_eq!(error(&|picture| picture.bent(&["A", "B", "C"]))), DrawingError::NotRigid(name("A-B-C"));
-    assert_eq!(error(&|picture| picture.ground("C"))), DrawingError::Moves(name("C"));
-    assert_eq!(error(&|picture| picture.slider("G3"))), DrawingError::NotStraight(name("G3"));
-    assert_eq!(error(&|picture| picture.slider("A"))), DrawingError::NotStraight(name("A"));
+    assert_eq!(error(&|picture| picture.link(&[]).ground("A")), DrawingError::Empty);
+    assert_eq!(error(&|picture| picture.link(&["A", "E"])), DrawingError::UnknownPoint(name("E")));
+    assert_eq!(error(&|picture| picture.link(&["A", "C"])), DrawingError::NotRigid(name("A-C")));
+    assert_eq!(error(&|picture| picture.bent(&["A", "B", "C"])), DrawingError::NotRigid(name("A-B-C")));
+    assert_eq!(error(&|picture| picture.ground("C")), DrawingError::Moves(name("C")));
+    assert_eq!(error(&|picture| picture.slider("G3")), DrawingError::NotStraight(name("G3")));
+    assert_eq!(error(&|picture| picture.slider("A")), DrawingError::NotStraight(name("A")));
     let other: &Draw = &|picture| picture.ground("A").frame([("A", vector![0.0, 0.0])]);
     assert_eq!(error(other), DrawingError::OtherPoints(frames.len()));
     let twice = Animation::new("Twice", 6.0).frame([("A", vector![0.0, 0.0]), ("A", vector![1.0, 0.0])]).to_svg();

@@ -68,16 +68,17 @@ pub struct Figure {
     pub picture: Animation,
     pub derivation: &'static Derivation,
     pub course: Course,
-    /// How many branches there could be; none if positions come from Newton's method.
-    pub branches: Option<usize>,
+    /// How many branches there could be, and how many there are in the first frame; none if positions come from
+    /// Newton's method.
+    pub branches: Option<[usize; 2]>,
     /// The largest residual of any closure, in roundings of the sum of its links.
     pub roundings: f64,
 }
 
 impl Figure {
-    pub fn new(name: &'static str, derivation: &'static Derivation, course: Course, branches: Option<usize>) -> Self {
+    pub fn new(name: &'static str, derivation: &'static Derivation, course: Course) -> Self {
         let picture = Animation::new(name, SECONDS);
-        Self { name, about: "", source: "", picture, derivation, course, branches, roundings: 0.0 }
+        Self { name, about: "", source: "", picture, derivation, course, branches: None, roundings: 0.0 }
     }
 
     /// A line about the mechanism, and whose it is.
@@ -86,9 +87,11 @@ impl Figure {
         self
     }
 
-    /// A position: how well it closes, and its points.
+    /// A position: its points, and how well it closes, which must be to a few roundings of the sum of its links.
     pub fn frame(&mut self, residual: f64, size: f64, points: Vec<(&'static str, Vector2<f64>)>) {
-        self.roundings = self.roundings.max(residual / (f64::EPSILON * size));
+        let roundings = residual / (f64::EPSILON * size);
+        assert!(roundings <= 8.0, "{} closes to {roundings} roundings", self.name);
+        self.roundings = self.roundings.max(roundings);
         self.picture.frame(points);
     }
 }
@@ -126,9 +129,9 @@ macro_rules! assembled {
      |$pose:ident, $points:ident| $more:expr) => {{
         let branch = $branch { $($side: $value),* };
         let course = Course::around(f64::to_radians($degrees), |input| $m.assemble(input, branch).is_ok());
-        let branches = Some($branch::all().count());
-        let mut figure = Figure::new($name, $mechanism::<f64>::DERIVATION, course, branches);
+        let mut figure = Figure::new($name, $mechanism::<f64>::DERIVATION, course);
         for input in course.inputs() {
+            figure.branches.get_or_insert([$branch::all().count(), $m.branches(input).count()]);
             let $pose = $m.assemble(input, branch)?;
             assert_eq!($m.branch_of(&$pose), branch, "{} at {input}", $name);
             frame!(figure, $mechanism, $m, &$pose, $points => $more);

@@ -3,7 +3,8 @@
 use std::error::Error;
 use std::f64::consts::TAU;
 
-use linkage::Side::{Left, Right};
+use linkage::Elbow::{Left, Right};
+use linkage::Slider::Far;
 use linkage::linkage;
 
 use crate::figure::{Course, Figure};
@@ -23,11 +24,11 @@ fn jansen() -> Result<Figure, Box<dyn Error>> {
     let m = Jansen::default();
     let mut figure = assembled!("Jansen's leg", Jansen,
         m on JansenBranch {
-            angle_b_angle_j: Right,
-            angle_d_angle_e: Right,
-            angle_c_angle_k: Left,
-            angle_f_angle_g: Left,
-            angle_h_angle_i: Left
+            angle_b_angle_j: Left,
+            angle_d_angle_e: Left,
+            angle_c_angle_k: Right,
+            angle_f_angle_g: Right,
+            angle_h_angle_i: Right
         },
         from 0.0, |pose, points| []);
     figure.picture.link(&["Pivot", "Upper", "Back"]).link(&["Knee", "Ankle", "Foot"]).link(&["Pin", "Upper"]);
@@ -42,7 +43,7 @@ fn jansen() -> Result<Figure, Box<dyn Error>> {
 fn klann() -> Result<Figure, Box<dyn Error>> {
     let m = Klann::default();
     let mut figure = assembled!("Klann's leg", Klann,
-        m on KlannBranch { arm_lower_angle: Left, leg_upper_angle: Right }, from 180.0, |pose, points| []);
+        m on KlannBranch { arm_lower_angle: Right, leg_upper_angle: Left }, from 180.0, |pose, points| []);
     figure.picture.bent(&["Pin", "Elbow", "Knee"]).bent(&["Hip", "Knee", "Foot"]).link(&["Lower", "Elbow"]);
     figure.picture.link(&["Upper", "Hip"]).crank(&["O", "Pin"]);
     figure.picture.ground("O").ground("Lower").ground("Upper").trace("Foot");
@@ -55,13 +56,15 @@ fn klann() -> Result<Figure, Box<dyn Error>> {
 fn pantograph() -> Result<Figure, Box<dyn Error>> {
     let m = Pantograph::default();
     let course = Course::Own("a trefoil drawn by hand");
-    let mut figure = Figure::new("Pantograph", Pantograph::DERIVATION, course, Some(PantographBranch::all().count()));
-    let branch = PantographBranch { alpha_beta: Right, gamma_delta: Left };
+    let mut figure = Figure::new("Pantograph", Pantograph::DERIVATION, course);
+    let branch = PantographBranch { alpha_beta: Left, gamma_delta: Right };
     for part in course.inputs() {
         let angle = TAU * part;
         let radius = 0.7 + 0.3 * (3.0 * angle).cos();
         let (x, y) = (4.6 + radius * angle.cos(), 0.4 + radius * angle.sin());
-        let pose = m.assemble(PantographInputs { x, y }, branch)?;
+        let inputs = PantographInputs { x, y };
+        figure.branches.get_or_insert([PantographBranch::all().count(), m.branches(inputs).count()]);
+        let pose = m.assemble(inputs, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         let points = m.points(&pose)?;
         assert!((points.pen - points.tracer * m.ratio).amax() < 1e-12, "the pen does not copy at {angle}");
@@ -78,7 +81,7 @@ fn pantograph() -> Result<Figure, Box<dyn Error>> {
 fn wiper() -> Result<Figure, Box<dyn Error>> {
     let m = Wiper::default();
     let mut figure = assembled!("Windscreen wiper", Wiper,
-        m on WiperBranch { phi_first: Right, rod_second: Right }, from 60.0, |pose, points| []);
+        m on WiperBranch { phi_first: Left, rod_second: Left }, from 60.0, |pose, points| []);
     figure.picture.bent(&["FirstPin", "First", "FirstTip"]).bent(&["SecondPin", "Second", "SecondTip"]);
     figure.picture.link(&["FirstPin", "SecondPin"]).link(&["Pin", "FirstPin"]).crank(&["Motor", "Pin"]);
     figure.picture.ground("Motor").ground("First").ground("Second").trace("FirstTip").trace("SecondTip");
@@ -91,7 +94,7 @@ fn wiper() -> Result<Figure, Box<dyn Error>> {
 fn v_twin() -> Result<Figure, Box<dyn Error>> {
     let m = VTwin::default();
     let mut figure = assembled!("V-twin engine", VTwin,
-    m on VTwinBranch { phi_front_s_front: Right, phi_rear_s_rear: Right }, from 60.0,
+    m on VTwinBranch { phi_front_s_front: Far, phi_rear_s_rear: Far }, from 60.0,
     |pose, points| [
         ("M", (points.pin + points.front) / 2.0),
         ("N", (points.pin + points.rear) / 2.0),
@@ -107,7 +110,7 @@ fn v_twin() -> Result<Figure, Box<dyn Error>> {
 fn andrews() -> Result<Figure, Box<dyn Error>> {
     let m = Andrews::default();
     let mut figure = assembled!("Andrews' squeezer", Andrews,
-        m on AndrewsBranch { theta_gamma: Right, phi_delta: Left, omega_epsilon: Right }, from -3.536,
+        m on AndrewsBranch { theta_gamma: Left, phi_delta: Right, omega_epsilon: Left }, from -3.536,
         |pose, points| []);
     figure.picture.spring("D", "C").link(&["B", "E", "D"]).link(&["E", "H"]).link(&["A", "H"]).link(&["E", "G"]);
     figure.picture.link(&["A", "G"]).link(&["F", "E"]).crank(&["O", "F"]);

@@ -13,8 +13,9 @@ pub fn html(families: &[Family]) -> Result<String, DrawingError> {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Gallery of linkages</title>\n\
          <style>{}</style>\n</head>\n<body>\n<header>\n<h1>Gallery of linkages</h1>\n\
-         <p>{count} classic mechanisms, each from its closure equations. Every frame is a position on one branch, \
-         assembled group by group in closed form where there is one. Orange drives, red is drawn.</p>\n</header>\n<main>\n",
+         <p>{count} pictures of classic mechanisms, each from its closure equations. Every frame is a position on one \
+         branch, assembled group by group in closed form where there is one. Orange drives, red is drawn.</p>\n\
+         </header>\n<main>\n",
         include_str!("style.css")
     );
     for family in families {
@@ -47,7 +48,11 @@ fn figure(figure: &Figure) -> Result<String, DrawingError> {
             format!("<li>{} <i>{}</i></li>", escape(group), escape(&unknowns.join(", ")))
         })
         .collect();
-    let branches = figure.branches.map_or_else(|| "by Newton's method".to_owned(), |count| count.to_string());
+    let branches = match figure.branches {
+        None => "followed by Newton's method".to_owned(),
+        Some([all, here]) if all == here => all.to_string(),
+        Some([all, here]) => format!("{all}, of which {here} exist in the first frame"),
+    };
     Ok(format!(
         "<figure>\n{}\n<figcaption>\n<h3>{}</h3>\n<p>{}</p>\n<dl>\
          <div><dt>Input</dt><dd><i>{}</i>, {}</dd></div><div><dt>Branches</dt><dd>{branches}</dd></div>\

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use linkage::Side::{self, Left, Right};
+use linkage::Elbow::{self, Left, Right};
 use linkage::{Mechanism, linkage};
 
 use crate::figure::{Course, Figure, STEPS, at};
@@ -18,8 +18,8 @@ include!("../../tests/mechanisms/watt_ii.rs");
 
 pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![
-        four_bar("Four-bar, right branch", Right)?,
         four_bar("Four-bar, left branch", Left)?,
+        four_bar("Four-bar, right branch", Right)?,
         five_bar()?,
         watt_i()?,
         watt_ii()?,
@@ -30,26 +30,28 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     ])
 }
 
-fn four_bar(name: &'static str, side: Side) -> Result<Figure, Box<dyn Error>> {
+fn four_bar(name: &'static str, side: Elbow) -> Result<Figure, Box<dyn Error>> {
     let m = FourBar::default();
     let mut figure = assembled!(name, FourBar, m on FourBarBranch { theta3_theta4: side }, from 20.0,
         |pose, points| [("A", at(0.0, 0.0)), ("D", at(m.l1, 0.0))]);
     figure.picture.crank(&["A", "B"]).link(&["B", "G3", "C"]).link(&["D", "C"]);
     figure.picture.ground("A").ground("D").trace("G3");
     Ok(figure.words(
-        "Crank and rocker. Right and left are the two ways to assemble the same links, and no motion leads over.",
+        "Crank and rocker. C stands left or right of the line from B to D, and no motion leads over.",
         "Analisi cinematica mediante il metodo delle equazioni di vincolo, La Sapienza (2009-2010)",
     ))
 }
 
 fn five_bar() -> Result<Figure, Box<dyn Error>> {
     let m = FiveBar::default();
-    let branch = FiveBarBranch { theta2_theta3: Right };
+    let branch = FiveBarBranch { theta2_theta3: Left };
     let course = Course::Own("one turn of θ₁, two turns of θ₄ the other way");
-    let mut figure = Figure::new("Five-bar with two inputs", FiveBar::DERIVATION, course, Some(2));
+    let mut figure = Figure::new("Five-bar with two inputs", FiveBar::DERIVATION, course);
     for part in course.inputs() {
         let theta1 = std::f64::consts::TAU * part + 1.0;
-        let pose = m.assemble(FiveBarInputs { theta1, theta4: 2.0 - 2.0 * theta1 }, branch)?;
+        let inputs = FiveBarInputs { theta1, theta4: 2.0 - 2.0 * theta1 };
+        figure.branches.get_or_insert([FiveBarBranch::all().count(), m.branches(inputs).count()]);
+        let pose = m.assemble(inputs, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         let [b, c] = [pose.theta1.complex() * m.a, pose.theta4.complex() * m.d];
         frame!(figure, FiveBar, m, &pose, points => [
@@ -64,7 +66,7 @@ fn five_bar() -> Result<Figure, Box<dyn Error>> {
 fn watt_i() -> Result<Figure, Box<dyn Error>> {
     let m = WattI::default();
     let mut figure = assembled!("Watt I six-bar", WattI,
-        m on WattIBranch { theta3_theta4: Right, theta5_theta6: Right }, from 60.0, |pose, points| []);
+        m on WattIBranch { theta3_theta4: Left, theta5_theta6: Left }, from 60.0, |pose, points| []);
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C", "Q"]).link(&["P", "R"]);
     figure.picture.link(&["Q", "R"]).ground("A").ground("D").trace("R");
     Ok(figure.words(
@@ -76,7 +78,7 @@ fn watt_i() -> Result<Figure, Box<dyn Error>> {
 fn watt_ii() -> Result<Figure, Box<dyn Error>> {
     let m = WattII::default();
     let mut figure = assembled!("Watt II six-bar", WattII,
-        m on WattIIBranch { theta3_theta4: Right, theta5_theta6: Right }, from 60.0,
+        m on WattIIBranch { theta3_theta4: Left, theta5_theta6: Left }, from 60.0,
         |pose, points| [("M", (points.b + points.c) / 2.0)]);
     figure.picture.crank(&["A", "B"]).link(&["B", "M", "C"]).link(&["D", "C", "P"]).link(&["P", "Q"]);
     figure.picture.link(&["F", "Q"]).ground("A").ground("D").ground("F").trace("M");
@@ -89,7 +91,7 @@ fn watt_ii() -> Result<Figure, Box<dyn Error>> {
 fn stephenson_i() -> Result<Figure, Box<dyn Error>> {
     let m = StephensonI::default();
     let mut figure = assembled!("Stephenson I six-bar", StephensonI,
-        m on StephensonIBranch { theta3_theta4: Right, theta5_theta6: Right }, from 60.0, |pose, points| []);
+        m on StephensonIBranch { theta3_theta4: Left, theta5_theta6: Left }, from 60.0, |pose, points| []);
     figure.picture.crank(&["A", "B", "P"]).link(&["B", "C"]).link(&["D", "C", "Q"]).link(&["P", "R"]);
     figure.picture.link(&["Q", "R"]).ground("A").ground("D").trace("R");
     Ok(figure.words(
@@ -101,7 +103,7 @@ fn stephenson_i() -> Result<Figure, Box<dyn Error>> {
 /// Four angles are found together: Newton's method from the position before, every degree.
 fn stephenson_ii() -> Result<Figure, Box<dyn Error>> {
     let m = StephensonII::default();
-    let mut figure = Figure::new("Stephenson II six-bar", StephensonII::DERIVATION, Course::Turn(0.0), None);
+    let mut figure = Figure::new("Stephenson II six-bar", StephensonII::DERIVATION, Course::Turn(0.0));
     let [alpha, beta, tau, rho] = [30.0, 21.0, -90.0, 54.0].map(f64::to_radians);
     let mut q = StephensonIICoordinates { theta: 0.0, alpha, beta, tau, rho };
     let first = m.pose_at(&m.solve(&q)?.coordinates);
@@ -125,7 +127,7 @@ fn stephenson_ii() -> Result<Figure, Box<dyn Error>> {
 fn stephenson_iii() -> Result<Figure, Box<dyn Error>> {
     let m = StephensonIII::default();
     let mut figure = assembled!("Stephenson III six-bar", StephensonIII,
-        m on StephensonIIIBranch { theta3_theta4: Right, theta5_theta6: Right }, from 60.0, |pose, points| []);
+        m on StephensonIIIBranch { theta3_theta4: Left, theta5_theta6: Left }, from 60.0, |pose, points| []);
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C"]).link(&["P", "Q"]);
     figure.picture.link(&["F", "Q"]).ground("A").ground("D").ground("F").trace("P");
     Ok(figure.words(
@@ -147,7 +149,7 @@ fn double_butterfly() -> Result<Figure, Box<dyn Error>> {
         strut: 1.591,
     };
     let start = q.crank;
-    let mut figure = Figure::new("Double butterfly", DoubleButterfly::DERIVATION, Course::Turn(start), None);
+    let mut figure = Figure::new("Double butterfly", DoubleButterfly::DERIVATION, Course::Turn(start));
     let first = m.pose_at(&m.solve(&q)?.coordinates);
     for degree in 0..=360 {
         q.crank = start + f64::from(degree).to_radians();

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use linkage::Side::{Left, Right};
+use linkage::Elbow::{Left, Right};
 use linkage::linkage;
 
 use crate::figure::{Course, Figure};
@@ -22,13 +22,14 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
 /// back on that one it draws the rest.
 fn watt_line() -> Result<Figure, Box<dyn Error>> {
     let m = WattLine::default();
-    let [there, back] = [Left, Right].map(|phi_psi| WattLineBranch { phi_psi });
+    let [there, back] = [Right, Left].map(|phi_psi| WattLineBranch { phi_psi });
     let course = Course::around(0.0, |theta| m.assemble(theta, there).is_ok());
-    let mut figure = Figure::new("Watt's line", WattLine::DERIVATION, course, Some(WattLineBranch::all().count()));
+    let mut figure = Figure::new("Watt's line", WattLine::DERIVATION, course);
     let inputs = course.inputs();
     for (step, &theta) in inputs.iter().enumerate() {
         let rises = inputs[(step + 1) % inputs.len()] > inputs[step.saturating_sub(1)];
         let branch = if rises { there } else { back };
+        figure.branches.get_or_insert([WattLineBranch::all().count(), m.branches(theta).count()]);
         let pose = m.assemble(theta, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         frame!(figure, WattLine, m, &pose, points => []);
@@ -44,7 +45,7 @@ fn watt_line() -> Result<Figure, Box<dyn Error>> {
 
 fn roberts() -> Result<Figure, Box<dyn Error>> {
     let m = Roberts::default();
-    let mut figure = assembled!("Roberts' line", Roberts, m on RobertsBranch { theta3_theta4: Right }, from 67.4,
+    let mut figure = assembled!("Roberts' line", Roberts, m on RobertsBranch { theta3_theta4: Left }, from 67.4,
         |pose, points| []);
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C"]);
     figure.picture.ground("A").ground("D").trace("P");
@@ -57,7 +58,7 @@ fn roberts() -> Result<Figure, Box<dyn Error>> {
 fn chebyshev() -> Result<Figure, Box<dyn Error>> {
     let m = ChebyshevCoupler::default();
     let mut figure = assembled!("Chebyshev's line", ChebyshevCoupler,
-        m on ChebyshevCouplerBranch { theta2_theta4: Right }, from 180.0, |pose, points| []);
+        m on ChebyshevCouplerBranch { theta2_theta4: Left }, from 180.0, |pose, points| []);
     figure.picture.link(&["A", "B"]).link(&["D", "C"]).crank(&["B", "P", "C"]);
     figure.picture.ground("A").ground("D").trace("P");
     Ok(figure.words(
@@ -68,7 +69,7 @@ fn chebyshev() -> Result<Figure, Box<dyn Error>> {
 
 fn hoecken() -> Result<Figure, Box<dyn Error>> {
     let m = Hoecken::default();
-    let mut figure = assembled!("Hoecken's line", Hoecken, m on HoeckenBranch { theta3_theta4: Right }, from 60.0,
+    let mut figure = assembled!("Hoecken's line", Hoecken, m on HoeckenBranch { theta3_theta4: Left }, from 60.0,
         |pose, points| []);
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C"]);
     figure.picture.ground("A").ground("D").trace("P");
@@ -81,7 +82,7 @@ fn hoecken() -> Result<Figure, Box<dyn Error>> {
 fn peaucellier() -> Result<Figure, Box<dyn Error>> {
     let m = Peaucellier::default();
     let mut figure = assembled!("Peaucellier-Lipkin cell", Peaucellier,
-        m on PeaucellierBranch { upper_upper_side: Right, lower_lower_side: Left, upper_tip_lower_tip: Right },
+        m on PeaucellierBranch { upper_upper_side: Left, lower_lower_side: Right, upper_tip_lower_tip: Left },
         from 30.0, |pose, points| []);
     figure.picture.crank(&["Centre", "P"]).link(&["O", "Upper"]).link(&["O", "Lower"]);
     figure.picture.link(&["P", "Upper"]).link(&["P", "Lower"]).link(&["Q", "Upper"]).link(&["Q", "Lower"]);
@@ -94,7 +95,7 @@ fn peaucellier() -> Result<Figure, Box<dyn Error>> {
 
 fn hart() -> Result<Figure, Box<dyn Error>> {
     let m = Hart::default();
-    let mut figure = assembled!("Hart's inversor", Hart, m on HartBranch { alpha_beta: Right, gamma_delta: Right },
+    let mut figure = assembled!("Hart's inversor", Hart, m on HartBranch { alpha_beta: Left, gamma_delta: Left },
         from 30.0, |pose, points| []);
     figure.picture.crank(&["Centre", "P"]).link(&["A", "O", "B"]).link(&["A", "P", "D"]);
     figure.picture.link(&["B", "Q", "C"]).link(&["C", "D"]);

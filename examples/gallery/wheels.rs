@@ -3,7 +3,8 @@
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use linkage::Side::{self, Left, Right};
+use linkage::Elbow::{self, Left, Right};
+use linkage::Slider::Far;
 use linkage::linkage;
 use linkage::nalgebra::Vector2;
 
@@ -21,7 +22,7 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
 fn geared_five_bar() -> Result<Figure, Box<dyn Error>> {
     let m = GearedFiveBar::default();
     let mut figure = assembled!("Geared five-bar", GearedFiveBar,
-    m on GearedFiveBarBranch { theta2_theta3: Right }, from 70.0,
+    m on GearedFiveBarBranch { theta2_theta3: Left }, from 70.0,
     |pose, points| {
         let theta1 = pose.theta1.angle();
         let theta4 = m.ratio * theta1 + m.phase;
@@ -49,7 +50,7 @@ fn cardan() -> Result<Figure, Box<dyn Error>> {
 /// The parallelogram passes through both its change points, where it could become an antiparallelogram; at each the
 /// branch changes, and no frame stands there.
 fn parallelogram() -> Result<Figure, Box<dyn Error>> {
-    let mut figure = coupled_wheels("Coupled wheels", [Right, Left])?;
+    let mut figure = coupled_wheels("Coupled wheels", [Left, Right])?;
     let CoupledWheels { crank, base } = CoupledWheels::default();
     let radius = 1.9 * crank;
     figure.picture.ground_line([at(-radius, -radius), at(base + radius, -radius)]);
@@ -63,7 +64,7 @@ fn parallelogram() -> Result<Figure, Box<dyn Error>> {
 
 /// The same links on the other branches.
 fn antiparallelogram() -> Result<Figure, Box<dyn Error>> {
-    let mut figure = coupled_wheels("Antiparallelogram", [Left, Right])?;
+    let mut figure = coupled_wheels("Antiparallelogram", [Right, Left])?;
     figure.picture.crank(&["A", "B"]).link(&["D", "C"]).link(&["B", "Middle", "C"]);
     figure.picture.ground("A").ground("D").trace("Middle");
     Ok(figure.words(
@@ -73,14 +74,14 @@ fn antiparallelogram() -> Result<Figure, Box<dyn Error>> {
 }
 
 /// A full turn on one branch while the crank is above the line of the pivots and on the other while it is below.
-fn coupled_wheels(name: &'static str, [above, below]: [Side; 2]) -> Result<Figure, Box<dyn Error>> {
+fn coupled_wheels(name: &'static str, [above, below]: [Elbow; 2]) -> Result<Figure, Box<dyn Error>> {
     let m = CoupledWheels::default();
     // Half a step past the change point.
     let course = Course::Turn((180.0 / f64::from(STEPS)).to_radians());
-    let branches = Some(CoupledWheelsBranch::all().count());
-    let mut figure = Figure::new(name, CoupledWheels::DERIVATION, course, branches);
+    let mut figure = Figure::new(name, CoupledWheels::DERIVATION, course);
     for theta in course.inputs() {
         let branch = CoupledWheelsBranch { rod_follower: if theta.sin() > 0.0 { above } else { below } };
+        figure.branches.get_or_insert([CoupledWheelsBranch::all().count(), m.branches(theta).count()]);
         let pose = m.assemble(theta, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         frame!(figure, CoupledWheels, m, &pose, points => []);
@@ -92,14 +93,15 @@ fn coupled_wheels(name: &'static str, [above, below]: [Side; 2]) -> Result<Figur
 /// the wheel.
 fn geneva() -> Result<Figure, Box<dyn Error>> {
     let m = Geneva::default();
-    let branch = GenevaBranch { psi_s: Left };
+    let branch = GenevaBranch { psi_s: Far };
     let engaged = FRAC_PI_2 - PI / m.slots;
     let course = Course::Own("in the slot between −45° and 45°, then a dwell");
-    let mut figure = Figure::new("Geneva drive", Geneva::DERIVATION, course, Some(GenevaBranch::all().count()));
+    let mut figure = Figure::new("Geneva drive", Geneva::DERIVATION, course);
     for part in course.inputs() {
         // From the middle of one dwell to that of the next.
         let theta = PI + TAU * part;
         let turned = (theta - TAU).clamp(-engaged, engaged);
+        figure.branches.get_or_insert([GenevaBranch::all().count(), m.branches(turned).count()]);
         let pose = m.assemble(turned, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         frame!(figure, Geneva, m, &pose, points => [("Crank", polar(m.crank, theta))]);

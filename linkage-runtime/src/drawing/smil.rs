@@ -12,24 +12,9 @@ use super::names::{Scene, foot, offset};
 use super::pen::{Pen, short};
 use super::shapes::{BLOCK, block, ground, hatching, link, spring, turning, wheel};
 
-/// Each rule by its own class, so that the picture may also stand inside a page.
-const STYLE: &str = "
-.linkage{--paper:#fff;--ink:#333b45;--faint:#97a0ab;--curve:#c2255c;--drive:#e8590c;--a:#1971c2;--b:#2f9e44;--c:#7048e8;--d:#0c8599}
-@media (prefers-color-scheme:dark){.linkage{--paper:#16181c;--ink:#d5dae1;--faint:#6b7480;--curve:#f783ac;--drive:#ff922b;--a:#4dabf7;--b:#69db7c;--c:#b197fc;--d:#3bc9db}}
-.linkage .paper{fill:var(--paper)}.linkage path{stroke-linejoin:round;stroke-linecap:round}
-.linkage .hatch{fill:none;stroke:var(--faint);stroke-width:1.2}.linkage .foot{fill:var(--paper);stroke:var(--ink);stroke-width:1.5}
-.linkage .curve{fill:none;stroke:var(--curve);stroke-width:2}.linkage .dot{fill:var(--curve)}
-.linkage .link{fill:currentColor;fill-opacity:.28;stroke:currentColor;stroke-width:1.6}
-.linkage .edge,.linkage .core,.linkage .tint{fill:none;stroke:currentColor;stroke-width:15.6}.linkage .core{stroke:var(--paper);stroke-width:12.4}.linkage .tint{stroke-width:12.4;stroke-opacity:.28}
-.linkage .block{fill:var(--paper);stroke:currentColor;stroke-width:1.8}
-.linkage .wheel{fill:currentColor;fill-opacity:.1;stroke:currentColor;stroke-width:1.8}.linkage .spoke{stroke:currentColor;stroke-width:.8;stroke-dasharray:9 3 2 3}
-.linkage .spring{fill:none;stroke:var(--faint);stroke-width:1.8;vector-effect:non-scaling-stroke}
-.linkage .joint{fill:var(--paper);stroke:var(--ink);stroke-width:1.8}.linkage .arrow{fill:none;stroke:var(--drive);stroke-width:1.8}.linkage .head{fill:var(--drive)}
-.linkage .drive{color:var(--drive)}.linkage .a{color:var(--a)}.linkage .b{color:var(--b)}.linkage .c{color:var(--c)}.linkage .d{color:var(--d)}
-.linkage text{fill:var(--ink);font:italic 13px sans-serif;text-anchor:middle;paint-order:stroke;stroke:var(--paper);stroke-width:3px;stroke-linejoin:round}
-.linkage .still{display:none}
-@media (prefers-reduced-motion:reduce){.linkage .still{display:inline}.linkage .moving{display:none}}
-";
+/// Every rule is for this class, so that the picture may also stand inside a page.
+const CLASS: &str = "linkage";
+const STYLE: &str = include_str!("animation.css");
 
 /// The colours of links in turn.
 const COLOURS: [&str; 4] = ["a", "b", "c", "d"];
@@ -68,7 +53,7 @@ pub(super) fn svg(animation: &Animation) -> Result<String, DrawingError> {
         still = still.add(item.group(None));
     }
     let document = Document::new()
-        .set("class", "linkage")
+        .set("class", CLASS)
         .set("viewBox", (0, 0, SIZE.x, SIZE.y))
         .set("role", "img")
         .add(Title::new(animation.title.as_str()))
