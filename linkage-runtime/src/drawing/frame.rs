@@ -20,14 +20,7 @@ pub(super) const TOP: f64 = 44.0;
 impl Frame {
     /// A window around all the points, a twelfth wider on each side.
     pub(super) fn around(points: &[Vector2<f64>]) -> Self {
-        let fold = |pick: fn(f64, f64) -> f64, start: f64| {
-            points.iter().fold(Vector2::repeat(start), |a, b| Vector2::new(pick(a.x, b.x), pick(a.y, b.y)))
-        };
-        let (low, high) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
-        let (centre, mut size) = ((low + high) / 2.0, high - low);
-        if size.amax() <= 1e-12 * centre.amax() || size.amax() == 0.0 {
-            size = Vector2::repeat(if centre.amax() > 0.0 { centre.amax() } else { 1.0 });
-        }
+        let (centre, size) = bounds(points);
         let width = (size.x * 7.0 / 6.0).max(size.y * 7.0 / 6.0 * WIDTH / MOST_HEIGHT);
         let height = (size.y * 7.0 / 6.0).max(width * LEAST_HEIGHT / WIDTH);
         let half = Vector2::new(width, height) / 2.0;
@@ -43,6 +36,19 @@ impl Frame {
         let offset = (point - self.low) * self.pixels_per_unit;
         Vector2::new(LEFT + offset.x, TOP + self.height() - offset.y).map(|value| (value * 100.0).round() / 100.0)
     }
+}
+
+/// Middle and size of what holds all the points; of a single point some size that is not zero.
+pub(super) fn bounds(points: &[Vector2<f64>]) -> (Vector2<f64>, Vector2<f64>) {
+    let fold = |pick: fn(f64, f64) -> f64, start: f64| {
+        points.iter().fold(Vector2::repeat(start), |a, b| Vector2::new(pick(a.x, b.x), pick(a.y, b.y)))
+    };
+    let (low, high) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
+    let (centre, size) = ((low + high) / 2.0, high - low);
+    if size.amax() <= 1e-12 * centre.amax() || size.amax() == 0.0 {
+        return (centre, Vector2::repeat(if centre.amax() > 0.0 { centre.amax() } else { 1.0 }));
+    }
+    (centre, size)
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! Linkages as SVG: named points, joints, bars, velocity and acceleration vectors to scale, with axes
-//! and a legend.
+//! Linkages as SVG: a [`Drawing`] of one position, with named points, joints, bars, velocity and acceleration
+//! vectors to scale, axes and a legend; an [`Animation`] of a whole motion, with coupler curves.
 //!
 //! ```
 //! use linkage_runtime::drawing::Drawing;
@@ -12,13 +12,21 @@
 //! # Ok::<(), linkage_runtime::drawing::DrawingError>(())
 //! ```
 
+mod animation;
 mod axes;
+mod film;
 mod frame;
+mod names;
+mod pen;
 mod render;
+mod shapes;
+mod smil;
 
 use std::fmt;
 
 use nalgebra::Vector2;
+
+pub use animation::Animation;
 
 /// What stands at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,6 +81,14 @@ pub enum DrawingError {
     DuplicatePoint(String),
     /// A coordinate or a scale is infinite, not a number, or a scale is not positive.
     NotFinite(String),
+    /// This frame, counted from 0, has other points than the first.
+    OtherPoints(usize),
+    /// A link changes its shape.
+    NotRigid(String),
+    /// A pivot of the frame moves.
+    Moves(String),
+    /// A slider's point rests, or leaves its straight line.
+    NotStraight(String),
 }
 
 impl fmt::Display for DrawingError {
@@ -82,6 +98,10 @@ impl fmt::Display for DrawingError {
             Self::UnknownPoint(name) => write!(f, "no point of the drawing is called `{name}`"),
             Self::DuplicatePoint(name) => write!(f, "two points of the drawing are called `{name}`"),
             Self::NotFinite(what) => write!(f, "{what} is not a finite number, or a scale that is not positive"),
+            Self::OtherPoints(frame) => write!(f, "frame {frame} has other points than the first"),
+            Self::NotRigid(link) => write!(f, "the link `{link}` changes its shape"),
+            Self::Moves(point) => write!(f, "`{point}` is a pivot of the frame, and moves"),
+            Self::NotStraight(point) => write!(f, "`{point}` does not move along a straight line"),
         }
     }
 }

@@ -6,6 +6,7 @@ use svg::node::element::{Circle, Description, Group, Line, Path, Polyline, Recta
 
 use super::axes::{label, ticks};
 use super::frame::{Frame, LEFT, TOP, WIDTH};
+use super::names::{Scene, foot, offset};
 use super::{Drawing, Mark, Quantity};
 
 const STYLE: &str = "
@@ -24,12 +25,6 @@ text{font-family:sans-serif}
 
 /// Length of an arrow head.
 const HEAD: f64 = 10.0;
-
-/// Names stand this far from their points.
-const NAME_DISTANCE: f64 = 18.0;
-
-/// Half the width of a letter of a name.
-const HALF_LETTER: f64 = 4.0;
 
 /// The picture of a drawing that has been checked.
 pub(super) fn svg(drawing: &Drawing) -> String {
@@ -58,30 +53,30 @@ pub(super) fn svg(drawing: &Drawing) -> String {
         let points: Vec<String> = path.iter().map(|at| frame.pixel(*at)).map(|p| format!("{},{}", p.x, p.y)).collect();
         document = document.add(Polyline::new().set("class", "path").set("points", points.join(" ")));
     }
-    let mut segments = Vec::new();
+    let mut scene = Scene::new(Vec::new(), Vec::new());
     for (from, to) in &drawing.bars {
         let ends = [from, to].map(|name| frame.pixel(drawing.at(name).unwrap_or_default()));
-        segments.push(ends);
+        scene.segments.push(ends);
         document = document.add(line(ends, "bar"));
     }
     for arrow in &drawing.arrows {
         let ends = [frame.pixel(drawing.at(&arrow.from).unwrap_or_default()), frame.pixel(drawing.tip(arrow))];
-        segments.push(ends);
+        scene.segments.push(ends);
         document = document.add(vector(ends, arrow.quantity));
     }
     for place in &drawing.places {
         let at = frame.pixel(place.at);
         if place.mark == Mark::Ground {
             // Names keep clear of the triangle as of a bar.
-            segments.extend([-11.0, 11.0].map(|side| [at, at + Vector2::new(side, 17.0)]));
-            segments.push([at + Vector2::new(-11.0, 17.0), at + Vector2::new(11.0, 17.0)]);
+            scene.segments.extend(foot(at));
         }
         document = document.add(mark(at, place.mark));
     }
-    let mut taken: Vec<Vector2<f64>> = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
-    for place in &drawing.places {
-        let at = name_position(frame.pixel(place.at), &place.name, &segments, &taken);
-        taken.push(at);
+    scene.points = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
+    for (index, place) in drawing.places.iter().enumerate() {
+        let beside = offset(&place.name, |_| true, std::slice::from_ref(&scene), |scene| scene.points[index]);
+        let at = scene.points[index] + beside;
+        scene.stand(&place.name, at);
         document = document.add(text(&place.name, "name", at + Vector2::new(0.0, 5.0), "middle"));
     }
     let mut x = LEFT;
@@ -187,33 +182,6 @@ fn mark(at: Vector2<f64>, mark: Mark) -> Group {
         Mark::Joint => Group::new().add(circle(5.0, "joint")),
         Mark::Point => Group::new().add(circle(3.2, "point")),
     }
-}
-
-/// The one of sixteen places around a point that is farthest from bars, vectors and other names.
-fn name_position(at: Vector2<f64>, name: &str, segments: &[[Vector2<f64>; 2]], taken: &[Vector2<f64>]) -> Vector2<f64> {
-    let letters = u32::try_from(name.chars().count()).map_or(1.0, f64::from);
-    let half = Vector2::new(HALF_LETTER * letters, 0.0);
-    let mut best = (f64::NEG_INFINITY, at);
-    for step in 0..16_u32 {
-        let angle = std::f64::consts::TAU / 16.0 * (f64::from(step) + 0.5);
-        let direction = Vector2::new(angle.cos(), -angle.sin());
-        let candidate = at + direction * NAME_DISTANCE + half * 0.5 * direction.x;
-        let parts = [candidate - half, candidate, candidate + half];
-        let lines = segments.iter().flat_map(|ends| parts.map(|part| distance(part, *ends)));
-        let names = taken.iter().filter(|other| **other != at).map(|other| (candidate - other).norm());
-        let room = lines.chain(names).fold(f64::INFINITY, f64::min);
-        if room > best.0 + 1e-9 {
-            best = (room, candidate);
-        }
-    }
-    best.1
-}
-
-fn distance(point: Vector2<f64>, [from, to]: [Vector2<f64>; 2]) -> f64 {
-    let along = to - from;
-    let length = along.norm_squared();
-    let fraction = if length > 0.0 { ((point - from).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (point - from - along * fraction).norm()
 }
 
 #[cfg(test)]

@@ -1,0 +1,48 @@
+//! The gallery: classic mechanisms in motion on one page, with their coupler curves.
+//!
+//! `cargo run --example gallery` writes `target/gallery.html`; any browser plays it, no network and no script
+//! needed. Each picture is made of positions that `assemble` gives in closed form on the branch that is asked for,
+//! and each of them is checked as it is drawn.
+
+use std::error::Error;
+
+#[macro_use]
+mod figure;
+mod page;
+
+mod machines;
+mod several_loops;
+mod sliders;
+mod straight_lines;
+mod wheels;
+
+use figure::Figure;
+
+/// A family of mechanisms.
+pub struct Family {
+    pub name: &'static str,
+    pub figures: Vec<Figure>,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let families = [
+        Family { name: "Straight lines", figures: straight_lines::figures()? },
+        Family { name: "Sliders", figures: sliders::figures()? },
+        Family { name: "Four, five, six and eight bars", figures: several_loops::figures()? },
+        Family { name: "Gears, wheels and the Maltese cross", figures: wheels::figures()? },
+        Family { name: "Machines", figures: machines::figures()? },
+    ];
+    let html = page::html(&families)?;
+    let path = std::env::args().nth(1).unwrap_or_else(|| "target/gallery.html".to_owned());
+    std::fs::write(&path, &html)?;
+
+    let figures: Vec<&Figure> = families.iter().flat_map(|family| &family.figures).collect();
+    println!("Gallery: {path}, {} pictures, {} kB", figures.len(), html.len() / 1000);
+    assert!(figures.len() >= 30);
+    for figure in figures {
+        let size = figure.picture.to_svg()?.len();
+        println!("{:>6.1} kB  {:.1} roundings  {}", size as f64 / 1000.0, figure.roundings, figure.name);
+        assert!(size < 25_000, "the picture of {} has {size} bytes", figure.name);
+    }
+    Ok(())
+}

@@ -1,0 +1,82 @@
+//! The page: a grid of pictures and what is known of each.
+
+use std::fmt::Write;
+
+use linkage::drawing::DrawingError;
+
+use crate::Family;
+use crate::figure::{Course, Figure};
+
+pub fn html(families: &[Family]) -> Result<String, DrawingError> {
+    let count: usize = families.iter().map(|family| family.figures.len()).sum();
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Gallery of linkages</title>\n\
+         <style>{}</style>\n</head>\n<body>\n<header>\n<h1>Gallery of linkages</h1>\n\
+         <p>{count} pictures of classic mechanisms, each from its closure equations. Every frame is a position on one \
+         branch, assembled group by group in closed form where there is one. Orange drives, red is drawn.</p>\n\
+         </header>\n<main>\n",
+        include_str!("style.css")
+    );
+    for family in families {
+        push(&mut html, format_args!("<section>\n<h2>{}</h2>\n<div class=\"grid\">\n", escape(family.name)));
+        for figure in &family.figures {
+            push(&mut html, format_args!("{}", self::figure(figure)?));
+        }
+        html.push_str("</div>\n</section>\n");
+    }
+    html.push_str("</main>\n</body>\n</html>\n");
+    Ok(html)
+}
+
+fn push(html: &mut String, text: std::fmt::Arguments) {
+    // Writing to a string does not fail.
+    let _ = html.write_fmt(text);
+}
+
+fn figure(figure: &Figure) -> Result<String, DrawingError> {
+    let Figure { name, about, source, .. } = figure;
+    let derivation = figure.derivation;
+    let inputs: Vec<&str> = derivation.inputs.iter().map(|input| input.formula.text).collect();
+    let groups: String = derivation
+        .blocks
+        .iter()
+        .map(|block| {
+            // What stands before the colon is the name of the group.
+            let group = block.group.split(':').next().unwrap_or_default();
+            let unknowns: Vec<&str> = block.unknowns.iter().map(|unknown| unknown.text).collect();
+            format!("<li>{} <i>{}</i></li>", escape(group), escape(&unknowns.join(", ")))
+        })
+        .collect();
+    let branches = match figure.branches {
+        None => "followed by Newton's method".to_owned(),
+        Some([all, here]) if all == here => all.to_string(),
+        Some([all, here]) => format!("{all}, of which {here} exist in the first frame"),
+    };
+    Ok(format!(
+        "<figure>\n{}\n<figcaption>\n<h3>{}</h3>\n<p>{}</p>\n<dl>\
+         <div><dt>Input</dt><dd><i>{}</i>, {}</dd></div><div><dt>Branches</dt><dd>{branches}</dd></div>\
+         <div><dt>Groups</dt><dd><ol>{groups}</ol></dd></div></dl>\n<p class=\"source\">{}</p>\n</figcaption>\n</figure>\n",
+        figure.picture.to_svg()?,
+        escape(name),
+        escape(about),
+        escape(&inputs.join(", ")),
+        course(figure.course),
+        escape(source),
+    ))
+}
+
+fn course(course: Course) -> String {
+    match course {
+        Course::Turn(_) => "a full turn".to_owned(),
+        Course::Swing { low, high, .. } => {
+            let degrees = |angle: f64| format!("{:.1}°", angle.to_degrees()).replace('-', "−");
+            format!("from {} to {}", degrees(low), degrees(high))
+        }
+        Course::Own(words) => escape(words),
+    }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,153 @@
+//! Paths in few characters.
+
+use std::fmt::Write;
+
+use nalgebra::Vector2;
+
+/// A number to some decimals, without the zeros that say nothing.
+pub(super) fn short(value: f64, decimals: usize) -> String {
+    let mut text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
+    }
+    match text.as_str() {
+        "-0" => "0".to_owned(),
+        text => text.strip_prefix("0.").map_or_else(
+            || text.strip_prefix("-0.").map_or_else(|| text.to_owned(), |part| format!("-.{part}")),
+            |part| format!(".{part}"),
+        ),
+    }
+}
+
+/// Draws with steps from point to point, each rounded from where the last one really ended.
+#[derive(Default)]
+pub(super) struct Pen {
+    path: String,
+    at: Vector2<f64>,
+    command: Option<char>,
+}
+
+impl Pen {
+    /// A tenth of a pixel is the finest step.
+    fn step(&mut self, command: char, before: &[f64], to: Vector2<f64>) -> &mut Self {
+        let to = to.map(|value| (value * 10.0).round() / 10.0);
+        let (mut separate, steps) = (self.command == Some(command), to - self.at);
+        if !separate {
+            self.path.push(command);
+        }
+        for number in before.iter().chain(steps.iter()) {
+            let text = short(*number, 1);
+            if separate && !text.starts_with('-') {
+                self.path.push(' ');
+            }
+            self.path.push_str(&text);
+            separate = true;
+        }
+        (self.at, self.command) = (to, Some(command));
+        self
+    }
+
+    pub(super) fn move_to(&mut self, to: Vector2<f64>) -> &mut Self {
+        // A path says where it begins whatever stands before it; a second pair after `m` would be a line.
+        let first = self.path.is_empty();
+        self.command = None;
+        self.step(if first { 'M' } else { 'm' }, &[], to)
+    }
+
+    pub(super) fn line_to(&mut self, to: Vector2<f64>) -> &mut Self {
+        self.step('l', &[], to)
+    }
+
+    /// The arc of at most half a turn, clockwise on the screen or not.
+    pub(super) fn arc_to(&mut self, radius: f64, clockwise: bool, to: Vector2<f64>) -> &mut Self {
+        self.step('a', &[radius, radius, 0.0, 0.0, f64::from(u8::from(clockwise))], to)
+    }
+
+    pub(super) fn lines(&mut self, points: &[Vector2<f64>]) -> &mut Self {
+        for (index, point) in points.iter().enumerate() {
+            if index == 0 {
+                self.move_to(*point)
+            } else {
+                self.line_to(*point)
+            };
+        }
+        self
+    }
+
+    /// The smooth curve through points equally far apart in time: at each it has the direction from the one before
+    /// to the one after (Catmull and Rom, 1974).
+    pub(super) fn curve(&mut self, points: &[Vector2<f64>]) -> &mut Self {
+        let (Some(first), Some(last)) = (points.first(), points.last()) else { return self };
+        let closed = (first - last).amax() < 0.05;
+        let steps = points.len() - 1;
+        let at = |place: usize| match place {
+            0 if closed && steps > 0 => points[steps - 1],
+            0 => *first,
+            place if place <= points.len() => points[place - 1],
+            _ if closed && steps > 0 => points[1],
+            _ => *last,
+        };
+        self.move_to(*first);
+        for place in 1..points.len() {
+            // From `place` to the next; the command `s` begins as the curve before it ended.
+            let [before, from, to, after] = [-1_isize, 0, 1, 2].map(|offset| at(place.wrapping_add_signed(offset)));
+            let [leave, arrive] =
+                [from + (to - before) / 6.0, to - (after - from) / 6.0].map(|handle| handle - self.at);
+            if place == 1 {
+                self.step('c', &[leave.x, leave.y, arrive.x, arrive.y], to);
+            } else {
+                self.step('s', &[arrive.x, arrive.y], to);
+            }
+        }
+        self
+    }
+
+    pub(super) fn circle(&mut self, centre: Vector2<f64>, radius: f64) -> &mut Self {
+        let [left, right] = [-radius, radius].map(|x| centre + Vector2::new(x, 0.0));
+        // A closed path goes on from where it began.
+        self.move_to(left).arc_to(radius, true, right).arc_to(radius, true, left)
+    }
+
+    pub(super) fn close(&mut self) -> &mut Self {
+        // Writing to a string does not fail.
+        let _ = self.path.write_char('z');
+        self.command = None;
+        self
+    }
+
+    /// The value of the attribute `d`.
+    pub(super) fn path(&mut self) -> String {
+        std::mem::take(self).path
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let numbers = [0.0, -0.04, 0.25, -0.5, 12.0, 12.34, -100.0, 1e6];
+        assert_eq!(numbers.map(|value| short(value, 1)), ["0", "0", ".2", "-.5", "12", "12.3", "-100", "1000000"]);
+    }
+
+    /// Quarters of a circle: handles of a third of half the chord over the next point, where a circle has 0.552 radii.
+    #[test]
+    fn curves_pass_through_their_points() {
+        let point = |x: f64, y: f64| Vector2::new(x, y);
+        let circle = [point(9.0, 0.0), point(0.0, 9.0), point(-9.0, 0.0), point(0.0, -9.0), point(9.0, 0.0)];
+        assert_eq!(Pen::default().curve(&circle).path(), "M9 0c0 3-6 9-9 9s-9-6-9-9 6-9 9-9 9 6 9 9");
+        // An open one ends straight.
+        assert_eq!(Pen::default().curve(&circle[..2]).path(), "M9 0c-1.5 1.5-7.5 7.5-9 9");
+        assert_eq!(Pen::default().curve(&circle[..1]).path(), "M9 0");
+        assert_eq!(Pen::default().curve(&[]).path(), "");
+    }
+
+    #[test]
+    fn steps_do_not_add_up_their_rounding() {
+        let points: Vec<_> = (0..=300_u32).map(|step| Vector2::new(0.033 * f64::from(step), 0.0)).collect();
+        let path = Pen::default().lines(&points).path();
+        let steps = path.trim_start_matches("M0 0l").split(' ').map(|step| step.parse::<f64>().unwrap_or(f64::NAN));
+        assert!((steps.sum::<f64>() - 9.9).abs() < 1e-9, "{path}");
+    }
+}

@@ -1,0 +1,291 @@
+//! The moving picture as SVG. Every body is drawn once, as it stands in the first frame, and carried along by
+//! `animateTransform`; a second copy without motion is shown instead to those who want less of it.
+
+use nalgebra::Vector2;
+use svg::Document;
+use svg::node::element::{AnimateTransform, Description, Group, Path, Rectangle, Style, Text, Title};
+
+use super::DrawingError;
+use super::animation::{Animation, Part};
+use super::film::{Body, Film, SIZE};
+use super::names::{Scene, foot, offset};
+use super::pen::{Pen, short};
+use super::shapes::{BLOCK, block, ground, hatching, link, spring, turning, wheel};
+
+/// Every rule is for this class, so that the picture may also stand inside a page.
+const CLASS: &str = "linkage";
+const STYLE: &str = include_str!("animation.css");
+
+/// The colours of links in turn.
+const COLOURS: [&str; 4] = ["a", "b", "c", "d"];
+
+/// Names look for room in so many of the frames.
+const SAMPLES: usize = 12;
+
+/// What is drawn once and carried along.
+struct Item {
+    body: Body,
+    drawn: Group,
+    /// Of a spring its lengths; it lies along x.
+    lengths: Vec<f64>,
+}
+
+/// The picture as it grows, part by part.
+struct Stage<'a> {
+    film: &'a Film,
+    back: Group,
+    items: Vec<Item>,
+    links: usize,
+    /// Where arrows are, roughly.
+    arrows: Vec<[Vector2<f64>; 2]>,
+}
+
+pub(super) fn svg(animation: &Animation) -> Result<String, DrawingError> {
+    let film = Film::of(animation)?;
+    let mut stage = Stage { film: &film, back: Group::new(), items: Vec::new(), links: 0, arrows: Vec::new() };
+    for part in &animation.parts {
+        stage.part(part)?;
+    }
+    stage.joints(animation)?;
+    let (mut moving, mut still) = (Group::new().set("class", "moving"), Group::new().set("class", "still"));
+    for item in &stage.items {
+        moving = moving.add(item.group(Some(animation.seconds)));
+        still = still.add(item.group(None));
+    }
+    let document = Document::new()
+        .set("class", CLASS)
+        .set("viewBox", (0, 0, SIZE.x, SIZE.y))
+        .set("role", "img")
+        .add(Title::new(animation.title.as_str()))
+        .add(Description::new().add(svg::node::Text::new(describe(animation))))
+        .add(Style::new(STYLE))
+        .add(Rectangle::new().set("class", "paper").set("width", "100%").set("height", "100%"))
+        .add(stage.back)
+        .add(moving)
+        .add(still);
+    Ok(document.to_string())
+}
+
+fn describe(animation: &Animation) -> String {
+    let traces = animation.parts.iter().filter_map(|part| match part {
+        Part::Trace(point) => Some(point.as_str()),
+        _ => None,
+    });
+    let traces: Vec<&str> = traces.collect();
+    if traces.is_empty() {
+        "A linkage in motion".to_owned()
+    } else {
+        format!("A linkage in motion, with the path of {}", traces.join(" and of "))
+    }
+}
+
+fn path(class: &str, d: String) -> Path {
+    Path::new().set("class", class).set("d", d)
+}
+
+fn hatched(line: &[Vector2<f64>]) -> Path {
+    path("hatch", Pen::default().lines(line).path() + &hatching(line))
+}
+
+impl Stage<'_> {
+    fn part(&mut self, part: &Part) -> Result<(), DrawingError> {
+        let film = self.film;
+        match part {
+            Part::Ground(point) => {
+                let [triangle, line] = ground(film.fixed(film.index(point)?)?);
+                self.behind([path("hatch", line), path("foot", triangle)]);
+            }
+            Part::GroundLine(line) => {
+                let line: Vec<_> = line.iter().map(|at| film.pixel(*at)).collect();
+                self.behind([hatched(&line)]);
+            }
+            Part::Trace(point) => {
+                let track = film.track(film.index(point)?);
+                self.behind([path("curve", Pen::default().curve(&track).path())]);
+            }
+            Part::Link { points, driven } => {
+                let (points, body) = self.link(points)?;
+                if *driven && points.len() > 1 && film.fixed(points[0]).is_ok() {
+                    let ([arc, heads], points) = turning(body.places[0], &body.angles);
+                    self.behind([path("arrow", arc), path("head", heads)]);
+                    self.arrows.extend(points.windows(2).map(|ends| [ends[0], ends[1]]));
+                }
+                let colour = if *driven { "drive" } else { self.colour() };
+                let outline = link(&self.around(&points));
+                self.item(body, colour, [path("link", outline)]);
+            }
+            Part::Bent(points) => {
+                let (points, body) = self.link(points)?;
+                let colour = self.colour();
+                let bars = Pen::default().lines(&self.around(&points)).path();
+                // Three strokes, so that bars that meet are one link.
+                self.item(body, colour, ["edge", "core", "tint"].map(|class| path(class, bars.clone())));
+            }
+            Part::Slider(point) => {
+                let index = film.index(point)?;
+                let [from, to] = film.guide(index)?;
+                let along = (to - from).normalize();
+                let [length, width] = [along, Vector2::new(-along.y, along.x)].map(|unit| unit * BLOCK[1]);
+                let past = length * 2.5;
+                self.behind([hatched(&[from - past + width, to + past + width])]);
+                self.item(Body::sliding(film.track(index)), "d", [path("block", block(along))]);
+            }
+            Part::Sleeve { pin, arm: [from, to] } => {
+                let body = film.body(film.index(pin)?, [film.index(from)?, film.index(to)?]);
+                let outline = block(body.direction());
+                self.item(body, "d", [path("block", outline)]);
+            }
+            Part::Wheel { centre, towards, radius } => {
+                let (centre, towards) = (film.index(centre)?, film.index(towards)?);
+                let body = film.body(centre, [centre, towards]);
+                let [rim, spokes] = wheel(radius * film.pixels_per_unit, body.direction());
+                let colour = self.colour();
+                self.item(body, colour, [path("wheel", rim), path("spoke", spokes)]);
+            }
+            Part::Plate { centre, towards, outline } => {
+                let (centre, towards) = (film.index(centre)?, film.index(towards)?);
+                let body = film.body(centre, [centre, towards]);
+                let x = body.direction() * film.pixels_per_unit;
+                let y = Vector2::new(x.y, -x.x);
+                let corners: Vec<_> = outline.iter().map(|at| x * at.x + y * at.y).collect();
+                let colour = self.colour();
+                self.item(body, colour, [path("wheel", Pen::default().lines(&corners).close().path())]);
+            }
+            Part::Spring([from, to]) => {
+                let (from, to) = (film.index(from)?, film.index(to)?);
+                let lengths: Vec<f64> = film.frames().iter().map(|frame| (frame[to] - frame[from]).norm()).collect();
+                if lengths[0] == 0.0 {
+                    let [from, to] = [from, to].map(|point| &film.names()[point]);
+                    return Err(DrawingError::NotFinite(format!("the stretch of the spring from `{from}` to `{to}`")));
+                }
+                let drawn = Group::new().add(path("spring", spring(lengths[0])));
+                self.items.push(Item { body: film.body(from, [from, to]), drawn, lengths });
+            }
+        }
+        Ok(())
+    }
+
+    fn behind(&mut self, paths: impl IntoIterator<Item = Path>) {
+        self.back = paths.into_iter().fold(std::mem::take(&mut self.back), Group::add);
+    }
+
+    fn item(&mut self, body: Body, class: &str, paths: impl IntoIterator<Item = Path>) {
+        let drawn = paths.into_iter().fold(Group::new().set("class", class), Group::add);
+        self.items.push(Item { body, drawn, lengths: Vec::new() });
+    }
+
+    fn colour(&mut self) -> &'static str {
+        self.links += 1;
+        COLOURS[(self.links - 1) % COLOURS.len()]
+    }
+
+    fn link(&self, names: &[String]) -> Result<(Vec<usize>, Body), DrawingError> {
+        let points: Vec<usize> = names.iter().map(|name| self.film.index(name)).collect::<Result<_, _>>()?;
+        let body = self.film.link(&points)?;
+        Ok((points, body))
+    }
+
+    /// Points of the first frame as seen from the first of them.
+    fn around(&self, points: &[usize]) -> Vec<Vector2<f64>> {
+        let frame = &self.film.frames()[0];
+        points.iter().map(|point| frame[*point] - frame[points[0]]).collect()
+    }
+
+    /// Circles where parts meet, dots where a point draws its path, and the names of both.
+    fn joints(&mut self, animation: &Animation) -> Result<(), DrawingError> {
+        let film = self.film;
+        let (mut met, mut traced) = (vec![0; film.names().len()], vec![false; film.names().len()]);
+        for part in &animation.parts {
+            for name in part.joins() {
+                met[film.index(name)?] += 1;
+            }
+            if let Part::Trace(point) = part {
+                traced[film.index(point)?] = true;
+            }
+        }
+        let named: Vec<usize> = (0..met.len()).filter(|point| met[*point] > 1 || traced[*point]).collect();
+        let beside = self.beside(&named, self.scenes(animation, &named)?);
+        for (&point, beside) in named.iter().zip(beside) {
+            let class = if traced[point] { "dot" } else { "joint" };
+            let drawn = Group::new().add(path(class, Pen::default().circle(Vector2::zeros(), 4.5).close().path())).add(
+                Text::new(film.names()[point].as_str()).set("x", short(beside.x, 1)).set("y", short(beside.y + 4.5, 1)),
+            );
+            self.items.push(Item { body: Body::sliding(film.track(point)), drawn, lengths: Vec::new() });
+        }
+        Ok(())
+    }
+
+    /// Where the names stand beside their points. Long names are the hardest to place, and come first.
+    fn beside(&self, named: &[usize], mut scenes: Vec<Scene>) -> Vec<Vector2<f64>> {
+        let inside = |at: Vector2<f64>| at >= Vector2::repeat(6.0) && at <= SIZE - Vector2::repeat(6.0);
+        let name = |place: usize| self.film.names()[named[place]].as_str();
+        let mut order: Vec<usize> = (0..named.len()).collect();
+        order.sort_by_key(|place| std::cmp::Reverse(name(*place).len()));
+        let mut beside = vec![Vector2::zeros(); named.len()];
+        for place in order {
+            beside[place] = offset(name(place), inside, &scenes, |scene| scene.points[place]);
+            for scene in &mut scenes {
+                scene.stand(name(place), scene.points[place] + beside[place]);
+            }
+        }
+        beside
+    }
+
+    /// What the names keep clear of, in some of the frames.
+    fn scenes(&self, animation: &Animation, named: &[usize]) -> Result<Vec<Scene>, DrawingError> {
+        let frames = self.film.frames();
+        let mut scenes = Vec::new();
+        for frame in frames.iter().step_by(frames.len().div_ceil(SAMPLES)) {
+            let points = named.iter().map(|point| frame[*point]).collect();
+            let mut scene = Scene::new(self.arrows.clone(), points);
+            for part in &animation.parts {
+                let points: Vec<Vector2<f64>> =
+                    part.joins().map(|name| Ok(frame[self.film.index(name)?])).collect::<Result<_, DrawingError>>()?;
+                match part {
+                    Part::Ground(_) => scene.segments.extend(points.iter().flat_map(|at| foot(*at))),
+                    Part::Link { .. } => {
+                        let next = points.iter().cycle().skip(1);
+                        scene.segments.extend(points.iter().zip(next).map(|(from, to)| [*from, *to]));
+                    }
+                    _ => scene.segments.extend(points.windows(2).map(|ends| [ends[0], ends[1]])),
+                }
+            }
+            scenes.push(scene);
+        }
+        Ok(scenes)
+    }
+}
+
+impl Item {
+    /// The item as it stands in the first frame, or on its way through all of them in so many seconds.
+    fn group(&self, seconds: Option<f64>) -> Group {
+        let first = self.body.places[0];
+        let mut drawn = self.drawn.clone();
+        let animate = |kind: &str, values: Vec<String>| {
+            let moves = values.iter().any(|value| *value != values[0]);
+            seconds.filter(|_| moves).map(|seconds| {
+                AnimateTransform::new()
+                    .set("attributeName", "transform")
+                    .set("type", kind)
+                    .set("dur", format!("{}s", short(seconds, 3)))
+                    .set("repeatCount", "indefinite")
+                    .set("values", values.join(";"))
+            })
+        };
+        if let Some(&length) = self.lengths.first() {
+            let stretch = self.lengths.iter().map(|now| format!("{} 1", short(now / length, 3))).collect();
+            drawn = animate("scale", stretch).into_iter().fold(drawn, Group::add);
+            let along = format!("rotate({})", short(self.body.angles[0].to_degrees(), 2));
+            drawn = Group::new().add(drawn).set("transform", along);
+            drawn = Group::new().add(drawn);
+        }
+        let place = |at: &Vector2<f64>| format!("{} {}", short(at.x, 1), short(at.y, 1));
+        let moves = animate("translate", self.body.places.iter().map(place).collect());
+        let angle = |angle: &f64| short((angle - self.body.angles[0]).to_degrees(), 2);
+        let turns = animate("rotate", self.body.angles.iter().map(angle).collect());
+        // The turn comes after the place, whether that one moves or not.
+        let turns = turns.map(|turns| turns.set("additive", "sum"));
+        let group = drawn.set("transform", format!("translate({})", place(&first)));
+        moves.into_iter().chain(turns).fold(group, Group::add)
+    }
+}
