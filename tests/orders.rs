@@ -2,6 +2,8 @@
 //! derivatives, at random poses: put into the closures, what was solved for must leave nothing over. And
 //! against finite differences in so many digits that nothing of them is lost.
 
+#[path = "source/cam_laws.rs"]
+mod cam_laws;
 mod oracle;
 mod source;
 
