@@ -66,7 +66,7 @@ fn passes_pedantic_lints() {
     let mut library = String::from("//! Expansions of the mechanisms under test.\n#![no_std]\n\npub mod cam_laws;\n");
     // Sensitivities with few entries, and points that need nothing of a block that is factorised.
     let orders = |family: String| {
-        let derived = family.replacen('{', "{ derive jerk, velocity_ratio_derivatives, sensitivity;", 1);
+        let derived = family.replacen('{', "{ derive limits, jerk, velocity_ratio_derivatives, sensitivity;", 1);
         format!("pub {derived}").replace("+ b0_0@t0;", ";").parse().unwrap()
     };
     let families = [("chain", orders(families::chain(3))), ("dense", orders(families::dense(2)))];

@@ -81,6 +81,17 @@ macro_rules! closed_form {
                 close(ours, theirs, 1e-9 * (1.0 + theirs.abs() + size));
             }
         }
+        // Whichever way a position is come by, it is the same to the bit.
+        let at = |index: usize| {
+            let q = &$course.positions[index];
+            format!("{:?}", $mechanism.assemble(q.$input, $mechanism.branch_of(&$mechanism.pose_at(q))))
+        };
+        let in_order: Vec<String> = (0..$course.positions.len()).map(at).collect();
+        for step in [36, 170] {
+            for index in (0..in_order.len()).map(|count| count * step % in_order.len()) {
+                assert_eq!(at(index), in_order[index]);
+            }
+        }
     };
 }
 

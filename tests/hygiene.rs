@@ -17,7 +17,7 @@ mod bare {
             loop r@phi1 + l@phi2 = (x, 0);
             point P = r@phi1;
             output lift = l - x;
-            derive jerk, velocity_ratio_derivatives;
+            derive limits, jerk, velocity_ratio_derivatives;
             derive sensitivity;
         }
     }

@@ -195,6 +195,7 @@ use proc_macro::TokenStream;
 ///
 /// | word | functions |
 /// |---|---|
+/// | `limits` | `limits(v, branch)`, of several inputs `limits_of_NAME`: the input interval about a position in which the mechanism can be assembled, exact where a group stands on the inputs alone, bracketed by search where groups stand on others |
 /// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), of any number of inputs and along any input path; `point_jerks`, `output_jerks` |
 /// | `velocity_ratio_derivatives` | the function of this name: d2u/dv dv, of each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
 /// | `sensitivity` | the function of this name: du/dp = -J^-1 `Psi_p` at fixed inputs, one column a parameter; `point_sensitivities`, `output_sensitivities`, which hold what depends on the parameters directly, too |
@@ -208,7 +209,7 @@ use proc_macro::TokenStream;
 ///         unknown psi, x;
 ///         loop r@phi + l@psi = (x, 0);
 ///         output stroke = x - l;
-///         derive jerk, velocity_ratio_derivatives, sensitivity;
+///         derive limits, jerk, velocity_ratio_derivatives, sensitivity;
 ///     }
 /// }
 /// let piston = Piston::default();
@@ -224,6 +225,10 @@ use proc_macro::TokenStream;
 /// let velocity = piston.velocity(&pose, 1.0)?;
 /// let acceleration = piston.acceleration(&pose, &velocity, 0.0)?;
 /// assert!(piston.jerk(&pose, &velocity, &acceleration, 0.0)?.x.abs() < 1e-14);
+/// // With a rod half as long as the crank the joint stays within 30 degrees of the line.
+/// let short = Piston::new(2.0, 1.0);
+/// let limits = short.limits(0.1, PistonBranch { psi: linkage::Slope::Rising })?;
+/// assert!((limits.upper.input().unwrap() - std::f64::consts::FRAC_PI_6).abs() < 1e-15);
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
@@ -252,7 +257,7 @@ use proc_macro::TokenStream;
 /// | `branches(v)` | every position that exists at these inputs, each with its branch |
 /// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
 /// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once |
-/// | `jerk`, `velocity_ratio_derivatives`, `sensitivity` and the like of points and outputs | where a `derive` statement asks for them |
+/// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and the like of points and outputs | where a `derive` statement asks for them |
 /// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` makes a document of it |
 ///
 /// `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates nothing, cannot panic and

@@ -2,6 +2,7 @@
 //!
 //! - [`Mechanism`]: the trait that general algorithms take;
 //! - [`position`]: Newton's method with damping and honest failure;
+//! - [`limits`]: how far an input can go;
 //! - [`Error`]: which mechanism, what residual, how near singular;
 //! - [`derivation`]: the formulas behind the code, as data;
 //! - [`drawing`]: the linkage as SVG;
@@ -15,6 +16,7 @@ pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 mod error;
+pub mod limits;
 mod linear;
 mod mechanism;
 mod motion;
@@ -27,6 +29,7 @@ mod sine;
 
 pub use branch::{Elbow, Side, Slider, Slope, chord, existing, side_of};
 pub use error::{Error, finite, finite_matrix};
+pub use limits::{Bound, Limits, Search, limits};
 pub use linear::{Factorization, product_of_pivots, regular, same_signs};
 pub use mechanism::Mechanism;
 pub use motion::{OutputMotion, PointMotion};

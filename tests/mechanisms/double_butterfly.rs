@@ -33,6 +33,6 @@ linkage! {
         point J = b + (jx, jy)@rocker;
         output swing = rocker;
 
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive limits, jerk, velocity_ratio_derivatives, sensitivity;
     }
 }

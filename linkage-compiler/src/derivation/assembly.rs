@@ -33,6 +33,8 @@ pub struct Assembly {
     pub determinants: BTreeMap<usize, NodeId>,
     /// The blocks that have two solutions.
     pub chords: Vec<Chord>,
+    /// What must not be negative for a block with two solutions to be assembled.
+    pub bounds: Vec<(usize, Vec<NodeId>)>,
     /// The coordinates that are not found in closed form, and the names of their guesses.
     pub guesses: Vec<(usize, SymbolId)>,
     directions: BTreeMap<SymbolId, Vector>,
@@ -283,8 +285,9 @@ impl Solver<'_> {
         self.name(angle, value);
     }
 
-    /// The root of a product of two factors, with the sign of the branch.
+    /// The root of a product of two factors, with the sign of the branch; neither may be negative.
     fn chord(&mut self, factors: [NodeId; 2], size: NodeId) -> NodeId {
+        self.assembly.bounds.push((self.number, factors.to_vec()));
         let symbol = self.graph.symbol(format!("chord_{}", self.number + 1));
         self.assembly.stages.push(Stage::Chord { block: self.number, symbol, factors, size });
         self.graph.variable(symbol)
@@ -438,6 +441,12 @@ impl Solver<'_> {
         let reach = g.multiply(reach, n);
         let factors = [g.subtract(reach, across), g.add(reach, across)];
         let along = self.chord(factors, reach);
+        // The reach is itself a root; its square is not.
+        let g = &mut *self.graph;
+        let (whole, part) = (g.multiply(distance, square), g.power(across, 2));
+        let bound = g.subtract(whole, part);
+        self.assembly.bounds.pop();
+        self.assembly.bounds.push((self.number, vec![bound]));
         let g = &mut *self.graph;
         let offset = dot(g, p, e);
         let offset = simplify(g, &[offset], &BTreeSet::new())[0];

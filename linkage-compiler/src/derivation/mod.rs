@@ -9,6 +9,7 @@ mod check;
 mod formulas;
 mod iteration;
 mod jerk;
+mod limits;
 mod linear;
 mod magnitude;
 mod ratio_derivatives;
@@ -25,6 +26,7 @@ use crate::structure::{self, Group, Method};
 pub use assembly::{Assembly, Choice, Chord};
 pub use check::{LARGEST, check};
 pub use formulas::{Formulas, Inverse, QuantityFormulas};
+pub use limits::Bound;
 pub use linear::{Form, solve_closed};
 pub use ratio_derivatives::RatioDerivatives;
 pub use sensitivity::Sensitivity;
@@ -184,6 +186,8 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
     };
     for request in &mechanism.requests {
         match request {
+            // These follow from the position, when it is emitted.
+            Request::Limits => {}
             Request::Jerk => derivation.derive_jerk(),
             Request::VelocityRatioDerivatives => derivation.derive_ratio_derivatives(),
             Request::Sensitivity => derivation.derive_sensitivity(mechanism),

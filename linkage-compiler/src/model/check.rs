@@ -31,12 +31,14 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// What emitted code calls its own; the types of the user stand beside it.
-const TYPES_OF_EMITTED_CODE: [&str; 14] = [
+const TYPES_OF_EMITTED_CODE: [&str; 17] = [
+    "Bound",
     "Error",
     "Factorization",
     "From",
     "Into",
     "Iterator",
+    "Limits",
     "Mechanism",
     "OutputMotion",
     "PointMotion",
@@ -44,6 +46,7 @@ const TYPES_OF_EMITTED_CODE: [&str; 14] = [
     "Result",
     "SMatrix",
     "SVector",
+    "Search",
     "Solution",
     "Vector2",
 ];

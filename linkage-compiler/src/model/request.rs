@@ -8,6 +8,8 @@ use crate::syntax::{Statement, StatementKind};
 /// A word of the statement `derive`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Request {
+    /// The interval of each input.
+    Limits,
     /// q''', and that of points and outputs.
     Jerk,
     /// d2u/dv dv, and that of points and outputs.
@@ -17,7 +19,8 @@ pub enum Request {
 }
 
 impl Request {
-    const ALL: [(&str, Self); 3] = [
+    const ALL: [(&str, Self); 4] = [
+        ("limits", Self::Limits),
         ("jerk", Self::Jerk),
         ("velocity_ratio_derivatives", Self::VelocityRatioDerivatives),
         ("sensitivity", Self::Sensitivity),

@@ -6,6 +6,7 @@ mod block;
 mod closures;
 mod external;
 mod jerk;
+mod limits;
 mod motion;
 mod position;
 mod quantities;
@@ -128,10 +129,13 @@ pub(super) fn of_driver(
     }
     methods.position(kernels.as_mut());
     methods.assemble(kernels.as_mut());
+    let wanted = |request| mechanism.requests.contains(&request);
+    if wanted(Request::Limits) {
+        methods.limits(kernels.as_mut());
+    }
     methods.closures(kernels.as_mut());
     methods.velocity(kernels.as_mut(), formulas.as_ref());
     methods.acceleration(kernels.as_mut());
-    let wanted = |request| mechanism.requests.contains(&request);
     if wanted(Request::Jerk) {
         methods.jerk(kernels.as_mut());
     }
