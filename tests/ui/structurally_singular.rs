@@ -21,4 +21,15 @@ linkage! {
     }
 }
 
+linkage! {
+    pub mechanism TwoForOne {
+        param a = 1, b = 2;
+        input v;
+        unknown x, y, z;
+        equation x = a * v;
+        equation 2 * x = b + v;
+        equation y + z = x;
+    }
+}
+
 fn main() {}

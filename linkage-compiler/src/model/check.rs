@@ -6,6 +6,7 @@ use super::scope::Scope;
 use super::{Driver, Mechanism};
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
+use crate::structure::StructurallySingular;
 
 /// Everything that is declared is used.
 pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
@@ -130,25 +131,36 @@ pub(super) fn closures(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
             && diagnostics.is_empty()
             && let Err(singular) = crate::structure::order(&incidence, symbols.len())
         {
-            let names: Vec<_> = singular
-                .unknowns
-                .iter()
-                .map(|&unknown| format!("`{}`", mechanism.coordinates[driver.unknowns[unknown]].name.text))
-                .collect();
-            let span = singular
-                .unknowns
-                .first()
-                .map_or_else(|| at(driver), |&unknown| mechanism.coordinates[driver.unknowns[unknown]].name.span);
-            diagnostics.error(
-                span,
-                format_args!(
-                    "`{}` cannot be solved at any position: {} appear in {} closure row{} together",
-                    driver.name,
-                    names.join(", "),
-                    singular.equations.len(),
-                    if singular.equations.len() == 1 { "" } else { "s" },
-                ),
-            );
+            singularity(mechanism, driver, &singular, diagnostics);
         }
+    }
+}
+
+/// Which unknown nothing determines, and which closures compete for others.
+fn singularity(mechanism: &Mechanism, driver: &Driver, singular: &StructurallySingular, diagnostics: &mut Diagnostics) {
+    let name = |unknown: usize| &mechanism.coordinates[driver.unknowns[unknown]].name;
+    let list = |unknowns: &[usize]| {
+        let names = unknowns.iter().map(|&unknown| format!("`{}`", name(unknown).text));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let rows = |count: usize| format!("{count} closure row{}", if count == 1 { "" } else { "s" });
+    let StructurallySingular { undetermined, too_few, competing, contested } = singular;
+    if let Some(&first) = undetermined.first() {
+        let what = match (undetermined.as_slice(), too_few.len()) {
+            (_, 0) => format!("{} is in no closure", list(undetermined)),
+            (_, count) => format!("{} together are in {} only", list(undetermined), rows(count)),
+        };
+        let advice = format_args!("`{}` cannot be solved at any position: {what}", driver.name);
+        diagnostics.error(name(first).span, advice);
+    }
+    let closures = mechanism.closures.iter().flat_map(|closure| closure.rows.iter().map(|_| closure.span));
+    let spans: Vec<Span> = closures.collect();
+    if let Some(&last) = competing.last() {
+        let advice = format_args!(
+            "{} compete for {}, up to and with this one: one of them should hold another unknown",
+            rows(competing.len()),
+            list(contested),
+        );
+        diagnostics.error(spans[last], advice);
     }
 }
