@@ -89,7 +89,8 @@ impl Figure {
 
     /// A position: its points, and how well it closes, which must be to a few roundings of the sum of its links.
     pub fn frame(&mut self, residual: f64, size: f64, points: Vec<(&'static str, Vector2<f64>)>) {
-        let roundings = residual / (f64::EPSILON * size);
+        // In the dwell of a cam nothing is left of either.
+        let roundings = if residual == 0.0 { 0.0 } else { residual / (f64::EPSILON * size) };
         assert!(roundings <= 8.0, "{} closes to {roundings} roundings", self.name);
         self.roundings = self.roundings.max(roundings);
         self.picture.frame(points);

@@ -6,10 +6,13 @@
 
 use std::error::Error;
 
+#[path = "../../tests/source/cam_laws.rs"]
+mod cam_laws;
 #[macro_use]
 mod figure;
 mod page;
 
+mod cams;
 mod machines;
 mod several_loops;
 mod sliders;
@@ -30,6 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Family { name: "Sliders", figures: sliders::figures()? },
         Family { name: "Four, five, six and eight bars", figures: several_loops::figures()? },
         Family { name: "Gears, wheels and the Maltese cross", figures: wheels::figures()? },
+        Family { name: "Cams", figures: cams::figures()? },
         Family { name: "Machines", figures: machines::figures()? },
     ];
     let html = page::html(&families)?;

@@ -3,7 +3,7 @@ linkage! {
     /// and a rod carries the swing to a rocker. The dimensions are this gallery's.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism CamRocker {
-        param swing = 30deg, rise = 100deg, rest = 75deg, bend = 80deg, lever = 50, distance = 80, arm = 60, rod = 90;
+        param swing = 18deg, rise = 120deg, rest = 75deg, bend = 80deg, lever = 50, distance = 80, arm = 60, rod = 90;
         param rocker = 70, base = 100;
         input theta;
         unknown psi, phi, beta;

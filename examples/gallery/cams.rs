@@ -1,0 +1,64 @@
+//! Disc cams, by laws of motion that the user wrote.
+
+use std::error::Error;
+use std::f64::consts::TAU;
+
+use linkage::Elbow::Left;
+use linkage::linkage;
+use linkage::nalgebra::Vector2;
+
+use crate::figure::{Course, Figure, at, polar};
+
+include!("../../tests/mechanisms/cam_follower.rs");
+include!("../../tests/mechanisms/cam_rocker.rs");
+
+pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
+    Ok(vec![cam_follower()?, cam_rocker()?])
+}
+
+/// Angles of a turn, a degree and a half apart.
+fn turn() -> impl Iterator<Item = f64> {
+    (0..240).map(|step| TAU * f64::from(step) / 240.0)
+}
+
+fn cam_follower() -> Result<Figure, Box<dyn Error>> {
+    let m = CamFollower::default();
+    let mut figure = assembled!("Cam follower", CamFollower, m on CamFollowerBranch {}, from 30.0, |pose, points| {
+        let stem = points.roller + at(0.0, 2.0 * m.height);
+        [("O", at(0.0, 0.0)), ("Nose", polar(m.prime, pose.theta.angle())), ("Stem", stem)]
+    });
+    let profile: Result<Vec<_>, linkage::Error> =
+        turn().map(|theta| Ok(m.points(&m.assemble(theta, CamFollowerBranch {})?)?.profile)).collect();
+    figure.picture.plate("O", "Nose", profile?).ground("O").wheel("Roller", "Contact", m.roller);
+    figure.picture.link(&["Roller", "Stem"]).slider("Stem");
+    Ok(figure.words(
+        "Rise and return by the 3-4-5 polynomial, a function of the user's; the profile is what the roller envelops.",
+        "R. L. Norton, Design of Machinery",
+    ))
+}
+
+fn cam_rocker() -> Result<Figure, Box<dyn Error>> {
+    let m = CamRocker::default();
+    let roller = 0.2 * m.lever;
+    let axis = at(-m.distance, 0.0);
+    let mut figure = assembled!("Cam and rocker", CamRocker, m on CamRockerBranch { phi_beta: Left }, from 30.0,
+    |pose, points| {
+        let nose = axis + polar(m.lever, pose.theta.angle());
+        [("O", at(0.0, 0.0)), ("Axis", axis), ("Nose", nose), ("Rim", points.roller + at(roller, 0.0))]
+    });
+    let pitch: Result<Vec<Vector2<f64>>, linkage::Error> =
+        turn().map(|theta| Ok(m.points(&m.assemble(theta, CamRockerBranch { phi_beta: Left })?)?.pitch)).collect();
+    let pitch = pitch?;
+    // The profile lies a roller's radius inside the pitch curve, which is passed clockwise.
+    let inside = (0..pitch.len()).map(|index| {
+        let along = (pitch[(index + 1) % pitch.len()] - pitch[(index + pitch.len() - 1) % pitch.len()]).normalize();
+        pitch[index] + roller * at(along.y, -along.x)
+    });
+    figure.picture.plate("Axis", "Nose", inside).ground("Axis").wheel("Roller", "Rim", roller);
+    figure.picture.link(&["O", "A", "Roller"]).link(&["A", "B"]).link(&["C", "B"]);
+    figure.picture.ground("O").ground("C").trace("B");
+    Ok(figure.words(
+        "A follower that swings by cycloidal motion drives a rocker: a cam first, and then a dyad in closed form.",
+        "H. A. Rothbart, Cams (1956)",
+    ))
+}
