@@ -21,7 +21,7 @@ use rustc_hash::FxHashMap;
 pub use external::{External, ExternalId};
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
-pub use print::{Formula, Name, Notation, Printer, Texts};
+pub use print::{Name, Printer, Texts};
 
 /// An expression of a [`Graph`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
