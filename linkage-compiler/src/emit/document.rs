@@ -1,14 +1,13 @@
-//! `DERIVATION`: the derivation as data, every formula in three notations.
+//! `DERIVATION`: the derivation as data, every formula by its source.
 
-use std::collections::BTreeSet;
-
-use proc_macro2::TokenStream;
+use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 
-use super::names::quoted;
+use super::names::{ident, string};
+use super::tokens::Tokens;
 use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row};
-use crate::graph::{Condition, Formula, Name, NodeId, Printer, SymbolId};
+use crate::graph::{Condition, Name, NodeId, Printer, SymbolId};
 use crate::model::{Driver, Mechanism};
 use crate::simplify::schedule::Operations;
 
@@ -27,82 +26,82 @@ pub(super) fn constant(
     let names = names(mechanism, derivation, &inputs, &unknowns);
     let graph = &derivation.graph;
     let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
-    let parameters = mechanism.parameters.iter().map(|parameter| parameter.name.text.as_str()).collect();
-    let printer = Printer::new(graph, &shown);
-    let mut document = Document { printer, parameters, inputs: inputs.clone(), unknowns: unknowns.clone() };
+    let parameters: Vec<&str> = mechanism.parameters.iter().map(|parameter| parameter.name.text.as_str()).collect();
+    let mut document = Document {
+        words: Words::new(),
+        printer: Printer::new(graph, &shown),
+        derivation,
+        parameters: &parameters,
+        inputs: &inputs,
+        unknowns: &unknowns,
+        has_some: false,
+    };
 
     let title = driver.name.to_string();
+    let [named_parameters, named_inputs, named_unknowns] =
+        [&parameters, &inputs, &unknowns].map(|names| list(names, |out, name| document.symbol(out, name)));
     let residual = document.numbered("Psi", &derivation.residual);
     let j = document.matrix(Name::Plain("J"), None, &derivation.jacobian_unknowns(), unknowns.len());
     let a = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
-    let blocks = formulas.inverses.iter().enumerate();
-    let blocks: Vec<_> = blocks.map(|(number, inverse)| document.block(derivation, number, inverse.as_ref())).collect();
-    let determinant =
-        document.optional(formulas.determinant, |document, node| document.equation(Name::Determinant(None), node));
-    let ratios = document.ratios(&formulas.ratios);
+    let blocks: Vec<_> = formulas.inverses.iter().enumerate().collect();
+    let blocks = list(&blocks, |out, (number, inverse)| out.extend(document.block(*number, inverse.as_ref())));
+    let determinant = formulas.determinant.map(|node| document.left_and_right(Name::Determinant(None), node));
+    let determinant = document.optional(determinant);
+    let (by_inputs, by_pairs, by_parameters) = (document.by_inputs(), document.by_pairs(), document.by_parameters());
+    let ratios = document.derivatives(&unknowns, &by_inputs, &formulas.ratios);
     let gamma = document.numbered("gamma", &derivation.gamma);
-    let jerk = document.optional(derivation.eta.as_ref(), |document, eta| list(document.numbered("eta", eta)));
-    let ratio_derivatives = document.optional(derivation.ratio_derivatives.as_ref(), |document, second| {
-        list(document.ratio_derivatives(&second.pairs, &formulas.ratio_derivatives))
+    let jerk = derivation.eta.as_ref().map(|eta| document.numbered("eta", eta));
+    let jerk = document.optional(jerk);
+    let asked = derivation.ratio_derivatives.is_some();
+    let second = asked.then(|| document.derivatives(&unknowns, &by_pairs, &formulas.ratio_derivatives));
+    let second = document.optional(second);
+    let sensitivity = derivation.sensitivity.as_ref().map(|first| {
+        let jacobian = document.matrix(Name::Plain("Psi_p"), None, &first.jacobian, parameters.len());
+        let formulas = nonzero(derivation, &formulas.sensitivities);
+        let formulas = document.derivatives(&unknowns, &by_parameters, &formulas);
+        quote!(derivation::Sensitivity { jacobian: #jacobian, formulas: #formulas })
     });
-    let sensitivity = document.optional(derivation.sensitivity.as_ref(), |document, first| {
-        let jacobian = document.matrix(Name::Plain("Psi_p"), None, &first.jacobian, document.parameters.len());
-        let equations = list(document.sensitivities(derivation, &formulas.sensitivities));
-        format!("derivation::Sensitivity {{ jacobian: {jacobian}, formulas: {equations} }}")
-    });
+    let sensitivity = document.optional(sensitivity);
     let points: Vec<&str> = mechanism.points.iter().map(|point| point.name.text.as_str()).collect();
-    let points = document.quantities(&points, &["x_", "y_"], derivation, &derivation.points, &formulas.points);
+    let points = document.quantities(&points, &["x_", "y_"], &derivation.points, &formulas.points);
     let outputs: Vec<&str> = mechanism.outputs.iter().map(|output| output.name.text.as_str()).collect();
-    let outputs = document.quantities(&outputs, &[""], derivation, &derivation.outputs, &formulas.outputs);
-    let conditions = document.conditions(&formulas.conditions);
-    let kernels = kernels.iter().map(|(function, operations)| {
-        let Operations { functions, divisions, multiplications, additions } = *operations;
-        format!("kernel({function:?}, [{functions}, {divisions}, {multiplications}, {additions}])")
-    });
-    let parameters = mechanism.parameters.iter().map(|parameter| named(&parameter.name.text));
-    let fields = [
-        ("parameters", list(parameters)),
-        ("inputs", list(inputs.into_iter().map(named))),
-        ("unknowns", list(unknowns.into_iter().map(named))),
-        ("residual", list(residual)),
-        ("jacobian_unknowns", j),
-        ("jacobian_inputs", a),
-        ("blocks", list(blocks)),
-        ("determinant", determinant),
-        ("ratios", list(ratios)),
-        ("ratio_derivatives", ratio_derivatives),
-        ("gamma", list(gamma)),
-        ("jerk", jerk),
-        ("sensitivity", sensitivity),
-        ("points", list(points)),
-        ("outputs", list(outputs)),
-        ("conditions", list(conditions)),
-        ("kernels", list(kernels)),
-    ];
-    let fields: Vec<String> = fields.into_iter().map(|(name, value)| format!("{name}: {value}")).collect();
-    // Mostly strings: read as one text, which spares unoptimised macros a token at a time.
-    let text = format!("&derivation::Derivation {{ mechanism: {title:?}, {} }}", fields.join(", "));
-    let value: TokenStream = text.parse().unwrap_or_default();
+    let outputs = document.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs);
+    let conditions: Vec<Condition> = formulas.conditions.iter().copied().collect();
+    let conditions = list(&conditions, |out, condition| document.condition(out, *condition));
+    let kernels = list(kernels, |out, (function, operations)| document.kernel(out, function, *operations));
     let driver = &driver.name;
     // J stands without a factor before it; a determinant may have no formula.
-    let options = if text.contains("Some(") { quote!({None, Some}) } else { quote!(None) };
+    let options = if document.has_some { quote!({None, Some}) } else { quote!(None) };
     quote! {
         const _: () = {
             use ::core::option::Option::#options;
             use #private::derivation::{self, entry, equation, formula, kernel, symbol};
             impl #driver {
-                /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution
-                /// and the work of each function. It costs nothing where it is not used.
-                pub const DERIVATION: &'static derivation::Derivation = #value;
+                /// The derivation as data: every formula, to be written as text, `LaTeX` or `MathML`, the order of
+                /// solution and the work of each function. It costs nothing where it is not used.
+                pub const DERIVATION: &'static derivation::Derivation = &derivation::Derivation {
+                    mechanism: #title,
+                    parameters: #named_parameters,
+                    inputs: #named_inputs,
+                    unknowns: #named_unknowns,
+                    residual: #residual,
+                    jacobian_unknowns: #j,
+                    jacobian_inputs: #a,
+                    blocks: #blocks,
+                    determinant: #determinant,
+                    ratios: #ratios,
+                    ratio_derivatives: #second,
+                    gamma: #gamma,
+                    jerk: #jerk,
+                    sensitivity: #sensitivity,
+                    points: #points,
+                    outputs: #outputs,
+                    conditions: #conditions,
+                    kernels: #kernels
+                };
             }
         };
     }
-}
-
-/// `&[…]`
-fn list(items: impl IntoIterator<Item = String>) -> String {
-    let items: Vec<String> = items.into_iter().collect();
-    format!("&[{}]", items.join(", "))
 }
 
 /// What each symbol is called.
@@ -139,111 +138,192 @@ fn names<'a>(
     names
 }
 
-fn written(formula: &Formula) -> String {
-    let [unicode, latex, mathml] = [&formula.unicode, &formula.latex, &formula.mathml].map(|text| quoted(text));
-    format!("formula({unicode}, {latex}, {mathml})")
+/// The formulas but for those that are zero.
+fn nonzero<F: Copy + Into<Option<NodeId>>>(derivation: &Derivation, formulas: &[Vec<F>]) -> Vec<Vec<Option<NodeId>>> {
+    let formula = |&formula: &F| formula.into().filter(|&node| !derivation.graph.is_zero(node));
+    formulas.iter().map(|of_one| of_one.iter().map(formula).collect()).collect()
 }
 
-fn named(name: &str) -> String {
-    format!("symbol({name:?}, {})", written(&Name::Plain(name).formula()))
+/// `&[…]`
+fn list<V>(items: &[V], mut write: impl FnMut(&mut Tokens, &V)) -> TokenStream {
+    let mut inside = Tokens::default();
+    for item in items {
+        write(&mut inside, item);
+        inside.punct(',');
+    }
+    inside.slice()
+}
+
+/// The functions that formulas are handed to, made once.
+struct Words {
+    symbol: Ident,
+    formula: Ident,
+    equation: Ident,
+    entry: Ident,
+    kernel: Ident,
+}
+
+impl Words {
+    fn new() -> Self {
+        let [symbol, formula, equation, entry, kernel] =
+            ["symbol", "formula", "equation", "entry", "kernel"].map(ident);
+        Self { symbol, formula, equation, entry, kernel }
+    }
 }
 
 /// Writes formulas.
 struct Document<'a> {
+    words: Words,
     printer: Printer<'a>,
-    parameters: Vec<&'a str>,
-    inputs: Vec<&'a str>,
-    unknowns: Vec<&'a str>,
+    derivation: &'a Derivation,
+    parameters: &'a [&'a str],
+    inputs: &'a [&'a str],
+    unknowns: &'a [&'a str],
+    /// Whether anything optional is there.
+    has_some: bool,
 }
 
-impl Document<'_> {
-    fn formula(&mut self, node: NodeId) -> String {
-        written(&self.printer.formula(node))
+/// What something is derived by.
+#[derive(Clone, Copy)]
+enum By<'a> {
+    One(&'a str),
+    Two([&'a str; 2]),
+}
+
+impl By<'_> {
+    fn name<'n>(&'n self, of: &'n str) -> Name<'n> {
+        match *self {
+            Self::One(by) => Name::Ratio { of, by },
+            Self::Two(by) => Name::RatioDerivative { of, by },
+        }
+    }
+}
+
+impl<'a> Document<'a> {
+    fn optional(&mut self, value: Option<TokenStream>) -> TokenStream {
+        let Some(value) = value else { return quote!(None) };
+        self.has_some = true;
+        quote!(Some(#value))
     }
 
-    fn equation(&mut self, left: Name, right: NodeId) -> String {
-        format!("equation({}, {})", written(&left.formula()), self.formula(right))
+    fn by_inputs(&self) -> Vec<By<'a>> {
+        self.inputs.iter().map(|&by| By::One(by)).collect()
+    }
+
+    fn by_pairs(&self) -> Vec<By<'a>> {
+        let pairs = self.derivation.ratio_derivatives.iter().flat_map(|second| &second.pairs);
+        pairs.map(|&(j, k)| By::Two([self.inputs[j], self.inputs[k]])).collect()
+    }
+
+    fn by_parameters(&self) -> Vec<By<'a>> {
+        self.parameters.iter().map(|&by| By::One(by)).collect()
+    }
+
+    fn symbol(&self, out: &mut Tokens, name: &str) {
+        out.call(&self.words.symbol, |inside| inside.append(string(name)));
+    }
+
+    fn name(&self, out: &mut Tokens, name: Name) {
+        out.call(&self.words.formula, |inside| inside.append(string(&name.source())));
+    }
+
+    fn formula(&mut self, node: NodeId) -> TokenStream {
+        let mut out = Tokens::default();
+        out.call(&self.words.formula, |inside| inside.append(string(self.printer.source(node))));
+        out.into()
+    }
+
+    fn equation(&mut self, out: &mut Tokens, left: Name, right: NodeId) {
+        out.call(&self.words.equation, |inside| {
+            inside.append(string(&left.source()));
+            inside.punct(',');
+            inside.append(string(self.printer.source(right)));
+        });
+    }
+
+    fn left_and_right(&mut self, left: Name, right: NodeId) -> TokenStream {
+        let mut out = Tokens::default();
+        self.equation(&mut out, left, right);
+        out.into()
     }
 
     /// name_1 = …, name_2 = …
-    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> Vec<String> {
-        let numbered = nodes.iter().enumerate();
-        numbered.map(|(index, &node)| self.equation(Name::Plain(&format!("{name}{}", index + 1)), node)).collect()
+    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> TokenStream {
+        let mut number = 0;
+        list(nodes, |out, &node| {
+            number += 1;
+            self.equation(out, Name::Plain(&format!("{name}{number}")), node);
+        })
     }
 
-    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> String {
-        let name = written(&name.formula());
-        let factor = self.optional(factor, |document, node| document.formula(node));
-        let mut entries = Vec::new();
+    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> TokenStream {
+        let mut named = Tokens::default();
+        self.name(&mut named, name);
+        let name = TokenStream::from(named);
+        let factor = factor.map(|node| self.formula(node));
+        let factor = self.optional(factor);
+        let mut entries = Tokens::default();
         for (index, row) in rows.iter().enumerate() {
             for (&column, &node) in row {
-                entries.push(format!("entry({index}, {column}, {})", self.formula(node)));
+                entries.call(&self.words.entry, |inside| {
+                    for place in [index, column] {
+                        inside.append(Literal::usize_unsuffixed(place));
+                        inside.punct(',');
+                    }
+                    inside.append(string(self.printer.source(node)));
+                });
+                entries.punct(',');
             }
         }
-        let (rows, entries) = (rows.len(), list(entries));
-        format!(
-            "derivation::Matrix {{ name: {name}, factor: {factor}, rows: {rows}, columns: {columns}, entries: {entries} }}"
-        )
+        let (rows, columns) = (Literal::usize_unsuffixed(rows.len()), Literal::usize_unsuffixed(columns));
+        let entries = entries.slice();
+        quote! {
+            derivation::Matrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: #entries }
+        }
     }
 
-    fn optional<V>(&mut self, value: Option<V>, write: impl FnOnce(&mut Self, V) -> String) -> String {
-        value.map_or_else(|| "None".to_owned(), |value| format!("Some({})", write(self, value)))
-    }
-
-    fn block(&mut self, derivation: &Derivation, number: usize, inverse: Option<&Inverse>) -> String {
-        let block = &derivation.blocks[number];
-        let number = (derivation.blocks.len() > 1).then_some(number + 1);
-        let unknowns = block.unknowns.iter().map(|&place| written(&Name::Plain(self.unknowns[place]).formula()));
-        let unknowns = list(unknowns);
-        let equations = list(block.equations.iter().map(ToString::to_string));
+    fn block(&mut self, number: usize, inverse: Option<&Inverse>) -> TokenStream {
+        let block = &self.derivation.blocks[number];
+        let number = (self.derivation.blocks.len() > 1).then_some(number + 1);
+        let unknowns = list(&block.unknowns, |out, &place| self.name(out, Name::Plain(self.unknowns[place])));
+        let equations = list(&block.equations, |out, &equation| out.append(Literal::usize_unsuffixed(equation)));
         let group = block.group.words();
-        let method = if block.determinant.is_some() { "ClosedForm" } else { "Factorization" };
-        let determinant = self.optional(block.determinant, |document, determinant| {
-            document.equation(Name::Determinant(number), determinant.value)
-        });
-        let inverse = self.optional(inverse, |document, (factor, rows)| {
-            document.matrix(Name::Inverse(number), Some(*factor), rows, rows.len())
-        });
-        format!(
-            "derivation::Block {{ unknowns: {unknowns}, equations: {equations}, group: {group:?}, \
-             method: derivation::Method::{method}, determinant: {determinant}, inverse: {inverse} }}"
-        )
-    }
-
-    fn ratios(&mut self, formulas: &[Vec<Option<NodeId>>]) -> Vec<String> {
-        let (inputs, unknowns) = (self.inputs.clone(), self.unknowns.clone());
-        let mut ratios = Vec::new();
-        for (by, of_input) in inputs.into_iter().zip(formulas) {
-            for (&of, node) in unknowns.iter().zip(of_input) {
-                ratios.extend(node.map(|node| self.equation(Name::Ratio { of, by }, node)));
+        let method = ident(if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
+        let determinant =
+            block.determinant.map(|determinant| self.left_and_right(Name::Determinant(number), determinant.value));
+        let determinant = self.optional(determinant);
+        let inverse = inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len()));
+        let inverse = self.optional(inverse);
+        quote! {
+            derivation::Block {
+                unknowns: #unknowns,
+                equations: #equations,
+                group: #group,
+                method: derivation::Method::#method,
+                determinant: #determinant,
+                inverse: #inverse
             }
         }
-        ratios
     }
 
-    fn ratio_derivatives(&mut self, pairs: &[(usize, usize)], formulas: &[Vec<Option<NodeId>>]) -> Vec<String> {
-        let unknowns = self.unknowns.clone();
-        let mut derivatives = Vec::new();
-        for (&(j, k), of_pair) in pairs.iter().zip(formulas) {
-            let by = [self.inputs[j], self.inputs[k]];
-            for (&of, node) in unknowns.iter().zip(of_pair) {
-                derivatives.extend(node.map(|node| self.equation(Name::RatioDerivative { of, by }, node)));
+    /// The derivatives of what is called so, by what it is derived by and then by name, where there is a
+    /// formula.
+    fn derivatives<N: AsRef<str>, F: Copy + Into<Option<NodeId>>>(
+        &mut self,
+        of: &[N],
+        by: &[By<'_>],
+        formulas: &[Vec<F>],
+    ) -> TokenStream {
+        let mut out = Tokens::default();
+        for (by, formulas) in by.iter().zip(formulas) {
+            for (of, &formula) in of.iter().zip(formulas) {
+                if let Some(node) = formula.into() {
+                    self.equation(&mut out, by.name(of.as_ref()), node);
+                    out.punct(',');
+                }
             }
         }
-        derivatives
-    }
-
-    /// Those that are not zero.
-    fn sensitivities(&mut self, derivation: &Derivation, formulas: &[Vec<Option<NodeId>>]) -> Vec<String> {
-        let (parameters, unknowns) = (self.parameters.clone(), self.unknowns.clone());
-        let mut sensitivities = Vec::new();
-        for (by, of_parameter) in parameters.into_iter().zip(formulas) {
-            for (&of, node) in unknowns.iter().zip(of_parameter) {
-                let node = node.filter(|&node| !derivation.graph.is_zero(node));
-                sensitivities.extend(node.map(|node| self.equation(Name::Ratio { of, by }, node)));
-            }
-        }
-        sensitivities
+        out.slice()
     }
 
     /// Points and outputs, each component called by its prefix and the name.
@@ -251,73 +331,52 @@ impl Document<'_> {
         &mut self,
         names: &[&str],
         prefixes: &[&str],
-        derivation: &Derivation,
         quantities: &[Quantity],
         formulas: &[QuantityFormulas],
-    ) -> Vec<String> {
-        let inputs = self.inputs.clone();
-        let mut all = Vec::new();
-        for ((name, quantity), formulas) in names.iter().zip(quantities).zip(formulas) {
+    ) -> TokenStream {
+        let (by_inputs, by_pairs, by_parameters) = (self.by_inputs(), self.by_pairs(), self.by_parameters());
+        let all: Vec<_> = names.iter().zip(quantities).zip(formulas).collect();
+        list(&all, |out, ((name, quantity), formulas)| {
             let components: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{name}")).collect();
-            let mut values = Vec::new();
-            for (component, &node) in components.iter().zip(&quantity.value) {
-                values.push(self.equation(Name::Plain(component), node));
-            }
-            let mut rates = Vec::new();
-            for (by, of_input) in inputs.iter().zip(&formulas.ratios) {
-                for (of, &node) in components.iter().zip(of_input) {
-                    rates.push(self.equation(Name::Ratio { of, by }, node));
+            let values: Vec<_> = components.iter().zip(&quantity.value).collect();
+            let values = list(&values, |out, (component, node)| self.equation(out, Name::Plain(component), **node));
+            let ratios = self.derivatives(&components, &by_inputs, &formulas.ratios);
+            let second = self.derivatives(&components, &by_pairs, &formulas.ratio_derivatives);
+            let first = nonzero(self.derivation, &formulas.sensitivities);
+            let first = self.derivatives(&components, &by_parameters, &first);
+            out.extend(quote! {
+                derivation::Quantity {
+                    name: #name,
+                    value: #values,
+                    ratios: #ratios,
+                    ratio_derivatives: #second,
+                    sensitivities: #first
                 }
-            }
-            let mut second = Vec::new();
-            let pairs = derivation.ratio_derivatives.iter().flat_map(|second| &second.pairs);
-            for (&(j, k), of_pair) in pairs.zip(&formulas.ratio_derivatives) {
-                let by = [inputs[j], inputs[k]];
-                for (of, &node) in components.iter().zip(of_pair) {
-                    second.push(self.equation(Name::RatioDerivative { of, by }, node));
-                }
-            }
-            let mut sensitivities = Vec::new();
-            for (by, of_parameter) in self.parameters.clone().into_iter().zip(&formulas.sensitivities) {
-                for (of, &node) in components.iter().zip(of_parameter) {
-                    if !derivation.graph.is_zero(node) {
-                        sensitivities.push(self.equation(Name::Ratio { of, by }, node));
-                    }
-                }
-            }
-            let [values, rates, second, sensitivities] = [values, rates, second, sensitivities].map(list);
-            all.push(format!(
-                "derivation::Quantity {{ name: {name:?}, value: {values}, ratios: {rates}, \
-                 ratio_derivatives: {second}, sensitivities: {sensitivities} }}"
-            ));
-        }
-        all
+            });
+        })
     }
 
     /// What was taken for granted: x ≠ 0, or that an expression has a value.
-    fn conditions(&mut self, conditions: &BTreeSet<Condition>) -> Vec<String> {
-        let mut lines = Vec::new();
-        for condition in conditions {
-            let formula = match *condition {
-                Condition::NonZero(node) => {
-                    let Formula { unicode, latex, mathml } = self.printer.formula(node);
-                    Formula {
-                        unicode: format!("{unicode} ≠ 0"),
-                        latex: format!("{latex} \\neq 0"),
-                        mathml: format!("<mrow>{mathml}<mo>≠</mo><mn>0</mn></mrow>"),
-                    }
-                }
-                Condition::Defined(node) => {
-                    let Formula { unicode, latex, mathml } = self.printer.formula(node);
-                    Formula {
-                        unicode: format!("{unicode} exists"),
-                        latex: format!("{latex} \\text{{ exists}}"),
-                        mathml: format!("<mrow>{mathml}<mtext> exists</mtext></mrow>"),
-                    }
-                }
-            };
-            lines.push(written(&formula));
-        }
-        lines
+    fn condition(&mut self, out: &mut Tokens, condition: Condition) {
+        let (node, relation) = match condition {
+            Condition::NonZero(node) => (node, "!= 0"),
+            Condition::Defined(node) => (node, "exists"),
+        };
+        let text = format!("{} {relation}", self.printer.source(node));
+        out.call(&self.words.formula, |inside| inside.append(string(&text)));
+    }
+
+    fn kernel(&self, out: &mut Tokens, function: &str, operations: Operations) {
+        let Operations { functions, divisions, multiplications, additions } = operations;
+        out.call(&self.words.kernel, |inside| {
+            inside.append(string(function));
+            inside.punct(',');
+            let counts = [functions, divisions, multiplications, additions].map(|count| {
+                let mut literal = Tokens::default();
+                literal.append(Literal::usize_unsuffixed(count));
+                literal
+            });
+            inside.list(Delimiter::Bracket, counts);
+        });
     }
 }

@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-use proc_macro2::{Delimiter, Group, Literal, Punct, Spacing, TokenStream};
-use quote::{TokenStreamExt, quote};
+use proc_macro2::{Delimiter, Literal, TokenStream};
+use quote::quote;
 
-use super::names::{Names, ident};
+use super::names::Names;
+use super::tokens::Tokens;
 use crate::graph::{Function, Number};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
@@ -19,22 +20,22 @@ enum Binding {
 
 /// A value, by its name if it has one.
 pub(super) fn signed(names: &Names, schedule: &Schedule, value: Signed) -> TokenStream {
-    let mut tokens = TokenStream::new();
+    let mut tokens = Tokens::default();
     write(&mut tokens, names, schedule, value);
-    tokens
+    tokens.into()
 }
 
 /// Writes a value, by its name if it has one.
-pub(super) fn write(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: Signed) {
+pub(super) fn write(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: Signed) {
     operand(tokens, names, schedule, value, Binding::Sum);
 }
 
 /// Writes how a value is computed, even if it has a name.
-pub(super) fn define(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: ValueId) {
+pub(super) fn define(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: ValueId) {
     compute(tokens, names, schedule, value);
 }
 
-fn operand(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: Signed, at_least: Binding) {
+fn operand(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: Signed, at_least: Binding) {
     let name = names.get(schedule, value.value);
     let definition = schedule.value(value.value);
     // -(a - b) is b - a.
@@ -54,10 +55,10 @@ fn operand(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: 
     };
     within(tokens, outer < at_least, |tokens| {
         if negative {
-            tokens.append(Punct::new('-', Spacing::Alone));
+            tokens.punct('-');
         }
         within(tokens, bracketed, |tokens| match (name, flipped) {
-            (Some(name), _) => tokens.append(name.ident.clone()),
+            (Some(name), _) => tokens.ident(&name.ident),
             (None, Some(terms)) => {
                 let flip = |term: &Signed| Signed { negative: !term.negative, value: term.value };
                 let mut terms: Vec<Signed> = terms.iter().map(flip).collect();
@@ -70,20 +71,20 @@ fn operand(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: 
 }
 
 /// Writes in brackets, or without.
-fn within(tokens: &mut TokenStream, brackets: bool, write: impl FnOnce(&mut TokenStream)) {
+fn within(tokens: &mut Tokens, brackets: bool, write: impl FnOnce(&mut Tokens)) {
     if brackets {
-        let mut inside = TokenStream::new();
+        let mut inside = Tokens::default();
         write(&mut inside);
-        tokens.append(Group::new(Delimiter::Parenthesis, inside));
+        tokens.group(Delimiter::Parenthesis, inside);
     } else {
         write(tokens);
     }
 }
 
-fn sum(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, terms: &[Signed]) {
+fn sum(tokens: &mut Tokens, names: &Names, schedule: &Schedule, terms: &[Signed]) {
     operand(tokens, names, schedule, terms[0], Binding::Sum);
     for term in &terms[1..] {
-        tokens.append(Punct::new(if term.negative { '-' } else { '+' }, Spacing::Alone));
+        tokens.punct(if term.negative { '-' } else { '+' });
         operand(tokens, names, schedule, Signed { negative: false, value: term.value }, Binding::Product);
     }
 }
@@ -99,8 +100,8 @@ fn binding(names: &Names, schedule: &Schedule, value: ValueId) -> Binding {
     }
 }
 
-fn compute(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: ValueId) {
-    let part = |tokens: &mut TokenStream, value: ValueId, at_least: Binding| {
+fn compute(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: ValueId) {
+    let part = |tokens: &mut Tokens, value: ValueId, at_least: Binding| {
         operand(tokens, names, schedule, Signed { negative: false, value }, at_least);
     };
     match schedule.value(value) {
@@ -112,26 +113,26 @@ fn compute(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: 
         }
         Value::Symbol(symbol) => tokens.append(names.symbol(*symbol)),
         // Given directions are named before any expression is written.
-        Value::Direction(..) => tokens.append(ident("direction")),
+        Value::Direction(..) => tokens.word("direction"),
         // Calls of the user's functions have lines of their own.
-        Value::External(..) => tokens.append(ident("external")),
+        Value::External(..) => tokens.word("external"),
         Value::Sum(terms) => sum(tokens, names, schedule, terms),
         Value::Product(factors) => {
             part(tokens, factors[0], Binding::Product);
             for &factor in &factors[1..] {
-                tokens.append(Punct::new('*', Spacing::Alone));
+                tokens.punct('*');
                 part(tokens, factor, Binding::Prefix);
             }
         }
         Value::Quotient(above, below) => {
             part(tokens, *above, Binding::Product);
-            tokens.append(Punct::new('/', Spacing::Alone));
+            tokens.punct('/');
             part(tokens, *below, Binding::Prefix);
         }
         Value::Square(base) => {
             part(tokens, *base, Binding::Atom);
             if names.get(schedule, *base).is_some() {
-                tokens.append(Punct::new('*', Spacing::Alone));
+                tokens.punct('*');
                 part(tokens, *base, Binding::Atom);
             } else {
                 tokens.extend(quote!(.powi(2)));
@@ -139,16 +140,16 @@ fn compute(tokens: &mut TokenStream, names: &Names, schedule: &Schedule, value: 
         }
         Value::Call(function, arguments) => {
             operand(tokens, names, schedule, arguments[0], Binding::Atom);
-            tokens.append(Punct::new('.', Spacing::Alone));
-            tokens.append(ident(function.operation().method));
-            let mut inside = TokenStream::new();
+            tokens.punct('.');
+            tokens.word(function.operation().method);
+            let mut inside = Tokens::default();
             for (index, argument) in arguments[1..].iter().enumerate() {
                 if index > 0 {
-                    inside.append(Punct::new(',', Spacing::Alone));
+                    inside.punct(',');
                 }
                 write(&mut inside, names, schedule, *argument);
             }
-            tokens.append(Group::new(Delimiter::Parenthesis, inside));
+            tokens.group(Delimiter::Parenthesis, inside);
         }
     }
 }

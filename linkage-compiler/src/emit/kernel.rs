@@ -1,13 +1,14 @@
 //! One kernel: what it is given, its stages, and the Rust that carries them out.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, Punct, Spacing, TokenStream};
-use quote::{ToTokens, TokenStreamExt, quote};
+use proc_macro2::{Delimiter, Ident, TokenStream};
+use quote::{ToTokens, quote};
 
 use super::expression::{define, direction_name, signed};
 use super::names::{Names, Taken, call_of, ident};
 use super::pose::PosePlan;
+use super::tokens::Tokens;
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
 use crate::simplify::schedule::{self, Line, Operations, Schedule, Signed, Stage, Value, ValueId};
@@ -100,26 +101,22 @@ pub(super) fn write(
     for &symbol in &symbols {
         names.introduce(symbol);
     }
-    let (mut body, mut arguments) = (TokenStream::new(), Vec::new());
+    let (mut body, mut arguments) = (Tokens::default(), Vec::new());
     for source in &given.sources {
-        if let Some(pattern) = pattern(source, &symbols, &names) {
-            body.extend(pattern);
+        if pattern(&mut body, source, &symbols, &names) {
             arguments.extend(source.argument.clone());
         }
     }
     if let Some(pose) = given.pose {
-        let directions = take_directions(pose, &schedule, &mut names);
-        if !directions.is_empty() {
-            arguments.push(ident(&pose.argument));
-        }
-        body.extend(directions);
+        arguments.extend(take_directions(&mut body, pose, &schedule, &mut names));
     }
     let mut results = Vec::new();
-    let writer = Writer { given, derivation, schedule: &schedule, used: &used };
+    let writer = Writer { given, derivation, schedule: &schedule, used: &used, keyword: ident("let") };
     for line in &schedule.lines {
         write_line(&writer, &mut body, line, &mut names, &mut results);
     }
     let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
+    let body = body.into();
     let externals = std::mem::take(&mut names.externals);
     Code { body, results, operations: schedule.operations(), taken: names.into_taken(), arguments, uses, externals }
 }
@@ -136,77 +133,108 @@ fn used_by(line: &Line) -> Option<&'static str> {
     }
 }
 
-/// `let Type { field, other: name, .. } = *value;` with the fields that are used.
-fn pattern(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<TokenStream> {
+/// `let Type { field, other: name, .. } = *value;` with the fields that are used; nothing if none is.
+fn pattern(body: &mut Tokens, source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> bool {
     let from = &source.from;
-    let local = |symbol: &SymbolId| used.contains(symbol).then(|| names.symbol(*symbol));
     let of = match &source.of {
         Shape::Fields(of) => of,
         Shape::Columns(rows) => {
-            let parts = source.fields.iter().map(|(_, symbol)| local(symbol).unwrap_or_else(|| ident("_")));
-            let parts: Vec<Ident> = parts.collect();
+            let local = |symbol: &SymbolId| {
+                if used.contains(symbol) { names.symbol(*symbol) } else { ident("_") }
+            };
+            let parts: Vec<Ident> = source.fields.iter().map(|(_, symbol)| local(symbol)).collect();
             let columns = parts.chunks(*rows).map(|column| quote!([#(#column),*]));
-            return Some(quote!(let [#(#columns),*] = #from;));
+            body.extend(quote!(let [#(#columns),*] = #from;));
+            return true;
         }
     };
-    let fields = source.fields.iter().filter_map(|(field, symbol)| {
-        let name = local(symbol)?;
-        let field = ident(field);
-        Some(if field == name { quote!(#name) } else { quote!(#field: #name) })
-    });
-    let fields: Vec<TokenStream> = fields.collect();
-    if fields.is_empty() {
-        return None;
+    let mut fields = Tokens::default();
+    let mut count = 0;
+    for (field, symbol) in source.fields.iter().filter(|(_, symbol)| used.contains(symbol)) {
+        let name = names.symbol(*symbol);
+        if name != *field {
+            fields.word(field);
+            fields.punct(':');
+        }
+        fields.ident(&name);
+        fields.punct(',');
+        count += 1;
     }
-    let rest = (fields.len() < source.fields.len()).then(|| quote!(..));
-    Some(quote!(let #of { #(#fields,)* #rest } = #from;))
+    if count == 0 {
+        return false;
+    }
+    if count < source.fields.len() {
+        fields.extend(quote!(..));
+    }
+    body.word("let");
+    body.extend(of.clone());
+    body.group(Delimiter::Brace, fields);
+    body.punct('=');
+    body.extend(from.clone());
+    body.punct(';');
+    true
 }
 
-/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
-fn take_directions(pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> TokenStream {
-    let mut used: BTreeMap<NodeId, Vec<(Function, _)>> = BTreeMap::new();
+/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used;
+/// gives the argument if any is.
+fn take_directions(body: &mut Tokens, pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> Option<Ident> {
+    let mut used: Vec<(NodeId, Function, ValueId)> = Vec::new();
     for &id in schedule.used() {
         if let Value::Direction(function, angle) = schedule.value(id) {
-            used.entry(*angle).or_default().push((*function, id));
+            used.push((*angle, *function, id));
         }
     }
+    if used.is_empty() {
+        return None;
+    }
+    used.sort_unstable();
     let argument = ident(&pose.argument);
-    let mut tokens = TokenStream::new();
-    for (angle, mut parts) in used {
-        parts.sort_by_key(|(function, _)| *function);
-        let field = pose.direction(angle);
+    for parts in used.chunk_by(|one, other| one.0 == other.0) {
+        let field = pose.direction(parts[0].0);
         let field_ident = ident(field);
         let (mut left, mut right) = (Vec::new(), Vec::new());
-        for (function, id) in parts {
-            left.push(names.give(id, &direction_name(function, field)));
-            let part = if function == Function::Sin { quote!(im) } else { quote!(re) };
-            right.push(quote!(#argument.#field_ident.#part));
+        for &(_, function, id) in parts {
+            let mut name = Tokens::default();
+            name.append(names.give(id, &direction_name(function, field)));
+            left.push(name);
+            let mut part = Tokens::default();
+            part.ident(&argument);
+            part.punct('.');
+            part.ident(&field_ident);
+            part.punct('.');
+            part.word(if function == Function::Sin { "im" } else { "re" });
+            right.push(part);
         }
-        tokens.extend(match (left.as_slice(), right.as_slice()) {
-            ([name], [value]) => quote!(let #name = #value;),
-            _ => quote!(let (#(#left),*) = (#(#right),*);),
-        });
+        body.word("let");
+        // None about a single one.
+        let brackets = if parts.len() == 1 { Delimiter::None } else { Delimiter::Parenthesis };
+        body.list(brackets, left);
+        body.punct('=');
+        body.list(brackets, right);
+        body.punct(';');
     }
-    tokens
+    Some(argument)
 }
 
 /// What the lines of a kernel refer to.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Writer<'a> {
     given: &'a Given<'a>,
     derivation: &'a Derivation,
     schedule: &'a Schedule,
     /// The symbols that are used.
     used: &'a BTreeSet<SymbolId>,
+    /// `let`, which most lines begin with.
+    keyword: Ident,
 }
 
-fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut Names, results: &mut Vec<Operand>) {
-    let Writer { given, derivation, schedule, used } = writer;
+fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names, results: &mut Vec<Operand>) {
+    let Writer { given, derivation, schedule, used, keyword } = writer;
     match line {
         Line::Let(id) => {
             // What a value is made of has names before it has one itself.
             let name = names.invent(schedule, *id);
-            assign(body, &name, |body| define(body, names, schedule, *id));
+            assign(body, keyword, &name, |body| define(body, names, schedule, *id));
         }
         Line::SineCosine { sine, cosine, angle } => {
             let argument = signed(names, schedule, *angle);
@@ -240,7 +268,7 @@ fn write_line(writer: &Writer, body: &mut TokenStream, line: &Line, names: &mut 
             let fresh = !value.negative && !number && names.get(schedule, value.value).is_none();
             let definition = signed(names, schedule, *value);
             let name = names.introduce(*symbol);
-            assign(body, &name.ident, |body| body.extend(definition));
+            assign(body, keyword, &name.ident, |body| body.extend(definition));
             if fresh {
                 names.set(value.value, name);
             }
@@ -309,8 +337,8 @@ fn evaluation(
 ) -> (Vec<Ident>, TokenStream) {
     let mut inner = names.within();
     let unknowns: Vec<Ident> = unknowns.iter().map(|&unknown| inner.introduce(unknown).ident).collect();
-    let (mut body, mut results) = (TokenStream::new(), Vec::new());
-    let writer = Writer { schedule: system, ..*writer };
+    let (mut body, mut results) = (Tokens::default(), Vec::new());
+    let writer = Writer { schedule: system, ..writer.clone() };
     for line in &system.lines {
         write_line(&writer, &mut body, line, &mut inner, &mut results);
     }
@@ -325,16 +353,16 @@ fn evaluation(
         quote!([#(#column),*])
     });
     body.extend(quote!(([#(#residual),*], [#(#sizes),*], [#(#columns),*])));
-    (unknowns, body)
+    (unknowns, body.into())
 }
 
 /// `let name = …;`
-fn assign(body: &mut TokenStream, name: &Ident, definition: impl FnOnce(&mut TokenStream)) {
-    body.append(ident("let"));
-    body.append(name.clone());
-    body.append(Punct::new('=', Spacing::Alone));
+fn assign(body: &mut Tokens, keyword: &Ident, name: &Ident, definition: impl FnOnce(&mut Tokens)) {
+    body.ident(keyword);
+    body.ident(name);
+    body.punct('=');
     definition(body);
-    body.append(Punct::new(';', Spacing::Alone));
+    body.punct(';');
 }
 
 fn result(names: &Names, schedule: &Schedule, value: Signed) -> Operand {

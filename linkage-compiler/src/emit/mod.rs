@@ -6,6 +6,7 @@ mod kernel;
 mod methods;
 mod names;
 mod pose;
+mod tokens;
 mod types;
 
 use proc_macro2::{Ident, Span, TokenStream};

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Literal, Span};
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
 use crate::graph::{ExternalId, Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
@@ -79,7 +79,7 @@ impl Taken {
 pub(super) struct Names<'a> {
     graph: &'a Graph,
     taken: Taken,
-    values: FxHashMap<ValueId, Name>,
+    values: Vec<Option<Name>>,
     symbols: FxHashMap<SymbolId, Name>,
     /// Whether a number had to be made a scalar.
     numbers_taken: Cell<bool>,
@@ -92,12 +92,15 @@ pub(super) struct Names<'a> {
 impl<'a> Names<'a> {
     /// `reserved` are names already in scope: arguments of the function and the user's names.
     pub(super) fn new(graph: &'a Graph, reserved: impl IntoIterator<Item = String>) -> Self {
-        let names = reserved.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)).collect();
+        // As many as a short kernel has.
+        let mut names = FxHashSet::with_capacity_and_hasher(64, FxBuildHasher);
+        names.extend(reserved);
+        names.extend(RUNTIME_FUNCTIONS.map(str::to_owned));
         let taken = Taken { names, numbers: FxHashMap::default() };
         Self {
             graph,
             taken,
-            values: FxHashMap::default(),
+            values: Vec::new(),
             symbols: FxHashMap::default(),
             numbers_taken: Cell::new(false),
             externals: BTreeSet::new(),
@@ -110,7 +113,7 @@ impl<'a> Names<'a> {
         Self {
             graph: self.graph,
             taken: self.taken.clone(),
-            values: FxHashMap::default(),
+            values: Vec::new(),
             symbols: self.symbols.clone(),
             numbers_taken: Cell::new(false),
             factors: FxHashMap::default(),
@@ -149,14 +152,18 @@ impl<'a> Names<'a> {
     }
 
     pub(super) fn set(&mut self, value: ValueId, name: Name) {
-        self.values.insert(value, name);
+        let index = value.index();
+        if self.values.len() <= index {
+            self.values.resize(index + 1, None);
+        }
+        self.values[index] = Some(name);
     }
 
     /// The name of a value that has one.
     pub(super) fn get(&self, schedule: &Schedule, value: ValueId) -> Option<&Name> {
         match schedule.value(value) {
             Value::Symbol(symbol) => self.symbols.get(symbol),
-            _ => self.values.get(&value),
+            _ => self.values.get(value.index())?.as_ref(),
         }
     }
 
@@ -164,7 +171,7 @@ impl<'a> Names<'a> {
     pub(super) fn give(&mut self, value: ValueId, wish: &str) -> Ident {
         let name = Name::new(self.unique(wish));
         let ident = name.ident.clone();
-        self.values.insert(value, name);
+        self.set(value, name);
         ident
     }
 
@@ -189,7 +196,7 @@ impl<'a> Names<'a> {
         };
         let name = Name::new(name);
         let ident = name.ident.clone();
-        self.values.insert(value, name);
+        self.set(value, name);
         ident
     }
 
@@ -228,8 +235,9 @@ impl<'a> Names<'a> {
 
     /// A part by its name, or by a word for the small things that are written inline.
     fn part(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
-        let small =
-            |value: &ValueId| self.values.contains_key(value) || matches!(schedule.value(*value), Value::Symbol(_));
+        let small = |value: &ValueId| {
+            matches!(schedule.value(*value), Value::Symbol(_)) || self.get(schedule, *value).is_some()
+        };
         match schedule.value(value) {
             Value::Constant(Number::Ratio(1, 2)) => Some("half".to_owned()),
             Value::Constant(Number::Ratio(2, 1)) => Some("twice".to_owned()),

@@ -28,11 +28,14 @@ impl PosePlan {
         let formulas = formulas(derivation);
         let graph = &mut derivation.graph;
         // Sines inside the determinant alone are taken when the pose is made.
-        let mut wanted: BTreeSet<NodeId> = formulas.iter().copied().collect();
         let mut angles = BTreeSet::new();
         let mut bare = BTreeSet::new();
         let mut externals = BTreeSet::new();
-        while let Some(id) = wanted.pop_last() {
+        let stops = |id: NodeId| {
+            graph.constant_value(id).is_some()
+                || matches!(graph.node(id), Node::Call(Function::Sin | Function::Cos, _) | Node::External(..))
+        };
+        for id in graph.sweep(&formulas, |_| false, stops) {
             match graph.node(id) {
                 _ if graph.constant_value(id).is_some() => {}
                 Node::Call(Function::Sin | Function::Cos, angle) => {
@@ -44,7 +47,7 @@ impl PosePlan {
                 Node::External(..) => {
                     externals.insert(id);
                 }
-                _ => wanted.extend(graph.children(id)),
+                _ => {}
             }
         }
         let mut texts = Texts::default();
@@ -60,7 +63,7 @@ impl PosePlan {
             }
         }
         let directions: BTreeMap<NodeId, String> =
-            angles.iter().map(|&angle| (angle, unique(angle_name(&texts.of(graph, angle))))).collect();
+            angles.iter().map(|&angle| (angle, unique(angle_name(texts.of(graph, angle))))).collect();
         let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
         let mut values = Vec::new();
         for (index, coordinate) in derivation.coordinates.iter().enumerate() {

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use rustc_hash::FxHashMap;
-
 use super::{Graph, Node, NodeId, Number, SymbolId};
 
 impl Graph {
@@ -13,22 +11,34 @@ impl Graph {
     /// the derivative with respect to time. Symbols without a seed are constants.
     pub fn differentiate(&mut self, roots: &[NodeId], seeds: &BTreeMap<SymbolId, NodeId>) -> Vec<NodeId> {
         let zero = self.zero();
-        let mut derivative: FxHashMap<NodeId, NodeId> = FxHashMap::default();
-        for id in self.reachable(roots) {
-            let result = match self.node(id).clone() {
+        let nodes = self.reachable(roots);
+        // Nought unless a node stands on a seed, which most do not.
+        let mut derivatives = vec![zero; nodes.last().map_or(0, |last| last.index() + 1)];
+        for id in nodes {
+            let result = match &self.nodes[id.index()] {
                 Node::Constant(_) | Node::Pi => zero,
-                Node::Symbol(symbol) => seeds.get(&symbol).copied().unwrap_or(zero),
+                Node::Symbol(symbol) => seeds.get(symbol).copied().unwrap_or(zero),
                 // (sum k f)' = sum k f'
                 Node::Sum { terms, .. } => {
-                    let terms: Vec<_> = terms.iter().map(|&(k, term)| (k, derivative[&term])).collect();
-                    self.sum(&terms)
+                    let mut derived = Vec::new();
+                    for &(k, term) in terms {
+                        let inner = derivatives[term.index()];
+                        if inner != zero {
+                            derived.push((k, inner));
+                        }
+                    }
+                    if derived.is_empty() { zero } else { self.sum(&derived) }
+                }
+                Node::Product { factors, .. } if factors.iter().all(|(base, _)| derivatives[base.index()] == zero) => {
+                    zero
                 }
                 // (k prod f^n)' = sum n k f^(n-1) f' * the other factors
                 Node::Product { coefficient, factors } => {
+                    let (coefficient, factors) = (*coefficient, factors.clone());
                     let mut terms = Vec::new();
                     for (index, &(base, exponent)) in factors.iter().enumerate() {
-                        let inner = derivative[&base];
-                        if self.is_zero(inner) {
+                        let inner = derivatives[base.index()];
+                        if inner == zero {
                             continue;
                         }
                         let mut rest = factors.clone();
@@ -41,10 +51,11 @@ impl Graph {
                 }
                 // f(a, b)' = f_a a' + f_b b'
                 Node::Call(function, arguments) => {
-                    let inner: Vec<_> = arguments.iter().map(|argument| derivative[argument]).collect();
-                    if inner.iter().all(|&d| self.is_zero(d)) {
+                    let inner: Vec<_> = arguments.iter().map(|argument| derivatives[argument.index()]).collect();
+                    if inner.iter().all(|&inner| inner == zero) {
                         zero
                     } else {
+                        let (function, arguments) = (*function, arguments.clone());
                         let partials = (function.operation().partials)(self, &arguments, id);
                         let mut terms = Vec::new();
                         for (partial, inner) in partials.into_iter().zip(inner) {
@@ -55,10 +66,11 @@ impl Graph {
                 }
                 // f(a, p)' = f_a a' + f_p p'
                 Node::External(external, arguments) => {
+                    let (external, arguments) = (external.clone(), arguments.clone());
                     let mut terms = Vec::new();
                     for (index, argument) in arguments.iter().enumerate() {
-                        let inner = derivative[argument];
-                        if !self.is_zero(inner) {
+                        let inner = derivatives[argument.index()];
+                        if inner != zero {
                             let partial = self.apply(external.derived(index), arguments.clone());
                             terms.push((Number::ONE, self.multiply(partial, inner)));
                         }
@@ -66,9 +78,9 @@ impl Graph {
                     self.sum(&terms)
                 }
             };
-            derivative.insert(id, result);
+            derivatives[id.index()] = result;
         }
-        roots.iter().map(|root| derivative[root]).collect()
+        roots.iter().map(|root| derivatives[root.index()]).collect()
     }
 
     /// The partial derivatives of `roots` with respect to one symbol.

@@ -21,7 +21,7 @@ use rustc_hash::FxHashMap;
 pub use external::{External, ExternalId};
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
-pub use print::{Formula, Name, Notation, Printer, Texts};
+pub use print::{Name, Printer, Texts};
 
 /// An expression of a [`Graph`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -102,7 +102,11 @@ impl SymbolId {
 }
 
 impl NodeId {
-    fn index(self) -> usize {
+    fn new(index: usize) -> Self {
+        Self(u32::try_from(index).unwrap_or(u32::MAX))
+    }
+
+    pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
 }
@@ -214,7 +218,7 @@ impl Graph {
         if value.is_some_and(|value| !value.is_finite()) {
             self.fault.get_or_insert(Fault::NotFinite);
         }
-        let id = NodeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        let id = NodeId::new(self.nodes.len());
         self.values.push(value);
         // What has a value has no symbols that could take it away.
         let partial = value.is_none() && self.has_partial_value(&node);
@@ -257,6 +261,9 @@ impl Graph {
     }
 
     pub fn scale(&mut self, factor: Number, a: NodeId) -> NodeId {
+        if factor.is_one() {
+            return a;
+        }
         let factor = self.number(factor);
         self.multiply(factor, a)
     }

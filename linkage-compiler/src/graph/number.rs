@@ -24,7 +24,8 @@ impl Number {
 
     #[must_use]
     pub fn integer(value: i64) -> Self {
-        Self::ratio(i128::from(value), 1)
+        // i64::MIN has no absolute value, so it is left to the floats.
+        if value == i64::MIN { Self::Float(value as f64) } else { Self::Ratio(value, 1) }
     }
 
     /// `numerator / denominator` in lowest terms; a zero denominator gives a non-finite float.
@@ -85,7 +86,7 @@ impl Number {
 
     #[must_use]
     pub fn is_one(self) -> bool {
-        self == Self::ONE
+        matches!(self, Self::Ratio(1, 1))
     }
 
     #[must_use]
@@ -113,8 +114,10 @@ impl Number {
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         match (self, other) {
+            // Most sums are of a term and nought.
+            (sum @ Self::Ratio(..), Self::Ratio(0, _)) | (Self::Ratio(0, _), sum @ Self::Ratio(..)) => sum,
             (Self::Ratio(a, b), Self::Ratio(c, d)) => {
-                let [a, b, c, d] = [a, b, c, d].map(i128::from);
+                let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
                 match (a * d).checked_add(c * b) {
                     Some(numerator) => Self::ratio(numerator, b * d),
                     None => Self::Float(self.to_f64() + other.to_f64()),
@@ -127,9 +130,11 @@ impl Number {
     #[must_use]
     pub fn multiply(self, other: Self) -> Self {
         match (self, other) {
+            // Most factors are signs.
+            (Self::Ratio(1, 1), factor) | (factor, Self::Ratio(1, 1)) => factor,
+            (Self::Ratio(-1, 1), factor) | (factor, Self::Ratio(-1, 1)) => factor.negate(),
             (Self::Ratio(a, b), Self::Ratio(c, d)) => {
-                let [a, b, c, d] = [a, b, c, d].map(i128::from);
-                Self::ratio(a * c, b * d)
+                Self::ratio(i128::from(a) * i128::from(c), i128::from(b) * i128::from(d))
             }
             _ => Self::Float(self.to_f64() * other.to_f64()),
         }
@@ -137,7 +142,10 @@ impl Number {
 
     #[must_use]
     pub fn negate(self) -> Self {
-        self.multiply(Self::MINUS_ONE)
+        match self {
+            Self::Ratio(n, d) => Self::Ratio(-n, d),
+            Self::Float(value) => Self::Float(-value),
+        }
     }
 
     #[must_use]
@@ -148,6 +156,9 @@ impl Number {
     /// `self^exponent`; zero to a negative power is not finite.
     #[must_use]
     pub fn power(self, exponent: i32) -> Self {
+        if exponent == 1 || self.is_one() {
+            return self;
+        }
         let exact = match self {
             Self::Ratio(n, d) => {
                 let (n, d) = if exponent < 0 { (d, n) } else { (n, d) };

@@ -1,7 +1,5 @@
 //! What an expression is made of: sweeps whose cost is that of what they find, not of the graph.
 
-use rustc_hash::FxHashSet;
-
 use super::{Graph, Node, NodeId, SymbolId};
 
 impl Graph {
@@ -33,22 +31,28 @@ impl Graph {
         done: impl Fn(NodeId) -> bool,
         leaf: impl Fn(NodeId) -> bool,
     ) -> Vec<NodeId> {
-        let mut seen: FxHashSet<NodeId> = FxHashSet::default();
-        let mut found: Vec<NodeId> = roots.iter().copied().filter(|&root| !done(root) && seen.insert(root)).collect();
+        // Children have smaller ids than their parents.
+        let size = roots.iter().max().map_or(0, |root| root.index() + 1);
+        let mut seen = vec![false; size];
+        let mut found = Vec::new();
+        let mut find = |id: NodeId, found: &mut Vec<NodeId>| {
+            if !seen[id.index()] && !done(id) {
+                seen[id.index()] = true;
+                found.push(id);
+            }
+        };
+        for &root in roots {
+            find(root, &mut found);
+        }
         let mut next = 0;
         while next < found.len() {
             let id = found[next];
             next += 1;
             if !leaf(id) {
-                self.each_child(id, |child| {
-                    if !done(child) && seen.insert(child) {
-                        found.push(child);
-                    }
-                });
+                self.each_child(id, |child| find(child, &mut found));
             }
         }
-        found.sort_unstable();
-        found
+        in_order(found, &seen)
     }
 
     fn each_child(&self, id: NodeId, mut visit: impl FnMut(NodeId)) {
@@ -71,4 +75,24 @@ impl Graph {
             }
         }
     }
+}
+
+/// The nodes that were found, which are those `seen`, in ascending order.
+fn in_order(mut found: Vec<NodeId>, seen: &[bool]) -> Vec<NodeId> {
+    /// So many looks cost as much as it takes to sort one node.
+    const LOOKS: usize = 16;
+    let Some(first) = found.iter().min().map(|id| id.index()) else { return found };
+    if seen.len() - first > LOOKS * found.len() {
+        found.sort_unstable();
+        return found;
+    }
+    let (mut index, mut next) = (first, 0);
+    while next < found.len() {
+        if seen[index] {
+            found[next] = NodeId::new(index);
+            next += 1;
+        }
+        index += 1;
+    }
+    found
 }

@@ -4,42 +4,51 @@ use core::fmt;
 
 use super::{Block, Derivation, Equation, Formula, Kernel, Matrix, Quantity};
 
+/// An equation between whole matrices, in every notation.
+pub(crate) struct Law {
+    pub(crate) text: &'static str,
+    #[cfg_attr(not(feature = "std"), expect(dead_code))]
+    pub(crate) latex: &'static str,
+    #[cfg_attr(not(feature = "sheet"), expect(dead_code))]
+    pub(crate) mathml: &'static str,
+}
+
 /// Ψ(u, v) = 0.
-pub(crate) const CLOSURE: Formula = Formula {
+pub(crate) const CLOSURE: Law = Law {
     text: "Ψ(u, v) = 0",
     latex: "\\Psi(u, v) = 0",
     mathml: "<mrow><mi>Ψ</mi><mo>(</mo><mi>u</mi><mo>,</mo><mi>v</mi><mo>)</mo><mo>=</mo><mn>0</mn></mrow>",
 };
 /// J = ∂Ψ/∂u.
-pub(crate) const JACOBIAN_UNKNOWNS: Formula = Formula {
+pub(crate) const JACOBIAN_UNKNOWNS: Law = Law {
     text: "J = ∂Ψ/∂u",
     latex: "J = \\frac{\\partial \\Psi}{\\partial u}",
     mathml: "<mrow><mi>J</mi><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>u</mi></mrow>\
              </mfrac></mrow>",
 };
 /// A = ∂Ψ/∂v.
-pub(crate) const JACOBIAN_INPUTS: Formula = Formula {
+pub(crate) const JACOBIAN_INPUTS: Law = Law {
     text: "A = ∂Ψ/∂v",
     latex: "A = \\frac{\\partial \\Psi}{\\partial v}",
     mathml: "<mrow><mi>A</mi><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>v</mi></mrow>\
              </mfrac></mrow>",
 };
 /// J·∂u/∂v = −A.
-pub(crate) const RATIOS: Formula = Formula {
+pub(crate) const RATIOS: Law = Law {
     text: "J·∂u/∂v = −A",
     latex: "J \\frac{\\partial u}{\\partial v} = -A",
     mathml: "<mrow><mi>J</mi><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow><mo>∂</mo><mi>v</mi></mrow></mfrac>\
              <mo>=</mo><mrow><mo>−</mo><mi>A</mi></mrow></mrow>",
 };
 /// u̇ = ∂u/∂v·v̇.
-pub(crate) const VELOCITY: Formula = Formula {
+pub(crate) const VELOCITY: Law = Law {
     text: "u̇ = (∂u/∂v)·v̇",
     latex: "\\dot{u} = \\frac{\\partial u}{\\partial v} \\dot{v}",
     mathml: "<mrow><mover><mi>u</mi><mo>˙</mo></mover><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow>\
              <mo>∂</mo><mi>v</mi></mrow></mfrac><mover><mi>v</mi><mo>˙</mo></mover></mrow>",
 };
 /// J·∂²u/∂vⱼ∂vₖ = −γ(wⱼ, wₖ).
-pub(crate) const RATIO_DERIVATIVES: Formula = Formula {
+pub(crate) const RATIO_DERIVATIVES: Law = Law {
     text: "J·∂²u/∂vⱼ∂vₖ = −γ(wⱼ, wₖ)",
     latex: "J \\frac{\\partial^2 u}{\\partial v_j \\partial v_k} = -\\gamma(w_j, w_k)",
     mathml: "<mrow><mi>J</mi><mfrac><mrow><msup><mo>∂</mo><mn>2</mn></msup><mi>u</mi></mrow><mrow><mo>∂</mo><msub><mi>v\
@@ -48,21 +57,21 @@ pub(crate) const RATIO_DERIVATIVES: Formula = Formula {
              </mrow></mrow>",
 };
 /// J·u⃛ = −(A·v⃛ + η).
-pub(crate) const JERK: Formula = Formula {
+pub(crate) const JERK: Law = Law {
     text: "J·u⃛ = −(A·v⃛ + η)",
     latex: "J \\dddot{u} = -(A \\dddot{v} + \\eta)",
     mathml: "<mrow><mi>J</mi><mover><mi>u</mi><mo>⃛</mo></mover><mo>=</mo><mrow><mo>−</mo><mrow><mo>(</mo><mi>A</mi>\
              <mover><mi>v</mi><mo>⃛</mo></mover><mo>+</mo><mi>η</mi><mo>)</mo></mrow></mrow></mrow>",
 };
 /// J·∂u/∂p = −Ψ_p.
-pub(crate) const SENSITIVITY: Formula = Formula {
+pub(crate) const SENSITIVITY: Law = Law {
     text: "J·∂u/∂p = −Ψ_p",
     latex: "J \\frac{\\partial u}{\\partial p} = -\\Psi_p",
     mathml: "<mrow><mi>J</mi><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow><mo>∂</mo><mi>p</mi></mrow></mfrac>\
              <mo>=</mo><mrow><mo>−</mo><msub><mi>Ψ</mi><mi>p</mi></msub></mrow></mrow>",
 };
 /// J·ü = −(A·v̈ + γ).
-pub(crate) const ACCELERATION: Formula = Formula {
+pub(crate) const ACCELERATION: Law = Law {
     text: "J·ü = −(A·v̈ + γ)",
     latex: "J \\ddot{u} = -(A \\ddot{v} + \\gamma)",
     mathml: "<mrow><mi>J</mi><mover><mi>u</mi><mo>¨</mo></mover><mo>=</mo><mrow><mo>−</mo><mrow><mo>(</mo><mi>A</mi>\
@@ -113,6 +122,7 @@ pub(super) trait Pen {
     /// A line such as "Given: l₁, l₂".
     fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result;
     fn lead(&mut self, words: &str) -> fmt::Result;
+    fn law(&mut self, law: &Law) -> fmt::Result;
     fn display(&mut self, formula: &Formula) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result;
     fn matrix(&mut self, matrix: &Matrix) -> fmt::Result;
@@ -137,7 +147,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
 
     pen.heading(words::CLOSURE)?;
     pen.lead(words::LEAD_CLOSURE)?;
-    pen.display(&CLOSURE)?;
+    pen.law(&CLOSURE)?;
     equations(pen, &mut number, derivation.residual)?;
 
     pen.heading(words::JACOBIAN)?;
@@ -145,7 +155,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     for (law, matrix) in
         [(JACOBIAN_UNKNOWNS, derivation.jacobian_unknowns), (JACOBIAN_INPUTS, derivation.jacobian_inputs)]
     {
-        pen.display(&law)?;
+        pen.law(&law)?;
         pen.matrix(&matrix)?;
     }
 
@@ -170,14 +180,14 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
 
     pen.heading(words::RATIOS)?;
     pen.lead(words::LEAD_RATIOS)?;
-    pen.display(&RATIOS)?;
+    pen.law(&RATIOS)?;
     pen.lead(words::LEAD_VELOCITY)?;
-    pen.display(&VELOCITY)?;
+    pen.law(&VELOCITY)?;
     equations(pen, &mut number, derivation.ratios)?;
 
     pen.heading(words::ACCELERATION)?;
     pen.lead(words::LEAD_ACCELERATION)?;
-    pen.display(&ACCELERATION)?;
+    pen.law(&ACCELERATION)?;
     if !derivation.gamma.is_empty() {
         pen.lead(words::LEAD_GAMMA)?;
     }
@@ -186,20 +196,20 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     if let Some(formulas) = derivation.ratio_derivatives {
         pen.heading(words::RATIO_DERIVATIVES)?;
         pen.lead(words::LEAD_RATIO_DERIVATIVES)?;
-        pen.display(&RATIO_DERIVATIVES)?;
+        pen.law(&RATIO_DERIVATIVES)?;
         equations(pen, &mut number, formulas)?;
     }
     if let Some(eta) = derivation.jerk {
         pen.heading(words::JERK)?;
         pen.lead(words::LEAD_JERK)?;
-        pen.display(&JERK)?;
+        pen.law(&JERK)?;
         pen.lead(words::LEAD_ETA)?;
         equations(pen, &mut number, eta)?;
     }
     if let Some(sensitivity) = derivation.sensitivity {
         pen.heading(words::SENSITIVITY)?;
         pen.lead(words::LEAD_SENSITIVITY)?;
-        pen.display(&SENSITIVITY)?;
+        pen.law(&SENSITIVITY)?;
         pen.lead(words::LEAD_PARAMETERS)?;
         pen.matrix(&sensitivity.jacobian)?;
         equations(pen, &mut number, sensitivity.formulas)?;

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::outline::Pen;
+use super::outline::{Law, Pen};
 use super::{Block, Equation, Formula, Kernel, Matrix};
 
 pub(super) struct Text<'a, 'b> {
@@ -44,6 +44,10 @@ impl Pen for Text<'_, '_> {
 
     fn lead(&mut self, words: &str) -> fmt::Result {
         writeln!(self.out, "  {words}")
+    }
+
+    fn law(&mut self, law: &Law) -> fmt::Result {
+        writeln!(self.out, "        {}", law.text)
     }
 
     fn display(&mut self, formula: &Formula) -> fmt::Result {

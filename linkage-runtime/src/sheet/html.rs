@@ -1,5 +1,6 @@
 //! Small pieces of HTML.
 
+use crate::derivation::outline::Law;
 use crate::derivation::{Formula, Matrix};
 
 /// Text for the inside of an element or of an attribute in double quotes.
@@ -20,7 +21,7 @@ pub(super) fn escape(text: &str) -> String {
 
 /// A formula in a line of text.
 pub(super) fn inline(formula: &Formula) -> String {
-    format!("<math>{}</math>", formula.mathml)
+    format!("<math>{}</math>", formula.mathml())
 }
 
 /// A formula on its own line, with its LaTeX source for those who copy it.
@@ -37,15 +38,17 @@ const LARGEST_MATRIX: usize = 6;
 
 /// The MathML and LaTeX of `name = matrix`, or of each entry if there are many. A `law` such as
 /// J = ∂Ψ/∂u says what the matrix is.
-pub(super) fn matrix(matrix: &Matrix, law: Option<&Formula>) -> Vec<(String, String)> {
+pub(super) fn matrix(matrix: &Matrix, law: Option<&Law>) -> Vec<(String, String)> {
     let Matrix { name, factor, rows, columns, .. } = matrix;
-    let (before, before_latex) = factor.map_or(("", ""), |factor| (factor.mathml, factor.latex));
+    let (before, before_latex) =
+        factor.map_or_else(Default::default, |factor| (factor.mathml().to_string(), factor.latex().to_string()));
     if *rows.max(columns) > LARGEST_MATRIX {
         let entries = matrix.entries.iter().map(|entry| {
             let (row, column, value) = (entry.row + 1, entry.column + 1, entry.value);
             let index = format!("<mrow><mn>{row}</mn><mo>,</mo><mn>{column}</mn></mrow>");
-            let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.mathml, value.mathml);
-            (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.latex, value.latex))
+            let mathml =
+                format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.mathml(), value.mathml());
+            (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.latex(), value.latex()))
         });
         let law = law.map(|law| (law.mathml.to_owned(), law.latex.to_owned()));
         return law.into_iter().chain(entries).collect();
@@ -55,21 +58,27 @@ pub(super) fn matrix(matrix: &Matrix, law: Option<&Formula>) -> Vec<(String, Str
         let entries: Vec<_> = (0..*columns).map(|column| matrix.entry(row, column)).collect();
         mathml.push_str("<mtr>");
         for entry in &entries {
-            mathml.push_str(&format!("<mtd>{}</mtd>", entry.map_or("<mn>0</mn>", |entry| entry.mathml)));
+            let entry = entry.map_or_else(|| "<mn>0</mn>".to_owned(), |entry| entry.mathml().to_string());
+            mathml.push_str(&format!("<mtd>{entry}</mtd>"));
         }
         mathml.push_str("</mtr>");
-        let entries: Vec<_> = entries.iter().map(|entry| entry.map_or("0", |entry| entry.latex)).collect();
+        let entries: Vec<String> = entries
+            .iter()
+            .map(|entry| entry.map_or_else(|| "0".to_owned(), |entry| entry.latex().to_string()))
+            .collect();
         latex.push_str(&format!(" {} \\\\", entries.join(" & ")));
     }
     // J = ∂Ψ/∂u = (…) reads as one chain.
-    let name = law.unwrap_or(name);
+    let (name, name_latex) = match law {
+        Some(law) => (law.mathml.to_owned(), law.latex.to_owned()),
+        None => (name.mathml().to_string(), name.latex().to_string()),
+    };
     // Fractions stay large while there is room.
     let large = *columns <= 3;
     let mathml = format!(
-        "<mrow>{}<mo>=</mo>{before}<mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>",
-        name.mathml
+        "<mrow>{name}<mo>=</mo>{before}<mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>"
     );
-    vec![(mathml, format!("{} = {before_latex} \\begin{{pmatrix}}{latex} \\end{{pmatrix}}", name.latex))]
+    vec![(mathml, format!("{name_latex} = {before_latex} \\begin{{pmatrix}}{latex} \\end{{pmatrix}}"))]
 }
 
 /// An SVG file as the address of an image.

@@ -7,19 +7,19 @@ const WIDEST: usize = 58;
 
 /// The MathML of an equation; a long sum stands on lines of its own terms.
 pub(super) fn equation(equation: &Equation) -> String {
-    let Equation { left, right } = equation;
-    if right.text.chars().count() > WIDEST {
-        let lines = lines(right.mathml);
+    let (left, right) = (equation.left.mathml().to_string(), equation.right.mathml().to_string());
+    if equation.right.to_string().chars().count() > WIDEST {
+        let lines = lines(&right);
         if lines.len() > 1 {
             let row = |(index, line): (usize, &String)| {
-                let (left, sign) = if index == 0 { (left.mathml, "<mo>=</mo>") } else { ("", "") };
+                let (left, sign) = if index == 0 { (left.as_str(), "<mo>=</mo>") } else { ("", "") };
                 format!("<mtr><mtd>{left}</mtd><mtd>{sign}</mtd><mtd><mrow>{line}</mrow></mtd></mtr>")
             };
             let rows: String = lines.iter().enumerate().map(row).collect();
             return format!("<mtable class=\"lines\" displaystyle=\"true\">{rows}</mtable>");
         }
     }
-    format!("<mrow>{}<mo>=</mo>{}</mrow>", left.mathml, right.mathml)
+    format!("<mrow>{left}<mo>=</mo>{right}</mrow>")
 }
 
 /// The terms of a sum, packed into lines; a single line if it is no sum.

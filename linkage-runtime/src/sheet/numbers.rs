@@ -18,10 +18,10 @@ pub(super) fn name(derivation: &Derivation, name: &str) -> String {
 fn formula(derivation: &Derivation, name: &str) -> Option<String> {
     let symbol = |name: &str| {
         let mut symbols = derivation.parameters.iter().chain(derivation.inputs).chain(derivation.unknowns);
-        symbols.find(|symbol| symbol.name == name || symbol.formula.text == name)
+        symbols.find(|symbol| symbol.name == name || symbol.formula.to_string() == name)
     };
     if let Some(symbol) = symbol(name) {
-        return Some(symbol.formula.mathml.to_owned());
+        return Some(symbol.formula.mathml().to_string());
     }
     let quantities = derivation.points.iter().chain(derivation.outputs);
     let mut equations = derivation
@@ -36,11 +36,11 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
             let Quantity { value, ratios, ratio_derivatives, sensitivities, .. } = quantity;
             value.iter().chain(*ratios).chain(*ratio_derivatives).chain(*sensitivities)
         }));
-    if let Some(Equation { left, .. }) = equations.find(|equation| equation.left.text == name) {
-        return Some(left.mathml.to_owned());
+    if let Some(Equation { left, .. }) = equations.find(|equation| equation.left.to_string() == name) {
+        return Some(left.mathml().to_string());
     }
     if let Some((of, by)) = name.split_once('/') {
-        let side = |symbol: &Symbol| format!("<mrow><mo>∂</mo>{}</mrow>", symbol.formula.mathml);
+        let side = |symbol: &Symbol| format!("<mrow><mo>∂</mo>{}</mrow>", symbol.formula.mathml());
         return Some(format!("<mfrac>{}{}</mfrac>", side(symbol(of)?), side(symbol(by)?)));
     }
     let dotted = [("_rate", "˙"), ("_acceleration", "¨")];
@@ -49,11 +49,11 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
 
 /// A symbol with dots above its letter.
 fn dot(symbol: &Symbol, dots: &str) -> String {
-    let mathml = symbol.formula.mathml;
+    let mathml = symbol.formula.mathml().to_string();
     let over = |letter: &str| format!("<mover>{letter}<mo>{dots}</mo></mover>");
     match mathml.strip_prefix("<msub>").and_then(|inside| inside.split_once("</mi>")) {
         Some((letter, rest)) => format!("<msub>{}{rest}", over(&format!("{letter}</mi>"))),
-        None => over(mathml),
+        None => over(&mathml),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The page, section by section.
 
-use crate::derivation::outline::{self, words};
+use crate::derivation::outline::{self, Law, words};
 use crate::derivation::{Derivation, Equation, Formula, Matrix, Quantity, Symbol};
 
 use super::html::{display, escape, inline, matrix, svg_address};
@@ -57,9 +57,9 @@ impl Page {
         self.push(&format!("<p>{words}</p>"));
     }
 
-    /// A law: an equation between whole matrices, without a number.
-    fn law(&mut self, formula: &Formula) {
-        self.push(&format!("<div class=\"law\">{}</div>", display(formula.mathml, formula.latex)));
+    /// Without a number.
+    fn law(&mut self, law: &Law) {
+        self.push(&format!("<div class=\"law\">{}</div>", display(law.mathml, law.latex)));
     }
 
     fn equations(&mut self, equations: &[Equation]) {
@@ -69,7 +69,7 @@ impl Page {
         self.push("<div class=\"equations\">");
         for equation in equations {
             self.equations += 1;
-            let latex = format!("{} = {}", equation.left.latex, equation.right.latex);
+            let latex = format!("{} = {}", equation.left.latex(), equation.right.latex());
             let formula = display(&lines::equation(equation), &latex);
             let number = self.equations;
             self.push(&format!(
@@ -79,7 +79,7 @@ impl Page {
         self.push("</div>");
     }
 
-    fn matrix(&mut self, which: &Matrix, law: Option<&Formula>) {
+    fn matrix(&mut self, which: &Matrix, law: Option<&Law>) {
         let lines: String = matrix(which, law).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
         self.push(&format!("<div class=\"law\">{lines}</div>"));
     }

@@ -17,12 +17,14 @@ mod velocity;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream, TokenTree};
-use quote::{ToTokens, TokenStreamExt, quote};
+use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream};
+use quote::{ToTokens, quote};
+use rustc_hash::FxHashSet;
 
 use super::kernel::{self, Code, Given, Operand, Shape, Source};
-use super::names::{Taken, ident, string};
+use super::names::{Taken, ident};
 use super::pose::PosePlan;
+use super::tokens::Tokens;
 use super::types::{self, field};
 use super::{Emitted, Types, document};
 use crate::derivation::{Choice, Derivation, Form, Formulas, QuantityFormulas};
@@ -209,7 +211,7 @@ impl<'a> Kernels<'a> {
     }
 
     fn text(&self, node: NodeId) -> String {
-        self.texts.borrow_mut().of(&self.derivation.graph, node)
+        self.texts.borrow_mut().of(&self.derivation.graph, node).to_owned()
     }
 }
 
@@ -291,26 +293,31 @@ impl Methods<'_> {
 
     /// Writes a function; without a body it is a stub that only has the right signature.
     fn function(&mut self, docs: &[String], signature: &TokenStream, body: Option<Body>) {
-        let mut lines: Vec<String> =
-            docs.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") }).collect();
-        let Body { tokens, operations, uses, externals, .. } = body.unwrap_or_else(|| Body {
+        let Body { tokens: body, operations, uses, externals, .. } = body.unwrap_or_else(|| Body {
             tokens: quote!(::core::unreachable!()),
             operations: Operations::default(),
             arguments: Vec::new(),
             uses: BTreeSet::new(),
             externals: BTreeSet::new(),
         });
-        if operations != Operations::default() {
-            lines.push(String::new());
-            lines.push(format!(" Operations: {}.", count(operations)));
-            self.kernels.push((name_of(signature), operations));
+        let (mut tokens, doc) = (Tokens::default(), ident("doc"));
+        for line in docs {
+            tokens.doc(&doc, line);
+        }
+        let works = operations != Operations::default();
+        if works {
+            tokens.doc(&doc, "");
+            tokens.doc(&doc, &format!("Operations: {}.", count(operations)));
+        }
+        tokens.extend(signature.clone());
+        if works {
+            self.kernels.push((tokens.name_of_function(), operations));
         }
         self.uses.extend(uses);
         self.externals.extend(externals);
-        let lines = lines.iter().map(|line| string(line));
-        self.functions.extend(quote!(#(#[doc = #lines])* #signature));
         // A body in its braces is one token, however long.
-        self.functions.append(Group::new(Delimiter::Brace, tokens));
+        tokens.append(Group::new(Delimiter::Brace, body));
+        self.functions.extend(TokenStream::from(tokens));
     }
 
     fn coordinate_fields(&self) -> Vec<Ident> {
@@ -363,13 +370,6 @@ fn imports(mechanism: &Mechanism, used: &BTreeSet<&'static str>) -> Vec<Ident> {
     types.extend(others);
     types.sort_unstable();
     types.into_iter().chain(functions).map(ident).collect()
-}
-
-/// The identifier behind `fn`.
-fn name_of(signature: &TokenStream) -> String {
-    let mut tokens = signature.clone().into_iter();
-    tokens.by_ref().find(|token| matches!(token, TokenTree::Ident(word) if word == "fn"));
-    tokens.next().map(|name| name.to_string()).unwrap_or_default()
 }
 
 /// The name of an argument in the signature of a function: with an underscore if the body ignores it.
@@ -458,11 +458,11 @@ fn component_names(names: &[Ident], dimension: usize, orders: &[&str]) -> Vec<St
 
 /// `finite(NAME, what, [values])?;`, each value once.
 fn check_finite(code: &mut Code, what: &str, values: &[Operand]) -> TokenStream {
-    let mut seen = BTreeSet::new();
+    let mut seen = FxHashSet::default();
     let values: Vec<_> = values
         .iter()
         .filter(|value| match value {
-            Operand::Name(name) => seen.insert(name),
+            Operand::Name(name) => seen.insert(name.to_string()),
             Operand::Constant(_) => false,
             Operand::Formula(_) => true,
         })
@@ -476,17 +476,21 @@ fn check_finite(code: &mut Code, what: &str, values: &[Operand]) -> TokenStream 
 
 /// Gives a name to every result that is not one already.
 fn bind(results: &[Operand], wishes: &[String], taken: &mut Taken) -> (TokenStream, Vec<Operand>) {
-    let mut bindings = TokenStream::new();
+    let mut bindings = Tokens::default();
     let mut names = Vec::new();
     for (result, wish) in results.iter().zip(wishes) {
         names.push(match result {
             Operand::Formula(formula) => {
                 let name = ident(&taken.unique(wish));
-                bindings.extend(quote!(let #name = #formula;));
+                bindings.word("let");
+                bindings.ident(&name);
+                bindings.punct('=');
+                bindings.extend(formula.clone());
+                bindings.punct(';');
                 Operand::Name(name)
             }
             named => named.clone(),
         });
     }
-    (bindings, names)
+    (bindings.into(), names)
 }

@@ -52,10 +52,10 @@ impl Members {
 }
 
 impl Kernels<'_> {
-    pub(super) fn quantities(&self, family: Family) -> Vec<Quantity> {
+    pub(super) fn quantities(&self, family: Family) -> &[Quantity] {
         match family {
-            Family::Points => self.derivation.points.clone(),
-            Family::Outputs => self.derivation.outputs.clone(),
+            Family::Points => &self.derivation.points,
+            Family::Outputs => &self.derivation.outputs,
         }
     }
 }
@@ -140,8 +140,7 @@ impl Methods<'_> {
                 && let Some(kernels) = kernels.as_deref()
             {
                 let axes: &[&str] = if dimension == 2 { &[".x", ".y"] } else { &[""] };
-                let list = kernels.quantities(family);
-                let formulas = names.iter().zip(&list).flat_map(|(name, quantity)| {
+                let formulas = names.iter().zip(kernels.quantities(family)).flat_map(|(name, quantity)| {
                     axes.iter().zip(&quantity.value).map(move |(axis, &node)| (format!("{name}{axis}"), node))
                 });
                 docs.extend(fenced(formulas.map(|(name, node)| format!("{name} = {}", kernels.text(node)))));
@@ -176,7 +175,7 @@ impl Methods<'_> {
         // W_l = l_u W + l_v.
         let code = kernels.map(|kernels| {
             let mut nodes = Vec::new();
-            for quantity in kernels.quantities(family) {
+            for quantity in kernels.quantities(family).to_vec() {
                 for input in 0..v {
                     nodes.extend(quantity.jacobian.iter().map(|row| kernels.derivation.quantity_ratio(row, input)));
                 }

@@ -104,7 +104,7 @@ impl Methods<'_> {
             docs.extend(fenced(laws.into_iter()));
             let (mut stages, solved) = kernels.ratio_derivative_stages();
             let (mut nodes, mut wishes) = (Vec::new(), Vec::new());
-            for (name, quantity) in names.iter().zip(kernels.quantities(family)) {
+            for (name, quantity) in names.iter().zip(kernels.quantities(family).to_vec()) {
                 for (ending, components) in
                     endings.iter().zip(kernels.derivation.quantity_ratio_derivatives(&quantity, &solved))
                 {

@@ -107,7 +107,7 @@ impl Methods<'_> {
             }
             docs.extend(fenced(laws.into_iter()));
             let mut nodes = Vec::new();
-            for quantity in kernels.quantities(family) {
+            for quantity in kernels.quantities(family).to_vec() {
                 nodes.extend(kernels.derivation.quantity_sensitivities(&quantity, solved).concat());
             }
             let fields: Vec<(String, SymbolId)> = kernels

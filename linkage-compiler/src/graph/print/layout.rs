@@ -1,103 +1,200 @@
-//! How an expression is put on paper, before any notation spells it.
+//! What is a sum, a fraction or a power, which signs are written and what needs brackets.
 
-use crate::graph::{External, Function, Graph, Node, NodeId, Number, SymbolId};
+use crate::graph::{External, Graph, Node, NodeId, Number, SymbolId};
 
-use super::style::{Binding, Style, is_circular};
-use super::{Name, Pieces, is_hidden};
+use super::{Name, Pieces};
 
 /// A denominator above this is better read as decimals, where those are exact.
 const LARGEST_DENOMINATOR: i64 = 100;
 
-/// What a layout depends on besides the expression.
-pub(super) struct Reading<'a, 'b> {
-    pub(super) graph: &'a Graph,
-    /// How symbols are shown; without it all is as in the language: factors in their stored order,
+/// How firmly a text holds together, from what any neighbour tears apart to what none does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Binding {
+    Sum,
+    Fraction,
+    Product,
+    Power,
+    Atom,
+}
+
+/// Writes one expression, its parts being written already.
+pub(super) struct Layout<'a, 'b> {
+    pub(super) graph: &'b Graph,
+    /// How symbols are shown; without it all is as the graph holds it: factors in their stored order,
     /// the coefficients of a sum beside its terms.
-    pub(super) names: Option<&'a dyn Fn(SymbolId) -> Name<'a>>,
-    /// What was written first, which says what is hidden.
-    pub(super) measured: &'b Pieces,
+    pub(super) names: Option<&'b dyn Fn(SymbolId) -> Name<'a>>,
+    pub(super) pieces: &'b Pieces,
 }
 
-/// One expression; its parts are nodes.
-pub(super) enum Layout {
-    Pi,
-    Symbol(SymbolId),
-    /// Terms and whether each is negative, in the order in which they are written.
-    Sum(Vec<(bool, Quotient)>),
-    /// A number or product, and whether it is negative.
-    Product(bool, Quotient),
-    Call(Function, Vec<NodeId>),
-    External(External, Vec<NodeId>),
-}
-
-/// The factors above and below a fraction's bar; 1 where there are none.
-#[derive(Default)]
-pub(super) struct Quotient {
-    above: Vec<Factor>,
-    below: Vec<Factor>,
-}
-
-#[derive(Clone, Copy)]
-enum Factor {
-    /// Not negative.
-    Number(Number),
-    Power(NodeId, u32),
-}
-
-impl Reading<'_, '_> {
-    fn hides(&self, id: NodeId) -> bool {
-        is_hidden(self.measured, id)
+impl Layout<'_, '_> {
+    pub(super) fn write(&self, out: &mut String, id: NodeId) -> Binding {
+        match self.graph.node(id) {
+            Node::Pi => out.push_str("pi"),
+            Node::Symbol(symbol) => match self.names {
+                Some(names) => names(*symbol).write(out),
+                None => out.push_str(self.graph.symbol_name(*symbol)),
+            },
+            Node::Constant(value) => return self.product(out, *value, &[]),
+            Node::Product { coefficient, factors } => return self.product(out, *coefficient, factors),
+            Node::Sum { constant, terms } => {
+                self.sum(out, *constant, terms);
+                return Binding::Sum;
+            }
+            Node::Call(function, arguments) => {
+                out.push_str(function.operation().name);
+                self.arguments(out, arguments);
+            }
+            Node::External(external, arguments) => {
+                self.external(out, external);
+                self.arguments(out, arguments);
+            }
+        }
+        Binding::Atom
     }
 
-    pub(super) fn layout(&self, id: NodeId) -> Layout {
-        match self.graph.node(id) {
-            Node::Pi => Layout::Pi,
-            Node::Symbol(symbol) => Layout::Symbol(*symbol),
-            Node::Constant(value) => Layout::Product(value.is_negative(), self.quotient(*value, &[])),
-            Node::Product { coefficient, factors } => {
-                Layout::Product(coefficient.is_negative(), self.quotient(*coefficient, factors))
-            }
-            Node::Sum { constant, terms } => {
-                // A leading positive term reads better than a leading minus.
-                let (plus, minus): (Vec<_>, Vec<_>) = terms.iter().partition(|(k, _)| !k.is_negative());
-                let mut written: Vec<_> =
-                    plus.into_iter().chain(minus).map(|&(k, term)| (k.is_negative(), self.term(k, term))).collect();
-                if !constant.is_zero() {
-                    written.push((constant.is_negative(), self.quotient(*constant, &[])));
+    fn product(&self, out: &mut String, coefficient: Number, factors: &[(NodeId, i32)]) -> Binding {
+        if !coefficient.is_negative() {
+            return self.fraction(out, coefficient, factors);
+        }
+        out.push('-');
+        self.fraction(out, coefficient, factors);
+        Binding::Sum
+    }
+
+    fn sum(&self, out: &mut String, constant: Number, terms: &[(Number, NodeId)]) {
+        // A leading positive term reads better than a leading minus.
+        for negative in [false, true] {
+            for &(coefficient, term) in terms {
+                if coefficient.is_negative() == negative {
+                    join(out, negative);
+                    self.term(out, coefficient, term);
                 }
-                Layout::Sum(written)
             }
-            Node::Call(function, arguments) => Layout::Call(*function, arguments.clone()),
-            Node::External(external, arguments) => Layout::External(external.clone(), arguments.clone()),
+        }
+        if !constant.is_zero() {
+            join(out, constant.is_negative());
+            self.fraction(out, constant, &[]);
         }
     }
 
     /// A term of a sum; in mathematics its coefficient joins its fraction.
-    fn term(&self, coefficient: Number, term: NodeId) -> Quotient {
+    fn term(&self, out: &mut String, coefficient: Number, term: NodeId) {
         match self.graph.node(term) {
             Node::Product { factors, .. } if self.names.is_some() && !self.hides(term) => {
-                self.quotient(coefficient, factors)
+                self.fraction(out, coefficient, factors);
             }
-            _ => self.quotient(coefficient, &[(term, 1)]),
+            _ => {
+                self.fraction(out, coefficient, &[(term, 1)]);
+            }
         }
     }
 
-    fn quotient(&self, coefficient: Number, factors: &[(NodeId, i32)]) -> Quotient {
-        let mut quotient = Quotient::default();
-        let (above, below) = self.split(coefficient.absolute());
-        if !above.is_one() {
-            quotient.above.push(Factor::Number(above));
+    fn hides(&self, id: NodeId) -> bool {
+        self.pieces.get(&id).is_some_and(|piece| piece.hidden)
+    }
+
+    /// A function of the user's, or a derivative of it: in mathematics by the name of its value with primes.
+    fn external(&self, out: &mut String, external: &External) {
+        let names = self.graph.external_names(external.function);
+        let order = external.order().unwrap_or(names.len());
+        if self.names.is_none() {
+            out.push_str(names.get(order).map_or("…", String::as_str));
+        } else {
+            out.push_str(names.first().map_or("", String::as_str));
+            out.extend(std::iter::repeat_n('\'', order));
         }
-        quotient.below.extend(below.map(Factor::Number));
-        let mut factors = factors.to_vec();
+    }
+
+    fn arguments(&self, out: &mut String, arguments: &[NodeId]) {
+        out.push('(');
+        for (index, argument) in arguments.iter().enumerate() {
+            if index > 0 {
+                out.push_str(", ");
+            }
+            if let Some(piece) = self.pieces.get(argument) {
+                out.push_str(&piece.body);
+            }
+        }
+        out.push(')');
+    }
+
+    /// The magnitude of a product: the factors above and below the bar, 1 where there are none.
+    fn fraction(&self, out: &mut String, coefficient: Number, factors: &[(NodeId, i32)]) -> Binding {
+        let (number, divisor) = self.split(coefficient.absolute());
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        for &(base, exponent) in factors {
+            if exponent > 0 { &mut above } else { &mut below }.push((base, exponent.unsigned_abs()));
+        }
         if self.names.is_some() {
-            factors.sort_by_key(|&(base, _)| self.place(base));
+            for side in [&mut above, &mut below] {
+                if side.len() > 1 {
+                    side.sort_by_key(|&(base, _)| self.place(base));
+                }
+            }
         }
-        for (base, exponent) in factors {
-            let side = if exponent < 0 { &mut quotient.below } else { &mut quotient.above };
-            side.push(Factor::Power(base, exponent.unsigned_abs()));
+        let number = Some(number).filter(|number| !number.is_one());
+        let count = above.len() + usize::from(number.is_some());
+        let whole = below.is_empty() && divisor.is_none();
+        let alone = if whole { Binding::Fraction } else { Binding::Product };
+        if count == 0 {
+            out.push('1');
         }
-        quotient
+        self.factors(out, number, &above, if count == 1 { alone } else { Binding::Product });
+        if whole {
+            return match (count, number) {
+                (0, _) | (1, Some(_)) => Binding::Atom,
+                (1, None) => Binding::Power,
+                _ => Binding::Product,
+            };
+        }
+        // As the graph holds it a number divides first: 3*a/2/b.
+        let divisor = match divisor {
+            Some(divisor) if self.names.is_none() => {
+                out.push('/');
+                out.push_str(&divisor.to_string());
+                None
+            }
+            divisor => divisor,
+        };
+        match below.len() + usize::from(divisor.is_some()) {
+            0 => {}
+            1 => {
+                out.push('/');
+                self.factors(out, divisor, &below, Binding::Power);
+            }
+            _ => {
+                out.push_str("/(");
+                self.factors(out, divisor, &below, Binding::Product);
+                out.push(')');
+            }
+        }
+        // Without names 3*a/b is 3 times the term a/b.
+        if self.names.is_some() { Binding::Fraction } else { Binding::Product }
+    }
+
+    /// A number and powers, in brackets where they are less firm than `at_least`.
+    fn factors(&self, out: &mut String, number: Option<Number>, powers: &[(NodeId, u32)], at_least: Binding) {
+        if let Some(number) = number {
+            out.push_str(&number.to_string());
+        }
+        for (index, &(base, exponent)) in powers.iter().enumerate() {
+            if index > 0 || number.is_some() {
+                out.push('*');
+            }
+            let Some(piece) = self.pieces.get(&base) else { continue };
+            let at_least = if exponent == 1 { at_least } else { Binding::Atom };
+            if piece.binding < at_least {
+                out.push('(');
+                out.push_str(&piece.body);
+                out.push(')');
+            } else {
+                out.push_str(&piece.body);
+            }
+            if exponent > 1 {
+                out.push('^');
+                out.push_str(&exponent.to_string());
+            }
+        }
     }
 
     fn split(&self, value: Number) -> (Number, Option<Number>) {
@@ -125,122 +222,18 @@ impl Reading<'_, '_> {
             (Node::Sum { .. }, _) => 5,
         }
     }
-
-    /// The function, if the factor is sine, cosine or tangent.
-    fn circular(&self, factor: Factor) -> bool {
-        match factor {
-            Factor::Number(_) => false,
-            Factor::Power(base, _) => {
-                matches!(self.graph.node(base), Node::Call(function, _) if is_circular(*function)) && !self.hides(base)
-            }
-        }
-    }
-
-    /// Whether the argument of a function may go without brackets.
-    fn bare(&self, function: Function, arguments: &[NodeId]) -> bool {
-        is_circular(function)
-            && arguments.iter().all(|&id| match (self.graph.node(id), self.names) {
-                (Node::Pi, _) => true,
-                (Node::Symbol(symbol), Some(names)) => matches!(names(*symbol), Name::Plain(_)),
-                _ => false,
-            })
-    }
 }
 
 fn is_decimal(value: Number) -> bool {
     Number::parse(&value.to_f64().to_string()) == Some(value)
 }
 
-impl Layout {
-    /// The expression in a style, its parts being written already.
-    pub(super) fn spell(&self, reading: &Reading<'_, '_>, style: &dyn Style, parts: &Pieces) -> (String, Binding) {
-        match self {
-            Self::Pi => (style.pi().to_owned(), Binding::Atom),
-            Self::Symbol(symbol) => match reading.names {
-                Some(names) => style.name(names(*symbol)),
-                None => style.name(Name::Plain(reading.graph.symbol_name(*symbol))),
-            },
-            Self::Sum(terms) => {
-                let terms: Vec<_> =
-                    terms.iter().map(|(negative, term)| (*negative, term.spell(reading, style, parts).0)).collect();
-                (style.sum(&terms), Binding::Sum)
-            }
-            Self::Product(negative, quotient) => {
-                let (body, binding) = quotient.spell(reading, style, parts);
-                if *negative { (style.sum(&[(true, body)]), Binding::Sum) } else { (body, binding) }
-            }
-            Self::Call(function, arguments) => {
-                let bare = reading.bare(*function, arguments);
-                (style.call(*function, &bodies(arguments, parts), 1, bare), Binding::Atom)
-            }
-            Self::External(external, arguments) => {
-                let names = reading.graph.external_names(external.function);
-                let order = external.order().unwrap_or(names.len());
-                (style.external(names, order, &bodies(arguments, parts)), Binding::Atom)
-            }
-        }
-    }
-}
-
-fn bodies(arguments: &[NodeId], parts: &Pieces) -> Vec<String> {
-    arguments.iter().map(|id| parts.get(id).map(|piece| piece.body.clone()).unwrap_or_default()).collect()
-}
-
-impl Quotient {
-    fn spell(&self, reading: &Reading<'_, '_>, style: &dyn Style, parts: &Pieces) -> (String, Binding) {
-        let whole = self.below.is_empty();
-        let side = |factors: &[Factor]| -> Vec<String> {
-            let lone = match (factors.len(), whole, style.has_bars()) {
-                (1, true, _) => Binding::Slash,
-                (1, false, true) => Binding::Sum,
-                _ => Binding::Product,
-            };
-            let followers = factors.iter().skip(1).map(Some).chain([None]);
-            let pairs = factors.iter().zip(followers);
-            pairs.map(|(&factor, next)| factor.spell(reading, style, parts, next.copied(), lone)).collect()
-        };
-        let above = side(&self.above);
-        let above = match above.as_slice() {
-            [] => style.number(Number::ONE),
-            [one] => one.clone(),
-            many => style.product(many),
-        };
-        if !whole {
-            return (style.quotient(&above, &side(&self.below)), Binding::Product);
-        }
-        let binding = match self.above.as_slice() {
-            [] | [Factor::Number(_)] => Binding::Atom,
-            [_] => Binding::Power,
-            _ => Binding::Product,
-        };
-        (above, binding)
-    }
-}
-
-impl Factor {
-    fn spell(
-        self,
-        reading: &Reading<'_, '_>,
-        style: &dyn Style,
-        parts: &Pieces,
-        next: Option<Self>,
-        at_least: Binding,
-    ) -> String {
-        let (base, exponent) = match self {
-            Self::Number(value) => return style.number(value),
-            Self::Power(base, exponent) => (base, exponent),
-        };
-        // The power of a sine stands at its name; without brackets a function ends where the next begins.
-        if let Node::Call(function, arguments) = reading.graph.node(base)
-            && reading.circular(self)
-        {
-            let last = next.is_none_or(|next| reading.circular(next));
-            let bare = last && reading.bare(*function, arguments);
-            return style.call(*function, &bodies(arguments, parts), exponent, bare);
-        }
-        let Some(piece) = parts.get(&base) else { return String::new() };
-        let at_least = if exponent == 1 { at_least } else { Binding::Atom };
-        let body = if piece.binding < at_least { style.brackets(&piece.body) } else { piece.body.clone() };
-        if exponent == 1 { body } else { style.power(&body, exponent) }
-    }
+/// The sign between two terms, or of the first.
+fn join(out: &mut String, negative: bool) {
+    out.push_str(match (out.is_empty(), negative) {
+        (true, false) => "",
+        (true, true) => "-",
+        (false, false) => " + ",
+        (false, true) => " - ",
+    });
 }

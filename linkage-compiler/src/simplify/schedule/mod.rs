@@ -71,6 +71,12 @@ impl Stage {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ValueId(usize);
 
+impl ValueId {
+    pub(crate) fn index(self) -> usize {
+        self.0
+    }
+}
+
 /// A value or its negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Signed {
@@ -183,25 +189,25 @@ pub struct Given {
 pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId, String)]) -> Schedule {
     let roots: Vec<NodeId> = stages.iter().flat_map(Stage::nodes).collect();
     let (mut values, of) = Builder::translate_all(graph, given, &roots);
-    sharing::share(&mut values, &roots.iter().map(|root| of[root].value).collect::<Vec<_>>());
+    sharing::share(&mut values, &roots.iter().map(|root| of[*root].value).collect::<Vec<_>>());
     let names = named
         .iter()
         .filter_map(|(node, name)| {
-            of.get(node).filter(|signed| !signed.negative).map(|signed| (signed.value, name.clone()))
+            of.get(*node).filter(|signed| !signed.negative).map(|signed| (signed.value, name.clone()))
         })
         .collect();
-    let mut ordering = Ordering::new(graph, values, &roots.iter().map(|root| of[root]).collect::<Vec<_>>());
+    let mut ordering = Ordering::new(graph, values, &roots.iter().map(|root| of[*root]).collect::<Vec<_>>());
     let introduced: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
     ordering.gather_sines(&introduced);
-    let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| of[node]).collect() };
+    let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| of[*node]).collect() };
     for stage in stages {
         for node in stage.nodes() {
-            ordering.require(of[&node].value, matches!(stage, Stage::Let { .. }));
+            ordering.require(of[node].value, matches!(stage, Stage::Let { .. }));
         }
         ordering.lines.push(match stage {
-            Stage::Let { symbol, node } => Line::Name { symbol: *symbol, value: of[node] },
+            Stage::Let { symbol, node } => Line::Name { symbol: *symbol, value: of[*node] },
             Stage::Guard { block, determinant, size } => {
-                Line::Guard { block: *block, determinant: of[determinant], size: of[size] }
+                Line::Guard { block: *block, determinant: of[*determinant], size: of[*size] }
             }
             Stage::Factor { block, matrix, sizes } => {
                 let matrix = matrix.iter().map(|row| signed(row)).collect();
@@ -211,7 +217,7 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
                 Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }
             }
             Stage::Chord { block, symbol, factors, size } => {
-                Line::Chord { block: *block, symbol: *symbol, factors: factors.map(|node| of[&node]), size: of[size] }
+                Line::Chord { block: *block, symbol: *symbol, factors: factors.map(|node| of[node]), size: of[*size] }
             }
             Stage::Pivots { symbol, matrix } => {
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
@@ -224,8 +230,8 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
             Stage::Return(nodes) => Line::Return(signed(nodes)),
         });
     }
+    let used = ordering.used();
     let Ordering { values, lines, .. } = ordering;
-    let used = used(&values, &lines);
     Schedule { values, lines, names, used }
 }
 
@@ -281,33 +287,5 @@ impl Schedule {
     #[must_use]
     pub fn used(&self) -> &[ValueId] {
         &self.used
-    }
-}
-
-fn used(values: &[Value], lines: &[Line]) -> Vec<ValueId> {
-    let mut seen = vec![false; values.len()];
-    let mut stack: Vec<ValueId> = lines.iter().flat_map(line_values).collect();
-    while let Some(id) = stack.pop() {
-        if !std::mem::replace(&mut seen[id.0], true) {
-            values[id.0].each_part(|part| stack.push(part));
-        }
-    }
-    (0..values.len()).filter(|&index| seen[index]).map(ValueId).collect()
-}
-
-fn line_values(line: &Line) -> Vec<ValueId> {
-    let of = |signed: &[Signed]| signed.iter().map(|signed| signed.value).collect::<Vec<_>>();
-    match line {
-        Line::Let(id) => vec![*id],
-        Line::SineCosine { sine, cosine, .. } => vec![*sine, *cosine],
-        Line::SinesCosines(several) => several.iter().flat_map(|one| one.sine.into_iter().chain(one.cosine)).collect(),
-        Line::External { values, .. } => values.iter().flatten().copied().collect(),
-        Line::Name { value, .. } => vec![value.value],
-        Line::Guard { determinant, size, .. } => vec![determinant.value, size.value],
-        Line::Chord { factors: [low, high], size, .. } => vec![low.value, high.value, size.value],
-        Line::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).map(|signed| signed.value).collect(),
-        Line::Pivots { matrix, .. } => matrix.iter().flatten().map(|signed| signed.value).collect(),
-        Line::Newton { start, known, .. } => start.iter().chain(known).map(|signed| signed.value).collect(),
-        Line::Solve { right, .. } | Line::Return(right) => of(right),
     }
 }

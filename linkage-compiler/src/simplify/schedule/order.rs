@@ -33,15 +33,14 @@ impl Ordering {
                 values[id.0].each_part(|part| stack.push(part));
             }
         }
-        let used = (0..values.len()).filter(|&index| uses[index] > 0);
-        let circular = used
-            .filter_map(|index| match &values[index] {
-                Value::Call(function @ (Function::Sin | Function::Cos), angle) => {
-                    Some(((*function, angle[0]), ValueId(index)))
-                }
-                _ => None,
-            })
-            .collect();
+        let mut circular = FxHashMap::default();
+        for (index, value) in values.iter().enumerate() {
+            if let Value::Call(function @ (Function::Sin | Function::Cos), angle) = value
+                && uses[index] > 0
+            {
+                circular.insert((*function, angle[0]), ValueId(index));
+            }
+        }
         let mut externals = FxHashMap::default();
         for (index, value) in values.iter().enumerate().filter(|(index, _)| uses[*index] > 0) {
             let Value::External(external, arguments) = value else { continue };
@@ -52,6 +51,17 @@ impl Ordering {
             }
         }
         Self { height: vec![None; values.len()], values, uses, lines: Vec::new(), circular, externals }
+    }
+
+    /// Every value that the roots stand on, ascending.
+    pub(super) fn used(&self) -> Vec<ValueId> {
+        let mut used = Vec::new();
+        for (index, &uses) in self.uses.iter().enumerate() {
+            if uses > 0 {
+                used.push(ValueId(index));
+            }
+        }
+        used
     }
 
     /// Emits the lines that `root` stands on; `named` if its own line is about to follow.
@@ -66,7 +76,9 @@ impl Ordering {
                 let first = stack.len();
                 self.values[id.0].each_part(|part| stack.push((part, false)));
                 // The first part is to come out first.
-                stack[first..].reverse();
+                if stack.len() > first + 1 {
+                    stack[first..].reverse();
+                }
                 continue;
             }
             if named && id == root && !matches!(self.values[id.0], Value::External(..)) {

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::{Given, Signed, Value, ValueId};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
@@ -14,18 +14,40 @@ pub(super) struct Builder<'a> {
     given: &'a Given,
     values: Vec<Value>,
     ids: FxHashMap<Value, ValueId>,
-    of: FxHashMap<NodeId, Signed>,
+    of: Translated,
+}
+
+/// What each node became, by its index: every part is looked up again and again.
+#[derive(Default)]
+pub(super) struct Translated(Vec<Signed>);
+
+/// Of a node that no root stands on.
+const NONE: Signed = Signed { negative: false, value: ValueId(usize::MAX) };
+
+impl Translated {
+    pub(super) fn get(&self, node: NodeId) -> Option<Signed> {
+        self.0.get(node.index()).copied().filter(|signed| *signed != NONE)
+    }
+}
+
+impl std::ops::Index<NodeId> for Translated {
+    type Output = Signed;
+
+    fn index(&self, node: NodeId) -> &Signed {
+        &self.0[node.index()]
+    }
 }
 
 impl<'a> Builder<'a> {
     /// The values that the roots stand on, and which of them each node became.
-    pub(super) fn translate_all(
-        graph: &'a Graph,
-        given: &'a Given,
-        roots: &[NodeId],
-    ) -> (Vec<Value>, FxHashMap<NodeId, Signed>) {
-        let mut builder =
-            Self { graph, given, values: Vec::new(), ids: FxHashMap::default(), of: FxHashMap::default() };
+    pub(super) fn translate_all(graph: &'a Graph, given: &'a Given, roots: &[NodeId]) -> (Vec<Value>, Translated) {
+        let mut builder = Self {
+            graph,
+            given,
+            values: Vec::new(),
+            ids: FxHashMap::with_capacity_and_hasher(4 * roots.len(), FxBuildHasher),
+            of: Translated::default(),
+        };
         builder.build(roots);
         (builder.values, builder.of)
     }
@@ -33,12 +55,13 @@ impl<'a> Builder<'a> {
     fn build(&mut self, roots: &[NodeId]) {
         let ordered = self.graph.sweep(roots, |_| false, |id| self.is_leaf(id));
         let shared = self.shared_divisors(&ordered);
+        self.of.0.resize(ordered.last().map_or(0, |last| last.index() + 1), NONE);
         for id in ordered {
             let signed = match self.leaf(id) {
                 Some(signed) => signed,
                 None => self.translate(id, &shared),
             };
-            self.of.insert(id, signed);
+            self.of.0[id.index()] = signed;
         }
     }
 
@@ -99,7 +122,7 @@ impl<'a> Builder<'a> {
             Node::Sum { constant, terms } => {
                 let mut signed = Vec::new();
                 for &(coefficient, term) in terms {
-                    let term = self.of[&term];
+                    let term = self.of[term];
                     let value = self.scaled(coefficient.absolute(), term.value);
                     signed.push(Signed { negative: term.negative != coefficient.is_negative(), value });
                 }
@@ -110,11 +133,11 @@ impl<'a> Builder<'a> {
             }
             Node::Product { coefficient, factors } => self.product(*coefficient, factors, shared),
             Node::Call(function, arguments) => {
-                let arguments = arguments.iter().map(|argument| self.of[argument]).collect();
+                let arguments = arguments.iter().map(|argument| self.of[*argument]).collect();
                 self.positive(Value::Call(*function, arguments))
             }
             Node::External(external, arguments) => {
-                let arguments = arguments.iter().map(|argument| self.of[argument]).collect();
+                let arguments = arguments.iter().map(|argument| self.of[*argument]).collect();
                 self.positive(Value::External(external.clone(), arguments))
             }
             Node::Constant(_) | Node::Pi | Node::Symbol(_) => self.constant(Number::ZERO),
@@ -147,7 +170,7 @@ impl<'a> Builder<'a> {
                 constant = constant.multiply(Number::Float(value.powi(exponent)));
                 continue;
             }
-            let signed = self.of[&base];
+            let signed = self.of[base];
             negative ^= signed.negative && exponent % 2 != 0;
             let powers = self.power(signed.value, exponent.unsigned_abs());
             if exponent > 0 { &mut above } else { &mut below }.extend(powers);

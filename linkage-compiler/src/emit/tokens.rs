@@ -1,0 +1,90 @@
+//! Tokens that are written one by one: where there are many, quoting is what unoptimised macros spend
+//! their time on.
+
+use proc_macro2::{Delimiter, Group, Ident, Punct, Spacing, TokenStream, TokenTree};
+
+use super::names::{ident, string};
+
+#[derive(Default)]
+pub(super) struct Tokens(Vec<TokenTree>);
+
+impl Tokens {
+    pub(super) fn append(&mut self, token: impl Into<TokenTree>) {
+        self.0.push(token.into());
+    }
+
+    pub(super) fn ident(&mut self, ident: &Ident) {
+        self.0.push(TokenTree::Ident(ident.clone()));
+    }
+
+    pub(super) fn word(&mut self, word: &str) {
+        self.0.push(TokenTree::Ident(ident(word)));
+    }
+
+    /// Signs that stand each for itself.
+    pub(super) fn punct(&mut self, sign: char) {
+        self.0.push(TokenTree::Punct(Punct::new(sign, Spacing::Alone)));
+    }
+
+    pub(super) fn group(&mut self, delimiter: Delimiter, inside: Self) {
+        self.0.push(TokenTree::Group(Group::new(delimiter, inside.into())));
+    }
+
+    pub(super) fn extend(&mut self, stream: TokenStream) {
+        self.0.extend(stream);
+    }
+
+    /// `#[doc = " line"]`, with the word `doc`.
+    pub(super) fn doc(&mut self, word: &Ident, line: &str) {
+        let mut doc = Self::default();
+        doc.ident(word);
+        doc.punct('=');
+        doc.append(if line.is_empty() { string("") } else { string(&format!(" {line}")) });
+        self.punct('#');
+        self.group(Delimiter::Bracket, doc);
+    }
+
+    /// The identifier behind `fn`.
+    pub(super) fn name_of_function(&self) -> String {
+        let mut words = self.0.iter().skip_while(|token| !matches!(token, TokenTree::Ident(word) if word == "fn"));
+        words.nth(1).map(ToString::to_string).unwrap_or_default()
+    }
+
+    /// `function(…)`
+    pub(super) fn call(&mut self, function: &Ident, write: impl FnOnce(&mut Self)) {
+        let mut inside = Self::default();
+        write(&mut inside);
+        self.ident(function);
+        self.group(Delimiter::Parenthesis, inside);
+    }
+
+    /// `&[…]`
+    pub(super) fn slice(self) -> TokenStream {
+        let mut slice = Self::default();
+        slice.punct('&');
+        slice.group(Delimiter::Bracket, self);
+        slice.into()
+    }
+
+    /// Items separated by commas, in brackets unless these are none.
+    pub(super) fn list(&mut self, delimiter: Delimiter, items: impl IntoIterator<Item = Self>) {
+        let mut inside = Self::default();
+        for item in items {
+            if !inside.0.is_empty() {
+                inside.punct(',');
+            }
+            inside.0.extend(item.0);
+        }
+        if delimiter == Delimiter::None {
+            self.0.append(&mut inside.0);
+        } else {
+            self.group(delimiter, inside);
+        }
+    }
+}
+
+impl From<Tokens> for TokenStream {
+    fn from(tokens: Tokens) -> Self {
+        tokens.0.into_iter().collect()
+    }
+}
