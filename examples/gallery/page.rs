@@ -37,14 +37,14 @@ fn push(html: &mut String, text: std::fmt::Arguments) {
 fn figure(figure: &Figure) -> Result<String, DrawingError> {
     let Figure { name, about, source, .. } = figure;
     let derivation = figure.derivation;
-    let inputs: Vec<&str> = derivation.inputs.iter().map(|input| input.formula.text).collect();
+    let inputs: Vec<String> = derivation.inputs.iter().map(|input| input.formula.to_string()).collect();
     let groups: String = derivation
         .blocks
         .iter()
         .map(|block| {
             // What stands before the colon is the name of the group.
             let group = block.group.split(':').next().unwrap_or_default();
-            let unknowns: Vec<&str> = block.unknowns.iter().map(|unknown| unknown.text).collect();
+            let unknowns: Vec<String> = block.unknowns.iter().map(ToString::to_string).collect();
             format!("<li>{} <i>{}</i></li>", escape(group), escape(&unknowns.join(", ")))
         })
         .collect();
