@@ -56,6 +56,56 @@ pub enum Error {
         /// The unknowns of the group.
         group: &'static str,
     },
+    /// The input cannot reach the value that is asked for: on this branch it turns back at a dead point.
+    DeadPoint {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group that locks.
+        group: &'static str,
+        /// How far the input stays from what is asked for, in radians or beside the lengths of its loops.
+        gap: f64,
+    },
+    /// Two motions of the mechanism cross here, and nothing says which of them is meant.
+    ChangePoint {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group that is singular.
+        group: &'static str,
+    },
+    /// At this start the input does not say where the path goes: it is a dead point, or the direction given is
+    /// across the path.
+    NoDirection {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+    },
+    /// The path cannot be followed on: the shortest step fails. Where more than two motions meet, or are closer
+    /// than rounding can tell, it ends.
+    Lost {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group that is nearest to a singularity.
+        group: &'static str,
+        /// Trials of the last step.
+        iterations: usize,
+        /// The largest residual of the last trial beside the size of its closure.
+        residual: f64,
+        /// The smallest pivot of the whole Jacobian of the closures beside the largest: 0 is a change point.
+        regularity: f64,
+    },
+    /// The path is longer than the steps that were allowed.
+    TooLong {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The steps taken.
+        steps: usize,
+    },
+    /// A number that is given makes no sense.
+    Invalid {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// What must be otherwise.
+        quantity: &'static str,
+    },
     /// A number given or computed is infinite or not a number.
     NotFinite {
         /// The mechanism, or the driver of one.
@@ -87,6 +137,24 @@ impl fmt::Display for Error {
             Self::OtherBranch { mechanism, group } => {
                 write!(f, "the position of {mechanism} near the guess has {group} on another branch than the guess")
             }
+            Self::DeadPoint { mechanism, group, gap } => {
+                write!(f, "{mechanism} locks {gap:.1e} before this input: {group} are at a dead point")
+            }
+            Self::ChangePoint { mechanism, group } => {
+                write!(f, "two motions of {mechanism} cross here, where {group} are singular: choose one")
+            }
+            Self::NoDirection { mechanism } => {
+                write!(f, "the direction given does not say which way {mechanism} moves from this start")
+            }
+            Self::Lost { mechanism, group, iterations, residual, regularity } => write!(
+                f,
+                "the path of {mechanism} cannot be followed on, {group} being nearest to a singularity: after \
+                 {iterations} trials relative residual {residual:.1e}, Jacobian regular to {regularity:.1e}"
+            ),
+            Self::TooLong { mechanism, steps } => {
+                write!(f, "the path of {mechanism} goes on after {steps} steps")
+            }
+            Self::Invalid { mechanism, quantity } => write!(f, "{mechanism} cannot be followed: check {quantity}"),
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
         }
     }

@@ -3,6 +3,7 @@
 //! - [`Mechanism`]: the trait that general algorithms take;
 //! - [`position`]: Newton's method with damping and honest failure;
 //! - [`limits`]: how far an input can go;
+//! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
 //! - [`Error`]: which mechanism, what residual, how near singular;
 //! - [`derivation`]: the formulas behind the code, as data;
 //! - [`drawing`]: the linkage as SVG;
@@ -12,6 +13,7 @@
 #![warn(missing_docs)]
 
 mod branch;
+pub mod continuation;
 pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
@@ -30,7 +32,8 @@ mod sine;
 pub use branch::{Elbow, Side, Slider, Slope, chord, existing, side_of};
 pub use error::{Error, finite, finite_matrix};
 pub use limits::{Bound, Limits, Search, limits};
-pub use linear::{Factorization, product_of_pivots, regular, same_signs};
+use linear::same_signs;
+pub use linear::{Factorization, product_of_pivots, regular};
 pub use mechanism::Mechanism;
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;

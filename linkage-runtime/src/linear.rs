@@ -25,8 +25,8 @@ pub fn regular<T: Real>(mechanism: &'static str, group: &'static str, determinan
 
 /// Whether numbers have the same signs, one by one; zero counts as positive.
 #[inline]
-pub fn same_signs<T: Real, const N: usize>(these: [T; N], those: [T; N]) -> bool {
-    these.into_iter().zip(those).all(|(this, that)| (this >= T::zero()) == (that >= T::zero()))
+pub(crate) fn same_signs<T: Real>(these: &[T], those: &[T]) -> bool {
+    these.iter().zip(those).all(|(this, that)| (*this >= T::zero()) == (*that >= T::zero()))
 }
 
 #[cold]

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Error, Real};
+use crate::{Error, Real, same_signs};
 
 /// A mechanism with `U` dependent and `V` independent coordinates, closed where Psi(q) = 0.
 ///
@@ -10,6 +10,12 @@ use crate::{Error, Real};
 pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     /// The name of the mechanism, as errors give it.
     const NAME: &'static str;
+    /// The groups of unknowns that are solved together, by the names of their unknowns, in the order of solution.
+    const GROUPS: &'static [&'static str];
+    /// Which unknowns are angles.
+    const UNKNOWN_ANGLES: [bool; U];
+    /// Which inputs are angles.
+    const INPUT_ANGLES: [bool; V];
     /// The coordinates q by name.
     type Coordinates: Copy;
     /// The independent coordinates v by name.
@@ -18,9 +24,15 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     type Unknowns: Copy;
     /// A position ready for use.
     type Pose;
+    /// A number for each of [`GROUPS`](Self::GROUPS).
+    type BlockDeterminants: Copy + AsRef<[T]> + AsMut<[T]>;
 
     /// u, taken out of q.
     fn unknowns(q: &Self::Coordinates) -> SVector<T, U>;
+    /// v, taken out of q.
+    fn inputs(q: &Self::Coordinates) -> SVector<T, V>;
+    /// q with other values of v.
+    fn with_inputs(q: &Self::Coordinates, inputs: SVector<T, V>) -> Self::Coordinates;
     /// q with other values of u.
     fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, U>) -> Self::Coordinates;
     /// The position at these coordinates.
@@ -35,9 +47,15 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, U, V>;
     /// det J.
     fn determinant(&self, pose: &Self::Pose) -> T;
+    /// The determinant of each block of J: of each group.
+    fn block_determinants(&self, pose: &Self::Pose) -> Self::BlockDeterminants;
+    /// The quadratic velocity term (Psi_q q')_q q'.
+    fn gamma(&self, pose: &Self::Pose, rate: &Self::Coordinates) -> SVector<T, U>;
     /// Whether the determinant of each block of J has the same sign at both positions: if not, they
     /// belong to different assembly branches.
-    fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool;
+    fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
+        same_signs(self.block_determinants(pose).as_ref(), self.block_determinants(other).as_ref())
+    }
     /// The x of J x = `right`.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use nalgebra::{Const, DimMin, SMatrix, SVector};
 
 use crate::newton::{Closures, Iterate, search};
 use crate::scalar::to_f64;
-use crate::{Error, Factorization, Mechanism, Real, product_of_pivots, same_signs};
+use crate::{Error, Factorization, Mechanism, Real, linear::same_signs, product_of_pivots};
 
 /// A position and how it was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,7 +83,7 @@ where
     let (_, _, before) = evaluate(start);
     let (Iterate { unknowns, point: (_, _, after), .. }, _) =
         search(&Part { mechanism, group, evaluate }, SVector::from(start))?;
-    if same_signs([product_of_pivots(before)], [product_of_pivots(after)]) {
+    if same_signs(&[product_of_pivots(before)], &[product_of_pivots(after)]) {
         Ok(unknowns.into())
     } else {
         Err(Error::OtherBranch { mechanism, group })

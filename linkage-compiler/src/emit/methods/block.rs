@@ -12,6 +12,7 @@ use super::super::types::field;
 use super::{Kernels, Methods, imports, literal};
 use crate::derivation::Derivation;
 use crate::graph::SymbolId;
+use crate::model::Kind;
 
 impl Methods<'_> {
     /// The `impl` blocks, in a scope of their own for the names that they use.
@@ -30,6 +31,20 @@ impl Methods<'_> {
         let members: Vec<Ident> =
             self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
         let rest = members.is_empty().then(|| quote!(..));
+        let driving: Vec<Ident> =
+            self.driver.inputs.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
+        let no_driver = driving.is_empty().then(|| quote!(..));
+        // Where there is nothing else in q, there is nothing to take from it.
+        let others = (u > 0).then(|| quote!(..*q));
+        let angles = |places: &[usize]| {
+            let kinds = places.iter().map(|&index| self.mechanism.coordinates[index].kind == Kind::Angle);
+            quote!([#(#kinds),*])
+        };
+        let (unknown_angles, input_angles) = (angles(&self.driver.unknowns), angles(&self.driver.inputs));
+        let groups: Vec<String> = kernels.map_or_else(Vec::new, |kernels| {
+            kernels.derivation.blocks.iter().map(|block| block.names(kernels.derivation)).collect()
+        });
+        let group_count = literal(groups.len());
         let pose_coordinates = kernels.map(|kernels| self.pose_coordinates(kernels.derivation, kernels.plan));
         quote! {
             const _: () = {
@@ -45,12 +60,23 @@ impl Methods<'_> {
                 #pose_coordinates
                 impl<T: Real> Mechanism<T, #nu, #nv> for #driver<T> {
                     const NAME: &'static str = #text;
+                    const GROUPS: &'static [&'static str] = &[#(#groups),*];
+                    const UNKNOWN_ANGLES: [bool; #nu] = #unknown_angles;
+                    const INPUT_ANGLES: [bool; #nv] = #input_angles;
                     type Coordinates = #coordinates<T>;
                     type Inputs = #inputs<T>;
                     type Unknowns = #unknowns<T>;
                     type Pose = #pose<T>;
+                    type BlockDeterminants = [T; #group_count];
                     fn unknowns(q: &Self::Coordinates) -> SVector<T, #nu> {
                         #unknowns::from(q).into()
+                    }
+                    fn inputs(q: &Self::Coordinates) -> SVector<T, #nv> {
+                        #inputs::from(q).into()
+                    }
+                    fn with_inputs(q: &Self::Coordinates, inputs: SVector<T, #nv>) -> Self::Coordinates {
+                        let #inputs { #(#driving,)* #no_driver } = inputs.into();
+                        #coordinates { #(#driving,)* #others }
                     }
                     fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, #nu>) -> Self::Coordinates {
                         let #unknowns { #(#members,)* #rest } = unknowns.into();
@@ -74,8 +100,11 @@ impl Methods<'_> {
                     fn determinant(&self, pose: &Self::Pose) -> T {
                         self.determinant(pose)
                     }
-                    fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
-                        same_signs(self.block_determinants(pose), self.block_determinants(other))
+                    fn block_determinants(&self, pose: &Self::Pose) -> Self::BlockDeterminants {
+                        self.block_determinants(pose)
+                    }
+                    fn gamma(&self, pose: &Self::Pose, rate: &Self::Coordinates) -> SVector<T, #nu> {
+                        self.gamma(pose, rate)
                     }
                     fn solve_jacobian(&self, pose: &Self::Pose, right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error> {
                         self.solve_jacobian(pose, right)

@@ -120,8 +120,7 @@ pub(super) fn of_driver(
         functions: TokenStream::new(),
         branches: None,
         kernels: Vec::new(),
-        // The block itself compares signs.
-        uses: BTreeSet::from(["same_signs"]),
+        uses: BTreeSet::new(),
         externals: BTreeSet::new(),
     };
     let formulas = derivation.as_deref_mut().map(Formulas::new);

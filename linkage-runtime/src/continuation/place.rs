@@ -1,0 +1,118 @@
+//! A place on the way, and one step from it.
+
+use super::curve::{Curve, Refusal};
+use super::options::Options;
+use super::root::root;
+use super::tangent::Elimination;
+use super::vector::Vector;
+use crate::scalar::to_f64;
+use crate::{Error, Mechanism, Real, real};
+
+/// A position of the curve with what tells it from its neighbours.
+pub(super) struct Place<M: Mechanism<T, U, 1>, T: Real, const U: usize> {
+    pub(super) q: M::Coordinates,
+    /// Of length 1, the way that is followed.
+    pub(super) tangent: Vector<T, U>,
+    /// On which side of the curve the closures are positive, as a sign; zero where that is not known.
+    pub(super) side: T,
+    /// Of the blocks of J; zero where a block has just passed its zero.
+    pub(super) determinants: M::BlockDeterminants,
+    pub(super) regularity: T,
+}
+
+impl<M: Mechanism<T, U, 1>, T: Real, const U: usize> Clone for Place<M, T, U> {
+    fn clone(&self) -> Self {
+        Self { q: self.q, ..*self }
+    }
+}
+
+/// A step may leave its prediction by the angle it turns through, and by this much of its length.
+const SLACK: f64 = 1.0 / 64.0;
+
+/// What rounding may add to that, in roundings of the coordinates.
+const ROUNDINGS: f64 = 64.0;
+
+/// Below this the smallest pivot may be that of a change point.
+pub(super) fn weak<T: Real>() -> T {
+    T::default_epsilon().sqrt() * real(16.0)
+}
+
+impl<M, T, const U: usize> Curve<'_, M, T, U>
+where
+    T: Real,
+    M: Mechanism<T, U, 1>,
+{
+    pub(super) fn determinants(&self, q: &M::Coordinates) -> M::BlockDeterminants {
+        self.mechanism.block_determinants(&self.mechanism.pose_at(q))
+    }
+
+    /// The place at a position of the curve, its tangent the one that goes on along `forward`.
+    pub(super) fn place(
+        &self,
+        q: M::Coordinates,
+        elimination: &Elimination<T, U>,
+        forward: &Vector<T, U>,
+    ) -> Place<M, T, U> {
+        let regularity = elimination.regularity();
+        let mut tangent = elimination.tangent();
+        if tangent.dot(forward) < T::zero() {
+            tangent = tangent * -T::one();
+        }
+        let mut side = elimination.orientation(&tangent);
+        if regularity < T::default_epsilon().sqrt() {
+            // Of a tangent that is rounding alone nothing is known; the last one is.
+            (tangent, side) = (*forward, T::zero());
+        }
+        Place { q, tangent, side, determinants: self.determinants(&q), regularity }
+    }
+
+    /// The place at `distance` from another along its tangent, whatever the curve does between the two.
+    pub(super) fn at(&self, from: &Place<M, T, U>, distance: T) -> Result<Result<Place<M, T, U>, Refusal>, Error> {
+        let guess = self.moved(&from.q, &(from.tangent * distance));
+        let found = self.correct(guess, &from.tangent)?;
+        Ok(found.map(|(q, elimination)| self.place(q, &elimination, &from.tangent)))
+    }
+
+    /// Whether the way from one place to the other is an arc: it turns little, and leaves neither tangent further
+    /// than that turn explains. Two curves that pass each other side by side do not look like that.
+    pub(super) fn is_arc(
+        &self,
+        from: &Place<M, T, U>,
+        q: &M::Coordinates,
+        tangent: &Vector<T, U>,
+        regularity: T,
+        options: &Options<T>,
+    ) -> bool {
+        let (way, turn) = (self.difference(q, &from.q), (*tangent - from.tangent).norm());
+        let rounding = self.rounding(q) * real(ROUNDINGS) / regularity.max(T::default_epsilon().sqrt());
+        let most = way.norm() * (turn + real(SLACK)) + rounding;
+        way.dot(&from.tangent) > T::zero()
+            && turn <= options.largest_turn
+            && way.across(&from.tangent) <= most
+            && way.across(tangent) <= most
+    }
+
+    /// The distance along the tangent of `from` at which a number changes its sign.
+    pub(super) fn sign_change(
+        &self,
+        from: &Place<M, T, U>,
+        [low, high]: [T; 2],
+        values: [T; 2],
+        value: impl Fn(&Place<M, T, U>) -> T,
+    ) -> Result<Option<T>, Error> {
+        let smallest = self.rounding(&from.q) * real(0.25);
+        root([low, high], values, smallest, |distance| Ok(self.at(from, distance)?.ok().map(|place| value(&place))))
+    }
+
+    /// The group whose determinant fell most on the way from one place to another.
+    pub(super) fn fallen_group(&self, from: &M::BlockDeterminants, to: &M::BlockDeterminants) -> Option<&'static str> {
+        let mut fallen: Option<(f64, &'static str)> = None;
+        for ((before, after), &group) in from.as_ref().iter().zip(to.as_ref()).zip(M::GROUPS) {
+            let part = to_f64(after.abs()) / to_f64(before.abs());
+            if part.is_finite() && fallen.is_none_or(|(least, _)| part < least) {
+                fallen = Some((part, group));
+            }
+        }
+        fallen.map(|(_, group)| group).or_else(|| M::GROUPS.first().copied())
+    }
+}
