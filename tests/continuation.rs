@@ -18,7 +18,9 @@ fn limit_points_of_freudenstein_and_roth() {
     for _ in 0..400 {
         let step = path.advance_watching(|_, rates| rates.x1).unwrap();
         println!("{:?} {:?} {:?}", step.length, step.position, step.event);
-        if step.position.x3 > 1.0 && step.position.x2 > 3.0 { break; }
+        if step.position.x3 > 1.0 && step.position.x2 > 3.0 {
+            break;
+        }
     }
 }
 
@@ -32,7 +34,7 @@ fn parallelogram() {
         println!("{:?} {:?} {:?}", step.length, step.position, step.event);
     }
     for k in 0..30 {
-        let step = path.advance_to(PI * f64::from(k)/4.0).unwrap();
+        let step = path.advance_to(PI * f64::from(k) / 4.0).unwrap();
         println!("{:?} {:?} {:?}", step.length, step.position, step.event);
     }
 }

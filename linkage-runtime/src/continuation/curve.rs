@@ -169,20 +169,21 @@ where
         for _ in 0..MOST_CORRECTIONS {
             let at = self.linear(&q)?;
             let elimination = Elimination::new(at.unknowns, at.input);
-            if at.is_closed() {
-                return Ok(Ok((q, elimination)));
-            }
-            let refusal =
-                Refusal { residual: to_f64(at.residual.amax()), regularity: to_f64(elimination.regularity()) };
             let (tangent, part) = (elimination.tangent(), elimination.solve(&-at.residual));
             // [J A; n'] x = -{Psi; n' (q - guess)}, with what has gathered along n by rounding taken off.
             let along = normal.dot(&tangent);
             let drift = normal.dot(&(self.difference(&q, &guess) + part));
             let step = part - tangent * (drift / along);
             let size = step.norm();
+            if at.is_closed() {
+                // One more step removes what the last one left, if rounding has not made it long.
+                let is_short = size <= self.rounding(&q) * real(LAST_STEP);
+                return Ok(Ok((if is_short { self.moved(&q, &step) } else { q }, elimination)));
+            }
             let contracts = last.is_none_or(|last| size <= last * real(0.5));
             if !(step.is_finite() && contracts && along.abs() > real(LEAST_CROSSING)) {
-                return Ok(Err(refusal));
+                let residual = to_f64(at.residual.amax());
+                return Ok(Err(Refusal { residual, regularity: to_f64(elimination.regularity()) }));
             }
             q = self.moved(&q, &step);
             last = Some(size);
@@ -190,6 +191,9 @@ where
         Ok(Err(Refusal { residual: f64::NAN, regularity: f64::NAN }))
     }
 }
+
+/// The longest last step, in roundings of the coordinates.
+const LAST_STEP: f64 = 256.0;
 
 /// The sine of the least angle at which a plane may cut the curve.
 const LEAST_CROSSING: f64 = 1.0 / 64.0;

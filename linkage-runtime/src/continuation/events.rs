@@ -4,7 +4,10 @@ use super::curve::Curve;
 use super::options::Options;
 use super::place::{Place, weak};
 use super::vector::Vector;
-use crate::{Error, Mechanism, Real};
+use crate::{Error, Mechanism, Real, real};
+
+/// A distance of this many roundings of the coordinates is none.
+const ROUNDINGS: f64 = 16.0;
 
 /// What a path meets. Each ends the step that meets it, so that the position is that of the event, to rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,9 +69,7 @@ where
                 Cut::None => {}
                 Cut::Lost => return Ok(None),
                 Cut::At(mut place) => {
-                    if let Some(determinant) = place.determinants.as_mut().get_mut(index) {
-                        *determinant = T::zero();
-                    }
+                    place.forget_sign(group);
                     end = End { place, event: Some(Event::DeadPoint { group }), is_target: false };
                 }
             }
@@ -77,7 +78,11 @@ where
         let limits = options.range.into_iter().flatten().map(|limit| (limit, false));
         for (limit, is_target) in limits.chain(wanted.target.map(|input| (input, true))) {
             let gap = |place: &Place<M, T, U>| Self::input(&place.q) - limit;
-            if gap(&end.place).is_zero() && !gap(from).is_zero() {
+            // At a change point the input is met where it is met to rounding.
+            let is_crossing = matches!(end.event, Some(Event::ChangePoint { .. }));
+            let slack = if is_crossing { self.rounding(&end.place.q) * real(ROUNDINGS) } else { T::zero() };
+            if self.input_distance(gap(&end.place)).abs() <= slack && !gap(from).is_zero() {
+                end.place.q = Self::with_input(&end.place.q, limit);
                 let event = end.event.or((!is_target).then_some(Event::Limit));
                 end = End { event, is_target, ..end };
                 continue;

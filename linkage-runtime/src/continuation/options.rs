@@ -10,7 +10,7 @@ pub enum AtChangePoint {
     Keep,
     /// The other motion is taken, the way in which the input keeps its direction.
     Switch,
-    /// The path ends there; [`take`](super::Path::take) chooses how it goes on.
+    /// The path ends there; [`choose`](super::Path::choose) says how it goes on.
     Stop,
 }
 

@@ -101,15 +101,14 @@ where
             |place, passed, stands| Self { curve, place, options, step, length, passed, stands, is_ended: false };
         if elimination.regularity() < weak() {
             if let Some(crossing) = curve.crossing(&q, weak())? {
-                let determinants = curve.determinants(&crossing.q);
-                let group = curve.fallen_group(&curve.determinants(guess), &determinants).unwrap_or_default();
+                let group = curve.singular_group(&crossing.q);
                 let chosen = match direction {
                     Direction::Along(rates) => Some(rates),
                     Direction::Increasing | Direction::Decreasing => None,
                 };
                 let Some(rates) = chosen else { return Err(Error::ChangePoint { mechanism: M::NAME, group }) };
                 let tangent = curve.choose(&crossing.tangents, &rates)?;
-                let place = curve.at_crossing(crossing.q, tangent, T::zero());
+                let place = curve.at_crossing(crossing.q, tangent, T::zero(), group);
                 return Ok(path(place, Some(crossing.q), Stands::AtChangePoint));
             }
             if elimination.regularity() < T::default_epsilon().sqrt() {
@@ -154,12 +153,13 @@ where
     ///
     /// # Errors
     /// [`Error::NoDirection`] if they are across both motions, or the path does not stand at a change point.
-    pub fn take(&mut self, rates: &M::Coordinates) -> Result<(), Error> {
+    pub fn choose(&mut self, rates: &M::Coordinates) -> Result<(), Error> {
         let Stands::Undecided(crossing, _) = self.stands else {
             return Err(Error::NoDirection { mechanism: M::NAME });
         };
-        let tangent = self.curve.choose(&crossing.tangents, rates)?;
-        self.place = self.curve.at_crossing(crossing.q, tangent, T::zero());
+        self.place.tangent = self.curve.choose(&crossing.tangents, rates)?;
+        // On which side the closures go on depends on the way that is chosen.
+        self.place.side = T::zero();
         self.stands = Stands::AtChangePoint;
         self.is_ended = false;
         Ok(())
@@ -168,7 +168,7 @@ where
     /// One step, or less where an event ends it.
     ///
     /// # Errors
-    /// [`Error::ChangePoint`] where the path stopped at one and nothing has been taken, [`Error::Lost`] where the
+    /// [`Error::ChangePoint`] where the path stopped at one and nothing has been chosen, [`Error::Lost`] where the
     /// path cannot be followed on, [`Error::NotFinite`] if a number is not finite.
     pub fn advance(&mut self) -> Result<Step<M::Coordinates, T>, Error> {
         self.advance_wanting(None, None).map(|(step, _)| step)
@@ -256,6 +256,13 @@ where
         if let Stands::Undecided(_, group) = self.stands {
             return Err(Error::ChangePoint { mechanism: M::NAME, group });
         }
+        // At an end of its range the input goes no further.
+        let limits = self.options.range.unwrap_or([self.input() - T::one(), self.input() + T::one()]);
+        let outward = self.place.tangent.input;
+        if (self.input() <= limits[0] && outward < T::zero()) || (self.input() >= limits[1] && outward > T::zero()) {
+            self.is_ended = true;
+            return Ok((self.here(Some(Event::Limit)), false));
+        }
         let wanted = Wanted { target, watch, is_at_zero: matches!(self.stands, Stands::AtZero) };
         let shortest = self.curve.rounding(&self.place.q) * real(ROUNDINGS);
         let mut trial = self.step;
@@ -325,6 +332,9 @@ where
         if place.side.is_zero() {
             place.side = from.side;
         }
+        if place.regularity <= curve.rounding(&place.q) * real(ROUNDINGS) {
+            place.forget_sign(curve.singular_group(&place.q));
+        }
         let end = End { place, event: None, is_target: false };
         let found = curve.first_event(from, end, wanted, &self.options)?;
         Ok(found.ok_or(refusal).map(|end| {
@@ -370,13 +380,8 @@ where
                 (if agreement < T::zero() { other * -T::one() } else { other }, from.side)
             }
         };
-        let mut place = curve.at_crossing(crossing.q, tangent, side);
-        let group = curve.fallen_group(&from.determinants, &place.determinants).unwrap_or_default();
-        for (here, before) in place.determinants.as_mut().iter_mut().zip(from.determinants.as_ref()) {
-            if here.abs() <= before.abs() * weak() {
-                *here = T::zero();
-            }
-        }
+        let group = curve.fallen_group(&from.determinants, &curve.determinants(&crossing.q));
+        let place = curve.at_crossing(crossing.q, tangent, side, group);
         let tangents = [kept, other].map(|tangent| curve.rates(&crossing.q, &tangent));
         let stands = match self.options.at_change_point {
             AtChangePoint::Stop => Stands::Undecided(crossing, group),
@@ -434,9 +439,11 @@ where
     T: Real,
     M: Mechanism<T, U, 1>,
 {
-    /// The place at a change point; the determinants of its group are rounding.
-    fn at_crossing(&self, q: M::Coordinates, tangent: Vector<T, U>, side: T) -> Place<M, T, U> {
-        Place { q, tangent, side, determinants: self.determinants(&q), regularity: T::zero() }
+    /// The place at a change point, where the sign of this group's determinant is rounding.
+    fn at_crossing(&self, q: M::Coordinates, tangent: Vector<T, U>, side: T, group: &str) -> Place<M, T, U> {
+        let mut place = Place { q, tangent, side, determinants: self.determinants(&q), regularity: T::zero() };
+        place.forget_sign(group);
+        place
     }
 
     /// The tangent nearest to these rates, their way.
@@ -457,18 +464,20 @@ where
     }
 
     fn lost(&self, q: &M::Coordinates, iterations: usize, why: Refusal) -> Error {
-        let pose = self.mechanism.pose_at(q);
-        // What J itself calls singular, or else the group that is nearest to it.
-        let group = match self.mechanism.solve_jacobian(&pose, &self.mechanism.residual(&pose)) {
-            Err(Error::Singular { group, .. }) => group,
-            _ => self.weakest_group(&pose),
-        };
+        let group = self.singular_group(q);
         let Refusal { residual, regularity } = why;
         Error::Lost { mechanism: M::NAME, group, iterations, residual, regularity }
     }
 
-    fn weakest_group(&self, pose: &M::Pose) -> &'static str {
-        let determinants = self.mechanism.block_determinants(pose);
+    /// The group that J calls singular, or else the one of the smallest determinant.
+    fn singular_group(&self, q: &M::Coordinates) -> &'static str {
+        let pose = self.mechanism.pose_at(q);
+        if let Err(Error::Singular { group, .. }) =
+            self.mechanism.solve_jacobian(&pose, &self.mechanism.residual(&pose))
+        {
+            return group;
+        }
+        let determinants = self.mechanism.block_determinants(&pose);
         let mut weakest = None;
         for (determinant, &group) in determinants.as_ref().iter().zip(M::GROUPS) {
             if weakest.is_none_or(|(least, _)| determinant.abs() < least) {

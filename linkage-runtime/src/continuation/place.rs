@@ -26,6 +26,17 @@ impl<M: Mechanism<T, U, 1>, T: Real, const U: usize> Clone for Place<M, T, U> {
     }
 }
 
+impl<M: Mechanism<T, U, 1>, T: Real, const U: usize> Place<M, T, U> {
+    /// Where the determinant of a group is rounding, its sign says nothing.
+    pub(super) fn forget_sign(&mut self, group: &str) {
+        for (determinant, &name) in self.determinants.as_mut().iter_mut().zip(M::GROUPS) {
+            if name == group {
+                *determinant = T::zero();
+            }
+        }
+    }
+}
+
 /// A step may leave its prediction by the angle it turns through, and by this much of its length.
 const SLACK: f64 = 1.0 / 64.0;
 
@@ -105,7 +116,7 @@ where
     }
 
     /// The group whose determinant fell most on the way from one place to another.
-    pub(super) fn fallen_group(&self, from: &M::BlockDeterminants, to: &M::BlockDeterminants) -> Option<&'static str> {
+    pub(super) fn fallen_group(&self, from: &M::BlockDeterminants, to: &M::BlockDeterminants) -> &'static str {
         let mut fallen: Option<(f64, &'static str)> = None;
         for ((before, after), &group) in from.as_ref().iter().zip(to.as_ref()).zip(M::GROUPS) {
             let part = to_f64(after.abs()) / to_f64(before.abs());
@@ -113,6 +124,6 @@ where
                 fallen = Some((part, group));
             }
         }
-        fallen.map(|(_, group)| group).or_else(|| M::GROUPS.first().copied())
+        fallen.map(|(_, group)| group).or_else(|| M::GROUPS.first().copied()).unwrap_or_default()
     }
 }

@@ -1,0 +1,96 @@
+//! Numbers that make no sense: each is refused with a typed error, and nothing runs for ever.
+
+use linkage::continuation::{Direction, Event, Options, Path};
+use linkage::{Elbow, Error, linkage};
+
+include!("../mechanisms/four_bar.rs");
+
+const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+fn start(m: &FourBar) -> FourBarCoordinates {
+    m.assemble(0.35, FourBarBranch { theta3_theta4: Elbow::Left }).unwrap().coordinates()
+}
+
+#[test]
+fn numbers_that_are_none() {
+    let m = FourBar::default();
+    let q = start(&m);
+    for bad in BAD {
+        for broken in [
+            FourBarCoordinates { theta2: bad, ..q },
+            FourBarCoordinates { theta3: bad, ..q },
+            FourBarCoordinates { theta4: bad, ..q },
+        ] {
+            let refused = Path::new(&m, &broken, Direction::Increasing).err();
+            assert!(matches!(refused, Some(Error::NotFinite { .. })), "{refused:?}");
+            let refused = Path::new(&m, &q, Direction::Along(broken)).err();
+            assert!(matches!(refused, Some(Error::NotFinite { .. })), "{refused:?}");
+        }
+        for broken in [FourBar::new(bad, 20.0, 50.0, 70.0), FourBar::new(80.0, 20.0, bad, 70.0)] {
+            let refused = Path::new(&broken, &q, Direction::Increasing).err();
+            assert!(matches!(refused, Some(Error::NotFinite { .. })), "{refused:?}");
+        }
+        let mut path = Path::new(&m, &q, Direction::Increasing).unwrap();
+        assert!(matches!(path.advance_to(bad), Err(Error::NotFinite { .. })));
+        assert!(matches!(path.advance_watching(|_, _| bad), Err(Error::NotFinite { .. })));
+    }
+}
+
+#[test]
+fn options_that_make_no_sense() {
+    let m = FourBar::default();
+    let q = start(&m);
+    let good = Options::default();
+    let mut all = Vec::new();
+    for bad in [0.0, -0.1, 1e-16, 1e-300, 2.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        all.push(Options { longest_step: bad, ..good });
+        all.push(Options { largest_turn: bad, ..good });
+    }
+    all.push(Options { most_steps: 0, ..good });
+    for range in [[1.0, 0.0], [0.35, 0.35], [1.0, 2.0], [f64::NAN, 1.0], [0.0, f64::NAN]] {
+        all.push(Options { range: Some(range), ..good });
+    }
+    for options in all {
+        let refused = Path::with(&m, &q, Direction::Increasing, options).err();
+        assert!(matches!(refused, Some(Error::Invalid { mechanism: "FourBar", .. })), "{options:?}: {refused:?}");
+    }
+    let options = Options { range: Some([0.0, 1.0]), ..good };
+    let mut path = Path::with(&m, &q, Direction::Increasing, options).unwrap();
+    assert!(matches!(path.advance_to(1.5), Err(Error::Invalid { .. })));
+    assert_eq!(path.by_ref().last().unwrap().unwrap().event, Some(Event::Limit));
+    assert_eq!(path.position().theta2, 1.0);
+    path.turn_back();
+    assert_eq!(path.by_ref().last().unwrap().unwrap().position.theta2, 0.0);
+}
+
+#[test]
+fn too_far() {
+    let m = FourBar::default();
+    let options = Options { most_steps: 100, ..Options::default() };
+    let mut path = Path::with(&m, &start(&m), Direction::Increasing, options).unwrap();
+    assert_eq!(path.advance_to(1e9), Err(Error::TooLong { mechanism: "FourBar", steps: 100 }));
+    // The smallest steps that are allowed only take long.
+    let options = Options { longest_step: 1e-12, most_steps: 100, ..Options::default() };
+    let mut path = Path::with(&m, &start(&m), Direction::Increasing, options).unwrap();
+    assert!(path.advance().is_ok());
+    assert!(matches!(path.advance_to(1.0), Err(Error::TooLong { .. })));
+}
+
+#[test]
+fn zero_lengths() {
+    let q = start(&FourBar::default());
+    for lengths in [[0.0; 4], [1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0], [1.0, 1.0, 0.0, 0.0], [0.0, 1.0, 1.0, 0.0]] {
+        let m = FourBar::from(lengths);
+        for direction in [Direction::Increasing, Direction::Along(q)] {
+            let Ok(mut path) = Path::new(&m, &q, direction) else { continue };
+            // Whatever moves, moves on positions.
+            for step in path.by_ref().take(50) {
+                let Ok(step) = step else { break };
+                let pose = m.pose_at(&step.position);
+                assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).amax());
+            }
+        }
+    }
+    let refused = Path::new(&FourBar::from([0.0; 4]), &q, Direction::Increasing).err();
+    assert!(matches!(refused, Some(Error::Lost { mechanism: "FourBar", group: "theta3, theta4", .. })), "{refused:?}");
+}

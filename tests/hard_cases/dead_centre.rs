@@ -1,0 +1,100 @@
+//! A crank driven by its slider to the dead centre, and through it.
+//!
+//! Known to fail: the crank angle by the law of cosines, acos, which loses half its digits there, and Newton's method
+//! at a given stroke, which takes 199 steps at delta = 1e-13 and may come out on either side of the dead centre.
+
+use linkage::continuation::{Direction, Event, Path};
+use linkage::{Error, linkage};
+
+include!("../mechanisms/slider_crank.rs");
+
+const R: f64 = 0.15;
+const L: f64 = 0.3;
+
+fn engine() -> Engine {
+    Engine::new(R, L)
+}
+
+fn start() -> SliderCrankCoordinates {
+    let phi1: f64 = 1.0;
+    let phi2 = -(R / L * phi1.sin()).asin();
+    SliderCrankCoordinates { z3: R * phi1.cos() + L * phi2.cos(), phi1, phi2 }
+}
+
+/// The crank angle from the sides of the triangle, by W. Kahan's formula.
+fn crank_angle(z3: f64) -> f64 {
+    let shortfall = (L - z3) + R;
+    if shortfall <= 0.0 {
+        return 0.0;
+    }
+    2.0 * (shortfall * (z3 + (L - R))).sqrt().atan2(((z3 - L) + R).sqrt() * (z3 + (L + R)).sqrt())
+}
+
+#[test]
+fn to_the_last_digit() {
+    let m = engine();
+    for exponent in 1..=17 {
+        let delta = if exponent == 17 { 0.0 } else { 10_f64.powi(-exponent) };
+        let z3 = R + L - delta;
+        let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
+        let q = path.advance_to(z3).unwrap_or_else(|error| panic!("{delta:e}: {error}")).position;
+        let expected = crank_angle(z3);
+        println!("delta {delta:e}: crank at {:e}, expected {expected:e}", q.phi1);
+        assert_eq!(q.z3, z3);
+        // The stroke is 0.45 - 0.225 phi1^2 + ...: four roundings of terms that add up to 0.9 move the crank by so much.
+        let error = 16.0 * 2.0 * f64::EPSILON / expected.max(f64::EPSILON.sqrt());
+        assert!((q.phi1 - expected).abs() <= error, "{delta:e}: {} is not {expected}", q.phi1);
+    }
+}
+
+#[test]
+fn the_crank_keeps_its_direction() {
+    let m = engine();
+    for delta in [0.0, 1e-16] {
+        let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
+        path.advance_to(R + L - delta).unwrap();
+        // Out again: the crank goes on through the dead centre, and does not come back the way it went.
+        let q = path.advance_to(0.4).unwrap().position;
+        assert!((q.phi1 + crank_angle(0.4)).abs() < 1e-14, "{delta:e}: {q:?}");
+    }
+    // Short of the dead centre the same call goes back.
+    let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
+    path.advance_to(R + L - 1e-6).unwrap();
+    let q = path.advance_to(0.4).unwrap().position;
+    assert!((q.phi1 - crank_angle(0.4)).abs() < 1e-14);
+}
+
+/// Five turns of the crank, the slider driving: nothing is derived anew.
+#[test]
+fn round_and_round() {
+    let m = engine();
+    let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
+    let mut last = path.position().phi1;
+    let mut dead_points = Vec::new();
+    while path.position().phi1 > -31.0 {
+        let step = path.advance().unwrap();
+        assert!(step.position.phi1 < last);
+        last = step.position.phi1;
+        if let Some(Event::DeadPoint { group }) = step.event {
+            assert_eq!(group, "phi1, phi2");
+            let stroke = if dead_points.len() % 2 == 0 { R + L } else { L - R };
+            assert!((step.position.z3 - stroke).abs() < 1e-15);
+            assert!((step.position.phi1 + std::f64::consts::PI * dead_points.len() as f64).abs() < 1e-14);
+            assert!(step.rates.z3.abs() < 1e-14);
+            dead_points.push(step.position.phi1);
+        } else {
+            assert_eq!(step.event, None);
+        }
+    }
+    assert_eq!(dead_points.len(), 10);
+}
+
+#[test]
+fn beyond_reach() {
+    let m = engine();
+    let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
+    let Err(Error::DeadPoint { mechanism, group, gap }) = path.advance_to(0.46) else { panic!("it cannot reach") };
+    assert_eq!((mechanism, group), ("Engine", "phi1, phi2"));
+    assert!(gap > 0.0 && gap < 0.1);
+    assert!(path.position().phi1.abs() < 1e-14);
+}

@@ -1,0 +1,90 @@
+//! The curve of Freudenstein and Roth with its four limit points.
+//!
+//! Known to fail: any method that steps x3, which turns back twice on the way to the root. The start, the target and
+//! the limit points are those of PITCON's problem 1 (W. C. Rheinboldt and J. V. Burkardt, "Algorithm 596: a program
+//! for a locally parameterized continuation process", ACM Transactions on Mathematical Software 9, 1983, with seven
+//! digits: pitcon66_prb1.f); the further digits are theirs continued in 40-digit arithmetic.
+
+use linkage::continuation::{Direction, Event, Path};
+use linkage::{Error, linkage};
+
+include!("../mechanisms/freudenstein_roth.rs");
+
+const LIMITS_OF_X1: [[f64; 3]; 2] = [
+    [14.283_091_250_093_855_3, -1.741_376_892_197_492_05, 0.258_577_871_376_728_213],
+    [61.669_362_581_147_854_8, 1.983_801_134_621_734_48, -0.663_879_742_243_337_372],
+];
+const LIMITS_OF_X3: [[f64; 3]; 2] = [
+    [20.485_857_827_923_452_5, -0.896_805_253_274_476_518, 0.587_587_325_408_120_063],
+    [61.020_315_011_582_720_3, 2.230_138_586_607_809_85, -0.686_352_757_506_885_495],
+];
+/// Of the figures as they are published.
+const PUBLISHED: [[f64; 3]; 4] = [
+    [14.28309, -1.741377, 0.2585779],
+    [61.66936, 1.983801, -0.6638797],
+    [20.48586, -0.8968053, 0.5875873],
+    [61.02031, 2.230139, -0.6863528],
+];
+
+fn start() -> FreudensteinRothCoordinates {
+    FreudensteinRothCoordinates { x1: 15.0, x2: -2.0, x3: 0.0 }
+}
+
+#[track_caller]
+fn close(q: &FreudensteinRothCoordinates, expected: [f64; 3]) {
+    for (found, expected) in [q.x1, q.x2, q.x3].into_iter().zip(expected) {
+        assert!((found - expected).abs() <= 4e-15 * expected.abs().max(1.0), "{found} is not {expected}");
+    }
+}
+
+#[test]
+fn published_figures() {
+    for (ours, theirs) in LIMITS_OF_X1.iter().chain(&LIMITS_OF_X3).zip(PUBLISHED) {
+        for (ours, theirs) in ours.iter().zip(theirs) {
+            assert!((ours - theirs).abs() <= 1e-6 * theirs.abs(), "{ours} {theirs}");
+        }
+    }
+}
+
+/// Driven by x3 its limits are dead points, and those of x1 are zeros of a rate.
+#[test]
+fn driven_by_x3() {
+    let m = FoldsOfX3::default();
+    let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
+    let (mut of_x1, mut of_x3) = (Vec::new(), Vec::new());
+    while path.position().x2 < 3.9 {
+        let step = path.advance_watching(|_, rates| rates.x1).unwrap();
+        match step.event {
+            Some(Event::Zero) => of_x1.push(step.position),
+            Some(Event::DeadPoint { group: "x1, x2" }) => of_x3.push(step.position),
+            None => {}
+            other => panic!("{other:?}"),
+        }
+    }
+    assert_eq!((of_x1.len(), of_x3.len()), (2, 2));
+    of_x1.iter().zip(LIMITS_OF_X1).for_each(|(q, expected)| close(q, expected));
+    of_x3.iter().zip(LIMITS_OF_X3).for_each(|(q, expected)| close(q, expected));
+    close(&path.advance_to(1.0).unwrap().position, [5.0, 4.0, 1.0]);
+    // By the input alone it is not reached.
+    let error = Path::new(&m, &start(), Direction::Increasing).unwrap().advance_to(1.0);
+    assert!(matches!(error, Err(Error::DeadPoint { mechanism: "FoldsOfX3", .. })), "{error:?}");
+}
+
+/// Driven by x1 it is the other way round.
+#[test]
+fn driven_by_x1() {
+    let m = FoldsOfX1::default();
+    let mut path = Path::new(&m, &start(), Direction::Decreasing).unwrap();
+    let (mut of_x1, mut of_x3) = (Vec::new(), Vec::new());
+    while path.position().x2 < 3.9 {
+        let step = path.advance_watching(|_, rates| rates.x3).unwrap();
+        match step.event {
+            Some(Event::Zero) => of_x3.push(step.position),
+            Some(Event::DeadPoint { .. }) => of_x1.push(step.position),
+            _ => {}
+        }
+    }
+    of_x1.iter().zip(LIMITS_OF_X1).for_each(|(q, expected)| close(q, expected));
+    of_x3.iter().zip(LIMITS_OF_X3).for_each(|(q, expected)| close(q, expected));
+    assert_eq!((of_x1.len(), of_x3.len()), (2, 2));
+}

@@ -1,0 +1,40 @@
+//! A crank that has made a million turns.
+//!
+//! Known to fail: a tolerance on residuals that does not know what an angle of 6e6 radians is rounded to, and steps
+//! that add up their rounding.
+
+use std::f64::consts::TAU;
+
+use linkage::continuation::{Direction, Path};
+use linkage::{Elbow, linkage};
+
+include!("../mechanisms/four_bar.rs");
+
+const BRANCH: FourBarBranch = FourBarBranch { theta3_theta4: Elbow::Left };
+
+/// Turns `turns` times, looking once a turn.
+fn turn(from: f64, turns: u32, looks: u32) {
+    let m = FourBar::default();
+    let start = m.assemble(from, BRANCH).unwrap().coordinates();
+    let mut path = Path::new(&m, &FourBarCoordinates { theta2: from, ..start }, Direction::Increasing).unwrap();
+    for look in 1..=looks {
+        let theta2 = from + TAU * f64::from(turns) * f64::from(look) / f64::from(looks);
+        let q = path.advance_to(theta2).unwrap().position;
+        let expected = m.assemble(theta2, BRANCH).unwrap();
+        assert_eq!(q.theta2, theta2);
+        // The rocker's angles are small, and their sines and cosines those of this very input.
+        let error = (q.theta3 - expected.theta3_angle).abs().max((q.theta4 - expected.theta4_angle).abs());
+        assert!(error < 1e-14, "{error:e} at {theta2}");
+    }
+}
+
+#[test]
+fn the_last_turns_of_a_million() {
+    turn(TAU * (1e6 - 50.0), 50, 77);
+}
+
+#[test]
+#[ignore = "minutes without optimisation"]
+fn a_million_turns() {
+    turn(0.3, 1_000_000, 100_000);
+}

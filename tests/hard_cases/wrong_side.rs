@@ -1,0 +1,37 @@
+//! A start that Newton's method takes to the mirrored position.
+//!
+//! Known to fail: solvers that give what they find: of these guesses a part comes out mirrored.
+
+use linkage::continuation::{Direction, Path};
+use linkage::{Error, linkage, position};
+
+include!("../mechanisms/four_bar.rs");
+
+#[test]
+fn never_mirrored_silently() {
+    let m = FourBar::default();
+    let (mut followed, mut mirrored, mut refused) = (0, 0, 0);
+    for i in 0..60 {
+        for j in 0..60 {
+            let angle = |k: i32| f64::from(k) / 60.0 * std::f64::consts::TAU - std::f64::consts::PI;
+            let guess = FourBarCoordinates { theta2: 0.35, theta3: angle(i), theta4: angle(j) };
+            let side = m.branch_of(&m.pose_at(&guess));
+            let found = position::newton(&m, &guess).map(|found| m.branch_of(&m.pose_at(&found.coordinates)));
+            match Path::new(&m, &guess, Direction::Increasing) {
+                Ok(path) => {
+                    assert_eq!(m.branch_of(&m.pose_at(&path.position())), side);
+                    followed += 1;
+                }
+                Err(Error::OtherBranch { mechanism, group }) => {
+                    assert_eq!((mechanism, group), ("FourBar", "theta3, theta4"));
+                    assert_ne!(found.unwrap(), side);
+                    mirrored += 1;
+                }
+                Err(Error::NotConverged { .. }) => refused += 1,
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
+    println!("of 3600 starts {followed} are followed, {mirrored} are refused as mirrored, {refused} not found");
+    assert!(followed > 2000 && mirrored > 100);
+}
