@@ -5,22 +5,26 @@
 
 use std::f64::consts::TAU;
 
-use linkage::continuation::{Along, AlongCoordinates, Direction, Event, Options, Path};
+use linkage::continuation::{Direction, Event, Options, Path};
 use linkage::{Elbow, Error, Mechanism, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
 include!("../mechanisms/crank_shaper.rs");
-include!("../mechanisms/double_butterfly.rs");
-include!("../mechanisms/five_bar.rs");
 include!("../mechanisms/four_bar.rs");
+include!("../mechanisms/geneva.rs");
+include!("../mechanisms/hoecken.rs");
+include!("../mechanisms/inverted_slider_crank.rs");
 include!("../mechanisms/jansen.rs");
 include!("../mechanisms/klann.rs");
 include!("../mechanisms/offset_slider_crank.rs");
+include!("../mechanisms/peaucellier.rs");
 include!("../mechanisms/six_bar.rs");
 include!("../mechanisms/stephenson_iii.rs");
+include!("../mechanisms/v_twin.rs");
 include!("../mechanisms/watt_ii.rs");
 include!("../mechanisms/whitworth.rs");
+include!("../mechanisms/wiper.rs");
 
 /// What came of some steps.
 #[derive(Debug, Default, Clone, Copy)]
@@ -48,15 +52,15 @@ fn stride(random: &mut SmallRng) -> f64 {
 
 /// Sends the input here and there. On the way no position may belong to another branch than the first.
 macro_rules! there_and_back {
-    ($m:expr, $input:ident, $steps:expr, $random:expr) => {{
-        let (m, random, mut count) = ($m, &mut *$random, Count::default());
+    ($M:ident, $input:ident, $steps:expr, $random:expr) => {{
+        let (m, random, mut count) = ($M::default(), &mut *$random, Count::default());
         'starts: while count.steps < $steps {
             let mut exists = None;
             for _ in 0..200 {
                 let input = random.random_range(0.0..TAU);
-                let nth = random.random_range(0..32_usize);
-                exists = m.branches(input).filter_map(Result::ok).cycle().nth(nth);
-                if exists.is_some() {
+                let all: Vec<_> = m.branches(input).filter_map(Result::ok).collect();
+                if !all.is_empty() {
+                    exists = Some(all[random.random_range(0..all.len())]);
                     break;
                 }
             }
@@ -76,7 +80,7 @@ macro_rules! there_and_back {
                         let off = expected.map(|j| (j - m.jacobian_unknowns(&pose)).amax() / j.amax());
                         // The closed form and the follower meet to rounding, or at a dead point to its root.
                         if m.branch_of(&pose) != branch || !off.is_ok_and(|off| off < 1e-7) {
-                            println!("{} at {:?}: {off:?}", <_ as Named>::name(&m), step.position);
+                            println!("{} at {:?}: {off:?}", $M::<f64>::NAME, step.position);
                             count.silent += 1;
                         }
                     }
@@ -92,34 +96,29 @@ macro_rules! there_and_back {
                 }
             }
         }
-        println!("{}: {count:?}", <_ as Named>::name(&m));
+        println!("{}: {count:?}", $M::<f64>::NAME);
         count
     }};
 }
 
-/// The name of a mechanism, whatever the numbers of its coordinates.
-trait Named {
-    fn name(&self) -> &'static str;
-}
-
-macro_rules! named {
-    ($($name:ident)*) => {$(impl Named for $name {
-        fn name(&self) -> &'static str {
-            stringify!($name)
-        }
-    })*};
-}
-
-named!(CrankShaper FourBar Jansen Klann OffsetSliderCrank SixBar StephensonIii WattIi Whitworth);
-
 fn gallery(steps: usize) -> Count {
     let random = &mut SmallRng::seed_from_u64(7);
     let mut count = Count::default();
-    count += there_and_back!(CrankShaper::default(), theta, steps, random);
-    count += there_and_back!(FourBar::default(), theta2, steps, random);
-    count += there_and_back!(Jansen::default(), crank, steps, random);
-    count += there_and_back!(Klann::default(), crank, steps, random);
-    count += there_and_back!(SixBar::default(), theta1, steps, random);
+    count += there_and_back!(CrankShaper, theta, steps, random);
+    count += there_and_back!(FourBar, theta2, steps, random);
+    count += there_and_back!(Geneva, theta, steps, random);
+    count += there_and_back!(Hoecken, theta2, steps, random);
+    count += there_and_back!(InvertedSliderCrank, theta2, steps, random);
+    count += there_and_back!(Jansen, crank, steps, random);
+    count += there_and_back!(Klann, theta, steps, random);
+    count += there_and_back!(OffsetSliderCrank, theta2, steps, random);
+    count += there_and_back!(Peaucellier, theta, steps, random);
+    count += there_and_back!(SixBar, theta1, steps, random);
+    count += there_and_back!(StephensonIII, theta2, steps, random);
+    count += there_and_back!(VTwin, theta, steps, random);
+    count += there_and_back!(WattII, theta2, steps, random);
+    count += there_and_back!(Whitworth, theta, steps, random);
+    count += there_and_back!(Wiper, theta, steps, random);
     count
 }
 
@@ -169,18 +168,18 @@ fn four_bars(steps: usize) -> Count {
 
 #[test]
 fn no_silent_change() {
-    let mut count = gallery(400);
+    let mut count = gallery(200);
     count += four_bars(4_000);
     println!("{count:?}");
     assert_eq!(count.silent, 0);
-    assert!(count.dead_points > 50 && count.errors * 100 < count.steps);
+    assert!(count.dead_points > 30 && count.errors * 100 < count.steps);
 }
 
 #[test]
 #[ignore = "minutes without optimisation"]
 fn no_silent_change_in_a_million_steps() {
-    let mut count = gallery(100_000);
-    count += four_bars(500_000);
+    let mut count = gallery(40_000);
+    count += four_bars(400_000);
     println!("{count:?}");
     assert_eq!(count.silent, 0);
     assert!(count.steps >= 1_000_000);
