@@ -1,40 +1,259 @@
-//! Mechanisms followed along their motion.
+//! Mechanisms followed along their motion: what a path promises beside the hard cases.
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::continuation::{AtChangePoint, Direction, Event, Options, Path};
-use linkage::{Error, Mechanism, linkage};
+use linkage::continuation::{Along, AlongCoordinates, Direction, Event, Options, Path, Step};
+use linkage::{Elbow, Error, Mechanism, linkage};
+use nalgebra::{SVector, vector};
 
-include!("mechanisms/freudenstein_roth.rs");
 include!("mechanisms/coupled_wheels.rs");
+include!("mechanisms/double_butterfly.rs");
+include!("mechanisms/five_bar.rs");
 include!("mechanisms/four_bar.rs");
+include!("mechanisms/offset_slider_crank.rs");
+include!("mechanisms/slider_crank.rs");
 
-/// Limit points of Freudenstein and Roth's equations: `continuation_freudenstein_roth.rs` has the source.
+#[track_caller]
+fn close(found: f64, expected: f64, error: f64) {
+    assert!((found - expected).abs() <= error, "{found} is not {expected} to {error:e}");
+}
+
+fn left(m: &FourBar, theta2: f64) -> FourBarCoordinates {
+    m.assemble(theta2, FourBarBranch { theta3_theta4: Elbow::Left }).unwrap().coordinates()
+}
+
+/// A rocker that drives: its dead points are where crank and coupler are in line.
+fn rocker() -> FourBar {
+    FourBar::new(80.0, 70.0, 50.0, 20.0)
+}
+
+/// A whole turn comes back to the start, having passed two dead points where two joints and a third are in line.
 #[test]
-fn limit_points_of_freudenstein_and_roth() {
-    let m = FoldsOfX3::default();
-    let start = FreudensteinRothCoordinates { x1: 15.0, x2: -2.0, x3: 0.0 };
+fn a_turn_driven_by_the_rocker() {
+    let m = rocker();
+    let start = left(&m, 0.7);
     let mut path = Path::new(&m, &start, Direction::Increasing).unwrap();
-    for _ in 0..400 {
-        let step = path.advance_watching(|_, rates| rates.x1).unwrap();
-        println!("{:?} {:?} {:?}", step.length, step.position, step.event);
-        if step.position.x3 > 1.0 && step.position.x2 > 3.0 {
-            break;
+    let mut dead_points = Vec::new();
+    loop {
+        let step = path.advance_watching(|q, _| (q.theta4 - start.theta4).sin()).unwrap();
+        match step.event {
+            Some(Event::DeadPoint { group }) => {
+                assert_eq!(group, "theta3, theta4");
+                close((step.position.theta3 - step.position.theta4).sin(), 0.0, 1e-15);
+                close(step.rates.theta2, 0.0, 1e-14);
+                dead_points.push(step.position.theta2);
+            }
+            Some(Event::Zero) if (step.position.theta4 - start.theta4).abs() > 6.0 => break,
+            _ => {}
+        }
+        assert!(step.length < 100.0);
+    }
+    let q = path.position();
+    close(q.theta2, start.theta2, 1e-14);
+    close(q.theta3, start.theta3, 1e-14);
+    close((q.theta4 - start.theta4).abs(), TAU, 1e-14);
+    // The rocker turns back where coupler and crank reach 70 and 30 together: by the law of cosines.
+    let angle = |reach: f64| ((80.0_f64.powi(2) + 70.0_f64.powi(2) - reach * reach) / (2.0 * 80.0 * 70.0)).acos();
+    dead_points.sort_by(f64::total_cmp);
+    assert_eq!(dead_points.len(), 2);
+    close(dead_points[0], angle(30.0), 1e-14);
+    close(dead_points[1], angle(70.0), 1e-14);
+}
+
+/// The rates along the path are those that the velocity ratios give.
+#[test]
+fn rates_are_velocity_ratios() {
+    let m = FourBar::default();
+    let path = Path::new(&m, &left(&m, 0.35), Direction::Decreasing).unwrap();
+    for step in path.take(100) {
+        let Step { position, rates, .. } = step.unwrap();
+        assert!(rates.theta2 < 0.0);
+        let w = m.velocity_ratios(&m.pose_at(&position)).unwrap();
+        close(rates.theta3, w[0] * rates.theta2, 1e-13);
+        close(rates.theta4, w[1] * rates.theta2, 1e-13);
+        close(rates.theta2.hypot(rates.theta3).hypot(rates.theta4), 1.0, 1e-14);
+    }
+}
+
+/// An output's zero is found to rounding: where the transmission angle is right.
+#[test]
+fn zero_of_an_output() {
+    let m = FourBar::default();
+    let right_angle = |q: &FourBarCoordinates, _: &FourBarCoordinates| m.outputs(&m.pose_at(q)).unwrap().mu.cos();
+    let mut path = Path::new(&m, &left(&m, 0.35), Direction::Increasing).unwrap();
+    let mut found = Vec::new();
+    while path.position().theta2 < 0.35 + TAU {
+        let step = path.advance_watching(right_angle).unwrap();
+        if step.event == Some(Event::Zero) {
+            close((step.position.theta3 - step.position.theta4).cos(), 0.0, 1e-15);
+            found.push(step.position.theta2);
+        }
+    }
+    // B is then sqrt(50^2 + 70^2) from D.
+    let expected = ((80.0_f64.powi(2) + 20.0_f64.powi(2) - 7400.0) / (2.0 * 80.0 * 20.0)).acos();
+    assert_eq!(found.len(), 2);
+    close(found[0], expected, 1e-14);
+    close(found[1], TAU - expected, 1e-14);
+}
+
+/// A range is kept at both ends, to the last digit.
+#[test]
+fn limits_of_the_range() {
+    let m = FourBar::default();
+    let options = Options { range: Some([-1.0, 0.7]), ..Options::default() };
+    let mut path = Path::with(&m, &left(&m, 0.35), Direction::Increasing, options).unwrap();
+    for (end, other) in [(0.7, -1.0), (-1.0, 0.7)] {
+        let last = path.by_ref().last().unwrap().unwrap();
+        assert_eq!((last.event, last.position.theta2), (Some(Event::Limit), end));
+        assert!(path.next().is_none());
+        assert_eq!(path.advance().unwrap().position, last.position);
+        assert!(path.advance_to(end + (end - other)).is_err());
+        path.turn_back();
+    }
+}
+
+/// Scaling all lengths by a power of two changes exponents only.
+#[test]
+fn scale_free() {
+    let four_bar = FourBar::default();
+    let start = left(&four_bar, 0.35);
+    let steps = |m: &FourBar| -> Vec<_> {
+        Path::new(m, &start, Direction::Increasing).unwrap().take(60).map(Result::unwrap).collect()
+    };
+    let reference = steps(&four_bar);
+    let rocker_steps = |m: &FourBar, start| -> Vec<_> {
+        Path::new(m, &start, Direction::Increasing).unwrap().take(60).map(Result::unwrap).collect()
+    };
+    let of_rocker = rocker_steps(&rocker(), left(&rocker(), 0.7));
+    assert!(of_rocker.iter().any(|step| step.event.is_some()));
+    let wheels = CoupledWheelsCoordinates { theta: 0.4, rod: 0.0, follower: 0.4 };
+    let wheels_steps = |m: &CoupledWheels| -> Vec<_> {
+        Path::new(m, &wheels, Direction::Increasing).unwrap().take(60).map(Result::unwrap).collect()
+    };
+    let of_wheels = wheels_steps(&CoupledWheels::default());
+    let engine = Engine::new(0.15, 0.3);
+    let phi2 = -(0.5 * 1_f64.sin()).asin();
+    let engine_start = SliderCrankCoordinates { z3: 0.15 * 1_f64.cos() + 0.3 * phi2.cos(), phi1: 1.0, phi2 };
+    let engine_steps = |m: &Engine, start| -> Vec<_> {
+        Path::new(m, &start, Direction::Increasing).unwrap().take(60).map(Result::unwrap).collect()
+    };
+    let of_engine = engine_steps(&engine, engine_start);
+    for k in [-300, -40, 13, 300] {
+        let scale = 2_f64.powi(k);
+        assert_eq!(steps(&four_bar.clone().map(|length| length * scale)), reference);
+        assert_eq!(rocker_steps(&rocker().map(|length| length * scale), left(&rocker(), 0.7)), of_rocker);
+        assert_eq!(wheels_steps(&CoupledWheels::default().map(|length| length * scale)), of_wheels);
+        let scaled = SliderCrankCoordinates { z3: engine_start.z3 * scale, ..engine_start };
+        for (found, expected) in engine_steps(&engine.clone().map(|z| z * scale), scaled).iter().zip(&of_engine) {
+            assert_eq!(found.position.z3, expected.position.z3 * scale);
+            assert_eq!((found.position.phi1, found.position.phi2), (expected.position.phi1, expected.position.phi2));
+            assert_eq!((found.length, found.event.is_some()), (expected.length, expected.event.is_some()));
         }
     }
 }
 
+/// Without closed form: six unknowns together, once in steps as they come and once in fine ones.
 #[test]
-fn parallelogram() {
-    let m = CoupledWheels::default();
-    let start = CoupledWheelsCoordinates { theta: 0.4, rod: 0.0, follower: 0.4 };
-    let mut path = Path::new(&m, &start, Direction::Increasing).unwrap();
-    for _ in 0..60 {
-        let step = path.advance().unwrap();
-        println!("{:?} {:?} {:?}", step.length, step.position, step.event);
+fn coarse_and_fine_steps_agree() {
+    let m = DoubleButterfly::default();
+    let guess = DoubleButterflyCoordinates {
+        crank: 0.0,
+        coupler: 0.558,
+        upper: -0.325,
+        rocker: 1.064,
+        lower: 0.183,
+        link: 0.354,
+        strut: 1.2,
+    };
+    let Ok(start) = m.solve(&guess) else { panic!("no start") };
+    let turn = |longest_step: f64, parts: u32| {
+        let options = Options { longest_step, ..Options::default() };
+        let mut path = Path::with(&m, &start.coordinates, Direction::Increasing, options).unwrap();
+        (1..=12_u32)
+            .map(|hour| {
+                let part = |k: u32| TAU * (f64::from(hour - 1) + f64::from(k) / f64::from(parts)) / 12.0;
+                (1..=parts).map(|k| path.advance_to(part(k)).unwrap()).last().unwrap()
+            })
+            .collect::<Vec<_>>()
+    };
+    for (coarse, fine) in turn(1.0, 1).into_iter().zip(turn(0.02, 7)) {
+        let [coarse, fine] = [coarse, fine].map(|step| DoubleButterfly::unknowns(&step.position));
+        close((coarse - fine).amax(), 0.0, 1e-13);
     }
-    for k in 0..30 {
-        let step = path.advance_to(PI * f64::from(k) / 4.0).unwrap();
-        println!("{:?} {:?} {:?}", step.length, step.position, step.event);
+}
+
+/// Both cranks of a five-bar along a path of one parameter, there and through a change of both.
+#[test]
+fn along_a_path_of_two_inputs() {
+    let inputs = |s: f64| -> [SVector<f64, 2>; 3] {
+        [vector![s, 2.0 + 0.4 * s.sin()], vector![1.0, 0.4 * s.cos()], vector![0.0, -0.4 * s.sin()]]
+    };
+    let along = Along { mechanism: FiveBar::default(), inputs };
+    let m = FiveBar::default();
+    let branch = FiveBarBranch { theta2_theta3: Elbow::Left };
+    let assemble = |s: f64| m.assemble(FiveBarInputs::from(inputs(s)[0]), branch).unwrap();
+    let start = AlongCoordinates { q: assemble(0.3).coordinates(), parameter: 0.3 };
+    let mut path = Path::new(&along, &start, Direction::Increasing).unwrap();
+    for k in 1..=60 {
+        let s = 0.3 + 0.2 * f64::from(k);
+        let reached = path.advance_to(s).unwrap();
+        let pose = m.pose_at(&along.position(&reached.position));
+        let expected = assemble(s);
+        close((m.jacobian_unknowns(&pose) - m.jacobian_unknowns(&expected)).amax(), 0.0, 1e-13);
+        // dq/ds beside the velocity that the inputs' rates give.
+        let rate = m.velocity(&pose, FiveBarInputs::from(inputs(s)[1])).unwrap();
+        close(reached.rates.q.theta2 / reached.rates.parameter, rate.theta2, 1e-12);
+        close(reached.rates.q.theta3 / reached.rates.parameter, rate.theta3, 1e-12);
     }
+    // gamma of the whole: d2/ds2 of Psi, by differences of its first derivative.
+    let at = |s: f64| AlongCoordinates { parameter: s, ..start };
+    let rate = AlongCoordinates { q: FiveBarCoordinates { theta2: 0.3, theta3: -0.7, ..start.q }, parameter: 1.3 };
+    let moved = |t: f64| {
+        let q = FiveBarCoordinates { theta2: start.q.theta2 + 0.3 * t, theta3: start.q.theta3 - 0.7 * t, ..start.q };
+        along.pose_at(&AlongCoordinates { q, ..at(0.3 + 1.3 * t) })
+    };
+    let slope = |t: f64| {
+        let pose = moved(t);
+        along.jacobian_unknowns(&pose) * vector![0.3, -0.7] + along.jacobian_inputs(&pose) * vector![1.3]
+    };
+    let difference = (slope(1e-5) - slope(-1e-5)) / 2e-5;
+    close((difference - along.gamma(&moved(0.0), &rate)).amax(), 0.0, 1e-9);
+}
+
+/// In single precision the same path, to its rounding.
+#[test]
+fn single_precision() {
+    let wheels = CoupledWheels::<f64>::default().map(|length| length as f32);
+    let start = CoupledWheelsCoordinates { theta: 0.4_f32, rod: 0.0, follower: 0.4 };
+    let mut path = Path::new(&wheels, &start, Direction::Increasing).unwrap();
+    for k in 1..=40 {
+        let q = path.advance_to(0.4 + 0.37 * k as f32).unwrap().position;
+        assert!((q.follower - q.theta).abs() < 2e-3 && q.rod.abs() < 2e-3, "{q:?}");
+    }
+    let m = FourBar::<f64>::default().map(|length| length as f32);
+    let q = left(&FourBar::default(), 0.35);
+    let guess = FourBarCoordinates { theta2: 0.35_f32, theta3: q.theta3 as f32, theta4: q.theta4 as f32 };
+    let mut path = Path::new(&m, &guess, Direction::Increasing).unwrap();
+    let q = path.advance_to(0.35 + TAU as f32).unwrap().position;
+    assert!((q.theta3 - guess.theta3).abs() < 1e-5 && (q.theta4 - guess.theta4).abs() < 1e-5);
+}
+
+/// With a length among the unknowns, through both dead centres of the slider as its rate changes sign.
+#[test]
+fn strokes_of_a_slider() {
+    let m = OffsetSliderCrank::default();
+    let pose = m.branches(1.0).find_map(Result::ok).unwrap().1;
+    let mut path = Path::new(&m, &pose.coordinates(), Direction::Increasing).unwrap();
+    let mut ends = Vec::new();
+    while path.position().theta2 < 1.0 + TAU {
+        let step = path.advance_watching(|_, rates| rates.d).unwrap();
+        if step.event == Some(Event::Zero) {
+            close((step.position.theta2 - step.position.theta3).sin(), 0.0, 1e-14);
+            ends.push(step.position.d);
+        }
+    }
+    assert_eq!(ends.len(), 2);
+    assert!((ends[0] - ends[1]).abs() > 1.0);
+    assert!(matches!(path.advance_to(f64::NAN), Err(Error::NotFinite { .. })));
+    assert!(path.position().theta2 < 2.0 * PI + 2.0);
 }

@@ -257,9 +257,9 @@ where
             return Err(Error::ChangePoint { mechanism: M::NAME, group });
         }
         // At an end of its range the input goes no further.
-        let limits = self.options.range.unwrap_or([self.input() - T::one(), self.input() + T::one()]);
-        let outward = self.place.tangent.input;
-        if (self.input() <= limits[0] && outward < T::zero()) || (self.input() >= limits[1] && outward > T::zero()) {
+        let (input, way) = (self.input(), self.place.tangent.input);
+        let is_outward = |[low, high]: [T; 2]| (input <= low && way < T::zero()) || (input >= high && way > T::zero());
+        if self.options.range.is_some_and(is_outward) {
             self.is_ended = true;
             return Ok((self.here(Some(Event::Limit)), false));
         }
