@@ -46,6 +46,9 @@ pub(super) struct Refusal {
     pub(super) regularity: f64,
 }
 
+/// What came of a trial; an error ends all of them.
+pub(super) type Tried<X> = Result<Result<X, Refusal>, Error>;
+
 impl<'a, M, T, const U: usize> Curve<'a, M, T, U>
 where
     T: Real,
@@ -164,7 +167,7 @@ where
         &self,
         guess: M::Coordinates,
         normal: &Vector<T, U>,
-    ) -> Result<Result<(M::Coordinates, Elimination<T, U>), Refusal>, Error> {
+    ) -> Tried<(M::Coordinates, Elimination<T, U>)> {
         let (mut q, mut last) = (guess, None::<T>);
         for _ in 0..MOST_CORRECTIONS {
             let at = self.linear(&q)?;

@@ -139,10 +139,9 @@ where
     /// A place with this input to the last digit, where the input moves it at all.
     pub(super) fn with_exact_input(&self, place: Place<M, T, U>, input: T) -> Result<Place<M, T, U>, Error> {
         let q = Self::with_input(&place.q, input);
-        if place.tangent.input.abs() > weak() && place.regularity > weak() {
-            if let Ok((q, elimination)) = self.correct(q, &Vector::unit(U))? {
-                return Ok(self.place(q, &elimination, &place.tangent));
-            }
+        let moves = place.tangent.input.abs() > weak() && place.regularity > weak();
+        if moves && let Ok((q, elimination)) = self.correct(q, &Vector::unit(U))? {
+            return Ok(self.place(q, &elimination, &place.tangent));
         }
         Ok(Place { q, ..place })
     }

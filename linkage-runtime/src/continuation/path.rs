@@ -1,7 +1,7 @@
 //! The follower: where it is, and how it takes a step.
 
 use super::change_point::Crossing;
-use super::curve::{Curve, Refusal};
+use super::curve::{Curve, Refusal, Tried};
 use super::events::{End, Event, Wanted, Watch};
 use super::options::{AtChangePoint, Direction, Options};
 use super::place::{Place, weak};
@@ -36,7 +36,7 @@ pub struct Path<'a, M: Mechanism<T, U, 1>, T: Real, const U: usize> {
     length: T,
     /// The change point that has been passed, until it is left.
     passed: Option<M::Coordinates>,
-    stands: Stands<M::Coordinates, T, U>,
+    stands: Standing<M, T, U>,
     is_ended: bool,
 }
 
@@ -49,6 +49,8 @@ enum Stands<Q, T, const U: usize> {
     /// At a change point where nothing has been chosen yet.
     Undecided(Crossing<Q, T, U>, &'static str),
 }
+
+type Standing<M, T, const U: usize> = Stands<<M as Mechanism<T, U, 1>>::Coordinates, T, U>;
 
 /// Halvings of one step: 2^-64 of it no longer moves anything.
 const MOST_TRIALS: usize = 64;
@@ -282,12 +284,7 @@ where
     }
 
     /// A step of this length, up to its first event, and the length that was tried.
-    #[expect(clippy::type_complexity)]
-    fn attempt(
-        &self,
-        trial: T,
-        wanted: &Wanted<'_, M::Coordinates, T>,
-    ) -> Result<Result<(End<M, T, U>, Stands<M::Coordinates, T, U>, T), Refusal>, Error> {
+    fn attempt(&self, trial: T, wanted: &Wanted<'_, M::Coordinates, T>) -> Tried<(End<M, T, U>, Standing<M, T, U>, T)> {
         let (curve, from) = (&self.curve, &self.place);
         // Within reach the target is aimed at: the velocity ratios predict its position.
         let aim = wanted.target.and_then(|target| {
@@ -344,12 +341,7 @@ where
     }
 
     /// The change point on the next `tried` of the path.
-    #[expect(clippy::type_complexity)]
-    fn crossing_ahead(
-        &self,
-        guess: T,
-        tried: T,
-    ) -> Result<Option<(End<M, T, U>, Stands<M::Coordinates, T, U>)>, Error> {
+    fn crossing_ahead(&self, guess: T, tried: T) -> Result<Option<(End<M, T, U>, Standing<M, T, U>)>, Error> {
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
         let Some(mut crossing) = curve.crossing(&guess, tried * real(AHEAD) + weak())? else { return Ok(None) };
@@ -393,7 +385,7 @@ where
     fn arrive(
         &mut self,
         end: End<M, T, U>,
-        stands: Stands<M::Coordinates, T, U>,
+        stands: Standing<M, T, U>,
         tried: T,
         was_refused: bool,
     ) -> (Step<M::Coordinates, T>, bool) {

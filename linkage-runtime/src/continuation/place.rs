@@ -1,6 +1,6 @@
 //! A place on the way, and one step from it.
 
-use super::curve::{Curve, Refusal};
+use super::curve::{Curve, Tried};
 use super::options::Options;
 use super::root::root;
 use super::tangent::Elimination;
@@ -78,7 +78,7 @@ where
     }
 
     /// The place at `distance` from another along its tangent, whatever the curve does between the two.
-    pub(super) fn at(&self, from: &Place<M, T, U>, distance: T) -> Result<Result<Place<M, T, U>, Refusal>, Error> {
+    pub(super) fn at(&self, from: &Place<M, T, U>, distance: T) -> Tried<Place<M, T, U>> {
         let guess = self.moved(&from.q, &(from.tangent * distance));
         let found = self.correct(guess, &from.tangent)?;
         Ok(found.map(|(q, elimination)| self.place(q, &elimination, &from.tangent)))
