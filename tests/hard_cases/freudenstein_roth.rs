@@ -3,7 +3,7 @@
 //! Known to fail: any method that steps x3, which turns back twice on the way to the root. The start, the target and
 //! the limit points are those of PITCON's problem 1 (W. C. Rheinboldt and J. V. Burkardt, "Algorithm 596: a program
 //! for a locally parameterized continuation process", ACM Transactions on Mathematical Software 9, 1983, with seven
-//! digits: pitcon66_prb1.f); the further digits are theirs continued in 40-digit arithmetic.
+//! digits: pitcon66_prb1.f); the further digits are theirs continued in 40-digit arithmetic, rounded.
 
 use linkage::continuation::{Direction, Event, Path};
 use linkage::{Error, linkage};
@@ -11,12 +11,12 @@ use linkage::{Error, linkage};
 include!("../mechanisms/freudenstein_roth.rs");
 
 const LIMITS_OF_X1: [[f64; 3]; 2] = [
-    [14.283_091_250_093_855_3, -1.741_376_892_197_492_05, 0.258_577_871_376_728_213],
-    [61.669_362_581_147_854_8, 1.983_801_134_621_734_48, -0.663_879_742_243_337_372],
+    [14.283_091_250_093_856, -1.741_376_892_197_492_1, 0.258_577_871_376_728_2],
+    [61.669_362_581_147_86, 1.983_801_134_621_734_6, -0.663_879_742_243_337_3],
 ];
 const LIMITS_OF_X3: [[f64; 3]; 2] = [
-    [20.485_857_827_923_452_5, -0.896_805_253_274_476_518, 0.587_587_325_408_120_063],
-    [61.020_315_011_582_720_3, 2.230_138_586_607_809_85, -0.686_352_757_506_885_495],
+    [20.485_857_827_923_454, -0.896_805_253_274_476_5, 0.587_587_325_408_120_1],
+    [61.020_315_011_582_72, 2.230_138_586_607_81, -0.686_352_757_506_885_5],
 ];
 /// Of the figures as they are published.
 const PUBLISHED: [[f64; 3]; 4] = [

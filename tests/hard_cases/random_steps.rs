@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use linkage::continuation::{Direction, Event, Options, Path};
-use linkage::{Elbow, Error, Mechanism, linkage};
+use linkage::{Elbow, Error, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -80,7 +80,7 @@ macro_rules! there_and_back {
                         let off = expected.map(|j| (j - m.jacobian_unknowns(&pose)).amax() / j.amax());
                         // The closed form and the follower meet to rounding, or at a dead point to its root.
                         if m.branch_of(&pose) != branch || !off.is_ok_and(|off| off < 1e-7) {
-                            println!("{} at {:?}: {off:?}", $M::<f64>::NAME, step.position);
+                            println!("{} at {:?}: {off:?}", stringify!($M), step.position);
                             count.silent += 1;
                         }
                     }
@@ -96,7 +96,7 @@ macro_rules! there_and_back {
                 }
             }
         }
-        println!("{}: {count:?}", $M::<f64>::NAME);
+        println!("{}: {count:?}", stringify!($M));
         count
     }};
 }

@@ -10,7 +10,7 @@ use crate::graph::{ExternalId, Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 13] = [
+pub(super) const RUNTIME_FUNCTIONS: [&str; 12] = [
     "chord",
     "existing",
     "finite",
@@ -21,7 +21,6 @@ pub(super) const RUNTIME_FUNCTIONS: [&str; 13] = [
     "product_of_pivots",
     "real",
     "regular",
-    "same_signs",
     "side_of",
     "unit",
 ];

@@ -1,5 +1,6 @@
 //! What happens on a step, each event where it happens.
 
+use super::change_point::Crossing;
 use super::curve::Curve;
 use super::options::Options;
 use super::place::{Place, weak};
@@ -36,6 +37,17 @@ pub(super) struct End<M: Mechanism<T, U, 1>, T: Real, const U: usize> {
     pub(super) place: Place<M, T, U>,
     pub(super) event: Option<Event<M::Coordinates>>,
     pub(super) is_target: bool,
+    pub(super) stands: Stands<M::Coordinates, T, U>,
+}
+
+/// What is to be known of the end of a step for the next one.
+#[derive(Clone, Copy)]
+pub(super) enum Stands<Q, T, const U: usize> {
+    OnTheWay,
+    AtZero,
+    AtChangePoint,
+    /// At a change point where nothing has been chosen yet.
+    Undecided(Crossing<Q, T, U>, &'static str),
 }
 
 /// A number that is watched, from the position and the rates of the coordinates along the path.
@@ -70,7 +82,12 @@ where
                 Cut::Lost => return Ok(None),
                 Cut::At(mut place) => {
                     place.forget_sign(group);
-                    end = End { place, event: Some(Event::DeadPoint { group }), is_target: false };
+                    end = End {
+                        place,
+                        event: Some(Event::DeadPoint { group }),
+                        is_target: false,
+                        stands: Stands::OnTheWay,
+                    };
                 }
             }
         }
@@ -92,7 +109,8 @@ where
                 Cut::Lost => return Ok(None),
                 Cut::At(place) => {
                     let place = self.with_exact_input(place, limit)?;
-                    end = End { place, event: (!is_target).then_some(Event::Limit), is_target };
+                    end =
+                        End { place, event: (!is_target).then_some(Event::Limit), is_target, stands: Stands::OnTheWay };
                 }
             }
         }
@@ -105,7 +123,9 @@ where
                 match self.cut(from, &end.place, value)? {
                     Cut::None => {}
                     Cut::Lost => return Ok(None),
-                    Cut::At(place) => end = End { place, event: Some(Event::Zero), is_target: false },
+                    Cut::At(place) => {
+                        end = End { place, event: Some(Event::Zero), is_target: false, stands: Stands::AtZero }
+                    }
                 }
             }
         }

@@ -1,8 +1,7 @@
 //! The follower: where it is, and how it takes a step.
 
-use super::change_point::Crossing;
 use super::curve::{Curve, Refusal, Tried};
-use super::events::{End, Event, Wanted, Watch};
+use super::events::{End, Event, Stands, Wanted, Watch};
 use super::options::{AtChangePoint, Direction, Options};
 use super::place::{Place, weak};
 use super::tangent::Elimination;
@@ -36,21 +35,9 @@ pub struct Path<'a, M: Mechanism<T, U, 1>, T: Real, const U: usize> {
     length: T,
     /// The change point that has been passed, until it is left.
     passed: Option<M::Coordinates>,
-    stands: Standing<M, T, U>,
+    stands: Stands<M::Coordinates, T, U>,
     is_ended: bool,
 }
-
-/// Where the last step ended.
-#[derive(Clone, Copy)]
-enum Stands<Q, T, const U: usize> {
-    OnTheWay,
-    AtZero,
-    AtChangePoint,
-    /// At a change point where nothing has been chosen yet.
-    Undecided(Crossing<Q, T, U>, &'static str),
-}
-
-type Standing<M, T, const U: usize> = Stands<<M as Mechanism<T, U, 1>>::Coordinates, T, U>;
 
 /// Halvings of one step: 2^-64 of it no longer moves anything.
 const MOST_TRIALS: usize = 64;
@@ -271,7 +258,7 @@ where
         let mut refusal = Refusal { residual: f64::NAN, regularity: f64::NAN };
         for number in 0..MOST_TRIALS {
             match self.attempt(trial, &wanted)? {
-                Ok((end, stands, tried)) => return Ok(self.arrive(end, stands, tried, number > 0)),
+                Ok((end, tried)) => return Ok(self.arrive(end, tried, number > 0)),
                 Err(why) => refusal = why,
             }
             trial *= real(0.5);
@@ -284,7 +271,7 @@ where
     }
 
     /// A step of this length, up to its first event, and the length that was tried.
-    fn attempt(&self, trial: T, wanted: &Wanted<'_, M::Coordinates, T>) -> Tried<(End<M, T, U>, Standing<M, T, U>, T)> {
+    fn attempt(&self, trial: T, wanted: &Wanted<'_, M::Coordinates, T>) -> Tried<(End<M, T, U>, T)> {
         let (curve, from) = (&self.curve, &self.place);
         // Within reach the target is aimed at: the velocity ratios predict its position.
         let aim = wanted.target.and_then(|target| {
@@ -316,12 +303,9 @@ where
                 Ok(place) if flips(place) => tried * (from.side / (from.side - place.side)),
                 _ => tried,
             };
-            if let Some((end, stands)) = self.crossing_ahead(guess, tried)? {
+            if let Some(end) = self.crossing_ahead(guess, tried)? {
                 let found = curve.first_event(from, end, wanted, &self.options)?;
-                return Ok(found.ok_or(refusal).map(|end| {
-                    let is_there = matches!(end.event, Some(Event::ChangePoint { .. }));
-                    (end, if is_there { stands } else { Stands::OnTheWay }, tried)
-                }));
+                return Ok(found.ok_or(refusal).map(|end| (end, tried)));
             }
         }
         let Some(place) = arc.filter(|place| !flips(place)) else { return Ok(Err(refusal)) };
@@ -332,16 +316,13 @@ where
         if place.regularity <= curve.rounding(&place.q) * real(ROUNDINGS) {
             place.forget_sign(curve.singular_group(&place.q));
         }
-        let end = End { place, event: None, is_target: false };
+        let end = End { place, event: None, is_target: false, stands: Stands::OnTheWay };
         let found = curve.first_event(from, end, wanted, &self.options)?;
-        Ok(found.ok_or(refusal).map(|end| {
-            let stands = if matches!(end.event, Some(Event::Zero)) { Stands::AtZero } else { Stands::OnTheWay };
-            (end, stands, tried)
-        }))
+        Ok(found.ok_or(refusal).map(|end| (end, tried)))
     }
 
     /// The change point on the next `tried` of the path.
-    fn crossing_ahead(&self, guess: T, tried: T) -> Result<Option<(End<M, T, U>, Standing<M, T, U>)>, Error> {
+    fn crossing_ahead(&self, guess: T, tried: T) -> Result<Option<End<M, T, U>>, Error> {
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
         let Some(mut crossing) = curve.crossing(&guess, tried * real(AHEAD) + weak())? else { return Ok(None) };
@@ -379,16 +360,11 @@ where
             AtChangePoint::Stop => Stands::Undecided(crossing, group),
             _ => Stands::AtChangePoint,
         };
-        Ok(Some((End { place, event: Some(Event::ChangePoint { group, tangents }), is_target: false }, stands)))
+        Ok(Some(End { place, event: Some(Event::ChangePoint { group, tangents }), is_target: false, stands }))
     }
 
-    fn arrive(
-        &mut self,
-        end: End<M, T, U>,
-        stands: Standing<M, T, U>,
-        tried: T,
-        was_refused: bool,
-    ) -> (Step<M::Coordinates, T>, bool) {
+    fn arrive(&mut self, end: End<M, T, U>, tried: T, was_refused: bool) -> (Step<M::Coordinates, T>, bool) {
+        let stands = end.stands;
         let way = self.curve.difference(&end.place.q, &self.place.q).norm();
         let turn = (end.place.tangent - self.place.tangent).norm();
         let is_whole = end.event.is_none() && !end.is_target;
