@@ -2,7 +2,7 @@
 //!
 //! - [`Mechanism`]: the trait that general algorithms take;
 //! - [`position`]: Newton's method with damping and honest failure;
-//! - [`limits`]: how far an input can go;
+//! - [`mod@limits`]: how far an input can go;
 //! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
 //! - [`Error`]: which mechanism, what residual, how near singular;
 //! - [`derivation`]: the formulas behind the code, as data;

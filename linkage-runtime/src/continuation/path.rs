@@ -402,60 +402,6 @@ where
     }
 }
 
-impl<M, T, const U: usize> Curve<'_, M, T, U>
-where
-    T: Real,
-    M: Mechanism<T, U, 1>,
-{
-    /// The place at a change point, where the sign of this group's determinant is rounding.
-    fn at_crossing(&self, q: M::Coordinates, tangent: Vector<T, U>, side: T, group: &str) -> Place<M, T, U> {
-        let mut place = Place { q, tangent, side, determinants: self.determinants(&q), regularity: T::zero() };
-        place.forget_sign(group);
-        place
-    }
-
-    /// The tangent nearest to these rates, their way.
-    fn choose(&self, tangents: &[Vector<T, U>], rates: &M::Coordinates) -> Result<Vector<T, U>, Error> {
-        let direction = self.direction(rates);
-        if !direction.is_finite() {
-            return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the direction" });
-        }
-        let direction = direction * direction.largest().recip();
-        let mut nearest = None;
-        for tangent in tangents {
-            let along = tangent.dot(&direction);
-            if along.abs() > nearest.map_or(weak(), |(most, _): (T, _)| most) {
-                nearest = Some((along.abs(), if along < T::zero() { *tangent * -T::one() } else { *tangent }));
-            }
-        }
-        nearest.map(|(_, tangent)| tangent).ok_or(Error::NoDirection { mechanism: M::NAME })
-    }
-
-    fn lost(&self, q: &M::Coordinates, iterations: usize, why: Refusal) -> Error {
-        let group = self.singular_group(q);
-        let Refusal { residual, regularity } = why;
-        Error::Lost { mechanism: M::NAME, group, iterations, residual, regularity }
-    }
-
-    /// The group that J calls singular, or else the one of the smallest determinant.
-    fn singular_group(&self, q: &M::Coordinates) -> &'static str {
-        let pose = self.mechanism.pose_at(q);
-        if let Err(Error::Singular { group, .. }) =
-            self.mechanism.solve_jacobian(&pose, &self.mechanism.residual(&pose))
-        {
-            return group;
-        }
-        let determinants = self.mechanism.block_determinants(&pose);
-        let mut weakest = None;
-        for (determinant, &group) in determinants.as_ref().iter().zip(M::GROUPS) {
-            if weakest.is_none_or(|(least, _)| determinant.abs() < least) {
-                weakest = Some((determinant.abs(), group));
-            }
-        }
-        weakest.map_or("", |(_, group)| group)
-    }
-}
-
 /// The first group that changes its branch from one position to another.
 fn other_group<M, T, const U: usize>(mechanism: &M, q: &M::Coordinates, other: &M::Coordinates) -> &'static str
 where
