@@ -4,6 +4,7 @@
 //! - [`position`]: Newton's method with damping and honest failure;
 //! - [`limits`]: how far an input can go;
 //! - [`Error`]: which mechanism, what residual, how near singular;
+//! - [`singularity`]: singular configurations, and how accurate a position can be;
 //! - [`derivation`]: the formulas behind the code, as data;
 //! - [`drawing`]: the linkage as SVG;
 //! - [`sheet`]: the derivation as HTML.
@@ -26,12 +27,13 @@ mod scalar;
 #[cfg(feature = "sheet")]
 pub mod sheet;
 mod sine;
+pub mod singularity;
 
-pub use branch::{Elbow, Side, Slider, Slope, chord, existing, side_of};
+pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, side_of};
 pub use error::{Error, finite, finite_matrix};
 pub use limits::{Bound, Limits, Search, limits};
 pub use linear::{Factorization, product_of_pivots, regular, same_signs};
-pub use mechanism::Mechanism;
+pub use mechanism::{Group, Mechanism};
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
 pub use position::{Solution, newton, newton_group};
