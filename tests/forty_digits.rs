@@ -284,15 +284,15 @@ fn judge(file: &str, branches: usize, run: impl Fn(&Data) -> Option<Motion>) -> 
         let (of_unknowns, of_points) = judge.conditions(&data, &rounded);
         let points = judge.evaluate(&judge.points, &data, &y);
         let third = points.len() / 3;
-        for order in 0..3 {
+        for (order, worst) in worst.iter_mut().enumerate() {
             let found: Vec<f64> = unknowns.iter().map(|&place| motion.coordinates[order][place]).collect();
             let at =
                 |what: String| format!("{what} at {:?}, branch {}, of {:?}", data.inputs, data.branch, data.parameters);
             let part = order * n..(order + 1) * n;
-            worst[order]
+            worst
                 .note(&found, &y[part.clone()], &of_unknowns[part], |index| at(place_of[unknowns[index]].name.clone()));
             let part = order * third..(order + 1) * third;
-            worst[order].note(&motion.points[order], &points[part.clone()], &of_points[part], |index| {
+            worst.note(&motion.points[order], &points[part.clone()], &of_points[part], |index| {
                 at(format!("point {}", index / 2 + 1))
             });
         }

@@ -59,3 +59,19 @@ fn no_triangle() {
     let nearly = Triangle { p: 33.3, q: 66.7 }.assemble(TriangleInputs { x: 100.0 - 3e-14, y: 0.0 }, branch).unwrap();
     assert!(nearly.determinant != 0.0);
 }
+
+/// No number, no length and no line are errors, on the way of flat triangles too.
+#[test]
+fn bad_input() {
+    let branch = TriangleBranch { alpha_beta: Elbow::Left };
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for (p, x, y) in [(bad, 3.0, 0.0), (1.0, bad, 0.0), (1.0, 3.0, bad), (bad, bad, bad)] {
+            let found = Triangle { p, q: 2.0 }.assemble(TriangleInputs { x, y }, branch);
+            assert!(matches!(found, Err(linkage::Error::NotFinite { .. })), "{p} {x} {y}: {found:?}");
+        }
+    }
+    for (p, q, x) in [(0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 0.0), (0.0, 1.0, 1.0)] {
+        let found = Triangle { p, q }.assemble(TriangleInputs { x, y: 0.0 }, branch);
+        assert!(found.is_err(), "{p} {q} {x}: {found:?}");
+    }
+}
