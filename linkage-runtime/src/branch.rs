@@ -1,5 +1,6 @@
 //! The two solutions of an Assur group, named for what they mean.
 
+use crate::linear::power_of_two_below;
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
 
@@ -87,10 +88,74 @@ pub fn chord<T: Real, S: Side>(
     let [low, high] = factors;
     let (radicand, epsilon) = (low * high, T::default_epsilon());
     // Both factors cannot be negative. Where their product is near the ends of its range, of huge and of
-    // tiny lengths, each has its own root.
+    // tiny lengths, it is that of other units.
     let is_plain = radicand > epsilon * epsilon * epsilon * epsilon && radicand.is_finite();
     let root = if is_plain { radicand.sqrt() } else { guarded(mechanism, group, factors, size)? };
     Ok(if side == S::OF_POSITIVE_ROOT { root } else { -root })
+}
+
+/// Where a factor is less than this part of the squares that it is the difference of, they are subtracted
+/// without rounding.
+const CANCELLATION: f64 = 1.0 / 16.0;
+
+/// The half chord of two links `[p, q]` between joints whose line is `[x, y]`, twice: the root of
+/// ((p + q)^2 - D^2) (D^2 - (p - q)^2), D^2 = x^2 + y^2, with the sign of a side; `factors` are the two
+/// differences, `sizes` are (p + q)^2 and D^2.
+///
+/// Near a dead point a factor is a difference of nearly equal squares. It is then computed from the lengths and
+/// the line themselves as if nothing was rounded before the end, so that the chord is right to a few roundings
+/// however flat the triangle: T. J. Dekker, "A floating-point technique for extending the available precision",
+/// Numerische Mathematik 18, 1971.
+///
+/// # Errors
+/// [`Error::Unbuildable`] if there is none, [`Error::NotFinite`] if a number is not finite.
+#[inline]
+pub fn elbow_chord<T: Real, S: Side>(
+    mechanism: &'static str,
+    group: &'static str,
+    factors: [T; 2],
+    sizes: [T; 2],
+    links: [T; 2],
+    line: [T; 2],
+    side: S,
+) -> Result<T, Error> {
+    let ([low, high], [sum, distance]) = (factors, sizes);
+    let part = real::<T>(CANCELLATION);
+    let factors = if low > part * sum && high > part * distance { factors } else { exactly(links, line, sizes) };
+    chord(mechanism, group, factors, sum, side)
+}
+
+/// (p + q)^2 - D^2 and D^2 - (p - q)^2 of the lengths and the line as they are. What is less than one rounding of the
+/// squares is zero: lengths such as 33.3 and 66.7 are no nearer to what was meant.
+#[cold]
+#[inline(never)]
+fn exactly<T: Real>([p, q]: [T; 2], line: [T; 2], sizes: [T; 2]) -> [T; 2] {
+    let [low, high] = [beyond(two_sum(p, q), line), -beyond(two_sum(p, -q), line)];
+    let touching = |factor: T, size: T| if factor.abs() <= T::default_epsilon() * size { T::zero() } else { factor };
+    [touching(low, sizes[0]), touching(high, sizes[1])]
+}
+
+/// (a + b)^2 - x^2 - y^2 for a sum a and its rounding error b.
+fn beyond<T: Real>((a, b): (T, T), [x, y]: [T; 2]) -> T {
+    let ([a2, e], [x2, f], [y2, g]) = (two_product(a), two_product(x), two_product(y));
+    // The larger difference last, so that it is one of numbers of the same size.
+    let (large, small) = if x2 < y2 { (y2, x2) } else { (x2, y2) };
+    let (first, h) = two_sum(a2, -large);
+    let (second, i) = two_sum(first, -small);
+    second + (h + i + (e - f - g) + (a + a + b) * b)
+}
+
+/// a + b and what its rounding lost: D. E. Knuth.
+fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// a^2 and what its rounding lost.
+fn two_product<T: Real>(a: T) -> [T; 2] {
+    let square = a * a;
+    [square, a.mul_add(a, -square)]
 }
 
 #[cold]
@@ -101,7 +166,9 @@ fn guarded<T: Real>(mechanism: &'static str, group: &'static str, factors: [T; 2
     }
     let least = if low < high { low } else { high };
     if least > T::zero() {
-        return Ok(low.sqrt() * high.sqrt());
+        // By a power of two: the same bits as those of lengths near 1.
+        let unit = power_of_two_below(size);
+        return Ok(((low / unit) * (high / unit)).sqrt() * unit);
     }
     // Zero has the sign of the side, not of a factor.
     if -least <= real::<T>(ROUNDINGS) * T::default_epsilon() * size {

@@ -5,6 +5,7 @@
 //! - [`mod@limits`]: how far an input can go;
 //! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
 //! - [`Error`]: which mechanism, what residual, how near singular;
+//! - [`singularity`]: singular configurations, and how accurate a position can be;
 //! - [`derivation`]: the formulas behind the code, as data;
 //! - [`drawing`]: the linkage as SVG;
 //! - [`sheet`]: the derivation as HTML.
@@ -28,13 +29,14 @@ mod scalar;
 #[cfg(feature = "sheet")]
 pub mod sheet;
 mod sine;
+pub mod singularity;
 
-pub use branch::{Elbow, Side, Slider, Slope, chord, existing, side_of};
+pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, side_of};
 pub use error::{Error, finite, finite_matrix};
 pub use limits::{Bound, Limits, Search, limits};
 use linear::same_signs;
 pub use linear::{Factorization, product_of_pivots, regular};
-pub use mechanism::Mechanism;
+pub use mechanism::{Group, Mechanism};
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
 pub use position::{Solution, newton, newton_group};

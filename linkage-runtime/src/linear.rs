@@ -120,7 +120,7 @@ fn real_count(count: usize) -> f64 {
 }
 
 /// A power of two near `value`: scaling by it rounds nothing.
-fn power_of_two_below<T: Real>(value: T) -> T {
+pub(crate) fn power_of_two_below<T: Real>(value: T) -> T {
     let two = real::<T>(2.0);
     let exponent = value.log2().floor();
     let power = two.powf(exponent);

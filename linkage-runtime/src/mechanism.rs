@@ -4,14 +4,29 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::{Error, Real, same_signs};
 
+/// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Group {
+    /// The unknowns by name, as errors give them.
+    pub name: &'static str,
+    /// The closures that determine them: rows of J.
+    pub equations: &'static [usize],
+    /// The unknowns: columns of J.
+    pub unknowns: &'static [usize],
+}
+
 /// A mechanism with `U` dependent and `V` independent coordinates, closed where Psi(q) = 0.
 ///
 /// `linkage!` implements it for every mechanism and every driver of one.
 pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     /// The name of the mechanism, as errors give it.
     const NAME: &'static str;
-    /// The groups of unknowns that are solved together, by the names of their unknowns, in the order of solution.
-    const GROUPS: &'static [&'static str];
+    /// The names of the dependent coordinates u, in the order of the columns of J.
+    const UNKNOWNS: [&'static str; U];
+    /// The names of the independent coordinates v, in the order of the columns of A.
+    const INPUTS: [&'static str; V];
+    /// The groups, in the order in which they are solved.
+    const GROUPS: &'static [Group];
     /// Which unknowns are angles.
     const UNKNOWN_ANGLES: [bool; U];
     /// Which inputs are angles.
@@ -45,6 +60,10 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     fn jacobian_unknowns(&self, pose: &Self::Pose) -> SMatrix<T, U, U>;
     /// A, the derivative of Psi by v.
     fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, U, V>;
+    /// The largest magnitude that each entry of J could have at these lengths.
+    fn jacobian_unknowns_sizes(&self, pose: &Self::Pose) -> SMatrix<T, U, U>;
+    /// The largest magnitude that each entry of A could have at these lengths.
+    fn jacobian_inputs_sizes(&self, pose: &Self::Pose) -> SMatrix<T, U, V>;
     /// det J.
     fn determinant(&self, pose: &Self::Pose) -> T;
     /// The determinant of each block of J: of each group.

@@ -1,12 +1,54 @@
-//! Hard cases, one a file, each with the program or the formula that is known to fail there.
+//! Hard cases, one a file, each with the program or the formula that is known to fail there. Where the usual form of
+//! a formula fails, it runs beside the emitted code and is seen to; the reference are 48-digit floats.
 
 mod bad_input;
 mod dead_centre;
+mod equal_link_slider_crank;
+mod freudenstein_half_angle;
 mod freudenstein_roth;
 mod locked_second_group;
 mod many_turns;
 mod near_change_point;
+mod near_parallel_links;
+mod needle_triangle;
+mod oblique_guides;
 mod parallelogram_change_point;
 mod random_steps;
+mod scale_and_offset;
+mod slider_through_tangency;
+mod tangent_circles;
 mod three_joints_in_line;
+mod three_sides_to_an_angle;
+mod turns;
 mod wrong_side;
+
+#[path = "../oracle/precise.rs"]
+#[allow(dead_code)]
+mod precise;
+
+use precise::{Big, Scalar, big};
+
+/// |found - expected| / |expected|.
+fn relative(found: f64, expected: &Big) -> f64 {
+    let difference = (big(found) - expected).double().abs();
+    if difference == 0.0 { 0.0 } else { difference / expected.double().abs() }
+}
+
+/// A mechanism of two links between joints that are given: a triangle from its sides.
+mod triangle {
+    use linkage::linkage;
+
+    linkage! {
+        /// Two links between the origin and a joint that is given.
+        #[derive(Debug, Clone, PartialEq)]
+        pub mechanism Triangle {
+            param p = 1, q = 1;
+            input x, y;
+            unknown alpha, beta;
+
+            loop p@alpha + q@beta = (x, y);
+
+            point Apex = p@alpha;
+        }
+    }
+}

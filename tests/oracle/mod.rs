@@ -1,5 +1,7 @@
 //! The compiler's interpreter as the oracle of emitted code, and random poses to ask it about.
 
+mod laws;
+
 use std::collections::HashMap;
 
 use linkage_compiler::derivation::{Derivation, Row};
@@ -70,14 +72,8 @@ impl Oracle {
 
     /// A derivative of one of the cam laws.
     fn external(&self, external: &External, arguments: &[f64]) -> f64 {
-        let path = &self.mechanism.externals[external.function.index()].path;
-        let &[angle, height, rise] = arguments else { panic!("a cam law takes an angle, a height and a rise") };
-        let given: Vec<f64> = match path.segments.last().expect("a path").ident.to_string().as_str() {
-            "cycloidal_strokes" => <[f64; 3]>::from(crate::cam_laws::cycloidal_strokes(angle, height, rise)).to_vec(),
-            "polynomial_strokes" => <[f64; 4]>::from(crate::cam_laws::polynomial_strokes(angle, height, rise)).to_vec(),
-            other => panic!("no cam law is called {other}"),
-        };
-        given[external.order().expect("a derivative by the first argument")]
+        laws::values(&self.mechanism, external, arguments)
+            [external.order().expect("a derivative by the first argument")]
     }
 
     /// A matrix of `columns` columns.

@@ -18,7 +18,7 @@ use rustc_hash::FxHashMap;
 
 use super::{Block, Derivation};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::simplify::schedule::Stage;
+use crate::simplify::schedule::{Stage, Triangle};
 use crate::simplify::{cramer, simplify};
 use crate::structure::Group;
 
@@ -286,10 +286,10 @@ impl Solver<'_> {
     }
 
     /// The root of a product of two factors, with the sign of the branch; neither may be negative.
-    fn chord(&mut self, factors: [NodeId; 2], size: NodeId) -> NodeId {
+    fn chord(&mut self, factors: [NodeId; 2], size: NodeId, triangle: Option<Triangle<NodeId>>) -> NodeId {
         self.assembly.bounds.push((self.number, factors.to_vec()));
         let symbol = self.graph.symbol(format!("chord_{}", self.number + 1));
-        self.assembly.stages.push(Stage::Chord { block: self.number, symbol, factors, size });
+        self.assembly.stages.push(Stage::Chord { block: self.number, symbol, factors, size, triangle });
         self.graph.variable(symbol)
     }
 
@@ -311,7 +311,7 @@ impl Solver<'_> {
         let n = length(self.graph, [a, b]);
         let factors = [self.graph.subtract(n, h), self.graph.add(n, h)];
         let square = square_of(self.graph, n);
-        let g = self.chord(factors, n);
+        let g = self.chord(factors, n, None);
         // (cos, sin) . (a, b) = h and (cos, sin) x (a, b) = g
         let direction = with_products(self.graph, [a, b], square, h, g);
         self.direction(phi, direction);
@@ -364,7 +364,7 @@ impl Solver<'_> {
         let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
         let factors = [g.subtract(sum, distance), g.subtract(distance, difference)];
         let (p2, q2) = (square_of(g, p), square_of(g, q));
-        let twice = self.chord(factors, sum);
+        let twice = self.chord(factors, sum, Some(Triangle { links: [p, q], line: d, distance }));
         let g = &mut *self.graph;
         let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
         let cross_product = g.negate(half_chord);
@@ -409,7 +409,7 @@ impl Solver<'_> {
             let g = &mut *self.graph;
             let reach = g.multiply(p, n);
             let factors = [g.subtract(reach, h), g.add(reach, h)];
-            let along = self.chord(factors, reach);
+            let along = self.chord(factors, reach, None);
             let g = &mut *self.graph;
             let square = square_of(g, n);
             let minus = g.negate(along);
@@ -440,7 +440,7 @@ impl Solver<'_> {
         let reach = g.call(Function::Sqrt, &[distance]);
         let reach = g.multiply(reach, n);
         let factors = [g.subtract(reach, across), g.add(reach, across)];
-        let along = self.chord(factors, reach);
+        let along = self.chord(factors, reach, None);
         // The reach is itself a root; its square is not.
         let g = &mut *self.graph;
         let (whole, part) = (g.multiply(distance, square), g.power(across, 2));

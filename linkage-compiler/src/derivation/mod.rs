@@ -319,6 +319,16 @@ impl Derivation {
         self.columns(&self.inputs)
     }
 
+    /// The largest magnitudes that the entries of J and of A could have.
+    pub fn jacobian_sizes(&mut self) -> [Vec<Row>; 2] {
+        [self.jacobian_unknowns(), self.jacobian_inputs()].map(|rows| {
+            let size = |graph: &mut Graph, row: Row| {
+                row.into_iter().map(|(column, entry)| (column, magnitude::of(graph, entry))).collect()
+            };
+            rows.into_iter().map(|row| size(&mut self.graph, row)).collect()
+        })
+    }
+
     fn columns(&self, columns: &[usize]) -> Vec<Row> {
         let new: BTreeMap<usize, usize> = columns.iter().enumerate().map(|(new, &old)| (old, new)).collect();
         let row = |row: &Row| row.iter().filter_map(|(old, &entry)| Some((*new.get(old)?, entry))).collect();

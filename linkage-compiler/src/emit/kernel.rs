@@ -11,7 +11,7 @@ use super::pose::PosePlan;
 use super::tokens::Tokens;
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
-use crate::simplify::schedule::{self, Line, Operations, Schedule, Signed, Stage, Value, ValueId};
+use crate::simplify::schedule::{self, Line, Operations, Schedule, Signed, Stage, Triangle, Value, ValueId};
 
 /// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
 /// fields is used.
@@ -126,6 +126,7 @@ fn used_by(line: &Line) -> Option<&'static str> {
     match line {
         Line::Guard { .. } => Some("regular"),
         Line::Factor { .. } => Some("Factorization"),
+        Line::Chord { triangle: Some(_), .. } => Some("elbow_chord"),
         Line::Chord { .. } => Some("chord"),
         Line::Newton { .. } => Some("newton_group"),
         Line::Pivots { .. } => Some("product_of_pivots"),
@@ -299,13 +300,24 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             let factors = ident(&names.factors[block]);
             body.extend(quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);));
         }
-        Line::Chord { block, symbol, factors, size } => {
-            let [low, high, size] = [factors[0], factors[1], *size].map(|value| signed(names, schedule, value));
+        Line::Chord { block, symbol, factors, size, triangle } => {
+            let mut written = |value: Signed| signed(names, schedule, value);
+            let [low, high, size] = [factors[0], factors[1], *size].map(&mut written);
+            let triangle = triangle.map(|Triangle { links, line, distance }| {
+                (links.map(&mut written), line.map(&mut written), written(distance))
+            });
             let group = derivation.blocks[*block].names(derivation);
             let side = ident(&derivation.blocks[*block].branch(derivation));
             let name = names.introduce(*symbol).ident;
             let branch = given.branch;
-            body.extend(quote!(let #name = chord(Self::NAME, #group, [#low, #high], #size, #branch.#side)?;));
+            body.extend(match triangle {
+                Some(([p, q], [x, y], distance)) => quote!(
+                    let #name = elbow_chord(
+                        Self::NAME, #group, [#low, #high], [#size, #distance], [#p, #q], [#x, #y], #branch.#side,
+                    )?;
+                ),
+                None => quote!(let #name = chord(Self::NAME, #group, [#low, #high], #size, #branch.#side)?;),
+            });
         }
         Line::Pivots { symbol, matrix } => {
             let columns = columns(matrix, schedule, names);

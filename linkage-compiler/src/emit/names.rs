@@ -10,8 +10,9 @@ use crate::graph::{ExternalId, Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 12] = [
+pub(super) const RUNTIME_FUNCTIONS: [&str; 13] = [
     "chord",
+    "elbow_chord",
     "existing",
     "finite",
     "finite_matrix",

@@ -32,11 +32,12 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// What emitted code calls its own; the types of the user stand beside it.
-const TYPES_OF_EMITTED_CODE: [&str; 17] = [
+const TYPES_OF_EMITTED_CODE: [&str; 18] = [
     "Bound",
     "Error",
     "Factorization",
     "From",
+    "Group",
     "Into",
     "Iterator",
     "Limits",

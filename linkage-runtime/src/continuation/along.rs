@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Error, Mechanism, Real};
+use crate::{Error, Group, Mechanism, Real};
 
 /// A mechanism whose inputs v(s) are functions of one parameter, which is then its only input.
 ///
@@ -56,7 +56,9 @@ where
     F: Fn(T) -> [SVector<T, V>; 3],
 {
     const NAME: &'static str = M::NAME;
-    const GROUPS: &'static [&'static str] = M::GROUPS;
+    const UNKNOWNS: [&'static str; U] = M::UNKNOWNS;
+    const INPUTS: [&'static str; 1] = ["the parameter"];
+    const GROUPS: &'static [Group] = M::GROUPS;
     const UNKNOWN_ANGLES: [bool; U] = M::UNKNOWN_ANGLES;
     const INPUT_ANGLES: [bool; 1] = [true];
     type Coordinates = AlongCoordinates<M::Coordinates, T>;
@@ -100,6 +102,14 @@ where
 
     fn jacobian_inputs(&self, at: &Self::Pose) -> SMatrix<T, U, 1> {
         self.mechanism.jacobian_inputs(&at.pose) * at.slope
+    }
+
+    fn jacobian_unknowns_sizes(&self, at: &Self::Pose) -> SMatrix<T, U, U> {
+        self.mechanism.jacobian_unknowns_sizes(&at.pose)
+    }
+
+    fn jacobian_inputs_sizes(&self, at: &Self::Pose) -> SMatrix<T, U, 1> {
+        self.mechanism.jacobian_inputs_sizes(&at.pose) * at.slope.abs()
     }
 
     fn determinant(&self, at: &Self::Pose) -> T {

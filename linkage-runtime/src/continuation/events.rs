@@ -75,7 +75,7 @@ where
         wanted: &Wanted<'_, M::Coordinates, T>,
         options: &Options<T>,
     ) -> Result<Option<End<M, T, U>>, Error> {
-        for (index, &group) in M::GROUPS.iter().enumerate() {
+        for (index, group) in M::GROUPS.iter().map(|group| group.name).enumerate() {
             let determinant = |place: &Place<M, T, U>| place.determinants.as_ref()[index];
             match self.cut(from, &end.place, determinant)? {
                 Cut::None => {}

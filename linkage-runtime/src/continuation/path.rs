@@ -411,5 +411,5 @@ where
     let [these, those] = [q, other].map(|q| mechanism.block_determinants(&mechanism.pose_at(q)));
     let mut signs = these.as_ref().iter().zip(those.as_ref()).map(|(a, b)| (*a >= T::zero()) == (*b >= T::zero()));
     let place = signs.position(|same| !same);
-    place.and_then(|place| M::GROUPS.get(place)).copied().unwrap_or_default()
+    place.and_then(|place| M::GROUPS.get(place)).map(|group| group.name).unwrap_or_default()
 }

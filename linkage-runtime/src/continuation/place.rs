@@ -29,8 +29,8 @@ impl<M: Mechanism<T, U, 1>, T: Real, const U: usize> Clone for Place<M, T, U> {
 impl<M: Mechanism<T, U, 1>, T: Real, const U: usize> Place<M, T, U> {
     /// Where the determinant of a group is rounding, its sign says nothing.
     pub(super) fn forget_sign(&mut self, group: &str) {
-        for (determinant, &name) in self.determinants.as_mut().iter_mut().zip(M::GROUPS) {
-            if name == group {
+        for (determinant, other) in self.determinants.as_mut().iter_mut().zip(M::GROUPS) {
+            if other.name == group {
                 *determinant = T::zero();
             }
         }
@@ -118,13 +118,13 @@ where
     /// The group whose determinant fell most on the way from one place to another.
     pub(super) fn fallen_group(&self, from: &M::BlockDeterminants, to: &M::BlockDeterminants) -> &'static str {
         let mut fallen: Option<(f64, &'static str)> = None;
-        for ((before, after), &group) in from.as_ref().iter().zip(to.as_ref()).zip(M::GROUPS) {
+        for ((before, after), group) in from.as_ref().iter().zip(to.as_ref()).zip(M::GROUPS) {
             let part = to_f64(after.abs()) / to_f64(before.abs());
             if part.is_finite() && fallen.is_none_or(|(least, _)| part < least) {
-                fallen = Some((part, group));
+                fallen = Some((part, group.name));
             }
         }
-        fallen.map(|(_, group)| group).or_else(|| M::GROUPS.first().copied()).unwrap_or_default()
+        fallen.map(|(_, group)| group).or_else(|| M::GROUPS.first().map(|group| group.name)).unwrap_or_default()
     }
 
     /// The place at a change point, where the sign of this group's determinant is rounding.
@@ -167,9 +167,9 @@ where
         }
         let determinants = self.mechanism.block_determinants(&pose);
         let mut weakest = None;
-        for (determinant, &group) in determinants.as_ref().iter().zip(M::GROUPS) {
+        for (determinant, group) in determinants.as_ref().iter().zip(M::GROUPS) {
             if weakest.is_none_or(|(least, _)| determinant.abs() < least) {
-                weakest = Some((determinant.abs(), group));
+                weakest = Some((determinant.abs(), group.name));
             }
         }
         weakest.map_or("", |(_, group)| group)

@@ -10,7 +10,7 @@ use super::super::names::ident;
 use super::super::pose::PosePlan;
 use super::super::types::field;
 use super::{Kernels, Methods, imports, literal};
-use crate::derivation::Derivation;
+use crate::derivation::{Block, Derivation};
 use crate::graph::SymbolId;
 use crate::model::Kind;
 
@@ -41,9 +41,11 @@ impl Methods<'_> {
             quote!([#(#kinds),*])
         };
         let (unknown_angles, input_angles) = (angles(&self.driver.unknowns), angles(&self.driver.inputs));
-        let groups: Vec<String> = kernels.map_or_else(Vec::new, |kernels| {
-            kernels.derivation.blocks.iter().map(|block| block.names(kernels.derivation)).collect()
-        });
+        let names = |indices: &[usize]| -> Vec<&str> {
+            indices.iter().map(|&index| self.mechanism.coordinates[index].name.text.as_str()).collect()
+        };
+        let (unknown_names, input_names) = (names(&self.driver.unknowns), names(&self.driver.inputs));
+        let groups = kernels.map(|kernels| groups(kernels.derivation)).unwrap_or_default();
         let group_count = literal(groups.len());
         let pose_coordinates = kernels.map(|kernels| self.pose_coordinates(kernels.derivation, kernels.plan));
         quote! {
@@ -60,9 +62,11 @@ impl Methods<'_> {
                 #pose_coordinates
                 impl<T: Real> Mechanism<T, #nu, #nv> for #driver<T> {
                     const NAME: &'static str = #text;
-                    const GROUPS: &'static [&'static str] = &[#(#groups),*];
+                    const UNKNOWNS: [&'static str; #nu] = [#(#unknown_names),*];
+                    const INPUTS: [&'static str; #nv] = [#(#input_names),*];
                     const UNKNOWN_ANGLES: [bool; #nu] = #unknown_angles;
                     const INPUT_ANGLES: [bool; #nv] = #input_angles;
+                    const GROUPS: &'static [Group] = &[#(#groups),*];
                     type Coordinates = #coordinates<T>;
                     type Inputs = #inputs<T>;
                     type Unknowns = #unknowns<T>;
@@ -96,6 +100,12 @@ impl Methods<'_> {
                     }
                     fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nv> {
                         self.jacobian_inputs(pose)
+                    }
+                    fn jacobian_unknowns_sizes(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nu> {
+                        self.jacobian_unknowns_sizes(pose)
+                    }
+                    fn jacobian_inputs_sizes(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nv> {
+                        self.jacobian_inputs_sizes(pose)
                     }
                     fn determinant(&self, pose: &Self::Pose) -> T {
                         self.determinant(pose)
@@ -144,4 +154,17 @@ impl Methods<'_> {
             }
         }
     }
+}
+
+/// The groups as the trait gives them.
+fn groups(derivation: &Derivation) -> Vec<TokenStream> {
+    let group = |block: &Block| {
+        let name = block.names(derivation);
+        let [equations, unknowns] = [&block.equations, &block.unknowns].map(|places| {
+            let places = places.iter().map(|&place| literal(place));
+            quote!(&[#(#places),*])
+        });
+        quote!(Group { name: #name, equations: #equations, unknowns: #unknowns })
+    };
+    derivation.blocks.iter().map(group).collect()
 }

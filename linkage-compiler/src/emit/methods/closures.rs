@@ -40,7 +40,9 @@ impl Methods<'_> {
     }
 
     pub(super) fn closures(&mut self, kernels: Option<&mut Kernels>) {
+        let mut kernels = kernels;
         self.jacobians(kernels.as_deref());
+        self.jacobian_sizes(kernels.as_deref_mut());
         self.determinant(kernels);
     }
 
@@ -118,6 +120,25 @@ impl Methods<'_> {
         let pose = argument_of(&pose, body.as_ref());
         let signature = quote!(#[must_use] pub fn jacobian(&self, #pose: &#pose_type<T>) -> SMatrix<T, #nu, #nq>);
         self.function(&docs, &signature, body);
+    }
+
+    fn jacobian_sizes(&mut self, kernels: Option<&mut Kernels>) {
+        let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
+        let (nu, nv) = (literal(u), literal(v));
+        let (kernels, sizes) = match kernels {
+            Some(kernels) => {
+                let sizes = kernels.derivation.jacobian_sizes();
+                (Some(&*kernels), sizes.map(Some))
+            }
+            None => (None, [None, None]),
+        };
+        let [unknowns, inputs] = sizes;
+        let docs = ["The largest magnitude that each entry of J could have at these lengths.".to_owned()];
+        let of = quote!(SMatrix<T, #nu, #nu>);
+        self.matrix_function(kernels, "jacobian_unknowns_sizes", &docs, &of, unknowns.map(|rows| (rows, u)));
+        let docs = ["The largest magnitude that each entry of A could have at these lengths.".to_owned()];
+        let of = quote!(SMatrix<T, #nu, #nv>);
+        self.matrix_function(kernels, "jacobian_inputs_sizes", &docs, &of, inputs.map(|rows| (rows, v)));
     }
 
     fn determinant(&mut self, kernels: Option<&mut Kernels>) {

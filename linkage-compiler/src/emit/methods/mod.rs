@@ -360,7 +360,7 @@ impl Body {
 
 /// What the functions use of the runtime, in the order in which rustfmt sorts it.
 fn imports(mechanism: &Mechanism, used: &BTreeSet<&'static str>) -> Vec<Ident> {
-    let mut types = vec!["Error", "Mechanism", "Real", "SMatrix", "SVector", "Solution"];
+    let mut types = vec!["Error", "Group", "Mechanism", "Real", "SMatrix", "SVector", "Solution"];
     if !mechanism.points.is_empty() {
         types.push("Vector2");
     }

@@ -30,7 +30,7 @@ pub enum Stage {
     Solve { block: usize, targets: Vec<SymbolId>, right: Vec<NodeId> },
     /// Names the root of a product of two factors, with the sign of the branch of a block; refuses a
     /// factor that is less than zero beside `size`.
-    Chord { block: usize, symbol: SymbolId, factors: [NodeId; 2], size: NodeId },
+    Chord { block: usize, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, triangle: Option<Triangle<NodeId>> },
     /// Names the unknowns of a block, found by Newton's method from `start`: its residual, the sizes of its
     /// closures and its matrix row by row are `system`, made of the unknowns and of what is `known`.
     Newton { block: usize, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
@@ -38,6 +38,25 @@ pub enum Stage {
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
     /// The values that the kernel returns.
     Return(Vec<NodeId>),
+}
+
+/// Two links between joints: their lengths, the line between the joints, and its square.
+#[derive(Debug, Clone, Copy)]
+pub struct Triangle<V> {
+    pub links: [V; 2],
+    pub line: [V; 2],
+    pub distance: V,
+}
+
+impl<V: Copy> Triangle<V> {
+    fn values(&self) -> [V; 5] {
+        let Self { links: [p, q], line: [x, y], distance } = *self;
+        [p, q, x, y, distance]
+    }
+
+    fn map<W>(self, f: impl Fn(V) -> W) -> Triangle<W> {
+        Triangle { links: self.links.map(&f), line: self.line.map(&f), distance: f(self.distance) }
+    }
 }
 
 impl Stage {
@@ -57,7 +76,9 @@ impl Stage {
         match self {
             Self::Let { node, .. } => vec![*node],
             Self::Guard { determinant, size, .. } => vec![*determinant, *size],
-            Self::Chord { factors: [low, high], size, .. } => vec![*low, *high, *size],
+            Self::Chord { factors: [low, high], size, triangle, .. } => {
+                [*low, *high, *size].into_iter().chain(triangle.iter().flat_map(Triangle::values)).collect()
+            }
             Self::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).copied().collect(),
             Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
             Self::Solve { right, .. } => right.clone(),
@@ -145,6 +166,7 @@ pub enum Line {
         symbol: SymbolId,
         factors: [Signed; 2],
         size: Signed,
+        triangle: Option<Triangle<Signed>>,
     },
     Newton {
         block: usize,
@@ -216,9 +238,13 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
             Stage::Solve { block, targets, right } => {
                 Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }
             }
-            Stage::Chord { block, symbol, factors, size } => {
-                Line::Chord { block: *block, symbol: *symbol, factors: factors.map(|node| of[node]), size: of[*size] }
-            }
+            Stage::Chord { block, symbol, factors, size, triangle } => Line::Chord {
+                block: *block,
+                symbol: *symbol,
+                factors: factors.map(|node| of[node]),
+                size: of[*size],
+                triangle: triangle.map(|triangle| triangle.map(|node| of[node])),
+            },
             Stage::Pivots { symbol, matrix } => {
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
             }

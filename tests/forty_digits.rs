@@ -1,0 +1,436 @@
+//! Position, velocity and acceleration of the gallery at random poses against 48-digit arithmetic: the emitted code
+//! against the closures themselves, solved by Newton's method in dashu's floats.
+//!
+//! An error is measured in ulp times the condition number: the sum of what a relative change of each datum (lengths,
+//! inputs, their rates) and of each term of each closure, of its derivatives and of the point itself does to it. For
+//! velocities and accelerations that is R. D. Skeel's condition number of J x = b, |J^-1| (|J| |x| + |b|), with what
+//! the position contributes. Without the terms, a point that moves along a straight line whatever its lengths are
+//! would have the condition number zero across that line.
+//!
+//! ```text
+//! POSES=100000 cargo test --release --all-features --test forty_digits -- --nocapture
+//! ```
+
+#[path = "source/cam_laws.rs"]
+mod cam_laws;
+#[path = "oracle/laws.rs"]
+mod laws;
+#[path = "oracle/precise.rs"]
+mod precise;
+mod source;
+
+use linkage_compiler::derivation::{Coordinate, Derivation};
+use linkage_compiler::graph::{External, NodeId, Number, SymbolId};
+use linkage_compiler::model::{Kind, Mechanism};
+use nalgebra::{DMatrix, DVector};
+use precise::{Big, Scalar, Tape, big, solve};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+
+/// The promise: ulp times condition number.
+const ULPS: f64 = 8.0;
+
+/// Poses of each mechanism; the full size is asked for in the environment.
+fn poses() -> usize {
+    std::env::var("POSES").ok().and_then(|count| count.parse().ok()).unwrap_or(40)
+}
+
+/// What a pose is made from.
+struct Data {
+    parameters: Vec<f64>,
+    inputs: Vec<f64>,
+    rates: Vec<f64>,
+    accelerations: Vec<f64>,
+    branch: usize,
+    /// q with values of the unknowns to start from, q' and q'' with the inputs' alone.
+    coordinates: [Vec<f64>; 3],
+}
+
+/// q, q', q'' and the points with their velocities and accelerations.
+struct Motion {
+    coordinates: [Vec<f64>; 3],
+    points: [Vec<f64>; 3],
+}
+
+/// The closures of one mechanism with their first two derivatives in time, and the points with theirs.
+struct Judge {
+    mechanism: Mechanism,
+    derivation: Derivation,
+    /// Psi, J u' + A v', J u'' + A v'' + gamma, and J by rows.
+    closures: Tape,
+    points: Tape,
+    /// The derivatives of all rows of `closures` but J, and of `points`, by every datum and then every unknown.
+    derivatives: Tape,
+    data: Vec<SymbolId>,
+    unknowns: Vec<SymbolId>,
+}
+
+impl Judge {
+    fn new(file: &str) -> Self {
+        let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);
+        let mut derivation = linkage_compiler::derive(&mechanism).remove(0);
+        let parameters: Vec<SymbolId> = mechanism.parameters.iter().map(|parameter| parameter.symbol).collect();
+        let d = &mut derivation;
+        let symbols = |of: &[usize]| -> [Vec<SymbolId>; 3] {
+            let pick =
+                |symbol: fn(&Coordinate) -> SymbolId| of.iter().map(|&index| symbol(&d.coordinates[index])).collect();
+            [pick(|c| c.value), pick(|c| c.rate), pick(|c| c.acceleration)]
+        };
+        let unknowns = symbols(&d.unknowns).concat();
+        let data: Vec<SymbolId> = parameters.into_iter().chain(symbols(&d.inputs).concat()).collect();
+        let mut rows = d.residual.clone();
+        for order in [1, 2] {
+            for (index, row) in d.jacobian.clone().iter().enumerate() {
+                let mut terms = Vec::new();
+                for (&column, &entry) in row {
+                    let coordinate = &d.coordinates[column];
+                    let symbol = if order == 1 { coordinate.rate } else { coordinate.acceleration };
+                    let rate = d.graph.variable(symbol);
+                    terms.push((Number::ONE, d.graph.multiply(entry, rate)));
+                }
+                if order == 2 {
+                    terms.push((Number::ONE, d.gamma[index]));
+                }
+                rows.push(d.graph.sum(&terms));
+            }
+        }
+        let points: Vec<NodeId> = [0, 1, 2]
+            .iter()
+            .flat_map(|&order| {
+                d.points.iter().flat_map(move |point| [&point.value, &point.rate, &point.acceleration][order].clone())
+            })
+            .collect();
+        let mut derivatives = Vec::new();
+        for family in [&rows, &points] {
+            for &symbol in data.iter().chain(&unknowns) {
+                derivatives.extend(d.graph.partial(family, symbol));
+            }
+        }
+        let zero = d.graph.zero();
+        let j: Vec<NodeId> = d
+            .jacobian_unknowns()
+            .iter()
+            .flat_map(|row| (0..d.unknowns.len()).map(|c| row.get(&c).copied().unwrap_or(zero)).collect::<Vec<_>>())
+            .collect();
+        rows.extend(j);
+        let (closures, points) = (Tape::new(&d.graph, &rows), Tape::new(&d.graph, &points));
+        let derivatives = Tape::new(&d.graph, &derivatives);
+        Self { closures, points, derivatives, data, unknowns, mechanism, derivation }
+    }
+
+    fn external(&self) -> impl Fn(&External, &[f64]) -> f64 {
+        |external, arguments| {
+            // Values of a law are data themselves, and so is its last derivative.
+            let given = external.order().map(|order| (order, laws::values(&self.mechanism, external, arguments)));
+            given.and_then(|(order, values)| values.get(order).copied()).unwrap_or(0.0)
+        }
+    }
+
+    fn magnitudes(&self, tape: &Tape, data: &Data, y: &[f64]) -> Vec<f64> {
+        tape.magnitudes(|symbol| self.bound(data, y, symbol), self.external())
+    }
+
+    fn bound<S: Scalar>(&self, data: &Data, y: &[S], symbol: SymbolId) -> S {
+        match self.unknowns.iter().position(|&other| other == symbol) {
+            Some(place) => y[place].clone(),
+            None => S::of(self.datum(data, symbol).expect("a datum or an unknown")),
+        }
+    }
+
+    fn datum(&self, data: &Data, symbol: SymbolId) -> Option<f64> {
+        let all = data.parameters.iter().chain(&data.inputs).chain(&data.rates).chain(&data.accelerations);
+        self.data.iter().position(|&other| other == symbol).map(|place| *all.clone().nth(place).expect("a datum"))
+    }
+
+    fn evaluate<S: Scalar>(&self, tape: &Tape, data: &Data, y: &[S]) -> Vec<S> {
+        tape.evaluate(|symbol| self.bound(data, y, symbol), self.external())
+    }
+
+    /// u, u', u'' to 40 digits, from a guess of u; none where Newton's method does not arrive.
+    fn solve(&self, data: &Data, u: &[f64]) -> Option<Vec<Big>> {
+        let n = u.len();
+        let mut y: Vec<Big> = u.iter().map(|&value| big(value)).chain((0..2 * n).map(|_| big(0.0))).collect();
+        for order in [0, 0, 0, 1, 2] {
+            let values = self.evaluate(&self.closures, data, &y);
+            let j = values[3 * n..].chunks(n).map(<[Big]>::to_vec).collect();
+            let step = solve(j, values[order * n..(order + 1) * n].to_vec());
+            for (value, step) in y[order * n..].iter_mut().zip(&step) {
+                *value -= step;
+            }
+        }
+        let residual = self.evaluate(&self.closures, data, &y);
+        residual[..3 * n].iter().all(|row| row.double().abs() < 1e-40).then_some(y)
+    }
+
+    /// The condition numbers of y and of the points, times their values.
+    fn conditions(&self, data: &Data, y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (x, n) = (self.data.len(), self.unknowns.len());
+        let flat = self.evaluate(&self.derivatives, data, y);
+        let (rows, points) = flat.split_at(n * (x + n));
+        let rows = DMatrix::from_column_slice(n, x + n, rows);
+        let points = DMatrix::from_column_slice(points.len() / (x + n), x + n, points);
+        let inverse = rows.columns(x, n).into_owned().try_inverse().expect("regular");
+        let by_data = -&inverse * rows.columns(0, x);
+        let sizes = data.parameters.iter().chain(&data.inputs).chain(&data.rates).chain(&data.accelerations);
+        let sizes = DVector::from_iterator(x, sizes.map(|x| x.abs()));
+        let terms = DVector::from_vec(self.magnitudes(&self.closures, data, y)[..n].to_vec());
+        let points_by_data = points.columns(0, x) + points.columns(x, n) * &by_data;
+        let points_by_terms = points.columns(x, n) * &inverse;
+        let of_points = DVector::from_vec(self.magnitudes(&self.points, data, y));
+        let of_points = of_points + points_by_data.abs() * &sizes + points_by_terms.abs() * &terms;
+        let of_unknowns = by_data.abs() * &sizes + inverse.abs() * &terms;
+        (of_unknowns.as_slice().to_vec(), of_points.as_slice().to_vec())
+    }
+
+    /// Which parameters, and which coordinates in the order of q, are lengths.
+    fn lengths(&self) -> Vec<bool> {
+        let parameters = self.mechanism.parameters.iter().map(|p| match p.name.field.as_str() {
+            // Numbers that multiply a length, and lengths that no vector is made of.
+            "part" | "ratio" => false,
+            "height" | "prime" | "roller" | "offset" | "r" => true,
+            _ => p.kind == Kind::Length,
+        });
+        let kind = |name: &str| self.mechanism.coordinates.iter().find(|c| c.name.field == name).map(|c| c.kind);
+        let coordinates =
+            self.derivation.coordinates.iter().map(|c| c.name == "x" || kind(&c.name) == Some(Kind::Length));
+        parameters.chain(coordinates).collect()
+    }
+
+    /// The same in another unit of length.
+    fn scaled(&self, data: &Data, is_length: &[bool], scale: f64) -> Data {
+        let (of_parameters, of_coordinates) = is_length.split_at(data.parameters.len());
+        let times = |values: &[f64], is_length: &[bool]| -> Vec<f64> {
+            values
+                .iter()
+                .zip(is_length)
+                .map(|(value, is_length)| if *is_length { value * scale } else { *value })
+                .collect()
+        };
+        let of_inputs: Vec<bool> = self.derivation.inputs.iter().map(|&place| of_coordinates[place]).collect();
+        Data {
+            parameters: times(&data.parameters, of_parameters),
+            inputs: times(&data.inputs, &of_inputs),
+            rates: times(&data.rates, &of_inputs),
+            accelerations: times(&data.accelerations, &of_inputs),
+            branch: data.branch,
+            coordinates: [0, 1, 2].map(|order| times(&data.coordinates[order], of_coordinates)),
+        }
+    }
+
+    fn data(&self, random: &mut SmallRng, branches: usize) -> Data {
+        let mut draw =
+            |count: usize, size: f64| (0..count).map(|_| random.random_range(-size..size)).collect::<Vec<_>>();
+        let d = &self.derivation;
+        let inputs = draw(d.inputs.len(), 3.2);
+        let (rates, accelerations) = (draw(d.inputs.len(), 2.0), draw(d.inputs.len(), 5.0));
+        let mut coordinates =
+            [draw(d.coordinates.len(), 3.2), vec![0.0; d.coordinates.len()], vec![0.0; d.coordinates.len()]];
+        for (all, given) in coordinates.iter_mut().zip([&inputs, &rates, &accelerations]) {
+            for (&place, &value) in d.inputs.iter().zip(given) {
+                all[place] = value;
+            }
+        }
+        // Every other mechanism has lengths of its own.
+        let is_default = random.random_bool(0.5);
+        let mut scaled = |value: f64| if is_default { value } else { value * random.random_range(0.95..1.05) };
+        let default = |node| self.mechanism.graph.constant_value(node).expect("a number");
+        let defaults = self.mechanism.parameters.iter().map(|parameter| default(parameter.default.expect("a default")));
+        let parameters = defaults.map(&mut scaled).collect();
+        Data { parameters, inputs, rates, accelerations, branch: random.random_range(0..branches), coordinates }
+    }
+}
+
+/// The largest error in ulp times condition number, and where.
+#[derive(Default, Clone)]
+struct Worst {
+    error: f64,
+    place: String,
+}
+
+impl Worst {
+    fn note(&mut self, found: &[f64], expected: &[Big], conditions: &[f64], place: impl Fn(usize) -> String) {
+        for (index, ((&found, expected), condition)) in found.iter().zip(expected).zip(conditions).enumerate() {
+            assert!(found.is_finite(), "{}", place(index));
+            let size = condition.max(expected.double().abs());
+            let error = (big(found) - expected).double().abs();
+            let error = if error == 0.0 { 0.0 } else { error / (f64::EPSILON * size) };
+            if error > self.error {
+                *self = Self { error, place: place(index) };
+            }
+        }
+    }
+}
+
+fn judge(file: &str, branches: usize, run: impl Fn(&Data) -> Option<Motion>) -> [Worst; 3] {
+    let judge = Judge::new(file);
+    let mut random = SmallRng::seed_from_u64(20_091_121);
+    let mut worst: [Worst; 3] = Default::default();
+    let (mut count, mut missed) = (0, 0);
+    while count < poses() {
+        let data = judge.data(&mut random, branches);
+        let (unknowns, place_of) = (&judge.derivation.unknowns, &judge.derivation.coordinates);
+        let motion = run(&data).and_then(|motion| {
+            let u: Vec<f64> = unknowns.iter().map(|&place| motion.coordinates[0][place]).collect();
+            Some((judge.solve(&data, &u)?, motion))
+        });
+        let Some((y, motion)) = motion else {
+            missed += 1;
+            assert!(missed < 50 * poses(), "{file}: hardly anything can be assembled");
+            continue;
+        };
+        count += 1;
+        let n = unknowns.len();
+        let rounded: Vec<f64> = y.iter().map(Scalar::double).collect();
+        let (of_unknowns, of_points) = judge.conditions(&data, &rounded);
+        let points = judge.evaluate(&judge.points, &data, &y);
+        let third = points.len() / 3;
+        for (order, worst) in worst.iter_mut().enumerate() {
+            let found: Vec<f64> = unknowns.iter().map(|&place| motion.coordinates[order][place]).collect();
+            let at =
+                |what: String| format!("{what} at {:?}, branch {}, of {:?}", data.inputs, data.branch, data.parameters);
+            let part = order * n..(order + 1) * n;
+            worst
+                .note(&found, &y[part.clone()], &of_unknowns[part], |index| at(place_of[unknowns[index]].name.clone()));
+            let part = order * third..(order + 1) * third;
+            worst.note(&motion.points[order], &points[part.clone()], &of_points[part], |index| {
+                at(format!("point {}", index / 2 + 1))
+            });
+        }
+    }
+    for (order, worst) in ["position", "velocity", "acceleration"].iter().zip(&worst) {
+        println!("{file:22} {order:13} {:6.2} ulp x condition: {}", worst.error, worst.place);
+    }
+    worst
+}
+
+/// Everything at lengths 2^k times as long has the same bits but for its exponent; angles have the same.
+fn unit_of_length(file: &str, branches: usize, run: impl Fn(&Data) -> Option<Motion>) {
+    let judge = Judge::new(file);
+    let is_length = judge.lengths();
+    let mut random = SmallRng::seed_from_u64(5);
+    let mut found = 0;
+    for _ in 0..200 {
+        let data = judge.data(&mut random, branches);
+        let Some(plain) = run(&data) else { continue };
+        found += 1;
+        for k in [-300, -37, -1, 2, 101, 300] {
+            let scale = 2_f64.powi(k);
+            let scaled = judge.scaled(&data, &is_length, scale);
+            let other = run(&scaled).unwrap_or_else(|| panic!("{file} at 2^{k}: no position at {:?}", data.inputs));
+            let of_coordinates = &is_length[judge.mechanism.parameters.len()..];
+            for order in 0..3 {
+                let pairs = plain.coordinates[order].iter().zip(&other.coordinates[order]).zip(of_coordinates);
+                for ((&one, &other), &is_length) in pairs {
+                    assert_eq!(if is_length { one * scale } else { one }, other, "{file} at 2^{k}, order {order}");
+                }
+                // The pen of the five-bar stands where numbers say, whatever the unit.
+                if file == "five_bar" {
+                    continue;
+                }
+                for (&one, &other) in plain.points[order].iter().zip(&other.points[order]) {
+                    assert_eq!(one * scale, other, "{file} at 2^{k}: a point, order {order}");
+                }
+            }
+        }
+    }
+    assert!(found > 10, "{file}: {found}");
+}
+
+/// One mechanism of the gallery: how its emitted code is run.
+macro_rules! gallery {
+    ($($file:ident $Driver:ident $Coordinates:ident $Inputs:ident $Branch:ident $Points:ident $how:ident;)*) => {$(
+        mod $file {
+            use linkage::linkage;
+            use linkage::nalgebra::{SVector, Vector2};
+
+            use super::{Data, Motion, ULPS, judge, unit_of_length};
+
+            include!(concat!("mechanisms/", stringify!($file), ".rs"));
+
+            const COORDINATES: usize = $Coordinates::<()>::NAMES.len();
+            const POINTS: usize = $Points::<()>::NAMES.len();
+
+            fn flat(points: $Points<Vector2<f64>>) -> Vec<f64> {
+                let points: [Vector2<f64>; POINTS] = points.into();
+                points.iter().flat_map(|point| [point.x, point.y]).collect()
+            }
+
+            fn array(q: $Coordinates<f64>) -> Vec<f64> {
+                SVector::<f64, COORDINATES>::from(q).as_slice().to_vec()
+            }
+
+            fn run(data: &Data) -> Option<Motion> {
+                let m = $Driver::from(std::array::from_fn(|index| data.parameters[index]));
+                let q = |order: usize| $Coordinates::from(SVector::<f64, COORDINATES>::from_column_slice(&data.coordinates[order]));
+                let inputs = |order: usize| $Inputs::from(&q(order));
+                let pose = gallery!($how m data q inputs $Branch);
+                let velocity = m.velocity(&pose, inputs(1)).ok()?;
+                let acceleration = m.acceleration(&pose, &velocity, inputs(2)).ok()?;
+                Some(Motion {
+                    coordinates: [array(pose.coordinates()), array(velocity), array(acceleration)],
+                    points: [
+                        flat(m.points(&pose).ok()?),
+                        flat(m.point_velocities(&pose, &velocity).ok()?),
+                        flat(m.point_accelerations(&pose, &velocity, &acceleration).ok()?),
+                    ],
+                })
+            }
+
+            /// The unit of length changes exponents and no bit else.
+            #[test]
+            fn scale_free() {
+                unit_of_length(stringify!($file), gallery!(branches $how $Branch), run);
+            }
+
+            #[test]
+            fn eight_ulps() {
+                for worst in judge(stringify!($file), gallery!(branches $how $Branch), run) {
+                    assert!(worst.error <= ULPS, "{} ulp x condition: {}", worst.error, worst.place);
+                }
+            }
+        }
+    )*};
+    (closed $m:ident $data:ident $q:ident $inputs:ident $Branch:ident) => {
+        $m.assemble($inputs(0), $Branch::all().nth($data.branch)?).ok()?
+    };
+    (newton $m:ident $data:ident $q:ident $inputs:ident $Branch:ident) => {
+        $m.pose_at(&$m.solve(&$q(0)).ok()?.coordinates)
+    };
+    (branches closed $Branch:ident) => { $Branch::all().count() };
+    (branches newton $Branch:ident) => { 1 };
+}
+
+gallery! {
+    andrews Andrews AndrewsCoordinates AndrewsInputs AndrewsBranch AndrewsPoints closed;
+    cam_follower CamFollower CamFollowerCoordinates CamFollowerInputs CamFollowerBranch CamFollowerPoints closed;
+    cam_rocker CamRocker CamRockerCoordinates CamRockerInputs CamRockerBranch CamRockerPoints closed;
+    cardan Cardan CardanCoordinates CardanInputs CardanBranch CardanPoints closed;
+    chebyshev ChebyshevRocker ChebyshevCoordinates ChebyshevRockerInputs ChebyshevRockerBranch ChebyshevPoints closed;
+    coupled_wheels CoupledWheels CoupledWheelsCoordinates CoupledWheelsInputs CoupledWheelsBranch CoupledWheelsPoints closed;
+    crank_shaper CrankShaper CrankShaperCoordinates CrankShaperInputs CrankShaperBranch CrankShaperPoints closed;
+    double_butterfly DoubleButterfly DoubleButterflyCoordinates DoubleButterflyInputs DoubleButterflyBranch DoubleButterflyPoints newton;
+    elliptic_trammel EllipticTrammel EllipticTrammelCoordinates EllipticTrammelInputs EllipticTrammelBranch EllipticTrammelPoints closed;
+    five_bar FiveBar FiveBarCoordinates FiveBarInputs FiveBarBranch FiveBarPoints closed;
+    four_bar FourBar FourBarCoordinates FourBarInputs FourBarBranch FourBarPoints closed;
+    geared_five_bar GearedFiveBar GearedFiveBarCoordinates GearedFiveBarInputs GearedFiveBarBranch GearedFiveBarPoints closed;
+    geneva Geneva GenevaCoordinates GenevaInputs GenevaBranch GenevaPoints closed;
+    hart Hart HartCoordinates HartInputs HartBranch HartPoints closed;
+    hoecken Hoecken HoeckenCoordinates HoeckenInputs HoeckenBranch HoeckenPoints closed;
+    inverted_slider_crank InvertedSliderCrank InvertedSliderCrankCoordinates InvertedSliderCrankInputs InvertedSliderCrankBranch InvertedSliderCrankPoints closed;
+    jansen Jansen JansenCoordinates JansenInputs JansenBranch JansenPoints closed;
+    klann Klann KlannCoordinates KlannInputs KlannBranch KlannPoints closed;
+    offset_slider_crank OffsetSliderCrank OffsetSliderCrankCoordinates OffsetSliderCrankInputs OffsetSliderCrankBranch OffsetSliderCrankPoints closed;
+    pantograph Pantograph PantographCoordinates PantographInputs PantographBranch PantographPoints closed;
+    peaucellier Peaucellier PeaucellierCoordinates PeaucellierInputs PeaucellierBranch PeaucellierPoints closed;
+    roberts Roberts RobertsCoordinates RobertsInputs RobertsBranch RobertsPoints closed;
+    scotch_yoke ScotchYoke ScotchYokeCoordinates ScotchYokeInputs ScotchYokeBranch ScotchYokePoints closed;
+    stephenson_i StephensonI StephensonICoordinates StephensonIInputs StephensonIBranch StephensonIPoints closed;
+    stephenson_ii StephensonII StephensonIICoordinates StephensonIIInputs StephensonIIBranch StephensonIIPoints newton;
+    stephenson_iii StephensonIII StephensonIIICoordinates StephensonIIIInputs StephensonIIIBranch StephensonIIIPoints closed;
+    v_twin VTwin VTwinCoordinates VTwinInputs VTwinBranch VTwinPoints closed;
+    watt_i WattI WattICoordinates WattIInputs WattIBranch WattIPoints closed;
+    watt_ii WattII WattIICoordinates WattIIInputs WattIIBranch WattIIPoints closed;
+    watt_line WattLine WattLineCoordinates WattLineInputs WattLineBranch WattLinePoints closed;
+    whitworth Whitworth WhitworthCoordinates WhitworthInputs WhitworthBranch WhitworthPoints closed;
+    wiper Wiper WiperCoordinates WiperInputs WiperBranch WiperPoints closed;
+}

@@ -1,0 +1,53 @@
+//! The compressor of the lecture notes ("Analisi cinematica di velocità per meccanismi articolati piani", section
+//! 1.2) with rod and crank of one length: at phi2 = +-pi/2 its Jacobian is singular, two motions meet, and the
+//! velocity ratio -z1 cos(phi1) / (z2 cos(phi2)) is a quotient of rounding errors that looks like a result.
+
+use std::f64::consts::FRAC_PI_2;
+
+use linkage::{Error, Slope, linkage, singularity};
+
+use super::precise::{Scalar, big};
+
+include!("../mechanisms/slider_crank.rs");
+
+const SLOPES: [Slope; 2] = [Slope::Rising, Slope::Falling];
+
+#[test]
+fn velocity_at_the_singularity() {
+    let m = Compressor { z1: 1.5, z2: 1.5 };
+    for phi1 in [FRAC_PI_2, -FRAC_PI_2] {
+        // The formula has an answer, and another one for the same angle written otherwise.
+        let ratio = |phi2: f64| -m.z1 * phi1.cos() / (m.z2 * phi2.cos());
+        let answers = [ratio(-phi1), ratio(-phi1 + 4.0 * std::f64::consts::PI)];
+        println!("phi1 = {phi1}: quotients {answers:?}");
+        assert!(answers.iter().all(|answer| answer.is_finite()) && (answers[0] - answers[1]).abs() > 0.1);
+        for phi2 in SLOPES {
+            let pose = m.assemble(phi1, CompressorBranch { phi2 }).unwrap();
+            assert!(m.residual(&pose).amax() <= 1e-15 && pose.phi2.re.abs() <= 1e-15, "{pose:?}");
+            assert!(matches!(m.velocity_ratios(&pose), Err(Error::Singular { group: "phi2", .. })));
+            assert!(singularity::report(&m, &pose).unwrap().is_singular());
+        }
+    }
+}
+
+/// Beside it z3 = 2 z1 cos(phi1) on one branch and 0 on the other, to what sigma min allows.
+#[test]
+fn positions_beside_it() {
+    let m = Compressor { z1: 1.5, z2: 1.5 };
+    let mut worst = 0.0_f64;
+    for digits in 1..8 {
+        let phi1 = FRAC_PI_2 - 10_f64.powi(-digits);
+        let cosine = big(phi1).sin_cos().1;
+        for phi2 in SLOPES {
+            let pose = m.assemble(phi1, CompressorBranch { phi2 }).unwrap();
+            let expected = if phi2 == SLOPES[0] { big(2.0 * m.z1) * &cosine } else { big(0.0) };
+            let attainable = singularity::accuracy(&m, &pose).unwrap().unknowns;
+            let error = (big(pose.z3) - expected).double().abs();
+            worst = worst.max(error / attainable.amax());
+            // Away from it nothing is lost; near it what must be.
+            assert!(error <= f64::EPSILON * 10_f64.powi(digits) * 8.0, "{error:e}");
+        }
+    }
+    println!("errors up to {worst:.2} of eps / sigma min");
+    assert!(worst <= 4.0, "{worst}");
+}
