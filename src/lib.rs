@@ -2,6 +2,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
 
+#[cfg(feature = "double-double")]
+pub use linkage_double::DoubleDouble;
 #[cfg(feature = "drawing")]
 pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
