@@ -9,8 +9,8 @@ pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
-    Elbow, Error, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, continuation, derivation,
-    limits, nalgebra, position,
+    Assembly, Elbow, Error, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, accuracy,
+    continuation, derivation, limits, nalgebra, position,
 };
 
 /// Mechanisms from their closure equations.
@@ -31,8 +31,8 @@ pub mod __private {
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
-        Bound, Elbow, Error, Factorization, Limits, Mechanism, OutputMotion, PointMotion, Real, Search, Slider, Slope,
-        Solution, chord, existing, finite, finite_matrix, limits, newton, newton_group, product_of_pivots, real,
-        regular, side_of, unit,
+        Assembly, Bound, Elbow, Error, Factorization, Limits, Mechanism, OutputMotion, PointMotion, Real, Search,
+        Slider, Slope, Solution, chord, existing, finite, finite_matrix, limits, newton, newton_group,
+        product_of_pivots, real, regular, side_of, unit,
     };
 }
