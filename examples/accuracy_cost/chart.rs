@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
-use crate::frontier::{Prices, frontier};
+use crate::frontier::Prices;
 use crate::stall::Stall;
 use crate::{METHODS, QUANTITIES};
 
 /// A panel's size, and the room that its axes take.
-const SIZE: [f64; 2] = [340.0, 250.0];
+const SIZE: [f64; 2] = [340.0, 240.0];
 const LEFT: f64 = 48.0;
-const BOTTOM: f64 = 40.0;
+const BOTTOM: f64 = 26.0;
 const TOP: f64 = 30.0;
 const RIGHT: f64 = 14.0;
 
@@ -26,7 +26,9 @@ pub fn panels(stall: &Stall) -> Vec<String> {
     let from_input = |(_, point): &(usize, &crate::Point)| point.pose == "benign" && !point.angles_given;
     let points = stall.points.iter().enumerate().filter(from_input);
     points
-        .map(|(index, point)| panel(&format!("{}, {}", stall.mechanism, QUANTITIES[point.order]), &stall.at(index)))
+        .map(|(index, point)| {
+            panel(&format!("{}, {}", stall.mechanism, QUANTITIES[point.order]), &stall.at(index), &stall.front(index))
+        })
         .collect()
 }
 
@@ -37,7 +39,7 @@ fn decades(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
     [low, high.max(low + 1.0)]
 }
 
-fn panel(title: &str, prices: &Prices) -> String {
+fn panel(title: &str, prices: &Prices, front: &[usize]) -> String {
     let known = prices.iter().flatten();
     let times = decades(known.clone().map(|price| price.time));
     let errors = decades(known.map(|price| price.error));
@@ -72,7 +74,6 @@ fn panel(title: &str, prices: &Prices) -> String {
             ));
         }
     }
-    let front = frontier(prices);
     let mut path = String::new();
     for (place, &method) in front.iter().enumerate() {
         let Some(price) = prices[method] else { continue };
@@ -111,7 +112,7 @@ pub fn figure(panel: &str) -> String {
 }
 
 /// All panels and the names of the methods.
-pub fn svg(stalls: &[Stall], dominated: &[Option<usize>]) -> String {
+pub fn svg(stalls: &[Stall]) -> String {
     let (width, height) = (3.0 * SIZE[0], stalls.len() as f64 * SIZE[1] + 90.0);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\"><style>svg{{background:#fff;color:#1f2126}}{STYLE}</style>"
@@ -124,7 +125,7 @@ pub fn svg(stalls: &[Stall], dominated: &[Option<usize>]) -> String {
     }
     for (method, name) in METHODS.iter().enumerate() {
         let (x, y) = (LEFT + (method % 5) as f64 * 200.0, height - 60.0 + (method / 5) as f64 * 26.0);
-        let note = if dominated[method].is_some() { " (dominated)" } else { "" };
+        let note = if stalls[0].dominated[method].is_some() { " (dominated)" } else { "" };
         let _ = write!(
             svg,
             "<g class=\"mark off\"><circle cx=\"{x}\" cy=\"{y}\" r=\"8\"/><text x=\"{x}\" y=\"{}\">{}</text></g>\

@@ -41,20 +41,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     let is_patient = std::env::args().any(|argument| argument == "--patient");
     let (rounds, span) = if is_patient { (61, 4e-4) } else { (7, 2e-5) };
     let open = |name, works: Vec<Work>| Stall::open(name, &METHODS, works, rounds, span);
-    let stalls = [
-        open("Four-bar", four_bar::works()),
+    let mut stalls = [
+        open("four-bar", four_bar::works()),
         open("Jansen leg", jansen::works()),
-        open("Double butterfly", double_butterfly::works()),
+        open("double butterfly", double_butterfly::works()),
     ];
+    stall::compare(&mut stalls);
     for stall in &stalls {
         print(stall);
     }
-    let everywhere: Vec<frontier::Prices> = (0..METHODS.len())
-        .map(|method| stalls.iter().flat_map(|stall| stall.prices[method].iter().copied()).collect())
-        .collect();
-    let dominated = frontier::dominated(&everywhere);
     println!("Over all three:");
-    for (name, by) in METHODS.iter().zip(&dominated) {
+    for (name, by) in METHODS.iter().zip(&stalls[0].dominated) {
         match by {
             Some(by) => println!("  {name:<20} dominated by {}, not offered", METHODS[*by]),
             None => println!("  {name:<20} on the list"),
@@ -68,8 +65,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     if cfg!(debug_assertions) {
         println!("The times are those of code that is not optimised: run with --release.");
     }
-    std::fs::write("target/accuracy_cost.svg", chart::svg(&stalls, &dominated))?;
-    let html = page::html(&stalls, &dominated);
+    std::fs::write("target/accuracy_cost.svg", chart::svg(&stalls))?;
+    let html = page::html(&stalls);
     std::fs::write("target/accuracy_cost.html", &html)?;
     println!("Price list: target/accuracy_cost.html, {} kB, and .svg", html.len() / 1000);
     check(&stalls);
@@ -78,13 +75,12 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Nanoseconds and errors, a line for each method.
 fn print(stall: &Stall) {
-    println!("{}: largest error, nanoseconds", stall.mechanism);
+    println!("The {}: largest error, nanoseconds", stall.mechanism);
     for (index, point) in stall.points.iter().enumerate() {
         println!("  {}", describe(point));
-        let prices = stall.at(index);
-        let frontier = frontier::frontier(&prices);
+        let (prices, front) = (stall.at(index), stall.front(index));
         for (method, price) in prices.iter().enumerate() {
-            let mark = if frontier.contains(&method) { '*' } else { ' ' };
+            let mark = if front.contains(&method) { '*' } else { ' ' };
             if let Some(price) = price {
                 println!("    {mark} {:<20} {:8.1e} {:9.1} ns", METHODS[method], price.error, price.time);
             } else if let Some((.., error)) = stall.refusals.iter().find(|(m, p, _)| (*m, *p) == (method, index)) {
@@ -103,21 +99,22 @@ fn describe(point: &Point) -> String {
 /// The least time for `WANTED`, and why nothing cheaper will do.
 fn answer(stall: &Stall, point: &Point) -> String {
     let index = stall.points.iter().position(|other| other == point).expect("a point of the list");
-    let prices = stall.at(index);
-    let what =
-        format!("Cheapest for {WANTED:.0e}: {} of the {}", QUANTITIES[point.order], stall.mechanism.to_lowercase());
-    let Some(best) = frontier::cheapest(&prices, WANTED) else { return format!("{what}: none") };
-    let price = prices[best].expect("a price");
-    let frontier = frontier::frontier(&prices);
-    let place = frontier.iter().position(|&method| method == best).expect("on the frontier");
-    let reason = match place.checked_sub(1).map(|place| frontier[place]) {
-        None => "nothing is faster".to_owned(),
-        Some(faster) => {
-            let price = prices[faster].expect("a price");
-            format!("{} would take {:.0} ns, but is off by {:.0e}", METHODS[faster], price.time, price.error)
-        }
-    };
-    format!("{what}: {}, {:.0} ns, off by {:.0e}; {reason}", METHODS[best], price.time, price.error)
+    let prices = stall.offered(index);
+    let what = format!("Cheapest for {WANTED:.0e}: {} of the {}", QUANTITIES[point.order], stall.mechanism);
+    let Some((best, faster)) = frontier::cheapest(&prices, WANTED) else { return format!("{what}: none") };
+    let price = |method: usize| prices[method].expect("a price");
+    let reason = faster.map_or_else(
+        || "nothing is faster".to_owned(),
+        |faster| {
+            format!(
+                "{} would take {:.0} ns, but is off by {:.0e}",
+                METHODS[faster],
+                price(faster).time,
+                price(faster).error
+            )
+        },
+    );
+    format!("{what}: {}, {:.0} ns, off by {:.0e}; {reason}", METHODS[best], price(best).time, price(best).error)
 }
 
 /// What holds on every machine.
@@ -128,11 +125,10 @@ fn check(stalls: &[Stall]) {
             stall.prices[method][point]
         };
         for (index, point) in stall.points.iter().enumerate() {
-            let prices = stall.at(index);
-            let frontier = frontier::frontier(&prices);
-            let errors: Vec<f64> = frontier.iter().map(|&method| prices[method].expect("a price").error).collect();
+            let (prices, front) = (stall.at(index), stall.front(index));
+            let errors: Vec<f64> = front.iter().map(|&method| prices[method].expect("a price").error).collect();
             assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "a frontier buys digits with time");
-            let best = frontier.last().map(|&method| METHODS[method]);
+            let best = front.last().map(|&method| METHODS[method]);
             assert_eq!(best, Some("double-double"), "{} {}", stall.mechanism, describe(point));
             if point.pose == "benign" {
                 let [single, double] = ["f32", "f64"].map(|name| price(name, index).map(|price| price.error));

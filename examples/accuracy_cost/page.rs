@@ -2,17 +2,16 @@
 
 use std::fmt::Write;
 
-use crate::frontier::frontier;
 use crate::stall::Stall;
 use crate::{METHODS, WANTED, answer, chart, describe};
 
-pub fn html(stalls: &[Stall], dominated: &[Option<usize>]) -> String {
+pub fn html(stalls: &[Stall]) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>What digits cost</title>\n\
          <style>{}{}</style>\n</head>\n<body>\n<header>\n<h1>What digits cost</h1>\n\
          <p>The largest error against 45 digits, beside the median time of one evaluation, all methods timed in turns. \
-         Orange: no other method is both faster and more exact there. Of positions the error is in radians; of \
+         Orange: clearly more exact than everything that is faster. Of positions the error is in radians; of \
          velocities it is relative to the largest of them, of accelerations to the larger of those and the square of the \
          velocities, which they are made of.</p>\n<ol class=\"methods\">",
         include_str!("style.css"),
@@ -22,13 +21,13 @@ pub fn html(stalls: &[Stall], dominated: &[Option<usize>]) -> String {
         // Writing to a string does not fail.
         let _ = html.write_fmt(text);
     };
-    for (name, by) in METHODS.iter().zip(dominated) {
+    for (name, by) in METHODS.iter().zip(&stalls[0].dominated) {
         let note = by.map_or_else(String::new, |by| format!(" <i>dominated by {}</i>", METHODS[by]));
         push(format_args!("<li>{name}{note}</li>"));
     }
     push(format_args!("</ol>\n</header>\n<main>\n"));
     for stall in stalls {
-        push(format_args!("<section>\n<h2>{}</h2>\n<div class=\"charts\">", stall.mechanism));
+        push(format_args!("<section>\n<h2>The {}</h2>\n<div class=\"charts\">", stall.mechanism));
         for panel in chart::panels(stall) {
             push(format_args!("<figure>{}</figure>", chart::figure(&panel)));
         }
@@ -39,8 +38,7 @@ pub fn html(stalls: &[Stall], dominated: &[Option<usize>]) -> String {
         }
         push(format_args!("</ul>\n<details><summary>All numbers</summary>\n"));
         for (index, point) in stall.points.iter().enumerate() {
-            let prices = stall.at(index);
-            let front = frontier(&prices);
+            let (prices, front) = (stall.at(index), stall.front(index));
             push(format_args!("<table><caption>{}</caption>", describe(point)));
             for (method, name) in METHODS.iter().enumerate() {
                 let class = if front.contains(&method) { " class=\"front\"" } else { "" };

@@ -2,7 +2,7 @@
 
 use linkage::Error;
 
-use crate::frontier::{Price, Prices};
+use crate::frontier::{Price, Prices, dominated, frontier};
 use crate::oracle::Poses;
 
 /// What is asked for, by its order.
@@ -35,6 +35,8 @@ pub struct Stall {
     pub prices: Vec<Prices>,
     /// Why there is no price, where a method was tried.
     pub refusals: Vec<(usize, usize, Error)>,
+    /// For each method the one that makes it superfluous on all stalls, if there is one.
+    pub dominated: Vec<Option<usize>>,
 }
 
 /// The largest of some errors; a result that is not a number, given without a word, is none.
@@ -80,13 +82,32 @@ impl Stall {
                 Err(error) => refusals.push((method, point, error)),
             }
         }
-        Self { mechanism, points, prices, refusals }
+        Self { mechanism, points, prices, refusals, dominated: vec![None; methods.len()] }
     }
 
     /// What each method costs at one point.
     pub fn at(&self, point: usize) -> Prices {
         self.prices.iter().map(|prices| prices[point]).collect()
     }
+
+    /// The same of those that are offered.
+    pub fn offered(&self, point: usize) -> Prices {
+        let prices = self.prices.iter().zip(&self.dominated);
+        prices.map(|(prices, by)| prices[point].filter(|_| by.is_none())).collect()
+    }
+
+    /// The methods that are worth their price at one point.
+    pub fn front(&self, point: usize) -> Vec<usize> {
+        frontier(&self.offered(point))
+    }
+}
+
+/// Marks what is dominated at every point of all stalls together.
+pub fn compare(stalls: &mut [Stall]) {
+    let methods = stalls.first().map_or(0, |stall| stall.prices.len());
+    let everywhere = (0..methods).map(|method| stalls.iter().flat_map(|stall| stall.prices[method].clone()).collect());
+    let dominated = dominated(&everywhere.collect::<Vec<Prices>>());
+    stalls.iter_mut().for_each(|stall| stall.dominated.clone_from(&dominated));
 }
 
 /// Seconds for one pass.
