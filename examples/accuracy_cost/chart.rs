@@ -113,7 +113,7 @@ pub fn figure(panel: &str) -> String {
 
 /// All panels and the names of the methods.
 pub fn svg(stalls: &[Stall]) -> String {
-    let (width, height) = (3.0 * SIZE[0], stalls.len() as f64 * SIZE[1] + 90.0);
+    let (width, height) = (3.0 * SIZE[0], stalls.len() as f64 * SIZE[1] + 110.0);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\"><style>svg{{background:#fff;color:#1f2126}}{STYLE}</style>"
     );
@@ -124,7 +124,7 @@ pub fn svg(stalls: &[Stall]) -> String {
         }
     }
     for (method, name) in METHODS.iter().enumerate() {
-        let (x, y) = (LEFT + (method % 5) as f64 * 200.0, height - 60.0 + (method / 5) as f64 * 26.0);
+        let (x, y) = (LEFT + (method % 4) as f64 * 245.0, height - 80.0 + (method / 4) as f64 * 26.0);
         let note = if stalls[0].dominated[method].is_some() { " (dominated)" } else { "" };
         let _ = write!(
             svg,

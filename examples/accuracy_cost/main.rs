@@ -104,7 +104,7 @@ fn answer(stall: &Stall, point: &Point) -> String {
     let Some((best, faster)) = frontier::cheapest(&prices, WANTED) else { return format!("{what}: none") };
     let price = |method: usize| prices[method].expect("a price");
     let reason = faster.map_or_else(
-        || "nothing is faster".to_owned(),
+        || "nothing on the list is faster".to_owned(),
         |faster| {
             format!(
                 "{} would take {:.0} ns, but is off by {:.0e}",
