@@ -3,6 +3,9 @@
 //! T. J. Dekker, "A floating-point technique for extending the available precision" (1971); sum, product and quotient as
 //! in M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
 //! arithmetic" (2017). No operation needs a fused multiplication and addition: every target computes the same bits.
+//!
+//! The type is a scalar of nalgebra's and its functions keep all digits but the last bit or two; of the kept crates of this
+//! kind none has both.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
