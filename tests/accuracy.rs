@@ -40,10 +40,7 @@ macro_rules! errors {
                 let zero = $Coordinates::from(SVector::from([T::zero(); $U + 1]));
                 let unknowns = SVector::from(scalars::<T, $U>(unknowns));
                 let all = <$Mechanism<T> as Mechanism<T, $U, 1>>::with_unknowns(&zero, unknowns);
-                <$Mechanism<T> as Mechanism<T, $U, 1>>::with_inputs(
-                    &all,
-                    SVector::from(scalars::<T, 1>(&[input])).into(),
-                )
+                <$Mechanism<T> as Mechanism<T, $U, 1>>::with_inputs(&all, SVector::from(scalars::<T, 1>(&[input])))
             }
 
             pub fn near<T: Real>(

@@ -72,7 +72,7 @@ macro_rules! works {
             let zero = $Coordinates::from(SVector::from([T::zero(); $U + 1]));
             let inputs = SVector::<T, 1>::from_iterator(scalars::<T>(&[input]));
             let all = <$Mechanism<T> as Mechanism<T, $U, 1>>::with_unknowns(&zero, unknowns);
-            <$Mechanism<T> as Mechanism<T, $U, 1>>::with_inputs(&all, inputs.into())
+            <$Mechanism<T> as Mechanism<T, $U, 1>>::with_inputs(&all, inputs)
         }
 
         type Rates<T> = fn(&$Mechanism<T>, &$Pose<T>, usize) -> Result<SVector<T, $U>, Error>;
@@ -95,7 +95,7 @@ macro_rules! works {
                 }
                 let zero = $Coordinates::from(SVector::from([0.0; $U + 1]));
                 let velocity = <$Mechanism as Mechanism<f64, $U, 1>>::with_unknowns(&zero, rates);
-                let velocity = <$Mechanism as Mechanism<f64, $U, 1>>::with_inputs(&velocity, $Inputs::from(1.0));
+                let velocity = <$Mechanism as Mechanism<f64, $U, 1>>::with_inputs(&velocity, SVector::from([1.0]));
                 Ok($products(m, pose, &-m.gamma(pose, &velocity)))
             }
 
