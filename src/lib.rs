@@ -2,13 +2,15 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
 
+#[cfg(feature = "double-double")]
+pub use linkage_double::DoubleDouble;
 #[cfg(feature = "drawing")]
 pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
-    Elbow, Error, Group, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, continuation, derivation,
-    limits, nalgebra, position, singularity,
+    Assembly, Elbow, Error, Group, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, accuracy,
+    continuation, derivation, limits, nalgebra, position, singularity,
 };
 
 /// Mechanisms from their closure equations.
@@ -29,8 +31,8 @@ pub mod __private {
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
-        Bound, Elbow, Error, Factorization, Group, Limits, Mechanism, OutputMotion, PointMotion, Real, Search, Slider,
-        Slope, Solution, chord, elbow_chord, existing, finite, finite_matrix, limits, newton, newton_group,
+        Assembly, Bound, Elbow, Error, Factorization, Group, Limits, Mechanism, OutputMotion, PointMotion, Real, Search,
+        Slider, Slope, Solution, chord, elbow_chord, existing, finite, finite_matrix, limits, newton, newton_group,
         product_of_pivots, real, regular, side_of, unit,
     };
 }

@@ -106,6 +106,20 @@ pub enum Error {
         /// What must be otherwise.
         quantity: &'static str,
     },
+    /// An input lies outside the inputs that a table was made for.
+    OutsideTable {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The input.
+        input: f64,
+        /// The smallest and the largest input of the table.
+        range: [f64; 2],
+    },
+    /// A turn of the input does not bring the mechanism back to where it was.
+    NotPeriodic {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+    },
     /// A number given or computed is infinite or not a number.
     NotFinite {
         /// The mechanism, or the driver of one.
@@ -155,6 +169,10 @@ impl fmt::Display for Error {
                 write!(f, "the path of {mechanism} goes on after {steps} steps")
             }
             Self::Invalid { mechanism, quantity } => write!(f, "{mechanism} cannot be followed: check {quantity}"),
+            Self::OutsideTable { mechanism, input, range: [low, high] } => {
+                write!(f, "the table of {mechanism} goes from {low} to {high}: {input} lies outside")
+            }
+            Self::NotPeriodic { mechanism } => write!(f, "a turn of the input does not bring {mechanism} back"),
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
         }
     }

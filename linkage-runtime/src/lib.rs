@@ -4,6 +4,7 @@
 //! - [`position`]: Newton's method with damping and honest failure;
 //! - [`mod@limits`]: how far an input can go;
 //! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
+//! - [`accuracy`]: roads to the position by type, and what their digits cost;
 //! - [`Error`]: which mechanism, what residual, how near singular;
 //! - [`singularity`]: singular configurations, and how accurate a position can be;
 //! - [`derivation`]: the formulas behind the code, as data;
@@ -13,6 +14,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
 
+pub mod accuracy;
 mod branch;
 pub mod continuation;
 pub mod derivation;
@@ -36,7 +38,7 @@ pub use error::{Error, finite, finite_matrix};
 pub use limits::{Bound, Limits, Search, limits};
 use linear::same_signs;
 pub use linear::{Factorization, product_of_pivots, regular};
-pub use mechanism::{Group, Mechanism};
+pub use mechanism::{Assembly, Group, Mechanism};
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
 pub use position::{Solution, newton, newton_group};

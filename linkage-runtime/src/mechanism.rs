@@ -34,7 +34,7 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     /// The coordinates q by name.
     type Coordinates: Copy;
     /// The independent coordinates v by name.
-    type Inputs: Copy;
+    type Inputs: Copy + Into<SVector<T, V>> + From<SVector<T, V>>;
     /// The dependent coordinates u by name.
     type Unknowns: Copy;
     /// A position ready for use.
@@ -80,4 +80,20 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     /// # Errors
     /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] if the solution is not finite.
     fn solve_jacobian(&self, pose: &Self::Pose, right: &SVector<T, U>) -> Result<SVector<T, U>, Error>;
+}
+
+/// A mechanism whose position has a closed form.
+///
+/// `linkage!` implements it where all groups have one; of the others some are found by Newton's method.
+pub trait Assembly<T: Real, const U: usize, const V: usize>: Mechanism<T, U, V> {
+    /// Which solution is meant of each group that has two.
+    type Branch: Copy;
+
+    /// The position at these inputs on this branch.
+    ///
+    /// # Errors
+    /// [`Error::Unbuildable`] if a group does not reach, [`Error::NotFinite`] if a number is not finite.
+    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, Error>;
+    /// The branch that a position belongs to.
+    fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
 }

@@ -62,7 +62,7 @@ where
     const UNKNOWN_ANGLES: [bool; U] = M::UNKNOWN_ANGLES;
     const INPUT_ANGLES: [bool; 1] = [true];
     type Coordinates = AlongCoordinates<M::Coordinates, T>;
-    type Inputs = T;
+    type Inputs = SVector<T, 1>;
     type Unknowns = M::Unknowns;
     type Pose = AlongPose<M::Pose, T, V>;
     type BlockDeterminants = M::BlockDeterminants;

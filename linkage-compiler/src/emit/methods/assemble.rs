@@ -83,6 +83,7 @@ impl Methods<'_> {
                 quote!(pub fn assemble(&self, #v: #argument, #branch: #branch_type) -> Result<#pose<T>, Error>);
             self.function(&docs, &signature, body);
             self.branches(&sides);
+            self.is_assembled = true;
         } else {
             let iterated = kernels.derivation.blocks.iter().zip(iterated).filter(|(_, iterated)| *iterated);
             let iterated: Vec<_> = iterated.map(|(block, _)| block.names(kernels.derivation)).collect();

@@ -47,6 +47,7 @@ impl Methods<'_> {
         let (unknown_names, input_names) = (names(&self.driver.unknowns), names(&self.driver.inputs));
         let groups = kernels.map(|kernels| groups(kernels.derivation)).unwrap_or_default();
         let group_count = literal(groups.len());
+        let assembly = self.assembly(private);
         let pose_coordinates = kernels.map(|kernels| self.pose_coordinates(kernels.derivation, kernels.plan));
         quote! {
             const _: () = {
@@ -120,8 +121,28 @@ impl Methods<'_> {
                         self.solve_jacobian(pose, right)
                     }
                 }
+                #assembly
             };
         }
+    }
+
+    /// Position in closed form, for general algorithms.
+    fn assembly(&self, private: &TokenStream) -> Option<TokenStream> {
+        let Types { driver, branch, .. } = self.types;
+        let (nu, nv) = (literal(self.driver.unknowns.len()), literal(self.driver.inputs.len()));
+        self.is_assembled.then(|| {
+            quote! {
+                impl<T: Real> #private::Assembly<T, #nu, #nv> for #driver<T> {
+                    type Branch = #branch;
+                    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, Error> {
+                        self.assemble(inputs, branch)
+                    }
+                    fn branch_of(&self, pose: &Self::Pose) -> Self::Branch {
+                        self.branch_of(pose)
+                    }
+                }
+            }
+        })
     }
 
     /// Angles on request: the coordinates of a pose.

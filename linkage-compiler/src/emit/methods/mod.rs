@@ -68,6 +68,8 @@ struct Methods<'a> {
     functions: TokenStream,
     /// The groups with two solutions, where position has a closed form.
     branches: Option<Vec<(Ident, Choice)>>,
+    /// Whether every group has one.
+    is_assembled: bool,
     /// What each function does, by its name.
     kernels: Vec<(String, Operations)>,
     /// What the functions written so far use of the runtime.
@@ -119,6 +121,7 @@ pub(super) fn of_driver(
         named: mechanism.named.clone(),
         functions: TokenStream::new(),
         branches: None,
+        is_assembled: false,
         kernels: Vec::new(),
         uses: BTreeSet::new(),
         externals: BTreeSet::new(),

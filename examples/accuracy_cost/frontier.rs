@@ -1,0 +1,71 @@
+//! Which of several methods are worth their price.
+
+/// What a method costs at one point: its largest error and its time in nanoseconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Price {
+    pub error: f64,
+    pub time: f64,
+}
+
+/// Errors within this factor are alike: three bits are what roundings happen to do at a few poses.
+const SAME_ERROR: f64 = 8.0;
+
+/// Times within this factor are alike: another run gives them in another order.
+const SAME_TIME: f64 = 1.1;
+
+impl Price {
+    fn is_worse(self, other: Self) -> bool {
+        self.error > SAME_ERROR * other.error || self.time > SAME_TIME * other.time
+    }
+}
+
+/// The price of each point where there is a result.
+pub type Prices = Vec<Option<Price>>;
+
+/// Whether `other` has a result wherever `one` has, nowhere clearly worse in error or time, and somewhere clearly better.
+pub fn is_dominated_by(one: &[Option<Price>], other: &[Option<Price>]) -> bool {
+    let mut better = false;
+    for (one, other) in one.iter().zip(other) {
+        match (one, other) {
+            (None, _) => {}
+            (Some(_), None) => return false,
+            (Some(one), Some(other)) if other.is_worse(*one) => return false,
+            (Some(one), Some(other)) => better |= one.is_worse(*other),
+        }
+    }
+    better
+}
+
+/// For each method the one that makes it superfluous at every point, if there is one.
+pub fn dominated(methods: &[Prices]) -> Vec<Option<usize>> {
+    let by = |one: &Prices| methods.iter().position(|other| is_dominated_by(one, other));
+    methods.iter().map(by).collect()
+}
+
+/// The methods at one point of which each is clearly more exact than all that are faster, by rising time.
+pub fn frontier(prices: &[Option<Price>]) -> Vec<usize> {
+    let mut order = by_time(prices);
+    let mut least = f64::INFINITY;
+    order.retain(|(_, price)| {
+        let is_kept = SAME_ERROR * price.error < least;
+        if is_kept {
+            least = price.error;
+        }
+        is_kept
+    });
+    order.into_iter().map(|(index, _)| index).collect()
+}
+
+/// The least time among those as exact as this, and what is faster but not, if anything is.
+pub fn cheapest(prices: &[Option<Price>], error: f64) -> Option<(usize, Option<usize>)> {
+    let order = by_time(prices);
+    let place = order.iter().position(|(_, price)| price.error <= error)?;
+    Some((order[place].0, place.checked_sub(1).map(|place| order[place].0)))
+}
+
+fn by_time(prices: &[Option<Price>]) -> Vec<(usize, Price)> {
+    let known = prices.iter().enumerate().filter_map(|(index, price)| price.map(|price| (index, price)));
+    let mut order: Vec<(usize, Price)> = known.collect();
+    order.sort_by(|(_, a), (_, b)| a.time.total_cmp(&b.time).then(a.error.total_cmp(&b.error)));
+    order
+}

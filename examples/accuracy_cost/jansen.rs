@@ -1,0 +1,24 @@
+//! The Jansen leg's methods.
+
+works!(Jansen, JansenCoordinates, JansenPose, JansenInputs, 10, closed, products by_products);
+
+use super::methods;
+
+include!("../../tests/mechanisms/jansen.rs");
+
+/// Dyad after dyad.
+fn by_products(m: &Jansen, pose: &JansenPose, right: &SVector<f64, 10>) -> SVector<f64, 10> {
+    let turned = |length: f64, direction| methods::turned(length, direction);
+    let minus = |[x, y]: [f64; 2]| [-x, -y];
+    let row = |first: usize| [right[first], right[first + 1]];
+    let (b, d, c, g) =
+        (turned(m.b, pose.angle_b), turned(m.d, pose.angle_d), turned(m.c, pose.angle_c), turned(m.g, pose.angle_g));
+    let [to_b, to_j] = methods::dyad(minus(b), turned(m.j, pose.angle_j), row(0));
+    let [to_d, to_e] = methods::dyad(minus(d), turned(m.e, pose.angle_e), methods::less(row(2), b, to_b));
+    let [to_c, to_k] = methods::dyad(minus(c), turned(m.k, pose.angle_k), row(4));
+    let known = methods::less(methods::less(row(6), d, to_d), minus(c), to_c);
+    let [to_f, to_g] = methods::dyad(turned(m.f, pose.angle_f), minus(g), known);
+    let known = methods::less(row(8), g, to_g);
+    let [to_h, to_i] = methods::dyad(turned(m.h, pose.angle_h), minus(turned(m.i, pose.angle_i)), known);
+    SVector::from([to_b, to_j, to_d, to_e, to_c, to_k, to_f, to_g, to_h, to_i])
+}

@@ -1,0 +1,215 @@
+//! The elementary functions, to all digits but the last few.
+
+use core::f64::consts::{FRAC_2_PI, LN_2};
+
+use nalgebra::{ComplexField, RealField};
+
+use super::DoubleDouble;
+
+pub(super) const ZERO: DoubleDouble = constant(0.0, 0.0);
+pub(super) const ONE: DoubleDouble = constant(1.0, 0.0);
+pub(super) const PI: DoubleDouble = constant(core::f64::consts::PI, 1.224_646_799_147_353_2e-16);
+pub(super) const E: DoubleDouble = constant(core::f64::consts::E, 1.445_646_891_729_250_2e-16);
+pub(super) const LN_TWO: DoubleDouble = constant(LN_2, 2.319_046_813_846_299_6e-17);
+pub(super) const LN_TEN: DoubleDouble = constant(core::f64::consts::LN_10, -2.170_756_223_382_249_4e-16);
+pub(super) const INVERSE_PI: DoubleDouble = constant(core::f64::consts::FRAC_1_PI, -1.967_867_667_518_248_6e-17);
+pub(super) const TWO_BY_ROOT_PI: DoubleDouble = constant(core::f64::consts::FRAC_2_SQRT_PI, 1.533_545_961_316_588e-17);
+
+/// pi/2 in three doubles, to 2^-161.
+const HALF_PI: [f64; 3] = [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
+
+/// 1/n!; (pi/4)^29/29! is 2^-113.
+const INVERSE_FACTORIALS: [DoubleDouble; 28] = {
+    let mut inverse = [ONE; 28];
+    let mut n = 1;
+    while n < inverse.len() {
+        inverse[n] = inverse[n - 1].over(constant(n as f64, 0.0));
+        n += 1;
+    }
+    inverse
+};
+
+/// Beyond it a double does not tell its quarters of a turn apart.
+const LARGEST_ANGLE: f64 = 2_251_799_813_685_248.0;
+
+const fn constant(high: f64, low: f64) -> DoubleDouble {
+    DoubleDouble { high, low }
+}
+
+/// 2^exponent, exactly, as two factors that are in the range of doubles.
+fn powers_of_two(exponent: i32) -> [f64; 2] {
+    let half = exponent / 2;
+    [half, exponent - half].map(|exponent| {
+        let biased = 1023 + exponent.clamp(-1022, 1023);
+        f64::from_bits(u64::from(biased.unsigned_abs()) << 52)
+    })
+}
+
+fn scaled(x: DoubleDouble, exponent: i32) -> DoubleDouble {
+    let [a, b] = powers_of_two(exponent);
+    constant(x.high * a * b, x.low * a * b)
+}
+
+/// The integer that an integral double within the range of `i32` is.
+fn integer(x: f64) -> Option<i32> {
+    let integer = x as i32;
+    (f64::from(integer) == x).then_some(integer)
+}
+
+/// The sum of x^n/n! from n = `first` in steps of `step`, signs alternating if `sign` is -1, beside x^first.
+fn series(power: DoubleDouble, first: usize, step: usize, last: usize, sign: f64) -> DoubleDouble {
+    let terms = INVERSE_FACTORIALS[first..=last].iter().step_by(step).rev();
+    terms.fold(ZERO, |sum, &term| term + sum * power * DoubleDouble::from(sign))
+}
+
+pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
+    if x.high.abs() >= LARGEST_ANGLE || x.high.is_nan() {
+        return (f64::NAN.into(), f64::NAN.into());
+    }
+    // x = k pi/2 + r, |r| <= pi/4; each product is exact.
+    let k = ComplexField::round(x.high * FRAC_2_PI);
+    let r = HALF_PI.into_iter().fold(x, |rest, part| rest - DoubleDouble::product(k, part));
+    let sine = r * series(r * r, 1, 2, 27, -1.0);
+    let cosine = (ONE - sine * sine).root();
+    match (k - 4.0 * ComplexField::floor(0.25 * k)) as u8 {
+        0 => (sine, cosine),
+        1 => (cosine, -sine),
+        2 => (-sine, -cosine),
+        _ => (-cosine, sine),
+    }
+}
+
+/// From the angle in doubles, by the rotation that is left.
+pub(super) fn atan2(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble {
+    let angle = DoubleDouble::from(RealField::atan2(y.high, x.high));
+    if (y.high == 0.0 && x.high >= 0.0) || !angle.high.is_finite() {
+        return angle;
+    }
+    // Squares of the parts must stay in range.
+    let exponent = integer(-ComplexField::floor(ComplexField::log2(y.high.abs().max(x.high.abs())))).unwrap_or(0);
+    let (y, x) = (scaled(y, exponent), scaled(x, exponent));
+    let (sine, cosine) = sin_cos(angle);
+    let tangent = (y * cosine - x * sine) / (x * cosine + y * sine);
+    angle + tangent
+}
+
+pub(super) fn asin(x: DoubleDouble) -> DoubleDouble {
+    atan2(x, ((ONE - x) * (ONE + x)).root())
+}
+
+pub(super) fn acos(x: DoubleDouble) -> DoubleDouble {
+    atan2(((ONE - x) * (ONE + x)).root(), x)
+}
+
+/// e^x - 1 for |x| <= 0.35: a sixteenth of it by its series, then doubled four times.
+fn small_exp_m1(x: DoubleDouble) -> DoubleDouble {
+    let part = scaled(x, -4);
+    (0..4).fold(part * series(part, 1, 1, 18, 1.0), |m, _| m * (m + 2.0.into()))
+}
+
+pub(super) fn exp(x: DoubleDouble) -> DoubleDouble {
+    if x.high.is_nan() || x.high > 709.8 {
+        return (x.high + f64::INFINITY).into();
+    }
+    if x.high < -746.0 {
+        return ZERO;
+    }
+    let k = ComplexField::round(x.high / LN_2);
+    let rest = x - LN_TWO * k.into();
+    scaled(small_exp_m1(rest) + ONE, integer(k).unwrap_or(0))
+}
+
+pub(super) fn exp_m1(x: DoubleDouble) -> DoubleDouble {
+    if x.high.abs() <= 0.35 { small_exp_m1(x) } else { exp(x) - ONE }
+}
+
+/// From the logarithm in doubles, by one step of Newton's method of second order.
+fn logarithm(near: f64, quotient: impl FnOnce(DoubleDouble) -> DoubleDouble) -> DoubleDouble {
+    if !near.is_finite() {
+        return near.into();
+    }
+    let near = DoubleDouble::from(near);
+    let rest = quotient(near);
+    near + (rest - rest * rest * 0.5.into())
+}
+
+pub(super) fn ln_1p(x: DoubleDouble) -> DoubleDouble {
+    logarithm(ComplexField::ln_1p(x.high), |near| {
+        let m = exp_m1(near);
+        (x - m) / (ONE + m)
+    })
+}
+
+pub(super) fn ln(x: DoubleDouble) -> DoubleDouble {
+    if (0.7..1.4).contains(&x.high) {
+        return ln_1p(x - ONE);
+    }
+    logarithm(ComplexField::ln(x.high), |near| x * exp(-near) - ONE)
+}
+
+pub(super) fn powi(x: DoubleDouble, n: i32) -> DoubleDouble {
+    let (mut power, mut base, mut left) = (ONE, x, n.unsigned_abs());
+    while left > 0 {
+        if left & 1 == 1 {
+            power *= base;
+        }
+        left >>= 1;
+        if left > 0 {
+            base *= base;
+        }
+    }
+    if n < 0 { ONE / power } else { power }
+}
+
+/// Of an integer exponent exactly as by multiplication.
+pub(super) fn powf(x: DoubleDouble, exponent: DoubleDouble) -> DoubleDouble {
+    match integer(exponent.high) {
+        Some(n) if exponent.low == 0.0 => powi(x, n),
+        _ if x.high == 0.0 => ComplexField::powf(x.high, exponent.high).into(),
+        _ => exp(ln(x) * exponent),
+    }
+}
+
+pub(super) fn cbrt(x: DoubleDouble) -> DoubleDouble {
+    let root = ComplexField::cbrt(x.high);
+    if root == 0.0 || !root.is_finite() {
+        return root.into();
+    }
+    let square = DoubleDouble::product(root, root);
+    DoubleDouble::from(root) - (square * root.into() - x) / (square * 3.0.into())
+}
+
+pub(super) fn hypot(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble {
+    let size = x.high.abs().max(y.high.abs());
+    if size == 0.0 || !size.is_finite() {
+        return size.into();
+    }
+    let exponent = integer(ComplexField::floor(ComplexField::log2(size))).unwrap_or(0);
+    let (x, y) = (scaled(x, -exponent), scaled(y, -exponent));
+    scaled((x * x + y * y).root(), exponent)
+}
+
+pub(super) fn sinh(x: DoubleDouble) -> DoubleDouble {
+    let m = exp_m1(x);
+    if m.high.is_finite() && m.high > -0.9 { scaled(m + m / (m + ONE), -1) } else { scaled(exp(x) - exp(-x), -1) }
+}
+
+pub(super) fn tanh(x: DoubleDouble) -> DoubleDouble {
+    if x.high.abs() > 40.0 {
+        return x.high.signum().into();
+    }
+    let m = exp_m1(scaled(x, 1));
+    m / (m + 2.0.into())
+}
+
+pub(super) fn asinh(x: DoubleDouble) -> DoubleDouble {
+    let size = if x.high < 0.0 { -x } else { x };
+    let value = ln_1p(size + size * size / (ONE + hypot(ONE, size)));
+    if x.high < 0.0 { -value } else { value }
+}
+
+pub(super) fn floor(x: DoubleDouble) -> DoubleDouble {
+    let high = ComplexField::floor(x.high);
+    let low = if high == x.high { ComplexField::floor(x.low) } else { 0.0 };
+    DoubleDouble::ordered(high, low)
+}

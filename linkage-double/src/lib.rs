@@ -1,0 +1,174 @@
+//! Numbers of some 31 digits: the unevaluated sum of two doubles.
+//!
+//! T. J. Dekker, "A floating-point technique for extending the available precision" (1971); sum, product and quotient as
+//! in M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
+//! arithmetic" (2017). No operation needs a fused multiplication and addition: every target computes the same bits.
+//!
+//! The type is a scalar of nalgebra's and its functions keep all digits but the last bit or two; of the kept crates of this
+//! kind none has both.
+
+#![cfg_attr(not(feature = "std"), no_std)]
+#![warn(missing_docs)]
+
+mod field;
+mod functions;
+
+use core::cmp::Ordering;
+use core::fmt;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign};
+
+use nalgebra::ComplexField;
+
+/// A real number as the sum of two doubles, good for 31 digits; a scalar of nalgebra as `f64` is, so that every
+/// mechanism computes with it: `FourBar<DoubleDouble>`.
+///
+/// Its range is that of `f64` but for the last factors of 2^27 at the large end, and digits are lost below 1e-290. What
+/// is beyond the range is infinite or not a number, never wrong. Numbers of a mechanism's text, such as the 0.1 of
+/// `0.1 * l2`, are the doubles next to them.
+///
+/// ```
+/// use linkage_double::DoubleDouble;
+///
+/// let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
+/// assert_eq!(third.high(), 1.0 / 3.0);
+/// assert!((third.low() - 1.850_371_707_708_594e-17).abs() < 1e-32);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DoubleDouble {
+    high: f64,
+    low: f64,
+}
+
+impl DoubleDouble {
+    /// The unit in the last place of 1: 2^-104.
+    pub const EPSILON: Self = Self { high: f64::from_bits(0x3970_0000_0000_0000), low: 0.0 };
+
+    /// The sum of two doubles, exactly.
+    #[must_use]
+    pub const fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let part = high - a;
+        Self { high, low: (a - (high - part)) + (b - part) }
+    }
+
+    /// The product of two doubles, exactly.
+    #[must_use]
+    pub const fn product(a: f64, b: f64) -> Self {
+        let high = a * b;
+        let ((a, c), (b, d)) = (halves(a), halves(b));
+        Self { high, low: ((a * b - high) + a * d + c * b) + c * d }
+    }
+
+    /// The double nearest to it.
+    #[must_use]
+    pub const fn high(self) -> f64 {
+        self.high
+    }
+
+    /// What the double nearest to it leaves.
+    #[must_use]
+    pub const fn low(self) -> f64 {
+        self.low
+    }
+
+    /// The sum of two doubles of which the first is the larger, exactly.
+    const fn ordered(a: f64, b: f64) -> Self {
+        let high = a + b;
+        Self { high, low: b - (high - a) }
+    }
+
+    const fn plus(self, other: Self) -> Self {
+        let (high, low) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
+        let sum = Self::ordered(high.high, high.low + low.high);
+        Self::ordered(sum.high, sum.low + low.low)
+    }
+
+    const fn times(self, other: Self) -> Self {
+        let product = Self::product(self.high, other.high);
+        Self::ordered(product.high, product.low + (self.high * other.low + self.low * other.high))
+    }
+
+    const fn over(self, other: Self) -> Self {
+        let first = self.high / other.high;
+        let rest = self.plus(other.times(Self { high: -first, low: -0.0 }));
+        let second = rest.high / other.high;
+        let rest = rest.plus(other.times(Self { high: -second, low: -0.0 }));
+        Self::ordered(first, second).plus(Self { high: rest.high / other.high, low: 0.0 })
+    }
+
+    /// By Heron's rule from the root of the nearest double.
+    fn root(self) -> Self {
+        let root = ComplexField::sqrt(self.high);
+        if root == 0.0 || !ComplexField::is_finite(&root) {
+            return Self::from(root);
+        }
+        let rest = self - Self::product(root, root);
+        Self::ordered(root, rest.high / (2.0 * root))
+    }
+}
+
+/// The upper 26 bits of a double and the others: products of such halves are exact.
+const fn halves(a: f64) -> (f64, f64) {
+    let scaled = 134_217_729.0 * a;
+    let high = scaled - (scaled - a);
+    (high, a - high)
+}
+
+impl From<f64> for DoubleDouble {
+    fn from(high: f64) -> Self {
+        Self { high, low: 0.0 }
+    }
+}
+
+impl PartialOrd for DoubleDouble {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match self.high.partial_cmp(&other.high) {
+            Some(Ordering::Equal) => self.low.partial_cmp(&other.low),
+            order => order,
+        }
+    }
+}
+
+/// Both parts, each with the digits that tell it from its neighbours.
+impl fmt::Display for DoubleDouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {:+e}", self.high, self.low)
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+
+    #[inline]
+    fn neg(self) -> Self {
+        Self { high: -self.high, low: -self.low }
+    }
+}
+
+macro_rules! operators {
+    ($($Operator:ident $operator:ident, $Assign:ident $assign:ident: $of:expr;)*) => {$(
+        impl $Operator for DoubleDouble {
+            type Output = Self;
+
+            #[inline]
+            fn $operator(self, other: Self) -> Self {
+                $of(self, other)
+            }
+        }
+
+        impl $Assign for DoubleDouble {
+            #[inline]
+            fn $assign(&mut self, other: Self) {
+                *self = $of(*self, other);
+            }
+        }
+    )*};
+}
+
+operators! {
+    Add add, AddAssign add_assign: DoubleDouble::plus;
+    Sub sub, SubAssign sub_assign: |a: DoubleDouble, b: DoubleDouble| a.plus(-b);
+    Mul mul, MulAssign mul_assign: DoubleDouble::times;
+    Div div, DivAssign div_assign: DoubleDouble::over;
+    Rem rem, RemAssign rem_assign: |a: DoubleDouble, b: DoubleDouble| a - (a / b).trunc() * b;
+}
