@@ -3,6 +3,7 @@
 //! - [`Mechanism`]: the trait that general algorithms take;
 //! - [`position`]: Newton's method with damping and honest failure;
 //! - [`limits`]: how far an input can go;
+//! - [`integrate`]: motions from differential equations, with events;
 //! - [`Error`]: which mechanism, what residual, how near singular;
 //! - [`derivation`]: the formulas behind the code, as data;
 //! - [`drawing`]: the linkage as SVG;
@@ -16,6 +17,7 @@ pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 mod error;
+pub mod integrate;
 pub mod limits;
 mod linear;
 mod mechanism;
