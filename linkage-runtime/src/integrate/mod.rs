@@ -41,6 +41,7 @@
 //! Everything lies in arrays of fixed size: nothing is allocated.
 
 mod control;
+mod delivery;
 mod dense;
 mod dop853;
 mod dopri5;
@@ -48,6 +49,7 @@ mod event;
 mod fixed;
 mod outputs;
 mod run;
+mod step;
 mod system;
 mod tableau;
 

@@ -2,15 +2,15 @@
 
 use core::marker::PhantomData;
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::SVector;
 
-use super::control::{self, Controller, Tolerance, positive, within};
+use super::control::{Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
-use super::event::{Action, Hit, Sides};
-use super::tableau::{self, Method, SLOPES, Slopes, Weights};
-use super::{Outputs, System};
+use super::event::Sides;
+use super::tableau::{self, Method, SLOPES, Slopes};
+use super::{Outputs, System, step};
 use crate::scalar::to_f64;
-use crate::{Error, Real, real};
+use crate::{Error, Real};
 
 /// What an integration has cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,14 +36,14 @@ pub struct Step<T, const N: usize> {
 
 /// The last time of an event: which events it has had, and whether the motion started anew with one.
 #[derive(Debug, Clone, Copy)]
-struct Instant<T, const K: usize> {
-    t: T,
-    events: [bool; K],
-    anew: bool,
+pub(super) struct Instant<T, const K: usize> {
+    pub(super) t: T,
+    pub(super) events: [bool; K],
+    pub(super) anew: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+pub(super) enum Place {
     /// At the start, at the end of a step, or where the motion starts anew.
     Boundary,
     /// At this part of a step.
@@ -56,32 +56,32 @@ enum Place {
 /// interval. What was reached stays readable after an error.
 #[derive(Debug, Clone)]
 pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0> {
-    method: PhantomData<M>,
-    system: S,
-    tolerance: Tolerance<T, N>,
-    largest: f64,
-    most_steps: usize,
-    stiffness_every: usize,
-    parts: usize,
-    start: T,
-    end: T,
+    pub(super) method: PhantomData<M>,
+    pub(super) system: S,
+    pub(super) tolerance: Tolerance<T, N>,
+    pub(super) largest: f64,
+    pub(super) most_steps: usize,
+    pub(super) stiffness_every: usize,
+    pub(super) parts: usize,
+    pub(super) start: T,
+    pub(super) end: T,
     /// How far the integration is.
-    t: T,
-    state: SVector<T, N>,
-    place: Place,
+    pub(super) t: T,
+    pub(super) state: SVector<T, N>,
+    pub(super) place: Place,
     /// The last step: its start, its end, its slopes, and its dense output once that was asked for.
-    from: (T, SVector<T, N>),
-    to: (T, SVector<T, N>),
-    slopes: Slopes<T, N>,
-    interpolant: Option<Interpolant<T, N>>,
+    pub(super) from: (T, SVector<T, N>),
+    pub(super) to: (T, SVector<T, N>),
+    pub(super) slopes: Slopes<T, N>,
+    pub(super) interpolant: Option<Interpolant<T, N>>,
     /// The last slope is that of the state.
-    continues: bool,
-    controller: Controller,
-    counts: Counts,
-    stiff: u32,
-    not_stiff: u32,
-    sides: Sides<K>,
-    instant: Instant<T, K>,
+    pub(super) continues: bool,
+    pub(super) controller: Controller,
+    pub(super) counts: Counts,
+    pub(super) stiff: u32,
+    pub(super) not_stiff: u32,
+    pub(super) sides: Sides<K>,
+    pub(super) instant: Instant<T, K>,
 }
 
 impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Integration<M, S, T, N, K> {
@@ -219,7 +219,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
         let (t, y) = self.from;
         let h = self.to.0 - t;
         let table = const { &M::TABLEAU };
-        let rate = counted(&mut self.system, &mut self.counts);
+        let rate = step::counted(&mut self.system, &mut self.counts);
         tableau::evaluate(rate, table.dense_stages, table.end + 1, (t, &y), h, &mut self.slopes)?;
         let interpolant = self.cubic().complete(table, &self.slopes);
         self.interpolant = Some(interpolant);
@@ -288,135 +288,6 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
         Ok(Step { t: self.t, state: self.state, event: None })
     }
 
-    /// Takes a step.
-    fn step(&mut self) -> Result<(), Error> {
-        let rule = const { &M::TABLEAU.control };
-        let mut anew = !self.continues;
-        if let Some(state) = self.system.before_step(self.t, &self.state)? {
-            finite("the state before a step", self.t, &state)?;
-            self.state = state;
-            anew = true;
-        }
-        let (t, y) = (self.t, self.state);
-        self.slopes[0] = if anew { self.slope(t, &y)? } else { self.slopes[M::TABLEAU.end] };
-        let span = to_f64(self.end - t);
-        let direction = span.signum();
-        if self.controller.length.is_none() {
-            self.controller.length = Some(self.first_length(span)?);
-        }
-        let epsilon = to_f64(T::default_epsilon());
-        if K > 0 && anew {
-            let little = real::<T>(ComplexField::sqrt(epsilon) * direction * self.length());
-            let after = y + self.slopes[0] * little;
-            self.sides.begin(&mut self.system, (t, &y), (t + little, &after))?;
-        }
-        let mut failure = None;
-        loop {
-            let length = self.length();
-            if self.counts.accepted + self.counts.rejected >= self.most_steps {
-                return Err(Error::TooManySteps { t: to_f64(t), steps: self.most_steps });
-            }
-            let whole = to_f64(self.end - self.start).abs();
-            let least = if failure.is_some() { whole } else { whole * epsilon };
-            if 0.1 * length <= epsilon * to_f64(t).abs() || length <= epsilon * least {
-                return Err(failure.unwrap_or(Error::StepTooSmall { t: to_f64(t), step: direction * length }));
-            }
-            let last = 1.01 * length > span.abs();
-            let end = if last { self.end } else { t + real::<T>(direction * length) };
-            let taken = to_f64(end - t).abs();
-            match self.attempt((t, &y), end) {
-                Ok((error, next)) => {
-                    failure = None;
-                    if self.controller.accepts(rule, error, taken) {
-                        self.from = (t, y);
-                        self.to = (end, next);
-                        self.interpolant = None;
-                        self.continues = true;
-                        self.counts.accepted += 1;
-                        return self.test_stiffness();
-                    }
-                }
-                Err(error) => {
-                    failure = Some(error);
-                    self.controller.failed(rule, taken);
-                }
-            }
-            self.counts.rejected += 1;
-        }
-    }
-
-    /// A step to `end`: its error beside what is allowed, and its end, whose slope is evaluated if it may be accepted.
-    #[inline]
-    fn attempt(&mut self, (t, y): (T, &SVector<T, N>), end: T) -> Result<(f64, SVector<T, N>), Error> {
-        let table = const { &M::TABLEAU };
-        let h = end - t;
-        tableau::evaluate(counted(&mut self.system, &mut self.counts), table.stages, 1, (t, y), h, &mut self.slopes)?;
-        let next = y + tableau::combination(&self.slopes, table.solution) * h;
-        let of_end = const { uses(M::TABLEAU.errors[0], M::TABLEAU.end) };
-        if of_end {
-            self.slopes[table.end] = self.slope(end, &next)?;
-        }
-        let error = control::error(table, &self.tolerance, (y, &next), &self.slopes, to_f64(h));
-        if !error.is_finite() {
-            return Err(Error::NotFiniteAt { quantity: "the rate or the state", t: to_f64(end) });
-        }
-        if !of_end && error <= 1.0 {
-            self.slopes[table.end] = self.slope(end, &next)?;
-        }
-        Ok((error, next))
-    }
-
-    fn slope(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
-        self.counts.evaluations += 1;
-        let slope = self.system.rate(t, y)?;
-        finite("the rate", t, &slope)?;
-        Ok(slope)
-    }
-
-    fn first_length(&mut self, span: f64) -> Result<f64, Error> {
-        let (t, y, slope) = (self.t, self.state, self.slopes[0]);
-        let tolerance = self.tolerance;
-        control::first_length(M::TABLEAU.order, &tolerance, (&y, &slope), span.abs().min(self.largest), |h| {
-            let h = real::<T>(h * span.signum());
-            self.slope(t + h, &(y + slope * h))
-        })
-    }
-
-    /// The length of the next step, without sign.
-    fn length(&self) -> f64 {
-        let whole = to_f64(self.end - self.start).abs();
-        self.controller.length.unwrap_or(whole).min(self.largest).min(whole)
-    }
-
-    /// h |lambda| from the last stage and the end of the step, which are at the same time (Hairer and Wanner,
-    /// *Solving Ordinary Differential Equations II*, section IV.2): the equations are taken to be stiff if stability
-    /// sets the length of 15 tested steps without 6 others in a row among them.
-    fn test_stiffness(&mut self) -> Result<(), Error> {
-        let every = self.stiffness_every;
-        if every == 0 || (self.stiff == 0 && !self.counts.accepted.is_multiple_of(every)) {
-            return Ok(());
-        }
-        let table = const { &M::TABLEAU };
-        let (last, stages) = (table.stages.len(), table.stages);
-        let h = self.to.0 - self.from.0;
-        let stage = self.from.1 + tableau::combination(&self.slopes, stages[last - 1].weights) * h;
-        let slopes = to_f64((self.slopes[table.end] - self.slopes[last]).norm());
-        let states = to_f64((self.to.1 - stage).norm());
-        if states > 0.0 && to_f64(h).abs() * slopes > table.control.stability * states {
-            (self.stiff, self.not_stiff) = (self.stiff + 1, 0);
-            if self.stiff == 15 {
-                let product = to_f64(h).abs() * slopes / states;
-                return Err(Error::Stiff { t: to_f64(self.from.0), product });
-            }
-        } else {
-            self.not_stiff += 1;
-            if self.not_stiff == 6 {
-                self.stiff = 0;
-            }
-        }
-        Ok(())
-    }
-
     /// The interval of which the states are at hand: from the start of the last step to where the integration is.
     pub(super) fn reached(&self) -> [T; 2] {
         [self.from.0, self.t]
@@ -437,59 +308,9 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
         Ok(self.interpolant()?.at(t))
     }
 
-    fn cubic(&self) -> Interpolant<T, N> {
+    pub(super) fn cubic(&self) -> Interpolant<T, N> {
         let ((t, y), (end, next)) = (&self.from, &self.to);
         Interpolant::cubic(*t, *end - *t, [y, next], [&self.slopes[0], &self.slopes[M::TABLEAU.end]])
-    }
-
-    /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
-    /// rate, and if that has one on the dense output.
-    fn search(&mut self, from: f64) -> Result<Option<Hit<T, N>>, Error> {
-        let roundings = self.roundings();
-        let sides = self.sides;
-        if self.interpolant.is_none() {
-            let cubic = self.cubic();
-            if self.sides.search(&mut self.system, &cubic, (from, self.parts), roundings)?.is_none() {
-                return Ok(None);
-            }
-        }
-        self.sides = sides;
-        let interpolant = self.interpolant()?;
-        self.sides.search(&mut self.system, &interpolant, (from, self.parts), roundings)
-    }
-
-    /// What rounding leaves of the time, as a part of the last step.
-    fn roundings(&self) -> f64 {
-        let [start, end] = [self.from.0, self.to.0].map(to_f64);
-        to_f64(T::default_epsilon()) * (start.abs().max(end.abs()) / (end - start).abs()).max(1.0)
-    }
-
-    /// The next of the events that have happened here.
-    fn deliver(&mut self) -> Result<Step<T, N>, Error> {
-        let event = self.sides.waiting.iter().position(|&waiting| waiting).unwrap_or(0);
-        self.sides.waiting[event] = false;
-        let (t, state) = (self.t, self.state);
-        let resolution = 4.0 * self.roundings() * to_f64(self.to.0 - self.from.0).abs();
-        if to_f64(t - self.instant.t).abs() > resolution {
-            self.instant = Instant { t, events: [false; K], anew: false };
-        } else if self.instant.events[event] && self.instant.anew {
-            return Err(Error::EventsWithoutEnd { t: to_f64(t), event });
-        }
-        self.instant.events[event] = true;
-        match self.system.at_event(event, t, &state)? {
-            Action::Record => {}
-            Action::Stop => self.place = Place::Over,
-            Action::Restart(state) => {
-                finite("the state after an event", t, &state)?;
-                self.state = state;
-                self.continues = false;
-                self.instant.anew = true;
-                if self.place != Place::Over {
-                    self.place = Place::Boundary;
-                }
-            }
-        }
-        Ok(Step { t, state, event: Some(event) })
     }
 }
 
@@ -501,30 +322,10 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Ite
     }
 }
 
-/// Whether this slope takes part.
-const fn uses(weights: Weights, slope: usize) -> bool {
-    let mut i = 0;
-    while i < weights.len() {
-        if weights[i].0 == slope {
-            return true;
-        }
-        i += 1;
-    }
-    false
-}
-
-/// The rate, counting.
-#[inline(always)]
-fn counted<'a, S: System<T, N, K>, T: Real, const N: usize, const K: usize>(
-    system: &'a mut S,
-    counts: &'a mut Counts,
-) -> impl FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error> + 'a {
-    move |t, y| {
-        counts.evaluations += 1;
-        system.rate(t, y)
-    }
-}
-
-fn finite<T: Real, const N: usize>(quantity: &'static str, t: T, values: &SVector<T, N>) -> Result<(), Error> {
+pub(super) fn finite<T: Real, const N: usize>(
+    quantity: &'static str,
+    t: T,
+    values: &SVector<T, N>,
+) -> Result<(), Error> {
     if values.iter().all(T::is_finite) { Ok(()) } else { Err(Error::NotFiniteAt { quantity, t: to_f64(t) }) }
 }
