@@ -60,8 +60,8 @@ impl<S: System<T, N, 0>, T: Real, const N: usize> FixedStep<S, T, N> {
 
     /// The system, with what it has learned on the way.
     #[must_use]
-    pub fn system(&mut self) -> &mut S {
-        &mut self.system
+    pub fn system(&self) -> &S {
+        &self.system
     }
 
     /// Takes a step.

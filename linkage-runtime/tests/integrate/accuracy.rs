@@ -109,6 +109,17 @@ fn units_change_nothing() {
     };
     assert_eq!(free(1.0, 1.0), free(length, time));
     assert!(free(1.0, 1.0).len() > 20);
+    // From rest at zero, where the first step has nothing to go by, and with a slope that is nothing beside the scale.
+    for speed in [0.0, 1e-7] {
+        let pulled = |length: f64, time: f64| {
+            let rate = move |_: f64, y: &State<2>| Ok(vector![y[1], (1e-7 * length - y[0]) / (time * time)]);
+            let sizes = vector![length, length / time];
+            let start = vector![0.0, speed * length / time];
+            let motion = dop853(rate, (0.0, start), 20.0 * time, Tolerance::new(1e-3, sizes).unwrap()).unwrap();
+            motion.map(Result::unwrap).map(|step| (step.t / time, step.state.component_div(&sizes))).collect::<Vec<_>>()
+        };
+        assert_eq!(pulled(1.0, 1.0), pulled(length, time));
+    }
 }
 
 #[test]

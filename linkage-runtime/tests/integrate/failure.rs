@@ -53,9 +53,10 @@ fn an_empty_interval_has_its_state_and_no_steps() {
 
 #[test]
 fn output_times_must_lie_ahead() {
-    for times in [[0.5, -0.1], [0.5, 1.5], [0.9, 0.0], [0.5, f64::NAN]] {
+    for times in [[0.5, -0.1, 0.6], [0.5, 1.5, 0.6], [0.9, 0.0, 0.95], [0.5, f64::NAN, 0.6]] {
         let mut motion = dop853(pendulum, (0.0, HORIZONTAL), 1.0, tolerance(1e-9)).unwrap().largest_step(0.2).unwrap();
         let found: Vec<_> = motion.at(times).collect();
+        assert_eq!(found.len(), 2, "nothing follows an error");
         assert!(found[0].is_ok() && matches!(found[1], Err(Error::OutOfRange { .. })), "{found:?}");
     }
 }
@@ -214,4 +215,38 @@ fn coordinates_may_be_switched_between_steps() {
     // One evaluation each, and the steps are about as many.
     let (plain, switched) = (plain.counts(), switched.counts());
     assert!(switched.accepted.abs_diff(plain.accepted) <= plain.accepted / 5, "{plain:?} {switched:?}");
+}
+
+/// y' = y, as z = y / 4^n with n raised wherever z has passed 2: another state and another rate.
+#[derive(Default)]
+struct Rescaled(i32);
+
+impl System<f64, 1, 0> for Rescaled {
+    fn rate(&mut self, _: f64, z: &State<1>) -> Rate<1> {
+        Ok(*z)
+    }
+
+    fn events(&mut self, _: f64, _: &State<1>) -> Result<[f64; 0], Error> {
+        Ok([])
+    }
+
+    fn before_step(&mut self, _: f64, z: &State<1>) -> Result<Option<State<1>>, Error> {
+        if z[0] > 2.0 {
+            self.0 += 1;
+            return Ok(Some(z / 4.0));
+        }
+        Ok(None)
+    }
+}
+
+#[test]
+fn a_new_state_has_a_new_rate() {
+    let mut motion = dop853(Rescaled::default(), (0.0, vector![1.0]), 30.0, tolerance(1e-12)).unwrap();
+    motion.finish(|_, _| true).unwrap();
+    let y = motion.state()[0] * 4f64.powi(motion.system().0);
+    assert!((y / 30f64.exp() - 1.0).abs() < 1e-10 && motion.system().0 > 10, "{:e}", y / 30f64.exp() - 1.0);
+    let mut motion = FixedStep::new(Rescaled::default(), (0.0, vector![1.0]), 1e-3).unwrap();
+    (0..10_000).for_each(|_| motion.step().unwrap());
+    let y = motion.state()[0] * 4f64.powi(motion.system().0);
+    assert!((y / 10f64.exp() - 1.0).abs() < 1e-11 && motion.system().0 > 5, "{:e}", y / 10f64.exp() - 1.0);
 }
