@@ -7,8 +7,8 @@ pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
-    Elbow, Error, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, derivation, integrate, limits,
-    nalgebra, position,
+    Elbow, Error, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, derivation, limits, nalgebra,
+    position,
 };
 
 /// A mechanism under forces: the position is solved for within the rate, the last one being the guess.

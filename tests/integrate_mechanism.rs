@@ -65,16 +65,16 @@ fn energy_stays_and_both_ways_to_the_position_agree() {
     let four_bar = FourBar::default();
     let closed = |_: f64, y: &State| rate(&four_bar, &assembled(&four_bar, y[0])?, y);
     let of = |y: &State| energy(&four_bar, &assembled(&four_bar, y[0]).unwrap(), y);
-    for (relative, bound) in [(1e-6, 1e-3), (1e-9, 1e-6), (1e-12, 1e-9)] {
+    for (relative, bound) in [(1e-6, 2e-5), (1e-9, 2e-8), (1e-12, 5e-11)] {
         let mut motion = dop853(closed, START, END, Tolerance::new(relative, [1.0, 10.0]).unwrap()).unwrap();
         let times = (0..=500).map(|i| END * f64::from(i) / 500.0);
         let drift =
             motion.at(times).map(|state| (of(&state.unwrap().1) / of(&START.1) - 1.0).abs()).fold(0.0, f64::max);
         println!("{relative:e}: energy to {drift:.1e}, {:?}", motion.counts());
         assert!(drift < bound, "{relative:e}: {drift:e}");
-        let (end, counts) = from_the_last_position(relative);
-        assert!((end - motion.state()).amax() < 1e-10, "{:e}", (end - motion.state()).amax());
-        assert_eq!(counts.accepted, motion.counts().accepted);
+        // Newton's method may fail where a step is tried that is too long; it is then tried shorter.
+        let apart = (from_the_last_position(relative).0 - motion.state()).amax();
+        assert!(apart < 200.0 * relative, "{relative:e}: {apart:e}");
     }
     assert!(START.1[0] + 10.0 < from_the_last_position(1e-9).0[0], "it turns");
 }
@@ -87,9 +87,10 @@ fn a_rate_that_remembers_its_position_gives_the_same_bits_again() {
 
 #[test]
 fn a_lug_stops_the_rocker() {
-    // Where theta4 first reaches its angle at theta2 = 1.2, found on the position itself.
+    // theta4 as it is at theta2 = 1.2, which it may reach before.
     let four_bar = FourBar::default();
-    let lug = assembled(&four_bar, 1.2).unwrap().theta4;
+    let theta4 = |theta2: f64| assembled(&four_bar, theta2).unwrap().theta4;
+    let lug = theta4(1.2);
     let system = watched(
         |_, y: &State| rate(&four_bar, &assembled(&four_bar, y[0])?, y),
         [Crossing::Either],
@@ -98,6 +99,9 @@ fn a_lug_stops_the_rocker() {
     );
     let mut motion = dop853(system, START, END, Tolerance::new(1e-12, [1.0, 10.0]).unwrap()).unwrap();
     motion.finish(|_, _| true).unwrap();
-    assert!((motion.state()[0] - 1.2).abs() < 1e-13, "{:e}", motion.state()[0] - 1.2);
+    let stopped = motion.state()[0];
+    assert!((theta4(stopped) - lug).abs() < 1e-14, "{stopped}: {:e}", theta4(stopped) - lug);
+    let before = (0..1000).map(|i| START.1[0] + (stopped - START.1[0]) * f64::from(i) / 1000.0);
+    assert!(before.into_iter().all(|theta2| (theta4(theta2) < lug) == (theta4(START.1[0]) < lug)));
     assert!(motion.is_over() && motion.t() < 0.5);
 }
