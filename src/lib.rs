@@ -13,6 +13,42 @@ pub use linkage_runtime::{
     continuation, derivation, limits, nalgebra, position, singularity,
 };
 
+/// A mechanism under forces: the position is solved for within the rate, the last one being the guess.
+///
+/// ```
+/// use linkage::integrate::{Tolerance, dop853};
+/// use linkage::nalgebra::{SVector, vector};
+///
+/// linkage::linkage! {
+///     /// Crank and slider, in metres.
+///     mechanism SliderCrank {
+///         param r = 0.1, l = 0.3;
+///         input phi;
+///         unknown beta, s;
+///         loop r@phi + l@beta = s@0;
+///         point Piston = s@0;
+///     }
+/// }
+/// let slider_crank = SliderCrank::default();
+/// let (inertia, mass) = (0.01, 0.5); // of the crank, kg m^2; of the piston, kg
+///
+/// let mut q = slider_crank.solve(&SliderCrankCoordinates { phi: 1.0, beta: -0.3, s: 0.34 })?.coordinates;
+/// // (I + m s'^2) phi'' = -m s' s'', s' for unit speed and s'' without acceleration of the crank.
+/// let rate = |_t: f64, y: &SVector<f64, 2>| {
+///     q.phi = y[0];
+///     q = slider_crank.solve(&q)?.coordinates;
+///     let ratio = slider_crank.motion(&q, 1.0, 0.0)?.points.piston.velocity.x;
+///     let drift = slider_crank.motion(&q, y[1], 0.0)?.points.piston.acceleration.x;
+///     Ok(vector![y[1], -mass * ratio * drift / (inertia + mass * ratio * ratio)])
+/// };
+/// let start = (0.0, vector![1.0, 20.0]); // s; rad, rad/s
+/// let mut motion = dop853(rate, start, 1.0, Tolerance::new(1e-10, [1.0, 20.0])?)?;
+/// motion.finish(|_, _| true)?;
+/// assert!(motion.state()[0] > 10.0);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+pub use linkage_runtime::integrate;
+
 /// Mechanisms from their closure equations.
 ///
 /// The manual of the language is that of the [procedural macro](__private::linkage).
@@ -31,8 +67,8 @@ pub mod __private {
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
-        Assembly, Bound, Elbow, Error, Factorization, Group, Limits, Mechanism, OutputMotion, PointMotion, Real, Search,
-        Slider, Slope, Solution, chord, elbow_chord, existing, finite, finite_matrix, limits, newton, newton_group,
-        product_of_pivots, real, regular, side_of, unit,
+        Assembly, Bound, Elbow, Error, Factorization, Group, Limits, Mechanism, OutputMotion, PointMotion, Real,
+        Search, Slider, Slope, Solution, chord, elbow_chord, existing, finite, finite_matrix, limits, newton,
+        newton_group, product_of_pivots, real, regular, side_of, unit,
     };
 }

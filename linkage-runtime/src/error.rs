@@ -127,6 +127,52 @@ pub enum Error {
         /// What is not finite.
         quantity: &'static str,
     },
+    /// A setting that cannot be used.
+    OutOfRange {
+        /// What was set.
+        quantity: &'static str,
+        /// To what.
+        value: f64,
+        /// The least it may be.
+        least: f64,
+        /// The most it may be.
+        most: f64,
+    },
+    /// On the way of an integration a number is infinite or not a number.
+    NotFiniteAt {
+        /// What is not finite.
+        quantity: &'static str,
+        /// The time.
+        t: f64,
+    },
+    /// An integration needs steps that rounding swallows: near a singularity of the equations, or where they jump.
+    StepTooSmall {
+        /// The time that was reached.
+        t: f64,
+        /// The step that would have been tried.
+        step: f64,
+    },
+    /// An integration has taken as many steps as it may.
+    TooManySteps {
+        /// The time that was reached.
+        t: f64,
+        /// The steps taken, accepted or not.
+        steps: usize,
+    },
+    /// The equations have become stiff: stability, not accuracy, sets the length of the steps of an explicit method.
+    Stiff {
+        /// The time that was reached.
+        t: f64,
+        /// The step times the size of the fastest rate that holds it up.
+        product: f64,
+    },
+    /// Events follow one another without time passing: a ball that has come to rest still bounces.
+    EventsWithoutEnd {
+        /// The time that was reached.
+        t: f64,
+        /// The number of the last event.
+        event: usize,
+    },
 }
 
 impl fmt::Display for Error {
@@ -174,6 +220,17 @@ impl fmt::Display for Error {
             }
             Self::NotPeriodic { mechanism } => write!(f, "a turn of the input does not bring {mechanism} back"),
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
+            Self::OutOfRange { quantity, value, least, most } => {
+                write!(f, "{quantity} is {value:e}: it must be between {least:e} and {most:e}")
+            }
+            Self::NotFiniteAt { quantity, t } => write!(f, "{quantity} is not a finite number at t = {t}"),
+            Self::StepTooSmall { t, step } => write!(f, "the integration needs a step of {step:.1e} at t = {t}"),
+            Self::TooManySteps { t, steps } => write!(f, "{steps} steps lead to t = {t} only"),
+            Self::Stiff { t, product } => write!(
+                f,
+                "the equations have become stiff at t = {t}: the step times their fastest rate is {product:.1}"
+            ),
+            Self::EventsWithoutEnd { t, event } => write!(f, "event {event} happens without end at t = {t}"),
         }
     }
 }

@@ -5,6 +5,7 @@
 //! - [`mod@limits`]: how far an input can go;
 //! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
 //! - [`accuracy`]: roads to the position by type, and what their digits cost;
+//! - [`integrate`]: motions from differential equations, with events;
 //! - [`Error`]: which mechanism, what residual, how near singular;
 //! - [`singularity`]: singular configurations, and how accurate a position can be;
 //! - [`derivation`]: the formulas behind the code, as data;
@@ -21,6 +22,7 @@ pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 mod error;
+pub mod integrate;
 pub mod limits;
 mod linear;
 mod mechanism;

@@ -32,7 +32,8 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// What emitted code calls its own; the types of the user stand beside it.
-const TYPES_OF_EMITTED_CODE: [&str; 18] = [
+const TYPES_OF_EMITTED_CODE: [&str; 19] = [
+    "Assembly",
     "Bound",
     "Error",
     "Factorization",

@@ -1,0 +1,60 @@
+//! The events of an integration under way, one after the other.
+
+use super::System;
+use super::event::{Action, Hit};
+use super::run::{Instant, Integration, Place, Step, finite};
+use super::tableau::Method;
+use crate::scalar::to_f64;
+use crate::{Error, Real};
+
+impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Integration<M, S, T, N, K> {
+    /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
+    /// rate, and if that has one on the dense output.
+    pub(super) fn search(&mut self, from: f64) -> Result<Option<Hit<T, N>>, Error> {
+        let roundings = self.roundings();
+        let sides = self.sides;
+        if self.interpolant.is_none() {
+            let cubic = self.cubic();
+            if self.sides.search(&mut self.system, &cubic, (from, self.parts), roundings)?.is_none() {
+                return Ok(None);
+            }
+        }
+        self.sides = sides;
+        let interpolant = self.interpolant()?;
+        self.sides.search(&mut self.system, &interpolant, (from, self.parts), roundings)
+    }
+
+    /// What rounding leaves of the time, as a part of the last step.
+    fn roundings(&self) -> f64 {
+        let [start, end] = [self.from.0, self.to.0].map(to_f64);
+        to_f64(T::default_epsilon()) * (start.abs().max(end.abs()) / (end - start).abs()).max(1.0)
+    }
+
+    /// The next of the events that have happened here.
+    pub(super) fn deliver(&mut self) -> Result<Step<T, N>, Error> {
+        let event = self.sides.waiting.iter().position(|&waiting| waiting).unwrap_or(0);
+        self.sides.waiting[event] = false;
+        let (t, state) = (self.t, self.state);
+        let resolution = 4.0 * self.roundings() * to_f64(self.to.0 - self.from.0).abs();
+        if to_f64(t - self.instant.t).abs() > resolution {
+            self.instant = Instant { t, events: [false; K], anew: false };
+        } else if self.instant.events[event] && self.instant.anew {
+            return Err(Error::EventsWithoutEnd { t: to_f64(t), event });
+        }
+        self.instant.events[event] = true;
+        match self.system.at_event(event, t, &state)? {
+            Action::Record => {}
+            Action::Stop => self.place = Place::Over,
+            Action::Restart(state) => {
+                finite("the state after an event", t, &state)?;
+                self.state = state;
+                self.continues = false;
+                self.instant.anew = true;
+                if self.place != Place::Over {
+                    self.place = Place::Boundary;
+                }
+            }
+        }
+        Ok(Step { t, state, event: Some(event) })
+    }
+}

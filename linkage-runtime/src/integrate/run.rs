@@ -1,0 +1,331 @@
+//! An integration: step after step, from event to event.
+
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use super::control::{Controller, Tolerance, positive, within};
+use super::dense::Interpolant;
+use super::event::Sides;
+use super::tableau::{self, Method, SLOPES, Slopes};
+use super::{Outputs, System, step};
+use crate::scalar::to_f64;
+use crate::{Error, Real};
+
+/// What an integration has cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Evaluations of the rate, those that failed included.
+    pub evaluations: usize,
+    /// Steps accepted.
+    pub accepted: usize,
+    /// Steps rejected, the first one's included.
+    pub rejected: usize,
+}
+
+/// Where the integration has arrived: at the end of a step or, within one, at an event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step<T, const N: usize> {
+    /// The time.
+    pub t: T,
+    /// The state; at an event before what it does.
+    pub state: SVector<T, N>,
+    /// The number of the event, if there is one.
+    pub event: Option<usize>,
+}
+
+/// The last time of an event: which events it has had, and whether the motion started anew with one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Instant<T, const K: usize> {
+    pub(super) t: T,
+    pub(super) events: [bool; K],
+    pub(super) anew: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    /// At the start, at the end of a step, or where the motion starts anew.
+    Boundary,
+    /// At this part of a step.
+    Within(f64),
+    /// Nothing follows.
+    Over,
+}
+
+/// An integration under way: an iterator over its steps and events, which ends with an error or at the end of the
+/// interval. What was reached stays readable after an error.
+#[derive(Debug, Clone)]
+pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0> {
+    pub(super) method: PhantomData<M>,
+    pub(super) system: S,
+    pub(super) tolerance: Tolerance<T, N>,
+    pub(super) largest: f64,
+    pub(super) most_steps: usize,
+    pub(super) stiffness_every: usize,
+    pub(super) parts: usize,
+    pub(super) start: T,
+    pub(super) end: T,
+    /// How far the integration is.
+    pub(super) t: T,
+    pub(super) state: SVector<T, N>,
+    pub(super) place: Place,
+    /// The last step: its start, its end, its slopes, and its dense output once that was asked for.
+    pub(super) from: (T, SVector<T, N>),
+    pub(super) to: (T, SVector<T, N>),
+    pub(super) slopes: Slopes<T, N>,
+    pub(super) interpolant: Option<Interpolant<T, N>>,
+    /// The last slope is that of the state.
+    pub(super) continues: bool,
+    pub(super) controller: Controller,
+    pub(super) counts: Counts,
+    pub(super) stiff: u32,
+    pub(super) not_stiff: u32,
+    pub(super) sides: Sides<K>,
+    pub(super) instant: Instant<T, K>,
+}
+
+impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Integration<M, S, T, N, K> {
+    /// Of this system from state `y` at `start` to `end`, which may be the earlier.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a time is not finite, [`Error::NotFiniteAt`] if the state is not.
+    pub fn new(system: S, (start, y): (T, SVector<T, N>), end: T, tolerance: Tolerance<T, N>) -> Result<Self, Error> {
+        for t in [start, end] {
+            within("the time", to_f64(t), f64::MIN, f64::MAX)?;
+        }
+        finite("the initial state", start, &y)?;
+        let sides = Sides::new(system.crossings());
+        Ok(Self {
+            method: PhantomData,
+            system,
+            tolerance,
+            largest: f64::INFINITY,
+            most_steps: 100_000,
+            stiffness_every: 1000,
+            parts: 4,
+            start,
+            end,
+            t: start,
+            state: y,
+            place: Place::Boundary,
+            from: (start, y),
+            to: (start, y),
+            slopes: [SVector::zeros(); SLOPES],
+            interpolant: Some(Interpolant::constant(start, y)),
+            continues: false,
+            controller: Controller::new(),
+            counts: Counts::default(),
+            stiff: 0,
+            not_stiff: 0,
+            sides,
+            instant: Instant { t: start, events: [false; K], anew: false },
+        })
+    }
+
+    /// The length of the first step, in place of an estimate that takes one evaluation.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if it is not positive and finite.
+    pub fn first_step(mut self, length: T) -> Result<Self, Error> {
+        positive("the first step", to_f64(length))?;
+        self.controller.length = Some(to_f64(length));
+        Ok(self)
+    }
+
+    /// The largest length of a step; without it the whole interval.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if it is not positive and finite.
+    pub fn largest_step(mut self, length: T) -> Result<Self, Error> {
+        positive("the largest step", to_f64(length))?;
+        self.largest = to_f64(length);
+        Ok(self)
+    }
+
+    /// Steps, accepted or not, after which the integration is given up; 100 000 without it.
+    #[must_use]
+    pub fn most_steps(mut self, steps: usize) -> Self {
+        self.most_steps = steps;
+        self
+    }
+
+    /// Tests after every so many accepted steps whether the equations have become stiff; 0 never does. 1000
+    /// without it.
+    #[must_use]
+    pub fn stiffness_test(mut self, every: usize) -> Self {
+        self.stiffness_every = every;
+        self
+    }
+
+    /// Looks at the event functions at so many equal parts of each step; 4 without it, at least 1. An event
+    /// function that goes through zero and back between two of them is not seen. Between the ends of a step the
+    /// functions are evaluated, but no rate.
+    #[must_use]
+    pub fn event_parts(mut self, parts: usize) -> Self {
+        self.parts = parts.max(1);
+        self
+    }
+
+    /// How far the integration is.
+    #[must_use]
+    pub fn t(&self) -> T {
+        self.t
+    }
+
+    /// The state there; after an event what it made of it.
+    #[must_use]
+    pub fn state(&self) -> &SVector<T, N> {
+        &self.state
+    }
+
+    /// How much of the interval is done, from 0 to 1.
+    #[must_use]
+    pub fn progress(&self) -> f64 {
+        let (done, whole) = (to_f64(self.t - self.start), to_f64(self.end - self.start));
+        if whole == 0.0 { 1.0 } else { done / whole }
+    }
+
+    /// What it has cost.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// The system, with what it has learned on the way.
+    #[must_use]
+    pub fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// Whether nothing follows: the end is reached, an event stopped the integration, or an error.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        match self.place {
+            Place::Boundary => self.t == self.end && !self.sides.waiting.contains(&true),
+            Place::Within(_) => false,
+            Place::Over => true,
+        }
+    }
+
+    /// The states of the last step, also before its end where an event cut it off. Made when it is first asked for,
+    /// in one step at most once.
+    ///
+    /// # Errors
+    /// What the rate returns where the method evaluates it for dense output.
+    pub fn interpolant(&mut self) -> Result<Interpolant<T, N>, Error> {
+        if let Some(interpolant) = self.interpolant {
+            return Ok(interpolant);
+        }
+        let (t, y) = self.from;
+        let h = self.to.0 - t;
+        let table = const { &M::TABLEAU };
+        let rate = step::counted(&mut self.system, &mut self.counts);
+        tableau::evaluate(rate, table.dense_stages, table.end + 1, (t, &y), h, &mut self.slopes)?;
+        let interpolant = self.cubic().complete(table, &self.slopes);
+        self.interpolant = Some(interpolant);
+        Ok(interpolant)
+    }
+
+    /// The states at these times, which follow one another in the direction of the integration.
+    pub fn at<I: IntoIterator<Item = T>>(&mut self, times: I) -> Outputs<'_, M, S, T, I::IntoIter, N, K> {
+        Outputs::new(self, times.into_iter())
+    }
+
+    /// Integrates to the end. `watch` sees every step and event and how much of the interval is done; where it
+    /// returns false the integration pauses, and may be continued.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance).
+    pub fn finish(&mut self, mut watch: impl FnMut(&Step<T, N>, f64) -> bool) -> Result<(), Error> {
+        while let Some(step) = self.advance()? {
+            if !watch(&step, self.progress()) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// To the next event or, if there is none, to the end of the step; None where nothing follows.
+    ///
+    /// # Errors
+    /// What the system returns, if no shorter step avoids it; [`Error::NotFiniteAt`], [`Error::StepTooSmall`],
+    /// [`Error::TooManySteps`], [`Error::Stiff`], [`Error::EventsWithoutEnd`]. Nothing follows after an error, and time and
+    /// state stay what they were before it.
+    pub fn advance(&mut self) -> Result<Option<Step<T, N>>, Error> {
+        if self.is_over() {
+            return Ok(None);
+        }
+        let result = self.proceed();
+        if result.is_err() {
+            self.place = Place::Over;
+            // The slopes of the last step are lost.
+            (self.from, self.to) = ((self.t, self.state), (self.t, self.state));
+            self.interpolant = Some(Interpolant::constant(self.t, self.state));
+        }
+        result.map(Some)
+    }
+
+    fn proceed(&mut self) -> Result<Step<T, N>, Error> {
+        if K > 0 && self.sides.waiting.contains(&true) {
+            return self.deliver();
+        }
+        let from = match self.place {
+            Place::Within(part) => part,
+            _ => {
+                self.step()?;
+                0.0
+            }
+        };
+        if K > 0
+            && let Some(hit) = self.search(from)?
+        {
+            (self.t, self.state) = (hit.t, hit.state);
+            self.place = Place::Within(hit.at);
+            return self.deliver();
+        }
+        (self.t, self.state) = self.to;
+        self.place = Place::Boundary;
+        Ok(Step { t: self.t, state: self.state, event: None })
+    }
+
+    /// The interval of which the states are at hand: from the start of the last step to where the integration is.
+    pub(super) fn reached(&self) -> [T; 2] {
+        [self.from.0, self.t]
+    }
+
+    pub(super) fn end(&self) -> T {
+        self.end
+    }
+
+    /// The state at a time that was reached in the last step; its ends as they are.
+    pub(super) fn state_within(&mut self, t: T) -> Result<SVector<T, N>, Error> {
+        if t == self.from.0 {
+            return Ok(self.from.1);
+        }
+        if t == self.to.0 {
+            return Ok(self.to.1);
+        }
+        Ok(self.interpolant()?.at(t))
+    }
+
+    pub(super) fn cubic(&self) -> Interpolant<T, N> {
+        let ((t, y), (end, next)) = (&self.from, &self.to);
+        Interpolant::cubic(*t, *end - *t, [y, next], [&self.slopes[0], &self.slopes[M::TABLEAU.end]])
+    }
+}
+
+impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Iterator for Integration<M, S, T, N, K> {
+    type Item = Result<Step<T, N>, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.advance().transpose()
+    }
+}
+
+pub(super) fn finite<T: Real, const N: usize>(
+    quantity: &'static str,
+    t: T,
+    values: &SVector<T, N>,
+) -> Result<(), Error> {
+    if values.iter().all(T::is_finite) { Ok(()) } else { Err(Error::NotFiniteAt { quantity, t: to_f64(t) }) }
+}
