@@ -9,8 +9,8 @@ pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
-    Assembly, Elbow, Error, Group, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, accuracy,
-    continuation, derivation, limits, nalgebra, position, singularity,
+    Assembly, Balance, Elbow, Energy, Error, Group, Mechanism, OutputMotion, PointMotion, Power, Real, Scene, Slider,
+    Slope, Solution, accuracy, continuation, derivation, limits, nalgebra, position, singularity,
 };
 
 /// A mechanism under forces: the position is solved for within the rate, the last one being the guess.
@@ -67,8 +67,9 @@ pub mod __private {
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
-        Assembly, Bound, Elbow, Error, Factorization, Group, Limits, Mechanism, OutputMotion, PointMotion, Real,
-        Search, Slider, Slope, Solution, chord, elbow_chord, existing, finite, finite_matrix, limits, newton,
-        newton_group, product_of_pivots, real, regular, side_of, unit,
+        Assembly, Balance, Bound, Elbow, Energy, Error, Factorization, Group, Limits, Mechanism, OutputMotion,
+        PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, chord, elbow_chord, equilibrium, existing,
+        finite, finite_each, finite_matrix, limits, newton, newton_group, not_negative, product_of_pivots, real,
+        reduced, regular, side_of, unit,
     };
 }

@@ -9,7 +9,8 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-const MECHANISMS: [&str; 18] = [
+const MECHANISMS: [&str; 22] = [
+    "andrews_scene",
     "cam_follower",
     "cam_rocker",
     "components",
@@ -17,7 +18,9 @@ const MECHANISMS: [&str; 18] = [
     "elliptic_trammel",
     "every_function",
     "five_bar",
+    "five_bar_scenes",
     "four_bar",
+    "four_bar_scenes",
     "geared_five_bar",
     "introductory",
     "jansen",
@@ -28,6 +31,7 @@ const MECHANISMS: [&str; 18] = [
     "scotch_yoke",
     "six_bar",
     "slider_crank",
+    "slider_crank_scenes",
 ];
 
 const MANIFEST: &str = r#"

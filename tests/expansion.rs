@@ -146,3 +146,69 @@ fn expansion_is_repeatable() {
         assert_eq!(once, again, "{file}");
     }
 }
+
+snapshot!(
+    four_bar_idle,
+    functions(
+        "four_bar_scenes",
+        &[
+            "mass_matrix",
+            "forces",
+            "rates",
+            "acceleration",
+            "drives",
+            "drive_forces",
+            "energy",
+            "power",
+            "check",
+            "blame"
+        ]
+    )
+);
+
+/// The statements of `four_bar_scenes` that `keep` accepts, and its expansion without white space by items.
+fn part_of_scenes(keep: impl Fn(&str) -> bool) -> Vec<String> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/four_bar_scenes.rs");
+    let source = std::fs::read_to_string(path).unwrap();
+    // Statements stand at eight columns.
+    let (mut text, mut kept) = (String::new(), true);
+    for line in source.lines() {
+        let statement = line.strip_prefix("        ").filter(|rest| !rest.starts_with([' ', '}', '/']));
+        kept = statement.map_or(kept, &keep);
+        if kept || line.len() < 8 {
+            text += line;
+            text.push('\n');
+        }
+    }
+    let parsed: syn::File = syn::parse_str(&text).unwrap();
+    let [syn::Item::Macro(item)] = parsed.items.as_slice() else { panic!("{text}") };
+    let expansion = linkage_compiler::expand(item.mac.tokens.clone(), &"::linkage".parse().unwrap());
+    let file: syn::File = syn::parse2(expansion).unwrap();
+    let alone = |item: &syn::Item| prettyplease::unparse(&syn::File { items: vec![item.clone()], ..file.clone() });
+    file.items.iter().map(alone).collect()
+}
+
+/// Whatever else is declared, a scene is the same code, and so is the mechanism: what is not called for costs nothing.
+#[test]
+fn what_a_scene_does_not_name_is_not_there() {
+    let all = part_of_scenes(|_| true);
+    let forces = ["param m2", "param g", "param k", "body", "scene", "let"];
+    let bare = part_of_scenes(|statement| !forces.iter().any(|word| statement.starts_with(word)));
+    assert!(bare.len() > 20);
+    // The order of some terms depends on what was read first, the work does not.
+    let work = |item: &String| {
+        let lines = item.lines().filter(|line| line.contains("Operations: ") || line.contains("pub "));
+        lines.map(str::trim).collect::<Vec<_>>().join("\n")
+    };
+    let works: Vec<String> = all.iter().map(work).collect();
+    for item in &bare {
+        assert!(works.contains(&work(item)), "{item}");
+    }
+    let others = ["param k", "scene Loaded", "scene Driven", "scene Balanced", "let"];
+    let idle = part_of_scenes(|statement| !others.iter().any(|word| statement.starts_with(word)));
+    assert!(idle.iter().any(|item| item.contains("impl<T: Real> Idle<T>")));
+    for item in &idle {
+        assert!(works.contains(&work(item)), "{item}");
+    }
+    assert!(idle.iter().all(|item| !item.contains("kt") && !item.contains("omega")));
+}

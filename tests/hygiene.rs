@@ -90,6 +90,46 @@ mod greedy {
     }
 }
 
+/// Scenes without the prelude, with names that their code would like for itself, and a law of the user's own.
+#[no_implicit_prelude]
+mod scenes {
+    pub fn gas<T: ::kinematics::Real>(x: T) -> (T, T) {
+        (x * x, x + x)
+    }
+
+    ::kinematics::linkage! {
+        #[derive(::core::clone::Clone, ::core::fmt::Debug)]
+        pub mechanism Acting {
+            param mechanism = 1, l = 3, rates = 2, T = 0.5, reduced = 0.25, lambda_1 = 0.1, kinetic = 4;
+            input blame;
+            unknown phi2, x;
+            extern fn gas(x) -> (pressure, slope);
+            loop mechanism@blame + l@phi2 = (x, 0);
+            body state { mass rates; center (x, 0); }
+            body error { inertia reduced; angle blame; }
+            scene Everything {
+                inertia;
+                gravity (T, -2 * T);
+                torque lambda_1 * rate(x) * t + pressure(x) on blame;
+                spring kinetic on blame - phi2;
+                damper 0.3 between (x, 0) and mechanism@blame;
+                potential pressure(x);
+                energy;
+                power;
+                reactions;
+            }
+            scene Given {
+                inertia error;
+                drive blame = T * t^2;
+                power;
+            }
+            scene Weighing {
+                gravity (0, -1) on state;
+            }
+        }
+    }
+}
+
 /// Names of the functions of higher order, two inputs, a choice of drivers, and a large matrix of zeros.
 mod orders {
     linkage::linkage! {
@@ -124,6 +164,19 @@ fn greedy_names_of_higher_order() {
     let other = orders::Other::from(orders::Orders::from(<[f64; 10]>::from(orders)));
     let pose = other.pose_at(&q);
     assert!(other.velocity_ratio_derivatives(&pose).is_ok() && other.sensitivity(&pose).is_ok());
+}
+
+#[test]
+fn greedy_names_of_scenes() {
+    let scene = scenes::Everything::default();
+    let guess = scenes::ActingCoordinates { blame: 0.5, phi2: -0.2, x: 3.9 };
+    let q = scene.mechanism_.solve(&guess).unwrap().coordinates;
+    let power = scene.power(2.0, &q, 1.5).unwrap();
+    let (rates, _) = scene.rates(2.0, &q, 1.5).unwrap();
+    assert!((power.applied - (0.1 * rates.x * 2.0 + q.x * q.x) * 1.5).abs() < 1e-13, "{power:?}");
+    assert!(scene.energy(&q, 1.5).is_ok() && scene.reactions(2.0, &q, 1.5).is_ok() && scene.check().is_ok());
+    let given = scenes::Given::new(scene.mechanism_, 0.5, 0.25);
+    assert_eq!(given.drive_forces(2.0, &q, 1.5), Ok([0.25]));
 }
 
 #[test]

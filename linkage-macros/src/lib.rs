@@ -61,6 +61,8 @@ use proc_macro::TokenStream;
 /// | `extern fn PATH(x, p) -> (f, df, ddf);` | a function of your own with its derivatives, see below |
 /// | `coordinate q;` and `drive NAME by q;` | the same mechanism with a choice of input, see below |
 /// | `derive jerk, sensitivity;` | higher orders and sensitivities, see below |
+/// | `body NAME { mass m; inertia j; center G; angle phi; }` | a rigid body, see below |
+/// | `scene NAME { inertia; gravity (0, -g); }` | the mechanism with forces, see below |
 ///
 /// Fields are snake case: the point `G3` is the field `g3`.
 ///
@@ -232,6 +234,97 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
+/// # Scenes: only the effects called for
+///
+/// A mechanism alone is kinematics. A `scene` adds effects, and is a type of its own: it holds the mechanism and the
+/// parameters of the effects that it names. What it does not name is not in the type, not in the code and costs
+/// nothing. Parameters are declared together; one that no closure, point or output holds belongs to the scenes
+/// that hold it and not to the mechanism.
+///
+/// ```
+/// linkage::linkage! {
+///     #[derive(Clone, Debug)]
+///     pub mechanism FourBar {
+///         param l1 = 0.8, l2 = 0.2, l3 = 0.5, l4 = 0.7;
+///         param m2 = 1.5, j2 = 0.02, m3 = 2.5, j3 = 0.05, g = 9.81, kt = 4, ct = 0.6, torque = 3, omega = 12;
+///         input theta2;
+///         unknown theta3, theta4;
+///         loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+///         point G3 = l2@theta2 + (l3/2)@theta3;
+///
+///         body crank { inertia j2; angle theta2; }
+///         body coupler { mass m3; inertia j3; center G3; angle theta3; }
+///
+///         scene Loaded {
+///             inertia;
+///             gravity (0, -g);
+///             spring kt, -1.2 on theta4;
+///             damper ct on theta4;
+///             torque torque on theta2;
+///             energy;
+///         }
+///         /// What it takes to turn the crank like this.
+///         scene Driven {
+///             inertia;
+///             drive theta2 = omega * t;
+///             reactions;
+///         }
+///     }
+/// }
+/// use linkage::Scene;
+///
+/// let loaded = Loaded { g: 1.62, ..Loaded::default() };
+/// let q = FourBarCoordinates { theta2: 0.35, theta3: 1.2, theta4: -0.9 };
+/// let q = loaded.mechanism.solve(&q)?.coordinates;
+/// // M v'' = Q, reduced to the crank.
+/// let acceleration = loaded.acceleration(0.0, &q, 41.9)?.theta2;
+/// let (mass, force) = (loaded.mass_matrix(&q)?[0], loaded.forces(0.0, &q, 41.9)?[0]);
+/// assert!((mass * acceleration - force).abs() < 1e-12 * force.abs());
+/// assert!(loaded.energy(&q, 41.9)?.kinetic > 0.0);
+/// // What an integrator takes: y = (q, v') and y' = (q', v'').
+/// let state = loaded.start(0.0, &q, &41.9.into())?;
+/// assert_eq!(loaded.derivative(0.0, &state)?[3], acceleration);
+///
+/// let driven = Driven::default();
+/// let [[_, speed, _]] = driven.drives(0.0);
+/// let [torque] = driven.drive_forces(0.0, &q, speed)?;
+/// assert!(torque.abs() < 1e3 && driven.reactions(0.0, &q, speed)?.norm() > 0.0);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
+/// | in a scene | meaning |
+/// |---|---|
+/// | `inertia;` | of all bodies; `inertia crank, rod;` of these. Without it nothing accelerates: the scene is statics |
+/// | `gravity (0, -g);` | the weight of all bodies; `gravity (0, -g) on rod;` of these |
+/// | `spring k, s0 between P and Q;` | a linear spring: stiffness and free length, which may be left out |
+/// | `spring k, phi0 on phi;` | a spring on any scalar: coordinate, output or expression |
+/// | `damper c between P and Q;`, `damper c on phi;` | a force against the rate; c may be a law |
+/// | `torque LAW on phi;` | a torque on an angle, or a force on a length: its work is LAW times the change of `phi` |
+/// | `force (fx, fy) at P;` | a force at a point |
+/// | `potential V;` | forces from any potential energy |
+/// | `drive v = LAW;` | the motion of an input is given: what drives it is found by inverse dynamics |
+/// | `energy;`, `power;`, `reactions;`, `equilibrium;` | more functions |
+///
+/// A LAW may hold parameters, coordinates, outputs, their rates as `rate(x)`, and time `t`; that of a `drive` time and
+/// parameters alone. Where a mechanism leaves its input open, a scene says which driver it takes:
+/// `scene Fired of Engine { … }`.
+///
+/// | item of a scene | what |
+/// |---|---|
+/// | `mechanism`, `new`, `Default`, `map`, conversion from the mechanism and an array | the kinematics, and the parameters of the effects |
+/// | `mass_matrix(&q)` | M = sum m `W_G`' `W_G` + j w' w, reduced to the inputs; with `inertia` |
+/// | `forces(t, &q, v')` | Q with the quadratic velocity terms |
+/// | `acceleration(t, &q, v')`, `rates(t, &q, v')` | v'', and q' with v''; with `inertia` |
+/// | `drives(t)`, `drive_forces(t, &q, v')` | value, rate and acceleration of what is driven, and the forces that it takes: M v'' - Q |
+/// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; the power that is applied, also by drives, and that is dissipated |
+/// | `reactions(t, &q, v')` | Lagrange's multipliers: the force where a loop is cut, of its left side on its right side |
+/// | `equilibrium(t, &guess)` | the position near the guess where the forces of the inputs that are not driven vanish at rest, by Newton's method; `balance(t, &q)`: these forces and their derivatives, whose signs tell what is stable |
+/// | `check()` | refuses negative masses and inertias by their name |
+/// | the trait `Scene` | with `inertia`: the state (q, v') of an integrator, its derivative, its projection on the closures |
+///
+/// Effects work along what the closures, points and bodies already compute: one kernel holds all that a function
+/// returns, and takes coordinates that close the mechanism, so that an angle beyond a turn is what it is.
+///
 /// # What is emitted for `mechanism FourBar`
 ///
 /// q are all coordinates, v the inputs, u the unknowns, Psi(q) = 0 the closures, J = `Psi_u`,
@@ -279,7 +372,8 @@ use proc_macro::TokenStream;
 /// unknowns that do not match, closures in which nothing unknown appears, unknowns that compete for too
 /// few closures, closures that are singular at every position, vectors where scalars belong and scalars
 /// where vectors belong, a name used as an angle and as a modulus, a function of your own that gives too few
-/// derivatives, `derive` of what is unknown or named already, division by zero, constants that are not finite,
+/// derivatives, `derive` of what is unknown or named already, bodies of negative mass or in no scene, scenes in which
+/// nothing with inertia moves with an input, division by zero, constants that are not finite,
 /// and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words and signs, more than
 /// 10 000 expressions, or 16 000 with their derivatives, each entry of a `sensitivity` being one (a chain of
 /// four-bars takes 70 a loop).

@@ -173,6 +173,36 @@ pub enum Error {
         /// The number of the last event.
         event: usize,
     },
+    /// A mass or an inertia is negative.
+    Negative {
+        /// The scene.
+        scene: &'static str,
+        /// What of which body.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The reduced mass matrix is not positive: an input could accelerate without a force.
+    NoInertia {
+        /// The scene.
+        scene: &'static str,
+        /// The input.
+        coordinate: &'static str,
+        /// What is left of its reduced inertia while the inputs before it are held by forces alone, beside its
+        /// reduced inertia while they stand still: 1 for one input, 0 where there is none.
+        share: f64,
+    },
+    /// A motion begins at another place or rate than its drive says.
+    Inconsistent {
+        /// The scene.
+        scene: &'static str,
+        /// The driven input.
+        coordinate: &'static str,
+        /// Its position or its rate.
+        quantity: &'static str,
+        /// By how much it differs.
+        gap: f64,
+    },
 }
 
 impl fmt::Display for Error {
@@ -231,6 +261,16 @@ impl fmt::Display for Error {
                 "the equations have become stiff at t = {t}: the step times their fastest rate is {product:.1}"
             ),
             Self::EventsWithoutEnd { t, event } => write!(f, "event {event} happens without end at t = {t}"),
+            Self::Negative { scene, quantity, value } => write!(f, "{quantity} in {scene} is negative: {value:.1e}"),
+            Self::NoInertia { scene, coordinate, share } => {
+                write!(f, "{coordinate} of {scene} has no inertia here: {share:.1e} of it is left")
+            }
+            Self::Inconsistent { scene, coordinate, quantity, gap } => {
+                write!(
+                    f,
+                    "{scene} begins with another {quantity} of {coordinate} than its drive says: off by {gap:.1e}"
+                )
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What the code emitted by `linkage!` stands on.
 //!
 //! - [`Mechanism`]: the trait that general algorithms take;
+//! - [`Scene`]: the trait that integrators take;
 //! - [`position`]: Newton's method with damping and honest failure;
 //! - [`mod@limits`]: how far an input can go;
 //! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
@@ -21,6 +22,7 @@ pub mod continuation;
 pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
+mod equilibrium;
 mod error;
 pub mod integrate;
 pub mod limits;
@@ -30,12 +32,14 @@ mod motion;
 mod newton;
 pub mod position;
 mod scalar;
+mod scene;
 #[cfg(feature = "sheet")]
 pub mod sheet;
 mod sine;
 pub mod singularity;
 
 pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, side_of};
+pub use equilibrium::{Balance, equilibrium};
 pub use error::{Error, finite, finite_matrix};
 pub use limits::{Bound, Limits, Search, limits};
 use linear::same_signs;
@@ -45,3 +49,4 @@ pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
 pub use position::{Solution, newton, newton_group};
 pub use scalar::{Real, real, unit};
+pub use scene::{Energy, Power, Scene, finite_each, not_negative, reduced};

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::Derivation;
 use crate::diagnostics::Diagnostics;
 use crate::graph::{External, SymbolId};
-use crate::model::{Call, ExternalFunction, Mechanism};
+use crate::model::{Call, Driver, ExternalFunction, Mechanism};
 
 /// A derivation of more expressions than this is refused: emitting it takes longer than anybody waits.
 pub const LARGEST: usize = 16_000;
@@ -41,6 +41,31 @@ pub fn check(mechanism: &Mechanism, derivations: &[Derivation], diagnostics: &mu
                         "`{}` is singular at every position: the closures for {} say the same of both",
                         driver.name,
                         names.join(" and ")
+                    ),
+                );
+            }
+        }
+        without_inertia(mechanism, driver, derivation, diagnostics);
+    }
+}
+
+/// Inputs that nothing with inertia moves with, whatever the position.
+fn without_inertia(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation, diagnostics: &mut Diagnostics) {
+    for derived in &derivation.scenes {
+        let scene = &mechanism.scenes[derived.place];
+        if derived.equilibrium.is_some() && derived.drives.len() == driver.inputs.len() {
+            let message = format!("all inputs of `{}` are driven: there is no equilibrium to find", scene.name);
+            diagnostics.error(scene.name.span(), message);
+        }
+        let Some(mass_matrix) = &derived.mass_matrix else { continue };
+        for (place, row) in mass_matrix.iter().enumerate() {
+            if !derived.drives.contains_key(&place) && derivation.graph.is_zero(row[place]) {
+                let input = &mechanism.coordinates[driver.inputs[place]].name.text;
+                diagnostics.error(
+                    scene.name.span(),
+                    format_args!(
+                        "nothing that has inertia in `{}` moves with `{input}`: its reduced inertia is zero",
+                        scene.name
                     ),
                 );
             }

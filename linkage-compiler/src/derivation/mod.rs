@@ -6,6 +6,7 @@
 
 mod assembly;
 mod check;
+mod equilibrium;
 mod formulas;
 mod iteration;
 mod jerk;
@@ -14,6 +15,8 @@ mod linear;
 mod magnitude;
 mod ratio_derivatives;
 mod ratios;
+mod reactions;
+mod scene;
 mod sensitivity;
 mod solution;
 
@@ -25,10 +28,13 @@ use crate::simplify::{self, simplify};
 use crate::structure::{self, Group, Method};
 pub use assembly::{Assembly, Choice, Chord};
 pub use check::{LARGEST, check};
+pub use equilibrium::Equilibrium;
 pub use formulas::{Formulas, Inverse, QuantityFormulas};
 pub use limits::Bound;
 pub use linear::{Form, solve_closed};
 pub use ratio_derivatives::RatioDerivatives;
+pub use reactions::Reactions;
+pub use scene::{Prescribed, Scene};
 pub use sensitivity::Sensitivity;
 
 /// The derivatives of one scalar by the coordinates, by their place in q; those not named are zero.
@@ -113,6 +119,8 @@ pub struct Derivation {
     pub eta: Option<Vec<NodeId>>,
     pub ratio_derivatives: Option<RatioDerivatives>,
     pub sensitivity: Option<Sensitivity>,
+    /// Those of this driver.
+    pub scenes: Vec<Scene>,
 }
 
 /// Derives a mechanism whose closures the structure stage found solvable in the order of `blocks`.
@@ -124,9 +132,10 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
         .iter()
         .map(|&index| {
             let name = mechanism.coordinates[index].name.field.clone();
+            let rate = mechanism.coordinates[index].rate;
             Coordinate {
                 value: mechanism.coordinates[index].symbol,
-                rate: graph.symbol(format!("{name}_rate")),
+                rate: rate.unwrap_or_else(|| graph.symbol(format!("{name}_rate"))),
                 acceleration: graph.symbol(format!("{name}_acceleration")),
                 jerk: graph.symbol(format!("{name}_jerk")),
                 name,
@@ -182,6 +191,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
         eta: None,
         ratio_derivatives: None,
         sensitivity: None,
+        scenes: Vec::new(),
         graph,
     };
     for request in &mechanism.requests {
@@ -193,6 +203,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
             Request::Sensitivity => derivation.derive_sensitivity(mechanism),
         }
     }
+    derivation.derive_scenes(mechanism, driver);
     derivation
 }
 

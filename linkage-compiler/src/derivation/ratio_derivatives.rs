@@ -34,6 +34,15 @@ impl RatioDerivatives {
 
 impl Derivation {
     pub(super) fn derive_ratio_derivatives(&mut self) {
+        let motions: Vec<_> = (0..self.inputs.len()).map(|input| self.unit_motion(input)).collect();
+        self.ratio_derivatives = Some(self.second_order(&motions));
+        for quantity in self.points.iter_mut().chain(&mut self.outputs) {
+            quantity.along_inputs = second_derivatives(&mut self.graph, &quantity.value, &motions);
+        }
+    }
+
+    /// L by new names, along the unit motions of the inputs.
+    pub(super) fn second_order(&mut self, motions: &[BTreeMap<SymbolId, NodeId>]) -> RatioDerivatives {
         let count = self.inputs.len();
         let pairs: Vec<(usize, usize)> = (0..count).flat_map(|j| (j..count).map(move |k| (j, k))).collect();
         let by = |input: usize| self.coordinates[self.inputs[input]].name.as_str();
@@ -47,16 +56,12 @@ impl Derivation {
             let of = self.unknowns.iter().map(|&unknown| &self.coordinates[unknown].name);
             names.push(of.map(|of| self.graph.symbol(format!("{of}_{ending}"))).collect());
         }
-        let motions: Vec<_> = (0..count).map(|input| self.unit_motion(input)).collect();
-        let terms = second_derivatives(&mut self.graph, &self.residual, &motions);
-        for quantity in self.points.iter_mut().chain(&mut self.outputs) {
-            quantity.along_inputs = second_derivatives(&mut self.graph, &quantity.value, &motions);
-        }
-        self.ratio_derivatives = Some(RatioDerivatives { pairs, endings, names, terms });
+        let terms = second_derivatives(&mut self.graph, &self.residual, motions);
+        RatioDerivatives { pairs, endings, names, terms }
     }
 
     /// w_j = (W_j, e_j).
-    fn unit_motion(&mut self, input: usize) -> BTreeMap<SymbolId, NodeId> {
+    pub(super) fn unit_motion(&mut self, input: usize) -> BTreeMap<SymbolId, NodeId> {
         let mut motion = BTreeMap::from([(self.coordinates[self.inputs[input]].value, self.graph.one())]);
         for (&unknown, &ratio) in self.unknowns.iter().zip(&self.ratios[input]) {
             motion.insert(self.coordinates[unknown].value, self.graph.variable(ratio));

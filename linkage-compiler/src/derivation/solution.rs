@@ -51,7 +51,7 @@ impl Derivation {
     }
 
     /// The verdict on a block, and what its closed form divides by.
-    fn verdict(&mut self, number: usize, block: &Block, stages: &mut Vec<Stage>) -> Option<NodeId> {
+    pub(super) fn verdict(&mut self, number: usize, block: &Block, stages: &mut Vec<Stage>) -> Option<NodeId> {
         let Some(determinant) = block.determinant else {
             let sizes = block.equations.iter().map(|&equation| self.sizes[equation]).collect();
             stages.push(Stage::Factor { block: number, matrix: self.block_matrix(block), sizes });

@@ -32,6 +32,8 @@ pub(super) enum Shape {
     Fields(TokenStream),
     /// The columns of a matrix with as many rows.
     Columns(usize),
+    /// Nothing: the argument is the symbol itself.
+    Argument,
 }
 
 /// What a kernel starts from.
@@ -139,6 +141,7 @@ fn pattern(body: &mut Tokens, source: &Source, used: &BTreeSet<SymbolId>, names:
     let from = &source.from;
     let of = match &source.of {
         Shape::Fields(of) => of,
+        Shape::Argument => return source.fields.iter().any(|(_, symbol)| used.contains(symbol)),
         Shape::Columns(rows) => {
             let local = |symbol: &SymbolId| {
                 if used.contains(symbol) { names.symbol(*symbol) } else { ident("_") }

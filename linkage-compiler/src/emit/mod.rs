@@ -6,6 +6,7 @@ mod kernel;
 mod methods;
 mod names;
 mod pose;
+mod scene;
 mod tokens;
 mod types;
 
@@ -75,9 +76,23 @@ pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, 
             .as_deref_mut()
             .map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
         tokens.extend(types::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref(), &private));
-        let emitted = methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation, &private);
+        let emitted = methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref_mut(), &private);
         tokens.extend(emitted.tokens);
         operations = operations.plus(emitted.operations);
+        let scenes = mechanism.scenes.iter().filter(|scene| mechanism.drivers[scene.driver].name == driver.name);
+        for (number, scene) in scenes.enumerate() {
+            let names = Types { driver: scene.name.clone(), ..Types::new(mechanism, driver) };
+            tokens.extend(scene::types(mechanism, driver, scene, &private));
+            let emitted = methods::of_scene(
+                mechanism,
+                (driver, scene, number),
+                &names,
+                plan.as_ref().zip(derivation.as_deref_mut()),
+                &private,
+            );
+            tokens.extend(emitted.tokens);
+            operations = operations.plus(emitted.operations);
+        }
     }
     Emitted { tokens, operations }
 }

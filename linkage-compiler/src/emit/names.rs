@@ -10,17 +10,21 @@ use crate::graph::{ExternalId, Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 13] = [
+pub(super) const RUNTIME_FUNCTIONS: [&str; 17] = [
     "chord",
     "elbow_chord",
+    "equilibrium",
     "existing",
     "finite",
+    "finite_each",
     "finite_matrix",
     "limits",
     "newton",
     "newton_group",
+    "not_negative",
     "product_of_pivots",
     "real",
+    "reduced",
     "regular",
     "side_of",
     "unit",

@@ -9,7 +9,7 @@ use super::pose::PosePlan;
 use super::{Types, expression};
 use crate::derivation::{Choice, Derivation};
 use crate::graph::{Number, Texts};
-use crate::model::{Coordinate, Driver, Mechanism, Name};
+use crate::model::{Coordinate, Driver, Mechanism, Name, Parameter};
 
 /// A field name with the user's span, so that editors lead from one to the other.
 pub(super) fn field(name: &Name) -> Ident {
@@ -17,7 +17,7 @@ pub(super) fn field(name: &Name) -> Ident {
 }
 
 /// The user's doc comment, or else `text`.
-fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
+pub(super) fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
     let own: Vec<&Attribute> = attributes.iter().filter(|attribute| attribute.path().is_ident("doc")).collect();
     if own.is_empty() {
         let text = format!(" {text}");
@@ -225,6 +225,9 @@ fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &Token
     members
 }
 
+/// More arguments than this are told apart by nobody: there the literal with its names is better.
+pub(super) const MOST_ARGUMENTS: usize = 7;
+
 fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], private: &TokenStream) -> TokenStream {
     let visibility = &mechanism.visibility;
     let fields: Vec<Ident> = mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect();
@@ -257,8 +260,6 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
             }
         }
     };
-    // More arguments than this are told apart by nobody: there the literal with its names is better.
-    const MOST_ARGUMENTS: usize = 7;
     let new = (0..=MOST_ARGUMENTS).contains(&number).then(|| {
         quote! {
             /// The mechanism with these parameters.
@@ -282,16 +283,8 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
             }
         }
     });
-    let defaults: Option<Vec<TokenStream>> = mechanism
-        .parameters
-        .iter()
-        .map(|parameter| {
-            let node = parameter.default?;
-            let number =
-                mechanism.graph.as_number(node).or_else(|| mechanism.graph.constant_value(node).map(Number::Float))?;
-            Some(expression::plain(number))
-        })
-        .collect();
+    let defaults: Option<Vec<TokenStream>> =
+        mechanism.parameters.iter().map(|parameter| default_of(mechanism, parameter)).collect();
     if let Some(defaults) = defaults {
         tokens.extend(quote! {
             // Of one scalar only, so that it need not be named.
@@ -303,6 +296,14 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
         });
     }
     tokens
+}
+
+/// The default of a parameter as an `f64`.
+pub(super) fn default_of(mechanism: &Mechanism, parameter: &Parameter) -> Option<TokenStream> {
+    let node = parameter.default?;
+    let graph = &mechanism.graph;
+    let number = graph.as_number(node).or_else(|| graph.constant_value(node).map(Number::Float))?;
+    Some(expression::plain(number))
 }
 
 fn coordinate_struct(

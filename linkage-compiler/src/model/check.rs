@@ -10,7 +10,8 @@ use crate::structure::StructurallySingular;
 
 /// Everything that is declared is used.
 pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
-    let parameters = mechanism.parameters.iter().map(|p| ("parameter", &p.name, p.symbol));
+    let all = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
+    let parameters = all.map(|p| ("parameter", &p.name, p.symbol));
     let coordinates = mechanism.coordinates.iter().map(|c| ("coordinate", &c.name, c.symbol));
     for (what, name, symbol) in parameters.chain(coordinates) {
         if !scope.is_used(symbol) && !name.text.starts_with('_') {
@@ -32,9 +33,11 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// What emitted code calls its own; the types of the user stand beside it.
-const TYPES_OF_EMITTED_CODE: [&str; 19] = [
+const TYPES_OF_EMITTED_CODE: [&str; 23] = [
     "Assembly",
+    "Balance",
     "Bound",
+    "Energy",
     "Error",
     "Factorization",
     "From",
@@ -45,10 +48,12 @@ const TYPES_OF_EMITTED_CODE: [&str; 19] = [
     "Mechanism",
     "OutputMotion",
     "PointMotion",
+    "Power",
     "Real",
     "Result",
     "SMatrix",
     "SVector",
+    "Scene",
     "Search",
     "Solution",
     "Vector2",
@@ -58,7 +63,8 @@ const TYPES_OF_EMITTED_CODE: [&str; 19] = [
 pub(super) fn misnamed(mechanism: &Mechanism) -> impl Iterator<Item = &Ident> {
     let drivers = mechanism.drivers.iter().map(|driver| &driver.name);
     let shared = mechanism.is_driven_by_choice().then_some(&mechanism.name);
-    let names = shared.into_iter().chain(drivers);
+    let scenes = mechanism.scenes.iter().map(|scene| &scene.name);
+    let names = shared.into_iter().chain(drivers).chain(scenes);
     names.filter(|&name| name == "T" || TYPES_OF_EMITTED_CODE.iter().any(|taken| name == taken))
 }
 
@@ -71,7 +77,8 @@ pub(super) fn types(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 
 /// Two names may differ only in case, their fields may not.
 pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
-    let parameters: Vec<_> = mechanism.parameters.iter().map(|p| &p.name).collect();
+    let parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
+    let parameters: Vec<_> = parameters.map(|p| &p.name).collect();
     let coordinates: Vec<_> = mechanism.coordinates.iter().map(|c| &c.name).collect();
     let symbols: Vec<_> = parameters.into_iter().chain(coordinates).collect();
     let functions: Vec<_> = mechanism.externals.iter().flat_map(|external| &external.names).collect();

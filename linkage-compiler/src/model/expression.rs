@@ -1,5 +1,7 @@
 //! Expressions: from the tree to nodes of the graph, scalars and vectors told apart.
 
+use std::collections::BTreeMap;
+
 use proc_macro2::Ident;
 
 use super::kind::{Kind, bare_symbols};
@@ -20,6 +22,11 @@ pub(super) struct Lowering<'a> {
     pub(super) externals: Vec<ExternalFunction>,
     /// Names that are lengths if nothing else is known.
     pub(super) supposed: Vec<SymbolId>,
+    /// Where there are scenes: the rate of each coordinate, and time.
+    pub(super) rates: BTreeMap<SymbolId, NodeId>,
+    pub(super) time: Option<NodeId>,
+    /// Whether `rate` and `t` have a meaning here.
+    pub(super) is_law: bool,
     pub(super) diagnostics: &'a mut Diagnostics,
 }
 
@@ -105,6 +112,7 @@ impl Lowering<'_> {
                 }
             },
             Expression::Name(name) if name == "pi" => Value::Scalar(self.graph.pi()),
+            Expression::Name(name) if self.is_law && name == "t" => self.time.map_or(Value::Poison, Value::Scalar),
             Expression::Name(name) => self.scope.look_up(name, self.diagnostics),
             &Expression::Vector(x, y) => match (self.scalar(x), self.scalar(y)) {
                 (Some(x), Some(y)) => {
@@ -244,6 +252,10 @@ impl Lowering<'_> {
         let text = name.to_string();
         if let Some((function, order)) = self.scope.function(&text) {
             return self.external(name, function, order, arguments, region);
+        }
+        if self.is_law && text == "rate" {
+            let argument = self.takes(&text, 1, arguments, region).then(|| self.scalar(arguments[0])).flatten();
+            return argument.map_or(Value::Poison, |argument| Value::Scalar(self.rate_of(argument)));
         }
         let function = Function::named(&text);
         let arity = function

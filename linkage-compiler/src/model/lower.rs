@@ -1,6 +1,6 @@
 //! Statements: names first, then what they say, then the checks on the whole.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 use quote::ToTokens;
@@ -11,7 +11,9 @@ use super::expression::Lowering;
 use super::kind::Kind;
 use super::name::Name;
 use super::scope::{Scope, Value};
-use super::{Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check, request};
+use super::{
+    Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check, request, scene,
+};
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::syntax::{self, ExpressionId, StatementKind};
@@ -29,6 +31,9 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         kinds: Vec::new(),
         supposed: Vec::new(),
         externals: Vec::new(),
+        rates: BTreeMap::new(),
+        time: None,
+        is_law: false,
         diagnostics,
     };
     let complete = lowering.diagnostics.is_empty();
@@ -46,11 +51,19 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         externals: Vec::new(),
         named: Vec::new(),
         requests: BTreeSet::new(),
+        bodies: Vec::new(),
+        scenes: Vec::new(),
+        scene_parameters: Vec::new(),
+        time: None,
     };
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
-    lowering.define(&statements, &mut result);
+    if statements.iter().any(|statement| matches!(statement.kind, StatementKind::Scene(_))) {
+        lowering.declare_motion(&mut result);
+    }
+    let reading = lowering.define(&statements, &mut result);
     lowering.drivers(&statements, &mut result, roles);
+    lowering.finish_scenes(reading, &mut result);
     result.requests = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
     let Lowering { graph, scope, kinds, supposed, externals, diagnostics, .. } = lowering;
     result.graph = graph;
@@ -60,7 +73,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         None if supposed.contains(&symbol) => Kind::Length,
         None => Kind::Number,
     };
-    for parameter in &mut result.parameters {
+    for parameter in result.parameters.iter_mut().chain(&mut result.scene_parameters) {
         parameter.kind = kind_of(parameter.symbol);
     }
     for coordinate in &mut result.coordinates {
@@ -105,7 +118,7 @@ impl Lowering<'_> {
                 if let Some((name, symbol)) = self.new_symbol(name) {
                     role.push(result.coordinates.len());
                     let attributes = statement.attributes.clone();
-                    result.coordinates.push(Coordinate { name, attributes, symbol, kind: Kind::Number });
+                    result.coordinates.push(Coordinate { name, attributes, symbol, rate: None, kind: Kind::Number });
                 }
             }
         }
@@ -176,7 +189,8 @@ impl Lowering<'_> {
         Some((name, symbol))
     }
 
-    fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) {
+    fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) -> scene::Reading {
+        let mut reading = scene::Reading::default();
         for statement in statements {
             let attributes = statement.attributes.clone();
             match &statement.kind {
@@ -223,6 +237,8 @@ impl Lowering<'_> {
                     let value = scalar.unwrap_or_else(|| self.graph.zero());
                     result.outputs.push(Output { name: Name::new(name), attributes, value });
                 }
+                StatementKind::Body(body) => self.body(body, result),
+                StatementKind::Scene(tree) => self.scene(tree, &attributes, &mut reading),
                 StatementKind::Inputs(_)
                 | StatementKind::Unknowns(_)
                 | StatementKind::Coordinates(_)
@@ -231,6 +247,7 @@ impl Lowering<'_> {
                 | StatementKind::Derive(_) => {}
             }
         }
+        reading
     }
 
     fn close_loop(

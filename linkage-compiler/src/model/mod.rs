@@ -7,6 +7,7 @@ mod kind;
 mod lower;
 mod name;
 mod request;
+mod scene;
 mod scope;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,6 +21,7 @@ use crate::syntax;
 pub use kind::Kind;
 pub use name::Name;
 pub use request::Request;
+pub use scene::{Account, Body, Drive, Law, Scene, Wish};
 
 /// A mechanism as meant.
 pub struct Mechanism {
@@ -38,6 +40,12 @@ pub struct Mechanism {
     pub named: Vec<(NodeId, String)>,
     /// What is derived beyond what every mechanism has.
     pub requests: BTreeSet<Request>,
+    pub bodies: Vec<Body>,
+    pub scenes: Vec<Scene>,
+    /// The parameters that only scenes hold.
+    pub scene_parameters: Vec<Parameter>,
+    /// Where there are scenes: t.
+    pub time: Option<SymbolId>,
 }
 
 /// Geometric or physical data.
@@ -54,6 +62,8 @@ pub struct Coordinate {
     pub name: Name,
     pub attributes: Vec<Attribute>,
     pub symbol: SymbolId,
+    /// Where there are scenes: the name of its rate.
+    pub rate: Option<SymbolId>,
     pub kind: Kind,
 }
 
@@ -119,6 +129,14 @@ impl Mechanism {
     #[must_use]
     pub fn is_well_named(&self) -> bool {
         check::misnamed(self).next().is_none()
+    }
+
+    /// Everything that is said of the mechanism but in its scenes.
+    fn kinematic_formulas(&self) -> Vec<NodeId> {
+        let mut formulas: Vec<NodeId> = self.closures.iter().flat_map(|closure| closure.rows.clone()).collect();
+        formulas.extend(self.points.iter().flat_map(|point| [point.x, point.y]));
+        formulas.extend(self.outputs.iter().map(|output| output.value));
+        formulas
     }
 
     /// The unknowns of `driver` that each closure row holds.

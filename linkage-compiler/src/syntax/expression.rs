@@ -74,6 +74,15 @@ impl Expressions {
         self.nodes.truncate(length);
     }
 
+    /// The name that an expression is, if it is no more.
+    #[must_use]
+    pub fn as_name(&self, id: ExpressionId) -> Option<&Ident> {
+        match &self.nodes[id.0] {
+            (Expression::Name(name), _) => Some(name),
+            _ => None,
+        }
+    }
+
     #[must_use]
     pub fn region(&self, id: ExpressionId) -> Region {
         self.nodes[id.0].1
@@ -192,7 +201,7 @@ fn power(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expression
 
 fn postfix(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
     let mut value = primary(stream, arena)?;
-    while stream.parse::<Option<Token![.]>>()?.is_some() {
+    while !stream.peek(Token![..]) && stream.parse::<Option<Token![.]>>()?.is_some() {
         let method: Ident = stream.call(Ident::parse_any)?;
         let (mut arguments, close) = arguments(stream, arena)?;
         arguments.insert(0, value);

@@ -4,6 +4,7 @@
 //! message and the rest of the mechanism is still understood.
 
 mod expression;
+mod scene;
 mod statement;
 
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
@@ -11,6 +12,7 @@ use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
 pub use expression::{Expression, ExpressionId, Expressions, Operator};
+pub use scene::{Body, Effect, EffectKind, Place, Scene};
 pub use statement::{Statement, StatementKind};
 
 /// One `mechanism NAME { … }`.

@@ -6,6 +6,7 @@ use syn::parse::ParseStream;
 use syn::{Attribute, Path, Token};
 
 use super::expression::{self, ExpressionId, Expressions};
+use super::scene::{self, Body, Scene};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
 
 /// A statement and the doc comments above it.
@@ -51,9 +52,11 @@ pub enum StatementKind {
         names: Vec<Ident>,
     },
     Derive(Vec<Ident>),
+    Body(Body),
+    Scene(Scene),
 }
 
-const KEYWORDS: [&str; 12] = [
+const KEYWORDS: [&str; 14] = [
     "param",
     "input",
     "unknown",
@@ -66,10 +69,9 @@ const KEYWORDS: [&str; 12] = [
     "output",
     "extern",
     "derive",
+    "body",
+    "scene",
 ];
-
-/// Words of the language that this version does not understand yet.
-const RESERVED: [&str; 2] = ["body", "scene"];
 
 /// Every statement up to the end of the braces.
 pub(super) fn statements(
@@ -88,7 +90,14 @@ pub(super) fn statements(
             }
         };
         let before = expressions.len();
-        match kind(stream, expressions) {
+        match kind(stream, expressions, diagnostics) {
+            // Braces end a statement.
+            Ok(kind @ (StatementKind::Body(_) | StatementKind::Scene(_))) => {
+                statements.push(Statement { attributes, kind });
+                if stream.peek(Token![;]) {
+                    skip_statement(stream);
+                }
+            }
             Ok(kind) => {
                 statements.push(Statement { attributes, kind });
                 let last = expressions.last_region().filter(|_| expressions.len() > before);
@@ -109,7 +118,11 @@ pub(super) fn statements(
     statements
 }
 
-fn kind(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<StatementKind> {
+fn kind(
+    stream: ParseStream,
+    expressions: &mut Expressions,
+    diagnostics: &mut Diagnostics,
+) -> syn::Result<StatementKind> {
     let keyword: Ident = stream
         .call(Ident::parse_any)
         .map_err(|error| syn::Error::new(error.span(), format!("expected a statement: {}", KEYWORDS.join(", "))))?;
@@ -161,9 +174,8 @@ fn kind(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<State
         }
         "extern" => external(stream, keyword.span())?,
         "derive" => StatementKind::Derive(names(stream)?),
-        reserved if RESERVED.contains(&reserved) => {
-            return Err(syn::Error::new(keyword.span(), format!("`{reserved}` is not understood by this version yet")));
-        }
+        "body" => StatementKind::Body(scene::body(stream, expressions, diagnostics)?),
+        "scene" => StatementKind::Scene(scene::scene(stream, expressions, diagnostics)?),
         unknown => {
             let hint = suggestion(unknown, KEYWORDS);
             return Err(syn::Error::new(
@@ -174,7 +186,7 @@ fn kind(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<State
     })
 }
 
-fn name(stream: ParseStream) -> syn::Result<Ident> {
+pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
     let name = stream.call(Ident::parse_any).map_err(|error| syn::Error::new(error.span(), "expected a name"))?;
     let text = name.to_string();
     if syn::parse_str::<Ident>(&text).is_err() || text.starts_with("r#") {
@@ -226,7 +238,7 @@ fn list(stream: ParseStream, missing: impl Fn(Span) -> syn::Error) -> syn::Resul
     if names.is_empty() { Err(missing(found)) } else { Ok(names) }
 }
 
-fn equals(stream: ParseStream) -> syn::Result<()> {
+pub(super) fn equals(stream: ParseStream) -> syn::Result<()> {
     let found = stream.span();
     stream.parse::<Token![=]>().map(drop).map_err(|_| syn::Error::new(found, "expected `=`"))
 }
@@ -238,7 +250,7 @@ fn sides(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(Exp
 }
 
 /// The `;`; at the end of the braces its absence is reported on the last token that was written.
-fn end(stream: ParseStream, last: Option<Region>) -> syn::Result<()> {
+pub(super) fn end(stream: ParseStream, last: Option<Region>) -> syn::Result<()> {
     if stream.is_empty() {
         let span = last.map_or_else(|| stream.span(), |region| region.last);
         return Err(syn::Error::new(span, "expected `;` after this"));
@@ -249,10 +261,7 @@ fn end(stream: ParseStream, last: Option<Region>) -> syn::Result<()> {
 
 fn at_keyword(stream: ParseStream) -> bool {
     stream.peek(Token![#])
-        || stream
-            .fork()
-            .call(Ident::parse_any)
-            .is_ok_and(|word| KEYWORDS.iter().chain(&RESERVED).any(|keyword| word == *keyword))
+        || stream.fork().call(Ident::parse_any).is_ok_and(|word| KEYWORDS.iter().any(|keyword| word == *keyword))
 }
 
 fn skip_statement(stream: ParseStream) {

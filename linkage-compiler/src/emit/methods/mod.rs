@@ -11,6 +11,7 @@ mod motion;
 mod position;
 mod quantities;
 mod ratio_derivatives;
+mod scene;
 mod sensitivity;
 mod velocity;
 
@@ -31,11 +32,13 @@ use crate::derivation::{Choice, Derivation, Form, Formulas, QuantityFormulas};
 use crate::graph::{ExternalId, NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
+pub(in crate::emit) use scene::of_scene;
 
 /// The name of an argument, beside which no name of the user's may stand.
 pub(super) fn argument(mechanism: &Mechanism, wish: &str) -> String {
     let mut name = wish.to_owned();
-    let parameters = mechanism.parameters.iter().map(|parameter| &parameter.name.field);
+    let parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
+    let parameters = parameters.map(|parameter| &parameter.name.field);
     let all: Vec<&String> =
         parameters.chain(mechanism.coordinates.iter().map(|coordinate| &coordinate.name.field)).collect();
     while all.contains(&&name) {
@@ -78,6 +81,50 @@ struct Methods<'a> {
     externals: BTreeSet<ExternalId>,
 }
 
+impl<'a> Methods<'a> {
+    fn new(mechanism: &'a Mechanism, driver: &'a Driver, types: &'a Types) -> Self {
+        let name = |wish: &str| ident(&argument(mechanism, wish));
+        let arguments = Arguments {
+            pose: name("pose"),
+            q: name("q"),
+            rate: name("rate"),
+            acceleration: name("acceleration"),
+            jerk: name("jerk"),
+            right: name("right"),
+            branch: name("branch"),
+            inputs: name("inputs"),
+            guess: name("guess"),
+        };
+        let reserved = [
+            &arguments.pose,
+            &arguments.q,
+            &arguments.rate,
+            &arguments.acceleration,
+            &arguments.jerk,
+            &arguments.right,
+            &arguments.branch,
+            &arguments.inputs,
+            &arguments.guess,
+        ]
+        .map(ToString::to_string)
+        .to_vec();
+        Self {
+            mechanism,
+            driver,
+            types,
+            arguments,
+            reserved,
+            named: mechanism.named.clone(),
+            functions: TokenStream::new(),
+            branches: None,
+            is_assembled: false,
+            kernels: Vec::new(),
+            uses: BTreeSet::new(),
+            externals: BTreeSet::new(),
+        }
+    }
+}
+
 /// The `impl` blocks of one driver; without a derivation every body is left open.
 pub(super) fn of_driver(
     mechanism: &Mechanism,
@@ -87,45 +134,7 @@ pub(super) fn of_driver(
     mut derivation: Option<&mut Derivation>,
     private: &TokenStream,
 ) -> Emitted {
-    let name = |wish: &str| ident(&argument(mechanism, wish));
-    let arguments = Arguments {
-        pose: name("pose"),
-        q: name("q"),
-        rate: name("rate"),
-        acceleration: name("acceleration"),
-        jerk: name("jerk"),
-        right: name("right"),
-        branch: name("branch"),
-        inputs: name("inputs"),
-        guess: name("guess"),
-    };
-    let reserved = [
-        &arguments.pose,
-        &arguments.q,
-        &arguments.rate,
-        &arguments.acceleration,
-        &arguments.jerk,
-        &arguments.right,
-        &arguments.branch,
-        &arguments.inputs,
-        &arguments.guess,
-    ]
-    .map(ToString::to_string)
-    .to_vec();
-    let mut methods = Methods {
-        mechanism,
-        driver,
-        types,
-        arguments,
-        reserved,
-        named: mechanism.named.clone(),
-        functions: TokenStream::new(),
-        branches: None,
-        is_assembled: false,
-        kernels: Vec::new(),
-        uses: BTreeSet::new(),
-        externals: BTreeSet::new(),
-    };
+    let mut methods = Methods::new(mechanism, driver, types);
     let formulas = derivation.as_deref_mut().map(Formulas::new);
     let mut kernels = derivation.as_deref_mut().zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
     if let Some(kernels) = &kernels {
@@ -210,6 +219,17 @@ impl<'a> Kernels<'a> {
         let systems: Vec<_> =
             ratios.into_iter().enumerate().map(|(input, ratios)| (self.derivation.ratio_side(input), ratios)).collect();
         self.derivation.solution(&systems, Form::Factored)
+    }
+
+    /// Without a pose the determinants are computed where they are judged.
+    fn with_determinants(&self, stages: Vec<Stage>) -> Vec<Stage> {
+        let with = |stage: Stage| {
+            let block = if let Stage::Guard { block, .. } = stage { Some(block) } else { None };
+            let determinant = block.and_then(|block| self.derivation.blocks[block].determinant);
+            let named = determinant.map(|d| Stage::Let { symbol: d.symbol, node: d.value });
+            named.into_iter().chain([stage])
+        };
+        stages.into_iter().flat_map(with).collect()
     }
 
     fn text(&self, node: NodeId) -> String {

@@ -22,16 +22,7 @@ impl Methods<'_> {
                 (kernels.derivation.acceleration_side(), kernels.accelerations(&unknowns)),
             ];
             let mut stages = kernels.derivation.solution(&sides, Form::Entries);
-            // Without a pose the determinants are computed where they are judged.
-            stages = stages
-                .into_iter()
-                .flat_map(|stage| {
-                    let block = if let Stage::Guard { block, .. } = stage { Some(block) } else { None };
-                    let determinant = block.and_then(|block| kernels.derivation.blocks[block].determinant);
-                    let named = determinant.map(|d| Stage::Let { symbol: d.symbol, node: d.value });
-                    named.into_iter().chain([stage])
-                })
-                .collect();
+            stages = kernels.with_determinants(stages);
             let mut nodes = kernels.variables(&kernels.rates(&all));
             nodes.extend(kernels.variables(&kernels.accelerations(&all)));
             let quantities: Vec<Quantity> = kernels.derivation.points.iter().chain(&kernels.derivation.outputs).cloned().collect();

@@ -1,0 +1,101 @@
+//! Reactions of the closures: Lagrange's multipliers.
+//!
+//! M q'' + `Psi_q'` lambda = F in all coordinates, of which the rows of the unknowns give J' lambda = F_u - (M q'')_u:
+//! block by block from the last to the first, each block of J transposed. A `loop` of two chains is cut where they
+//! meet, and lambda is the force there with which the left side pulls at the right side.
+
+use super::{Derivation, Form, along_rates, solve_closed};
+use crate::graph::{Function, NodeId, Number, SymbolId};
+use crate::model::{self, Mechanism};
+use crate::simplify::schedule::Stage;
+
+/// The system of the reactions.
+#[derive(Debug, Clone)]
+pub struct Reactions {
+    /// lambda by row of Psi.
+    pub names: Vec<SymbolId>,
+    /// F_u - (M q'')_u by unknown, in terms of q, q', q'' and t.
+    pub side: Vec<NodeId>,
+}
+
+impl Derivation {
+    pub(super) fn derive_reactions(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> Reactions {
+        let mut terms = vec![Vec::new(); self.unknowns.len()];
+        let mut add = |derivation: &mut Self, scalar: NodeId, force: NodeId, sign: Number| {
+            let row = derivation.row_of(scalar);
+            for (terms, unknown) in terms.iter_mut().zip(&derivation.unknowns) {
+                if let Some(&entry) = row.get(unknown) {
+                    terms.push((sign, derivation.graph.multiply(entry, force)));
+                }
+            }
+        };
+        for (index, body) in mechanism.bodies.iter().enumerate() {
+            for part in self.moving_parts(index, body, scene) {
+                for (&scalar, &field) in part.scalars.iter().zip(&part.fields) {
+                    let acceleration = if part.is_inert { self.acceleration_of(scalar) } else { self.graph.zero() };
+                    let difference = self.graph.subtract(acceleration, field);
+                    let force = self.graph.multiply(part.factor, difference);
+                    add(self, scalar, force, Number::MINUS_ONE);
+                }
+            }
+        }
+        for law in &scene.laws {
+            add(self, law.along, law.law, Number::ONE);
+        }
+        let side = terms.into_iter().map(|terms| self.graph.sum(&terms)).collect();
+        let names = (0..self.residual.len()).map(|row| self.graph.symbol(format!("lambda_{}", row + 1))).collect();
+        Reactions { names, side }
+    }
+
+    /// s'' in terms of q, q' and q''.
+    fn acceleration_of(&mut self, scalar: NodeId) -> NodeId {
+        let mut seeds = along_rates(&mut self.graph, &self.coordinates);
+        let rate = self.graph.differentiate(&[scalar], &seeds)[0];
+        for coordinate in &self.coordinates {
+            seeds.insert(coordinate.rate, self.graph.variable(coordinate.acceleration));
+        }
+        self.graph.differentiate(&[rate], &seeds)[0]
+    }
+
+    /// Stages that solve J' lambda = side, each block after the verdict on it.
+    pub fn transposed_solution(&mut self, reactions: &Reactions) -> Vec<Stage> {
+        let mut stages = Vec::new();
+        let mut solved: Vec<(usize, NodeId)> = Vec::new();
+        for number in (0..self.blocks.len()).rev() {
+            let block = self.blocks[number].clone();
+            let rows = self.block_matrix(&block);
+            let columns = |place: usize| rows.iter().map(|row| row[place]).collect::<Vec<NodeId>>();
+            let matrix: Vec<Vec<NodeId>> = (0..rows.len()).map(columns).collect();
+            let mut right = Vec::new();
+            for &unknown in &block.unknowns {
+                let mut terms = vec![(Number::ONE, reactions.side[unknown])];
+                for &(equation, lambda) in &solved {
+                    if let Some(&entry) = self.jacobian[equation].get(&self.unknowns[unknown]) {
+                        terms.push((Number::MINUS_ONE, self.graph.multiply(entry, lambda)));
+                    }
+                }
+                right.push(self.graph.sum(&terms));
+            }
+            let targets: Vec<SymbolId> = block.equations.iter().map(|&equation| reactions.names[equation]).collect();
+            if block.determinant.is_some() {
+                if let Some(divisor) = self.verdict(number, &block, &mut stages) {
+                    let values = solve_closed(&mut self.graph, &matrix, divisor, &right, Form::Entries);
+                    let named = targets.iter().zip(values);
+                    stages.extend(named.map(|(&symbol, node)| Stage::Let { symbol, node }));
+                }
+            } else {
+                let sizes = matrix.iter().map(|row| self.size_of(row)).collect();
+                stages.push(Stage::Factor { block: number, matrix, sizes });
+                stages.push(Stage::Solve { block: number, targets: targets.clone(), right });
+            }
+            solved.extend(block.equations.iter().zip(targets).map(|(&at, name)| (at, self.graph.variable(name))));
+        }
+        stages
+    }
+
+    /// The sum of the magnitudes of a row.
+    fn size_of(&mut self, row: &[NodeId]) -> NodeId {
+        let sizes: Vec<_> = row.iter().map(|&entry| (Number::ONE, self.graph.call(Function::Abs, &[entry]))).collect();
+        self.graph.sum(&sizes)
+    }
+}

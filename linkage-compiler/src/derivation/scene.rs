@@ -1,0 +1,250 @@
+//! Equations of motion in the independent coordinates: the velocity ratios carry every force to them.
+//!
+//! With u' = W v' a scalar s has the rate s' = `s_j` v'j, `s_j` = l_u W_j + l_v, and the acceleration
+//! s'' = `s_j` v''j + `s_0`, where `s_0` is what is left at v'' = 0. Virtual work gives M v'' = Q with
+//! M = sum m (`G_j` . `G_k`) + j `w_j` `w_k` and Q = sum F `s_j` - m `G_j` . (`G_0` - g) - j `w_j` `w_0`.
+//! For one input M v'' + (dM/dv) v'^2 / 2 is Eksergian's equation (P. Eksergian, "Dynamical analysis of
+//! machines", Journal of the Franklin Institute, 1930/31).
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::equilibrium::Equilibrium;
+use super::reactions::Reactions;
+use super::{Derivation, Places, Row, along_rates, angles, jacobian};
+use crate::graph::{NodeId, Number, SymbolId};
+use crate::model::{self, Account, Driver, Mechanism, Wish};
+use crate::simplify::simplify;
+
+/// What is derived for one scene, in terms of q, q', W and t.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The place in [`Mechanism::scenes`].
+    pub place: usize,
+    /// The names of u'' at v'' = 0.
+    pub bias: Vec<SymbolId>,
+    /// M by rows, if anything has inertia.
+    pub mass_matrix: Option<Vec<Vec<NodeId>>>,
+    /// Q with the quadratic velocity terms, by input.
+    pub forces: Vec<NodeId>,
+    /// What each body and effect adds to them, by what errors call it.
+    pub parts: Vec<(String, Vec<NodeId>)>,
+    /// The masses and inertias, by what errors call them.
+    pub masses: Vec<(String, NodeId)>,
+    /// By place among the inputs.
+    pub drives: BTreeMap<usize, Prescribed>,
+    pub kinetic: NodeId,
+    pub potential: NodeId,
+    /// The power of the laws that drive and that brake.
+    pub applied: NodeId,
+    pub dissipated: NodeId,
+    pub reactions: Option<Reactions>,
+    pub equilibrium: Option<Equilibrium>,
+}
+
+/// A law of motion with its derivatives by time.
+#[derive(Debug, Clone, Copy)]
+pub struct Prescribed {
+    pub value: NodeId,
+    pub rate: NodeId,
+    pub acceleration: NodeId,
+}
+
+/// A mass or an inertia, what moves with it, and the field it is in.
+pub(super) struct MovingPart {
+    pub property: &'static str,
+    pub factor: NodeId,
+    pub scalars: Vec<NodeId>,
+    pub fields: Vec<NodeId>,
+    /// Whether it counts but for its weight.
+    pub is_inert: bool,
+}
+
+/// A scalar with what is derived from it.
+struct Along {
+    /// `s_j` by input.
+    ratios: Vec<NodeId>,
+    rate: NodeId,
+}
+
+impl Derivation {
+    pub(super) fn derive_scenes(&mut self, mechanism: &Mechanism, driver: &Driver) {
+        let own = |scene: &model::Scene| mechanism.drivers[scene.driver].name == driver.name;
+        for (place, scene) in mechanism.scenes.iter().enumerate().filter(|(_, scene)| own(scene)) {
+            let mut derived = self.derive_scene(mechanism, place, scene);
+            derived.equilibrium = scene.wishes.contains(&Wish::Equilibrium).then(|| self.derive_equilibrium(&derived));
+            self.scenes.push(derived);
+        }
+    }
+
+    fn derive_scene(&mut self, mechanism: &Mechanism, place: usize, scene: &model::Scene) -> Scene {
+        let bias = self.bias_names();
+        let count = self.inputs.len();
+        let zero = self.graph.zero();
+        let mut mass_matrix = vec![vec![Vec::new(); count]; count];
+        let mut forces = vec![Vec::new(); count];
+        let (mut kinetic, mut potential) = (Vec::new(), Vec::new());
+        let (mut effects, mut masses) = (Vec::new(), Vec::new());
+        for (index, body) in mechanism.bodies.iter().enumerate() {
+            let parts = self.moving_parts(index, body, scene);
+            let mut added = Vec::new();
+            for MovingPart { property, factor, scalars, fields, is_inert } in parts {
+                masses.push((format!("the {property} of {}", body.name.text), factor));
+                let moved: Vec<Along> = scalars.iter().map(|&scalar| self.along(scalar)).collect();
+                let moving = moved.iter().map(|along| if is_inert { self.bias_of(along.rate, &bias) } else { zero });
+                let biases: Vec<NodeId> = moving.collect();
+                for (row, forces) in forces.iter_mut().enumerate() {
+                    if is_inert {
+                        for (column, entry) in mass_matrix[row].iter_mut().enumerate() {
+                            let pairs = moved.iter().map(|s| (s.ratios[row], s.ratios[column]));
+                            let sum = self.scalar_product(pairs.collect());
+                            entry.push((Number::ONE, self.graph.multiply(factor, sum)));
+                        }
+                    }
+                    let mut pairs = Vec::new();
+                    for ((along, &field), &bias) in moved.iter().zip(&fields).zip(&biases) {
+                        pairs.push((along.ratios[row], self.graph.subtract(bias, field)));
+                    }
+                    let sum = self.scalar_product(pairs);
+                    let force = self.graph.multiply(factor, sum);
+                    added.push(force);
+                    forces.push((Number::MINUS_ONE, force));
+                }
+                if is_inert {
+                    let sum = self.scalar_product(moved.iter().map(|s| (s.rate, s.rate)).collect());
+                    kinetic.push((Number::ratio(1, 2), self.graph.multiply(factor, sum)));
+                }
+                let weight = self.scalar_product(scalars.into_iter().zip(fields).collect());
+                potential.push((Number::MINUS_ONE, self.graph.multiply(factor, weight)));
+            }
+            if !added.is_empty() {
+                effects.push((format!("body {}", body.name.text), added));
+            }
+        }
+        let (mut applied, mut dissipated) = (Vec::new(), Vec::new());
+        for law in &scene.laws {
+            let along = self.along(law.along);
+            let mut added = Vec::new();
+            for (forces, &ratio) in forces.iter_mut().zip(&along.ratios) {
+                added.push(self.graph.multiply(law.law, ratio));
+                forces.extend(added.last().map(|&force| (Number::ONE, force)));
+            }
+            effects.push((law.label.clone(), added));
+            let power = self.graph.multiply(law.law, along.rate);
+            match law.account {
+                Account::Stored(energy) => potential.push((Number::ONE, energy)),
+                Account::Dissipated => dissipated.push((Number::MINUS_ONE, power)),
+                Account::Applied => applied.push((Number::ONE, power)),
+            }
+        }
+        let mut sum = |terms: Vec<(Number, NodeId)>| self.graph.sum(&terms);
+        let [kinetic, potential, applied, dissipated] = [kinetic, potential, applied, dissipated].map(&mut sum);
+        let forces = forces.into_iter().map(&mut sum).collect();
+        let mass_matrix = mass_matrix.into_iter().map(|row| row.into_iter().map(&mut sum).collect()).collect();
+        let mass_matrix = scene.inertia.is_some().then_some(mass_matrix);
+        let drives = self.prescribed(mechanism, scene);
+        let reactions = scene.wishes.contains(&Wish::Reactions).then(|| self.derive_reactions(mechanism, scene));
+        Scene {
+            place,
+            bias,
+            mass_matrix,
+            forces,
+            parts: effects,
+            masses,
+            drives,
+            kinetic,
+            potential,
+            applied,
+            dissipated,
+            reactions,
+            equilibrium: None,
+        }
+    }
+
+    /// What of a body moves in a scene: a mass in two directions, an inertia in one.
+    pub(super) fn moving_parts(&mut self, index: usize, body: &model::Body, scene: &model::Scene) -> Vec<MovingPart> {
+        let is_inert = scene.inertia.as_ref().is_some_and(|bodies| bodies.contains(&index));
+        let fields = scene.weights.iter().filter(|(other, _)| *other == index).map(|(_, field)| *field);
+        let fields: Vec<[NodeId; 2]> = fields.collect();
+        let mut parts = Vec::new();
+        if let Some((factor, center)) = body.mass
+            && (is_inert || !fields.is_empty())
+        {
+            let field = |axis: usize| fields.iter().map(|field| (Number::ONE, field[axis])).collect::<Vec<_>>();
+            let fields = [0, 1].map(|axis| self.graph.sum(&field(axis))).to_vec();
+            parts.push(MovingPart { property: "mass", factor, scalars: center.to_vec(), fields, is_inert });
+        }
+        if let Some((factor, angle)) = body.inertia
+            && is_inert
+        {
+            let fields = vec![self.graph.zero()];
+            parts.push(MovingPart { property: "inertia", factor, scalars: vec![angle], fields, is_inert });
+        }
+        parts
+    }
+
+    fn bias_names(&mut self) -> Vec<SymbolId> {
+        let names = self.unknowns.iter().map(|&unknown| format!("{}_bias", self.coordinates[unknown].name));
+        names.map(|name| self.graph.symbol(name)).collect()
+    }
+
+    /// x . y, in its simplest form.
+    fn scalar_product(&mut self, pairs: Vec<(NodeId, NodeId)>) -> NodeId {
+        let terms: Vec<_> = pairs.into_iter().map(|(a, b)| (Number::ONE, self.graph.multiply(a, b))).collect();
+        let sum = self.graph.sum(&terms);
+        self.simplest(sum)
+    }
+
+    /// The simplest form beside the sines and cosines that the closures take.
+    fn simplest(&mut self, node: NodeId) -> NodeId {
+        let given: BTreeSet<NodeId> = angles(&self.graph, &self.residual);
+        simplify(&mut self.graph, &[node], &given)[0]
+    }
+
+    /// d scalar / d q.
+    pub(super) fn row_of(&mut self, scalar: NodeId) -> Row {
+        let places: Places = self.coordinates.iter().enumerate().map(|(place, c)| (c.value, place)).collect();
+        jacobian(&mut self.graph, &[scalar], &places).remove(0)
+    }
+
+    fn along(&mut self, scalar: NodeId) -> Along {
+        let row = self.row_of(scalar);
+        let mut ratios = Vec::new();
+        for input in 0..self.inputs.len() {
+            let ratio = self.quantity_ratio(&row, input);
+            ratios.push(self.simplest(ratio));
+        }
+        let seeds = along_rates(&mut self.graph, &self.coordinates);
+        let rate = self.graph.differentiate(&[scalar], &seeds)[0];
+        Along { ratios, rate }
+    }
+
+    /// `s_0` by the rate of a scalar.
+    fn bias_of(&mut self, rate: NodeId, bias: &[SymbolId]) -> NodeId {
+        // d/dt: q -> q', u' -> u'' at v'' = 0, v' -> 0.
+        let mut seeds = along_rates(&mut self.graph, &self.coordinates);
+        for (&unknown, &bias) in self.unknowns.iter().zip(bias) {
+            seeds.insert(self.coordinates[unknown].rate, self.graph.variable(bias));
+        }
+        self.graph.differentiate(&[rate], &seeds)[0]
+    }
+
+    /// The laws of the driven inputs, by place among the inputs.
+    fn prescribed(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> BTreeMap<usize, Prescribed> {
+        let one = self.graph.one();
+        let seeds: BTreeMap<SymbolId, NodeId> = mechanism.time.iter().map(|&time| (time, one)).collect();
+        let driver = &mechanism.drivers[scene.driver];
+        let mut drives = BTreeMap::new();
+        for drive in &scene.drives {
+            let rate = self.graph.differentiate(&[drive.law], &seeds)[0];
+            let acceleration = self.graph.differentiate(&[rate], &seeds)[0];
+            let place = driver.inputs.iter().position(|&input| input == drive.input);
+            drives.extend(place.map(|place| (place, Prescribed { value: drive.law, rate, acceleration })));
+        }
+        drives
+    }
+
+    /// -gamma: the right side of J u'' = -gamma at v'' = 0.
+    pub fn bias_side(&mut self) -> Vec<NodeId> {
+        self.gamma.clone().into_iter().map(|gamma| self.graph.negate(gamma)).collect()
+    }
+}

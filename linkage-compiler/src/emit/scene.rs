@@ -1,0 +1,80 @@
+//! The type of a scene: the mechanism, and the parameters of the effects that the scene names.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+use syn::Attribute;
+
+use super::methods::argument;
+use super::names::ident;
+use super::types::{MOST_ARGUMENTS, default_of, docs, field};
+use crate::model::{Driver, Mechanism, Parameter, Scene};
+
+/// The field that holds the mechanism.
+pub(super) fn mechanism_field(mechanism: &Mechanism) -> Ident {
+    ident(&argument(mechanism, "mechanism"))
+}
+
+pub(super) fn types(mechanism: &Mechanism, driver: &Driver, scene: &Scene, private: &TokenStream) -> TokenStream {
+    let (visibility, name, of) = (&mechanism.visibility, &scene.name, &driver.name);
+    let inner = mechanism_field(mechanism);
+    let parameters: Vec<&Parameter> =
+        scene.parameters.iter().map(|&place| &mechanism.scene_parameters[place]).collect();
+    let fields: Vec<Ident> = parameters.iter().map(|parameter| field(&parameter.name)).collect();
+    let members = parameters.iter().zip(&fields).map(|(parameter, field)| {
+        let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
+        let other = parameter.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
+        quote!(#docs #(#other)* pub #field: T)
+    });
+    let title = docs(&scene.attributes, &format!("[`{of}`] with the effects of the scene `{name}`."));
+    let forwarded = scene.attributes.iter().chain(&mechanism.attributes);
+    let forwarded: Vec<&Attribute> = forwarded.filter(|attribute| !attribute.path().is_ident("doc")).collect();
+    let count = Literal::usize_unsuffixed(fields.len());
+    let texts: Vec<&String> = parameters.iter().map(|parameter| &parameter.name.text).collect();
+    let new = (fields.len() < MOST_ARGUMENTS).then(|| {
+        quote! {
+            /// The mechanism with these parameters of the effects.
+
+            #[must_use]
+            pub const fn new(#inner: #of<T>, #(#fields: T),*) -> Self {
+                Self { #inner, #(#fields),* }
+            }
+        }
+    });
+    let all = parameters.iter().map(|parameter| default_of(mechanism, parameter)).collect::<Option<Vec<_>>>();
+    let has_default = mechanism.parameters.iter().all(|parameter| parameter.default.is_some());
+    let defaults = all.filter(|_| has_default).map(|defaults| {
+        quote! {
+            impl ::core::default::Default for #name {
+                fn default() -> Self {
+                    Self { #inner: <#of as ::core::default::Default>::default(), #(#fields: #defaults),* }
+                }
+            }
+        }
+    });
+    quote! {
+        #title
+        #(#forwarded)*
+        #visibility struct #name<T = f64> {
+            /// The kinematics.
+            pub #inner: #of<T>,
+            #(#members),*
+        }
+        impl<T> ::core::convert::From<(#of<T>, [T; #count])> for #name<T> {
+            fn from((#inner, [#(#fields),*]): (#of<T>, [T; #count])) -> Self {
+                Self { #inner, #(#fields),* }
+            }
+        }
+        impl<T: #private::Real> #name<T> {
+            /// The parameters of the effects as they were declared, in order.
+
+            pub const PARAMETERS: [&'static str; #count] = [#(#texts),*];
+            #new
+            /// The same scene with another scalar.
+            #[must_use]
+            pub fn map<S: #private::Real>(self, scalar: impl ::core::ops::Fn(T) -> S) -> #name<S> {
+                #name { #(#fields: scalar(self.#fields),)* #inner: self.#inner.map(scalar) }
+            }
+        }
+        #defaults
+    }
+}

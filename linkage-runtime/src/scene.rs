@@ -1,0 +1,184 @@
+//! Mechanisms with forces: the trait that integrators take, and what the code emitted for scenes calls.
+
+use nalgebra::SVector;
+
+use crate::scalar::to_f64;
+use crate::{Error, Mechanism, Real, newton, real};
+
+/// A mechanism of `U` dependent and `V` independent coordinates with inertia and forces, as a differential
+/// equation of `N` = `U` + 2 `V` unknowns.
+///
+/// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then
+/// the rates of the inputs. Its derivative (W v', v'') needs no position to be solved for, follows angles beyond
+/// a turn, and does not leave a branch unnoticed: W has no finite value at a dead point. What rounding and the
+/// integrator add to the closures is removed by [`Scene::project`], after each step or now and then. An
+/// integrator of plain functions takes
+///
+/// ```text
+/// |t, y| scene.derivative(t, y)
+/// ```
+pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize> {
+    /// The name of the scene, as errors give it.
+    const NAME: &'static str;
+    /// The kinematics.
+    type Mechanism: Mechanism<T, U, V>;
+
+    /// The kinematics.
+    fn mechanism(&self) -> &Self::Mechanism;
+    /// y = (q, v').
+    fn state(q: &Coordinates<Self::Mechanism, T, U, V>, rates: &Inputs<Self::Mechanism, T, U, V>) -> SVector<T, N>;
+    /// q and v', taken out of y.
+    fn parts(state: &SVector<T, N>) -> (Coordinates<Self::Mechanism, T, U, V>, Inputs<Self::Mechanism, T, U, V>);
+    /// Refuses parameters that no mechanism has.
+    ///
+    /// # Errors
+    /// [`Error::Negative`] if a mass or an inertia is negative, with its name.
+    fn check(&self) -> Result<(), Error>;
+    /// y' = (W v', v'').
+    ///
+    /// # Errors
+    /// [`Error::Singular`] where J has no inverse, [`Error::NoInertia`] where an input could accelerate without
+    /// a force, [`Error::NotFinite`] with the name of the body or the effect that has no finite value.
+    fn derivative(&self, t: T, state: &SVector<T, N>) -> Result<SVector<T, N>, Error>;
+    /// The motion that is prescribed of each input: its value, its rate and its acceleration.
+    fn prescribed(&self, t: T) -> [Option<[T; 3]>; V];
+    /// The value and the rate of each input, with its name.
+    fn inputs(state: &SVector<T, N>) -> [(&'static str, T, T); V];
+
+    /// The state with the closures closed again, the inputs as they are.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] if no position is found, [`Error::NotFinite`] if a number is not finite.
+    fn project(&self, state: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+        let (q, rates) = Self::parts(state);
+        let closed = newton(self.mechanism(), &q)?;
+        Ok(Self::state(&closed.coordinates, &rates))
+    }
+
+    /// The state to begin with, at the position near `q` whose inputs are those of `q`.
+    ///
+    /// # Errors
+    /// Those of [`Scene::check`] and [`Scene::project`], and [`Error::Inconsistent`] if a driven input or its rate
+    /// is not what its law says.
+    fn start(
+        &self,
+        t: T,
+        q: &Coordinates<Self::Mechanism, T, U, V>,
+        rates: &Inputs<Self::Mechanism, T, U, V>,
+    ) -> Result<SVector<T, N>, Error> {
+        self.check()?;
+        let state = self.project(&Self::state(q, rates))?;
+        for ((coordinate, value, rate), law) in Self::inputs(&state).into_iter().zip(self.prescribed(t)) {
+            let Some([position, speed, _]) = law else { continue };
+            for (quantity, given, law) in [("position", value, position), ("rate", rate, speed)] {
+                let gap = (given - law).abs();
+                // NaN is not consistent either.
+                let agrees = gap <= T::default_epsilon().sqrt() * (given.abs() + law.abs());
+                if !agrees {
+                    let gap = to_f64(gap);
+                    return Err(Error::Inconsistent { scene: Self::NAME, coordinate, quantity, gap });
+                }
+            }
+        }
+        Ok(state)
+    }
+}
+
+/// The coordinates q of a mechanism by name.
+pub type Coordinates<M, T, const U: usize, const V: usize> = <M as Mechanism<T, U, V>>::Coordinates;
+/// The inputs v of a mechanism by name.
+pub type Inputs<M, T, const U: usize, const V: usize> = <M as Mechanism<T, U, V>>::Inputs;
+
+/// The energy of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energy<T> {
+    /// Of the bodies whose inertia counts.
+    pub kinetic: T,
+    /// Of gravity, springs and potentials.
+    pub potential: T,
+}
+
+/// The power of a scene: the energy changes by `applied` - `dissipated`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Power<T> {
+    /// Of forces, torques and drives.
+    pub applied: T,
+    /// Of dampers.
+    pub dissipated: T,
+}
+
+/// A pivot below this many roundings of its own entry is no better than the rounding of the others.
+const ROUNDINGS: f64 = 4.0;
+
+/// The accelerations of M x = `forces`, where M is symmetric and given by columns: elimination without exchange,
+/// good for a matrix whose every pivot is positive.
+///
+/// # Errors
+/// [`Error::NoInertia`] with the name of the first coordinate whose pivot is not positive,
+/// [`Error::NotFinite`] if it is not a number.
+#[inline]
+pub fn reduced<T: Real, const N: usize>(
+    scene: &'static str,
+    coordinates: [&'static str; N],
+    columns: [[T; N]; N],
+    forces: [T; N],
+) -> Result<[T; N], Error> {
+    let (mut matrix, mut x) = (columns, forces);
+    for k in 0..N {
+        let pivot = matrix[k][k];
+        if !(pivot > real::<T>(ROUNDINGS) * T::default_epsilon() * columns[k][k] && pivot.is_finite()) {
+            return Err(without_inertia(scene, coordinates[k], pivot, columns[k][k]));
+        }
+        for i in k + 1..N {
+            let factor = matrix[k][i] / pivot;
+            for column in &mut matrix[k + 1..] {
+                column[i] -= factor * column[k];
+            }
+            x[i] -= factor * x[k];
+        }
+    }
+    for k in (0..N).rev() {
+        let mut sum = x[k];
+        for i in k + 1..N {
+            sum -= matrix[i][k] * x[i];
+        }
+        x[k] = sum / matrix[k][k];
+    }
+    Ok(x)
+}
+
+#[cold]
+fn without_inertia<T: Real>(scene: &'static str, coordinate: &'static str, pivot: T, entry: T) -> Error {
+    if !pivot.is_finite() {
+        return Error::NotFinite { mechanism: scene, quantity: "the mass matrix" };
+    }
+    let share = if entry > T::zero() { to_f64(pivot / entry) } else { 0.0 };
+    Error::NoInertia { scene, coordinate, share }
+}
+
+/// Refuses numbers less than zero, and what is not finite.
+///
+/// # Errors
+/// [`Error::Negative`] or [`Error::NotFinite`] with the name of the first.
+pub fn not_negative<T: Real, const N: usize>(scene: &'static str, values: [(&'static str, T); N]) -> Result<(), Error> {
+    for (quantity, value) in values {
+        if !value.is_finite() {
+            return Err(Error::NotFinite { mechanism: scene, quantity });
+        }
+        if value < T::zero() {
+            return Err(Error::Negative { scene, quantity, value: to_f64(value) });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses the first value that is not finite, by its name.
+///
+/// # Errors
+/// [`Error::NotFinite`] with the name.
+pub fn finite_each<T: Real, const N: usize>(scene: &'static str, values: [(&'static str, T); N]) -> Result<(), Error> {
+    values
+        .into_iter()
+        .find(|(_, value)| !value.is_finite())
+        .map_or(Ok(()), |(quantity, _)| Err(Error::NotFinite { mechanism: scene, quantity }))
+}
