@@ -246,7 +246,7 @@ use proc_macro::TokenStream;
 ///     #[derive(Clone, Debug)]
 ///     pub mechanism FourBar {
 ///         param l1 = 0.8, l2 = 0.2, l3 = 0.5, l4 = 0.7;
-///         param m2 = 1.5, j2 = 0.02, m3 = 2.5, j3 = 0.05, g = 9.81, kt = 4, ct = 0.6, torque = 3, omega = 12;
+///         param j2 = 0.02, m3 = 2.5, j3 = 0.05, g = 9.81, kt = 4, ct = 0.6, t0 = 3, omega = 12;
 ///         input theta2;
 ///         unknown theta3, theta4;
 ///         loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
@@ -260,7 +260,7 @@ use proc_macro::TokenStream;
 ///             gravity (0, -g);
 ///             spring kt, -1.2 on theta4;
 ///             damper ct on theta4;
-///             torque torque on theta2;
+///             torque t0 on theta2;
 ///             energy;
 ///         }
 ///         /// What it takes to turn the crank like this.
