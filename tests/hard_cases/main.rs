@@ -22,6 +22,7 @@ mod three_sides_to_an_angle;
 mod turns;
 mod wrong_side;
 
+// `forty_digits` uses what is not used here: it evaluates whole graphs.
 #[path = "../oracle/precise.rs"]
 #[allow(dead_code)]
 mod precise;
