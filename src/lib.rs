@@ -66,10 +66,12 @@ pub mod __private {
     pub use linkage_macros::linkage;
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
+    pub use linkage_runtime::{__coordinates, __mechanism, __parameters, __part_of_coordinates, __quantities};
     pub use linkage_runtime::{
         Assembly, Balance, Bound, Elbow, Energy, Error, Factorization, Group, Limits, Mechanism, OutputMotion,
         PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, chord, elbow_chord, equilibrium, existing,
-        finite, finite_each, finite_matrix, limits, newton, newton_group, not_negative, product_of_pivots, real,
-        reduced, regular, side_of, unit,
+        finite, finite_each, finite_matrices, finite_matrix, finite_outputs, finite_points, limits, newton,
+        newton_group, not_negative, output_motions, point_motions, product_of_pivots, real, reduced, regular, side_of,
+        unit,
     };
 }

@@ -10,6 +10,7 @@ pub mod diagnostics;
 pub mod emit;
 pub mod graph;
 pub mod model;
+mod places;
 pub mod simplify;
 pub mod structure;
 pub mod syntax;

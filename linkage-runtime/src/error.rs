@@ -304,7 +304,7 @@ pub fn finite_matrix<T: Real, const R: usize, const C: usize>(
 }
 
 #[inline]
-fn all_finite<'a, T: Real>(
+pub(crate) fn all_finite<'a, T: Real>(
     mechanism: &'static str,
     quantity: &'static str,
     values: impl Iterator<Item = &'a T> + Clone,

@@ -22,6 +22,7 @@ pub mod continuation;
 pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
+mod emitted;
 mod equilibrium;
 mod error;
 pub mod integrate;
@@ -45,7 +46,9 @@ pub use limits::{Bound, Limits, Search, limits};
 use linear::same_signs;
 pub use linear::{Factorization, product_of_pivots, regular};
 pub use mechanism::{Assembly, Group, Mechanism};
-pub use motion::{OutputMotion, PointMotion};
+pub use motion::{
+    OutputMotion, PointMotion, finite_matrices, finite_outputs, finite_points, output_motions, point_motions,
+};
 pub use nalgebra;
 pub use position::{Solution, newton, newton_group};
 pub use scalar::{Real, real, unit};

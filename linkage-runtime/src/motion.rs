@@ -1,6 +1,9 @@
 //! Position, velocity and acceleration of one quantity.
 
-use nalgebra::Vector2;
+use nalgebra::{SMatrix, Vector2};
+
+use crate::error::all_finite;
+use crate::{Error, Real};
 
 /// A point in motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,4 +25,78 @@ pub struct OutputMotion<T = f64> {
     pub velocity: T,
     /// The rate of its rate.
     pub acceleration: T,
+}
+
+/// Points, velocities or accelerations by name, from their components in order.
+///
+/// # Errors
+/// [`Error::NotFinite`] with these names.
+#[inline]
+pub fn finite_points<T: Real, G: From<[Vector2<T>; N]>, const N: usize>(
+    mechanism: &'static str,
+    quantity: &'static str,
+    points: [[T; 2]; N],
+) -> Result<G, Error> {
+    all_finite(mechanism, quantity, points.as_flattened().iter())?;
+    Ok(G::from(points.map(Vector2::from)))
+}
+
+/// Outputs or their rates by name, in order.
+///
+/// # Errors
+/// [`Error::NotFinite`] with these names.
+#[inline]
+pub fn finite_outputs<T: Real, G: From<[T; N]>, const N: usize>(
+    mechanism: &'static str,
+    quantity: &'static str,
+    outputs: [T; N],
+) -> Result<G, Error> {
+    all_finite(mechanism, quantity, outputs.iter())?;
+    Ok(G::from(outputs))
+}
+
+/// Derivatives of points or outputs by name, each a matrix of R rows by its C columns.
+///
+/// # Errors
+/// [`Error::NotFinite`] with these names.
+#[inline]
+pub fn finite_matrices<T: Real, G, const N: usize, const R: usize, const C: usize>(
+    mechanism: &'static str,
+    quantity: &'static str,
+    matrices: [[[T; R]; C]; N],
+) -> Result<G, Error>
+where
+    G: From<[SMatrix<T, R, C>; N]>,
+{
+    all_finite(mechanism, quantity, matrices.as_flattened().as_flattened().iter())?;
+    Ok(G::from(matrices.map(SMatrix::from)))
+}
+
+/// Points in motion by name: position, velocity and acceleration of each in order.
+///
+/// # Errors
+/// [`Error::NotFinite`] with this name.
+#[inline]
+pub fn point_motions<T: Real, G: From<[PointMotion<T>; N]>, const N: usize>(
+    mechanism: &'static str,
+    points: [[[T; 2]; 3]; N],
+) -> Result<G, Error> {
+    all_finite(mechanism, "motion", points.as_flattened().as_flattened().iter())?;
+    Ok(G::from(points.map(|point| {
+        let [position, velocity, acceleration] = point.map(Vector2::from);
+        PointMotion { position, velocity, acceleration }
+    })))
+}
+
+/// Outputs in motion by name: value, rate and the rate of the rate of each in order.
+///
+/// # Errors
+/// [`Error::NotFinite`] with this name.
+#[inline]
+pub fn output_motions<T: Real, G: From<[OutputMotion<T>; N]>, const N: usize>(
+    mechanism: &'static str,
+    outputs: [[T; 3]; N],
+) -> Result<G, Error> {
+    all_finite(mechanism, "motion", outputs.as_flattened().iter())?;
+    Ok(G::from(outputs.map(|[value, velocity, acceleration]| OutputMotion { value, velocity, acceleration })))
 }

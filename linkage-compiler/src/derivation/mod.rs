@@ -172,9 +172,10 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Blo
     let given = angles(&graph, &residual);
     let outputs: Vec<NodeId> = mechanism.outputs.iter().map(|output| output.value).collect();
     let outputs: Vec<NodeId> = outputs.into_iter().map(|output| simplify(&mut graph, &[output], &given)[0]).collect();
-    let mut quantity = |value: Vec<NodeId>| quantity(&mut graph, value, &coordinates, &place_of);
-    let points = mechanism.points.iter().map(|point| quantity(vec![point.x, point.y])).collect();
-    let outputs = outputs.into_iter().map(|output| quantity(vec![output])).collect();
+    let mut values: Vec<Vec<NodeId>> = mechanism.points.iter().map(|point| vec![point.x, point.y]).collect();
+    values.extend(outputs.into_iter().map(|output| vec![output]));
+    let mut points = quantities(&mut graph, values, &coordinates, &place_of);
+    let outputs = points.split_off(mechanism.points.len());
     let mut derivation = Derivation {
         coordinates,
         unknowns,
@@ -254,15 +255,25 @@ fn name_determinants(graph: &mut Graph, blocks: &mut [Block]) {
 }
 
 fn jacobian(graph: &mut Graph, rows: &[NodeId], places: &Places) -> Vec<Row> {
-    rows.iter()
-        .map(|&row| {
-            let of = graph.symbols_of(&[row]);
-            let entries =
-                of.into_iter().filter_map(|symbol| Some((*places.get(&symbol)?, graph.partial(&[row], symbol)[0])));
-            let entries: Vec<_> = entries.collect();
-            entries.into_iter().filter(|(_, entry)| !graph.is_zero(*entry)).collect()
-        })
-        .collect()
+    // What rows have in common is derived once.
+    let mut holders: BTreeMap<(SymbolId, usize), Vec<usize>> = BTreeMap::new();
+    for (index, &row) in rows.iter().enumerate() {
+        for symbol in graph.symbols_of(&[row]) {
+            if let Some(&place) = places.get(&symbol) {
+                holders.entry((symbol, place)).or_default().push(index);
+            }
+        }
+    }
+    let mut jacobian = vec![Row::new(); rows.len()];
+    for ((symbol, place), of) in holders {
+        let held: Vec<NodeId> = of.iter().map(|&index| rows[index]).collect();
+        for (index, entry) in of.into_iter().zip(graph.partial(&held, symbol)) {
+            if !graph.is_zero(entry) {
+                jacobian[index].insert(place, entry);
+            }
+        }
+    }
+    jacobian
 }
 
 /// q -> q'.
@@ -270,23 +281,32 @@ fn along_rates(graph: &mut Graph, coordinates: &[Coordinate]) -> BTreeMap<Symbol
     coordinates.iter().map(|coordinate| (coordinate.value, graph.variable(coordinate.rate))).collect()
 }
 
-fn quantity(graph: &mut Graph, value: Vec<NodeId>, coordinates: &[Coordinate], places: &Places) -> Quantity {
-    let jacobian = jacobian(graph, &value, places);
+/// Quantities by the values of their components.
+fn quantities(
+    graph: &mut Graph,
+    values: Vec<Vec<NodeId>>,
+    coordinates: &[Coordinate],
+    places: &Places,
+) -> Vec<Quantity> {
+    let rows: Vec<NodeId> = values.concat();
+    let mut jacobian = jacobian(graph, &rows, places).into_iter();
     let mut seeds = along_rates(graph, coordinates);
-    let rate = graph.differentiate(&value, &seeds);
+    let rates = graph.differentiate(&rows, &seeds);
     for coordinate in coordinates {
         seeds.insert(coordinate.rate, graph.variable(coordinate.acceleration));
     }
-    let acceleration = graph.differentiate(&rate, &seeds);
-    Quantity {
+    let mut accelerations = graph.differentiate(&rates, &seeds).into_iter();
+    let mut rates = rates.into_iter();
+    let quantity = |value: Vec<NodeId>| Quantity {
+        jacobian: jacobian.by_ref().take(value.len()).collect(),
+        rate: rates.by_ref().take(value.len()).collect(),
+        acceleration: accelerations.by_ref().take(value.len()).collect(),
         value,
-        jacobian,
-        rate,
-        acceleration,
         jerk: Vec::new(),
         along_inputs: Vec::new(),
         by_parameters: Vec::new(),
-    }
+    };
+    values.into_iter().map(quantity).collect()
 }
 
 impl Block {

@@ -1,12 +1,13 @@
 //! One kernel: what it is given, its stages, and the Rust that carries them out.
 
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use proc_macro2::{Delimiter, Ident, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::expression::{define, direction_name, signed};
-use super::names::{Names, Taken, call_of, ident};
+use super::names::{Names, Scope, Taken, call_of, ident};
 use super::pose::PosePlan;
 use super::tokens::Tokens;
 use crate::derivation::Derivation;
@@ -84,7 +85,7 @@ pub(super) fn write(
     given: &Given,
     stages: &[Stage],
     named: &[(NodeId, String)],
-    reserved: &[String],
+    scope: &Rc<Scope>,
 ) -> Code {
     let at_hand = given.pose.map(PosePlan::given).unwrap_or_default();
     let schedule = schedule::schedule(&derivation.graph, stages, &at_hand, named);
@@ -98,7 +99,7 @@ pub(super) fn write(
         })
         .collect();
     let symbols: BTreeSet<SymbolId> = used.difference(&own).copied().collect();
-    let mut names = Names::new(&derivation.graph, reserved.iter().cloned());
+    let mut names = Names::new(&derivation.graph, scope);
     // In the order of their making: the user's own names come first and stay as they are.
     for &symbol in &symbols {
         names.introduce(symbol);
@@ -193,28 +194,33 @@ fn take_directions(body: &mut Tokens, pose: &PosePlan, schedule: &Schedule, name
     }
     used.sort_unstable();
     let argument = ident(&pose.argument);
+    let (keyword, sine, cosine) = (ident("let"), ident("im"), ident("re"));
     for parts in used.chunk_by(|one, other| one.0 == other.0) {
         let field = pose.direction(parts[0].0);
         let field_ident = ident(field);
-        let (mut left, mut right) = (Vec::new(), Vec::new());
-        for &(_, function, id) in parts {
-            let mut name = Tokens::default();
-            name.append(names.give(id, &direction_name(function, field)));
-            left.push(name);
-            let mut part = Tokens::default();
-            part.ident(&argument);
-            part.punct('.');
-            part.ident(&field_ident);
-            part.punct('.');
-            part.word(if function == Function::Sin { "im" } else { "re" });
-            right.push(part);
+        let (mut left, mut right) = (Tokens::default(), Tokens::default());
+        for (place, &(_, function, id)) in parts.iter().enumerate() {
+            if place > 0 {
+                left.punct(',');
+                right.punct(',');
+            }
+            left.append(names.give(id, &direction_name(function, field)));
+            right.ident(&argument);
+            right.punct('.');
+            right.ident(&field_ident);
+            right.punct('.');
+            right.ident(if function == Function::Sin { &sine } else { &cosine });
         }
-        body.word("let");
-        // None about a single one.
-        let brackets = if parts.len() == 1 { Delimiter::None } else { Delimiter::Parenthesis };
-        body.list(brackets, left);
-        body.punct('=');
-        body.list(brackets, right);
+        body.ident(&keyword);
+        if parts.len() == 1 {
+            body.join(left);
+            body.punct('=');
+            body.join(right);
+        } else {
+            body.group(Delimiter::Parenthesis, left);
+            body.punct('=');
+            body.group(Delimiter::Parenthesis, right);
+        }
         body.punct(';');
     }
     Some(argument)

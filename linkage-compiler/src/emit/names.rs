@@ -1,27 +1,33 @@
 //! Names of the emitted code: the user's own, and fresh ones beside them.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use proc_macro2::{Ident, Literal, Span};
-use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::graph::{ExternalId, Graph, Number, SymbolId};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 17] = [
+pub(super) const RUNTIME_FUNCTIONS: [&str; 22] = [
     "chord",
     "elbow_chord",
     "equilibrium",
     "existing",
     "finite",
     "finite_each",
+    "finite_matrices",
     "finite_matrix",
+    "finite_outputs",
+    "finite_points",
     "limits",
     "newton",
     "newton_group",
     "not_negative",
+    "output_motions",
+    "point_motions",
     "product_of_pivots",
     "real",
     "reduced",
@@ -45,16 +51,40 @@ pub(super) struct Name {
     pub(super) ident: Ident,
 }
 
-impl Name {
-    fn new(text: String) -> Self {
-        let ident = ident(&text);
-        Self { text, ident }
+/// What the functions of one driver have in common: the names of their arguments and of the runtime's functions,
+/// which no value may have, and the identifiers made so far.
+#[derive(Debug, Default)]
+pub(super) struct Scope {
+    reserved: FxHashSet<String>,
+    idents: RefCell<FxHashMap<String, Ident>>,
+}
+
+impl Scope {
+    pub(super) fn new(arguments: impl IntoIterator<Item = String>) -> Self {
+        let reserved = arguments.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)).collect();
+        Self { reserved, idents: RefCell::default() }
+    }
+
+    pub(super) fn reserve(&mut self, argument: String) {
+        self.reserved.insert(argument);
+    }
+
+    /// An identifier, which is checked once.
+    fn ident(&self, text: &str) -> Ident {
+        let mut idents = self.idents.borrow_mut();
+        if let Some(ident) = idents.get(text) {
+            return ident.clone();
+        }
+        let new = ident(text);
+        idents.insert(text.to_owned(), new.clone());
+        new
     }
 }
 
 /// The names that are in use.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Taken {
+    scope: Rc<Scope>,
     names: FxHashSet<String>,
     /// The last number given to a stem, so that a thousandth name is found as fast as the second.
     numbers: FxHashMap<String, usize>,
@@ -63,16 +93,21 @@ pub(super) struct Taken {
 impl Taken {
     /// The name wished for, or one like it that is not taken.
     pub(super) fn unique(&mut self, wish: &str) -> String {
-        if self.names.insert(wish.to_owned()) { wish.to_owned() } else { self.numbered(wish, 2) }
+        if self.is_new(wish) { wish.to_owned() } else { self.numbered(wish, 2) }
+    }
+
+    fn is_new(&mut self, name: &str) -> bool {
+        !self.scope.reserved.contains(name) && self.names.insert(name.to_owned())
     }
 
     /// The stem with the next number, from `first` on.
     fn numbered(&mut self, stem: &str, first: usize) -> String {
-        let number = self.numbers.entry(stem.to_owned()).or_insert(first);
+        let mut number = self.numbers.get(stem).copied().unwrap_or(first);
         loop {
             let name = format!("{stem}_{number}");
-            *number += 1;
-            if self.names.insert(name.clone()) {
+            number += 1;
+            if self.is_new(&name) {
+                self.numbers.insert(stem.to_owned(), number);
                 return name;
             }
         }
@@ -94,13 +129,8 @@ pub(super) struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    /// `reserved` are names already in scope: arguments of the function and the user's names.
-    pub(super) fn new(graph: &'a Graph, reserved: impl IntoIterator<Item = String>) -> Self {
-        // As many as a short kernel has.
-        let mut names = FxHashSet::with_capacity_and_hasher(64, FxBuildHasher);
-        names.extend(reserved);
-        names.extend(RUNTIME_FUNCTIONS.map(str::to_owned));
-        let taken = Taken { names, numbers: FxHashMap::default() };
+    pub(super) fn new(graph: &'a Graph, scope: &Rc<Scope>) -> Self {
+        let taken = Taken { scope: Rc::clone(scope), ..Taken::default() };
         Self {
             graph,
             taken,
@@ -130,6 +160,12 @@ impl<'a> Names<'a> {
         self.taken.unique(wish)
     }
 
+    /// The name wished for, or one like it.
+    fn name(&mut self, wish: &str) -> Name {
+        let text = self.taken.unique(wish);
+        Name { ident: self.taken.scope.ident(&text), text }
+    }
+
     pub(super) fn into_taken(self) -> Taken {
         self.taken
     }
@@ -150,7 +186,7 @@ impl<'a> Names<'a> {
 
     /// Gives a symbol its own name, or one like it if that is taken.
     pub(super) fn introduce(&mut self, symbol: SymbolId) -> Name {
-        let name = Name::new(self.unique(self.graph.symbol_name(symbol)));
+        let name = self.name(self.graph.symbol_name(symbol));
         self.symbols.insert(symbol, name.clone());
         name
     }
@@ -173,7 +209,7 @@ impl<'a> Names<'a> {
 
     /// A name like this one for a value.
     pub(super) fn give(&mut self, value: ValueId, wish: &str) -> Ident {
-        let name = Name::new(self.unique(wish));
+        let name = self.name(wish);
         let ident = name.ident.clone();
         self.set(value, name);
         ident
@@ -194,11 +230,11 @@ impl<'a> Names<'a> {
                 Value::Call(function, _) => format!("{}_1", function.operation().name),
                 _ => "value_1".to_owned(),
             });
-        let name = match wish.strip_suffix("_1") {
+        let text = match wish.strip_suffix("_1") {
             Some(stem) => self.taken.numbered(stem, 1),
             None => self.unique(&wish),
         };
-        let name = Name::new(name);
+        let name = Name { ident: self.taken.scope.ident(&text), text };
         let ident = name.ident.clone();
         self.set(value, name);
         ident

@@ -34,12 +34,27 @@ impl Tokens {
         self.0.extend(stream);
     }
 
-    /// `#[doc = " line"]`, with the word `doc`.
-    pub(super) fn doc(&mut self, word: &Ident, line: &str) {
+    /// What another list holds.
+    pub(super) fn join(&mut self, mut other: Self) {
+        self.0.append(&mut other.0);
+    }
+
+    /// `#[doc = "…"]` of all lines together.
+    pub(super) fn doc(&mut self, lines: &[String]) {
+        let mut text = String::new();
+        for line in lines {
+            if !text.is_empty() {
+                text.push('\n');
+            }
+            if !line.is_empty() {
+                text.push(' ');
+                text.push_str(line);
+            }
+        }
         let mut doc = Self::default();
-        doc.ident(word);
+        doc.word("doc");
         doc.punct('=');
-        doc.append(if line.is_empty() { string("") } else { string(&format!(" {line}")) });
+        doc.append(string(&text));
         self.punct('#');
         self.group(Delimiter::Bracket, doc);
     }

@@ -1,11 +1,12 @@
 //! The types of a mechanism: parameters, coordinates, inputs, unknowns, points, outputs, pose, motion.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Attribute;
 
-use super::names::ident;
+use super::names::{ident, string};
 use super::pose::PosePlan;
+use super::tokens::Tokens;
 use super::{Types, expression};
 use crate::derivation::{Choice, Derivation};
 use crate::graph::{Number, Texts};
@@ -34,6 +35,11 @@ fn phantom(fields: &[Ident]) -> (Option<TokenStream>, Option<TokenStream>) {
         empty.then(|| quote!(scalar: ::core::marker::PhantomData<T>)),
         empty.then(|| quote!(scalar: ::core::marker::PhantomData)),
     )
+}
+
+/// The name of that member, for the macros of the runtime.
+fn mark(is_empty: bool) -> Option<Ident> {
+    is_empty.then(|| ident("scalar"))
 }
 
 fn derives() -> TokenStream {
@@ -68,7 +74,9 @@ pub(super) fn shared(mechanism: &Mechanism, private: &TokenStream) -> TokenStrea
     let order = mechanism.drivers.first().map(|driver| mechanism.coordinate_order(driver)).unwrap_or_default();
     let members: Vec<&Coordinate> = order.iter().map(|&index| &mechanism.coordinates[index]).collect();
     let title = format!(" The coordinates q of [`{name}`] by name; their rates and accelerations as well.");
-    tokens.extend(coordinate_struct(mechanism, &coordinates, &title, &members, private));
+    tokens.extend(coordinate_struct(mechanism, &coordinates, &title, &members));
+    let (named_members, scalar) = (named(members.iter().map(|member| &member.name)), mark(members.is_empty()));
+    tokens.extend(quote!(#private::__coordinates!(#coordinates #named_members #scalar);));
     for (suffix, what, names) in [
         ("Points", "points", mechanism.points.iter().map(|p| (&p.name, &p.attributes)).collect::<Vec<_>>()),
         ("Outputs", "outputs", mechanism.outputs.iter().map(|o| (&o.name, &o.attributes)).collect()),
@@ -77,29 +85,18 @@ pub(super) fn shared(mechanism: &Mechanism, private: &TokenStream) -> TokenStrea
             continue;
         }
         let ident = format_ident!("{name}{suffix}", span = proc_macro2::Span::call_site());
-        let count = Literal::usize_unsuffixed(names.len());
-        let fields: Vec<Ident> = names.iter().map(|(name, _)| field(name)).collect();
-        let texts: Vec<&String> = names.iter().map(|(name, _)| &name.text).collect();
         let kind = &what[..what.len() - 1];
-        let members = names.iter().zip(&fields).map(|((name, attributes), field)| {
-            let docs = docs(attributes, &format!("The {kind} `{}`.", name.text));
+        let members = names.iter().map(|(name, attributes)| {
+            let (docs, field) = (docs(attributes, &format!("The {kind} `{}`.", name.text)), field(name));
             quote!(#docs pub #field: Q)
         });
         let title = format!(" One quantity for each of the {what} of [`{name}`].");
-        let named = format!(" The {what} as they were declared, in order.");
+        let named = named(names.iter().map(|(name, _)| *name));
         tokens.extend(quote! {
             #[doc = #title]
             #derives
             #visibility struct #ident<Q> { #(#members),* }
-            impl<Q> #ident<Q> {
-                #[doc = #named]
-                pub const NAMES: [&'static str; #count] = [#(#texts),*];
-            }
-            impl<Q> ::core::convert::From<#ident<Q>> for [Q; #count] {
-                fn from(named: #ident<Q>) -> Self {
-                    [#(named.#fields),*]
-                }
-            }
+            #private::__quantities!(#ident #named);
         });
     }
     tokens
@@ -128,17 +125,10 @@ pub(super) fn of_driver(
         [(inputs, "independent coordinates v", &driver.inputs), (unknowns, "dependent coordinates u", &driver.unknowns)]
     {
         let members: Vec<&Coordinate> = indices.iter().map(|&index| &mechanism.coordinates[index]).collect();
-        let fields: Vec<Ident> = members.iter().map(|member| field(&member.name)).collect();
-        let (_, no_scalar) = phantom(&fields);
         let title = format!(" The {what} of [`{name}`] by name; their rates and accelerations as well.");
-        tokens.extend(coordinate_struct(mechanism, ident, &title, &members, private));
-        tokens.extend(quote! {
-            impl<T: #private::Real> ::core::convert::From<&#coordinates<T>> for #ident<T> {
-                fn from(q: &#coordinates<T>) -> Self {
-                    Self { #(#fields: q.#fields,)* #no_scalar }
-                }
-            }
-        });
+        tokens.extend(coordinate_struct(mechanism, ident, &title, &members));
+        let (named, scalar) = (named(members.iter().map(|member| &member.name)), mark(members.is_empty()));
+        tokens.extend(quote!(#private::__part_of_coordinates!(#ident #named #coordinates #scalar);));
     }
     if let &[only] = driver.inputs.as_slice() {
         let field = field(&mechanism.coordinates[only].name);
@@ -233,7 +223,6 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
     let fields: Vec<Ident> = mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect();
     let (scalar, no_scalar) = phantom(&fields);
     let number = fields.len();
-    let count = Literal::usize_unsuffixed(number);
     let members = mechanism.parameters.iter().zip(&fields).map(|(parameter, field)| {
         let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
         let other = parameter.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
@@ -244,45 +233,25 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
         let text = format!(" The parameters of the mechanism `{name}`.");
         quote!(#[doc = #text])
     });
-    let texts: Vec<&String> = mechanism.parameters.iter().map(|parameter| &parameter.name.text).collect();
+    let (named, mark) = (named(mechanism.parameters.iter().map(|parameter| &parameter.name)), mark(fields.is_empty()));
     let mut tokens = quote! {
         #title
         #(#attributes)*
         #visibility struct #name<T = f64> { #(#members,)* #scalar }
-        impl<T> ::core::convert::From<[T; #count]> for #name<T> {
-            fn from([#(#fields),*]: [T; #count]) -> Self {
-                Self { #(#fields,)* #no_scalar }
-            }
-        }
-        impl<T> ::core::convert::From<#name<T>> for [T; #count] {
-            fn from(parameters: #name<T>) -> Self {
-                [#(parameters.#fields),*]
-            }
-        }
+        #private::__parameters!(#name #named #mark);
     };
-    let new = (0..=MOST_ARGUMENTS).contains(&number).then(|| {
-        quote! {
-            /// The mechanism with these parameters.
+    if number <= MOST_ARGUMENTS {
+        tokens.extend(quote! {
+            impl<T: #private::Real> #name<T> {
+                /// The mechanism with these parameters.
 
-            #[must_use]
-            pub const fn new(#(#fields: T),*) -> Self {
-                Self { #(#fields,)* #no_scalar }
+                #[must_use]
+                pub const fn new(#(#fields: T),*) -> Self {
+                    Self { #(#fields,)* #no_scalar }
+                }
             }
-        }
-    });
-    tokens.extend(quote! {
-        impl<T: #private::Real> #name<T> {
-            /// The parameters as they were declared, in order.
-
-            pub const PARAMETERS: [&'static str; #count] = [#(#texts),*];
-            #new
-            /// The same mechanism with another scalar.
-            #[must_use]
-            pub fn map<S>(self, scalar: impl ::core::ops::Fn(T) -> S) -> #name<S> {
-                #name { #(#fields: scalar(self.#fields),)* #no_scalar }
-            }
-        }
-    });
+        });
+    }
     let defaults: Option<Vec<TokenStream>> =
         mechanism.parameters.iter().map(|parameter| default_of(mechanism, parameter)).collect();
     if let Some(defaults) = defaults {
@@ -306,44 +275,33 @@ pub(super) fn default_of(mechanism: &Mechanism, parameter: &Parameter) -> Option
     Some(expression::plain(number))
 }
 
-fn coordinate_struct(
-    mechanism: &Mechanism,
-    name: &Ident,
-    title: &str,
-    coordinates: &[&Coordinate],
-    private: &TokenStream,
-) -> TokenStream {
-    let visibility = &mechanism.visibility;
-    let derives = derives();
-    let count = Literal::usize_unsuffixed(coordinates.len());
-    let fields: Vec<Ident> = coordinates.iter().map(|coordinate| field(&coordinate.name)).collect();
-    let (scalar, no_scalar) = phantom(&fields);
-    let texts: Vec<&String> = coordinates.iter().map(|coordinate| &coordinate.name.text).collect();
-    let members = coordinates.iter().zip(&fields).map(|(coordinate, field)| {
+fn coordinate_struct(mechanism: &Mechanism, name: &Ident, title: &str, coordinates: &[&Coordinate]) -> TokenStream {
+    let (visibility, derives) = (&mechanism.visibility, derives());
+    let members = coordinates.iter().map(|coordinate| {
         let docs = docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind));
+        let field = field(&coordinate.name);
         quote!(#docs pub #field: T)
     });
+    let scalar = coordinates.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData<T>));
     quote! {
         #[doc = #title]
         #derives
         #visibility struct #name<T = f64> { #(#members,)* #scalar }
-        impl<T> #name<T> {
-            /// The coordinates as they were declared, in order.
-
-            pub const NAMES: [&'static str; #count] = [#(#texts),*];
-        }
-        impl<T: #private::Real> ::core::convert::From<#private::SVector<T, #count>> for #name<T> {
-            fn from(vector: #private::SVector<T, #count>) -> Self {
-                let [[#(#fields),*]] = vector.data.0;
-                Self { #(#fields,)* #no_scalar }
-            }
-        }
-        impl<T: #private::Real> ::core::convert::From<#name<T>> for #private::SVector<T, #count> {
-            fn from(coordinates: #name<T>) -> Self {
-                Self::from([#(coordinates.#fields),*])
-            }
-        }
     }
+}
+
+/// The fields of a type with what they are called, and their number, for the macros of the runtime.
+fn named<'a>(names: impl Iterator<Item = &'a Name>) -> TokenStream {
+    let (mut members, mut count) = (Tokens::default(), 0);
+    for name in names {
+        members.ident(&field(name));
+        members.append(string(&name.text));
+        count += 1;
+    }
+    let mut all = Tokens::default();
+    all.group(Delimiter::Bracket, members);
+    all.append(Literal::usize_unsuffixed(count));
+    all.into()
 }
 
 /// Of more groups than this nobody tries all branches.

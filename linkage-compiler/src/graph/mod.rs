@@ -16,12 +16,12 @@ mod sweep;
 
 use std::collections::BTreeSet;
 
-use rustc_hash::FxHashMap;
-
 pub use external::{External, ExternalId};
 pub use function::{Function, OPERATIONS, Operation};
 pub use number::Number;
 pub use print::{Name, Printer, Texts};
+
+use crate::places::{Hash, Places};
 
 /// An expression of a [`Graph`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -32,7 +32,7 @@ pub struct NodeId(u32);
 pub struct SymbolId(u32);
 
 /// What an expression is made of.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Node {
     Constant(Number),
     Pi,
@@ -84,7 +84,7 @@ pub enum Condition {
 #[derive(Debug, Clone, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    ids: FxHashMap<Node, NodeId>,
+    ids: Places,
     /// The value of each node that holds no symbol.
     values: Vec<Option<f64>>,
     /// Whether a node has no value for some values of its symbols.
@@ -99,6 +99,10 @@ pub struct Graph {
 impl SymbolId {
     /// No symbol at all.
     pub const NONE: Self = Self(u32::MAX);
+
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
 }
 
 impl NodeId {
@@ -108,6 +112,47 @@ impl NodeId {
 
     pub(crate) fn index(self) -> usize {
         self.0 as usize
+    }
+}
+
+impl Node {
+    fn hash(&self) -> Hash {
+        match self {
+            Self::Constant(number) => number.hashed(Hash::of(0)),
+            Self::Pi => Hash::of(1),
+            Self::Symbol(symbol) => Hash::of(2).with(u64::from(symbol.0)),
+            Self::Sum { constant, terms } => {
+                let mut hash = constant.hashed(Hash::of(3));
+                for (coefficient, term) in terms {
+                    hash = coefficient.hashed(hash).with(u64::from(term.0));
+                }
+                hash
+            }
+            Self::Product { coefficient, factors } => {
+                let mut hash = coefficient.hashed(Hash::of(4));
+                for (base, exponent) in factors {
+                    hash = hash.with(u64::from(base.0) << 32 | u64::from(exponent.cast_unsigned()));
+                }
+                hash
+            }
+            Self::Call(function, arguments) => {
+                let mut hash = Hash::of(5).with(*function as u64);
+                for argument in arguments {
+                    hash = hash.with(u64::from(argument.0));
+                }
+                hash
+            }
+            Self::External(external, arguments) => {
+                let mut hash = Hash::of(6).with(external.function.index() as u64);
+                for &times in &external.by {
+                    hash = hash.with(u64::from(times));
+                }
+                for argument in arguments {
+                    hash = hash.with(u64::from(argument.0));
+                }
+                hash
+            }
+        }
     }
 }
 
@@ -211,8 +256,9 @@ impl Graph {
     }
 
     fn intern(&mut self, node: Node) -> NodeId {
-        if let Some(&id) = self.ids.get(&node) {
-            return id;
+        let hash = node.hash();
+        if let Some(place) = self.ids.find(hash, |place| self.nodes[place] == node) {
+            return NodeId::new(place);
         }
         let value = interpret::node_value(&node, |_| None, |_, _| None, |id| self.values[id.index()]);
         if value.is_some_and(|value| !value.is_finite()) {
@@ -223,8 +269,8 @@ impl Graph {
         // What has a value has no symbols that could take it away.
         let partial = value.is_none() && self.has_partial_value(&node);
         self.partial.push(partial);
-        self.nodes.push(node.clone());
-        self.ids.insert(node, id);
+        self.ids.insert(hash, self.nodes.len());
+        self.nodes.push(node);
         id
     }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::places::Hash;
+
 /// A constant: an exact ratio in lowest terms with a positive denominator, or a float.
 ///
 /// Arithmetic on ratios is exact; a result whose numerator or denominator leaves `i64`
@@ -201,6 +203,14 @@ impl std::hash::Hash for Number {
 }
 
 impl Number {
+    /// A hash with this number added to it.
+    pub(crate) fn hashed(self, hash: Hash) -> Hash {
+        match self {
+            Self::Ratio(n, d) => hash.with(n.cast_unsigned()).with(d.cast_unsigned()),
+            Self::Float(value) => hash.with(value.to_bits()),
+        }
+    }
+
     fn key(self) -> (bool, i64, i64) {
         match self {
             Self::Ratio(n, d) => (true, n, d),

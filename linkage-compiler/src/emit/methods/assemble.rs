@@ -53,7 +53,7 @@ impl Methods<'_> {
         };
         let sources = vec![self.parameters(), position];
         let given = Given { sources, pose: None, branch: &self.arguments.branch };
-        let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
+        let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
         let mut wishes: Vec<String> = kernels.plan.determinants.iter().map(|(_, field, _)| field.clone()).collect();
         wishes.extend(
             kernels.plan.directions.values().flat_map(|field| [format!("cos_{field}"), format!("sin_{field}")]),

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::Types;
-use super::super::names::ident;
+use super::super::names::{ident, string};
 use super::super::pose::PosePlan;
+use super::super::tokens::Tokens;
 use super::super::types::field;
 use super::{Kernels, Methods, imports, literal};
 use crate::derivation::{Block, Derivation};
@@ -17,10 +18,8 @@ use crate::model::Kind;
 impl Methods<'_> {
     /// The `impl` blocks, in a scope of their own for the names that they use.
     pub(super) fn block(&self, kernels: Option<&Kernels>, private: &TokenStream) -> TokenStream {
-        let Types { driver, inputs, unknowns, pose, coordinates, .. } = self.types;
+        let driver = &self.types.driver;
         let text = driver.to_string();
-        let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
-        let (nu, nv) = (literal(u), literal(v));
         let functions = &self.functions;
         let iterator = self.uses.contains("existing").then(|| {
             quote!(
@@ -28,26 +27,7 @@ impl Methods<'_> {
             )
         });
         let imports = imports(self.mechanism, &self.uses);
-        let members: Vec<Ident> =
-            self.driver.unknowns.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
-        let rest = members.is_empty().then(|| quote!(..));
-        let driving: Vec<Ident> =
-            self.driver.inputs.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect();
-        let no_driver = driving.is_empty().then(|| quote!(..));
-        // Where there is nothing else in q, there is nothing to take from it.
-        let others = (u > 0).then(|| quote!(..*q));
-        let angles = |places: &[usize]| {
-            let kinds = places.iter().map(|&index| self.mechanism.coordinates[index].kind == Kind::Angle);
-            quote!([#(#kinds),*])
-        };
-        let (unknown_angles, input_angles) = (angles(&self.driver.unknowns), angles(&self.driver.inputs));
-        let names = |indices: &[usize]| -> Vec<&str> {
-            indices.iter().map(|&index| self.mechanism.coordinates[index].name.text.as_str()).collect()
-        };
-        let (unknown_names, input_names) = (names(&self.driver.unknowns), names(&self.driver.inputs));
-        let groups = kernels.map(|kernels| groups(kernels.derivation)).unwrap_or_default();
-        let group_count = literal(groups.len());
-        let assembly = self.assembly(private);
+        let mechanism = self.for_general_algorithms(kernels, private);
         let pose_coordinates = kernels.map(|kernels| self.pose_coordinates(kernels.derivation, kernels.plan));
         quote! {
             const _: () = {
@@ -61,88 +41,38 @@ impl Methods<'_> {
                     #functions
                 }
                 #pose_coordinates
-                impl<T: Real> Mechanism<T, #nu, #nv> for #driver<T> {
-                    const NAME: &'static str = #text;
-                    const UNKNOWNS: [&'static str; #nu] = [#(#unknown_names),*];
-                    const INPUTS: [&'static str; #nv] = [#(#input_names),*];
-                    const UNKNOWN_ANGLES: [bool; #nu] = #unknown_angles;
-                    const INPUT_ANGLES: [bool; #nv] = #input_angles;
-                    const GROUPS: &'static [Group] = &[#(#groups),*];
-                    type Coordinates = #coordinates<T>;
-                    type Inputs = #inputs<T>;
-                    type Unknowns = #unknowns<T>;
-                    type Pose = #pose<T>;
-                    type BlockDeterminants = [T; #group_count];
-                    fn unknowns(q: &Self::Coordinates) -> SVector<T, #nu> {
-                        #unknowns::from(q).into()
-                    }
-                    fn inputs(q: &Self::Coordinates) -> SVector<T, #nv> {
-                        #inputs::from(q).into()
-                    }
-                    fn with_inputs(q: &Self::Coordinates, inputs: SVector<T, #nv>) -> Self::Coordinates {
-                        let #inputs { #(#driving,)* #no_driver } = inputs.into();
-                        #coordinates { #(#driving,)* #others }
-                    }
-                    fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, #nu>) -> Self::Coordinates {
-                        let #unknowns { #(#members,)* #rest } = unknowns.into();
-                        #coordinates { #(#members,)* ..*q }
-                    }
-                    fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose {
-                        self.pose_at(q)
-                    }
-                    fn residual(&self, pose: &Self::Pose) -> SVector<T, #nu> {
-                        self.residual(pose)
-                    }
-                    fn closure_sizes(&self, pose: &Self::Pose) -> SVector<T, #nu> {
-                        self.closure_sizes(pose)
-                    }
-                    fn jacobian_unknowns(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nu> {
-                        self.jacobian_unknowns(pose)
-                    }
-                    fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nv> {
-                        self.jacobian_inputs(pose)
-                    }
-                    fn jacobian_unknowns_sizes(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nu> {
-                        self.jacobian_unknowns_sizes(pose)
-                    }
-                    fn jacobian_inputs_sizes(&self, pose: &Self::Pose) -> SMatrix<T, #nu, #nv> {
-                        self.jacobian_inputs_sizes(pose)
-                    }
-                    fn determinant(&self, pose: &Self::Pose) -> T {
-                        self.determinant(pose)
-                    }
-                    fn block_determinants(&self, pose: &Self::Pose) -> Self::BlockDeterminants {
-                        self.block_determinants(pose)
-                    }
-                    fn gamma(&self, pose: &Self::Pose, rate: &Self::Coordinates) -> SVector<T, #nu> {
-                        self.gamma(pose, rate)
-                    }
-                    fn solve_jacobian(&self, pose: &Self::Pose, right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error> {
-                        self.solve_jacobian(pose, right)
-                    }
-                }
-                #assembly
+                #mechanism
             };
         }
     }
 
-    /// Position in closed form, for general algorithms.
-    fn assembly(&self, private: &TokenStream) -> Option<TokenStream> {
-        let Types { driver, branch, .. } = self.types;
-        let (nu, nv) = (literal(self.driver.unknowns.len()), literal(self.driver.inputs.len()));
-        self.is_assembled.then(|| {
-            quote! {
-                impl<T: Real> #private::Assembly<T, #nu, #nv> for #driver<T> {
-                    type Branch = #branch;
-                    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, Error> {
-                        self.assemble(inputs, branch)
-                    }
-                    fn branch_of(&self, pose: &Self::Pose) -> Self::Branch {
-                        self.branch_of(pose)
-                    }
-                }
+    /// The mechanism for general algorithms, with its position in closed form if it has one.
+    fn for_general_algorithms(&self, kernels: Option<&Kernels>, private: &TokenStream) -> TokenStream {
+        let Types { driver, inputs, unknowns, pose, coordinates, branch, .. } = self.types;
+        let members = |places: &[usize]| {
+            let mut members = Tokens::default();
+            for &place in places {
+                let coordinate = &self.mechanism.coordinates[place];
+                members.ident(&field(&coordinate.name));
+                members.append(string(&coordinate.name.text));
+                members.word(if coordinate.kind == Kind::Angle { "true" } else { "false" });
             }
-        })
+            TokenStream::from(members)
+        };
+        let (of_unknowns, of_inputs) = (members(&self.driver.unknowns), members(&self.driver.inputs));
+        let (u, v) = (literal(self.driver.unknowns.len()), literal(self.driver.inputs.len()));
+        let groups = kernels.map(|kernels| groups(kernels.derivation)).unwrap_or_default();
+        let count = literal(groups.len());
+        let branch = self.is_assembled.then(|| quote!(, branch #branch));
+        quote! {
+            #private::__mechanism! {
+                #driver #coordinates #pose,
+                unknowns #unknowns [#of_unknowns] #u,
+                inputs #inputs [#of_inputs] #v,
+                groups [#(#groups)*] #count
+                #branch
+            }
+        }
     }
 
     /// Angles on request: the coordinates of a pose.
@@ -177,15 +107,15 @@ impl Methods<'_> {
     }
 }
 
-/// The groups as the trait gives them.
+/// The groups: the name of each, its equations and its unknowns.
 fn groups(derivation: &Derivation) -> Vec<TokenStream> {
     let group = |block: &Block| {
         let name = block.names(derivation);
         let [equations, unknowns] = [&block.equations, &block.unknowns].map(|places| {
             let places = places.iter().map(|&place| literal(place));
-            quote!(&[#(#places),*])
+            quote!([#(#places),*])
         });
-        quote!(Group { name: #name, equations: #equations, unknowns: #unknowns })
+        quote!(#name #equations #unknowns)
     };
     derivation.blocks.iter().map(group).collect()
 }

@@ -64,7 +64,7 @@ impl Methods<'_> {
         source.from = quote!(#from);
         let given = Given { sources: vec![self.parameters(), source], pose: None, branch: &branch };
         let stages = [Stage::Return(results)];
-        let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
+        let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
         let bounds = bounds.iter().zip(&names).zip(code.results.chunks(3)).map(|((bound, group), coefficients)| {
             let kind = if bound.is_angle { quote!(Bound::Angle) } else { quote!(Bound::Length) };
             quote!(#kind(#group, [#(#coefficients),*]))

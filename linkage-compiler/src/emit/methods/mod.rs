@@ -17,13 +17,14 @@ mod velocity;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 use rustc_hash::FxHashSet;
 
 use super::kernel::{self, Code, Given, Operand, Shape, Source};
-use super::names::{Taken, ident};
+use super::names::{Scope, Taken, ident};
 use super::pose::PosePlan;
 use super::tokens::Tokens;
 use super::types::{self, field};
@@ -66,7 +67,7 @@ struct Methods<'a> {
     types: &'a Types,
     arguments: Arguments,
     /// Names that kernels must not give to values of their own.
-    reserved: Vec<String>,
+    scope: Rc<Scope>,
     named: Vec<(NodeId, String)>,
     functions: TokenStream,
     /// The groups with two solutions, where position has a closed form.
@@ -106,14 +107,13 @@ impl<'a> Methods<'a> {
             &arguments.inputs,
             &arguments.guess,
         ]
-        .map(ToString::to_string)
-        .to_vec();
+        .map(ToString::to_string);
         Self {
             mechanism,
             driver,
             types,
             arguments,
-            reserved,
+            scope: Rc::new(Scope::new(reserved)),
             named: mechanism.named.clone(),
             functions: TokenStream::new(),
             branches: None,
@@ -308,7 +308,7 @@ impl Methods<'_> {
         let mut all = vec![self.parameters(), self.pose_source(kernels)];
         all.extend(sources);
         let given = Given { sources: all, pose: Some(kernels.plan), branch: &self.arguments.branch };
-        kernel::write(kernels.derivation, &given, stages, &self.named, &self.reserved)
+        kernel::write(kernels.derivation, &given, stages, &self.named, &self.scope)
     }
 
     // Functions.
@@ -322,15 +322,13 @@ impl Methods<'_> {
             uses: BTreeSet::new(),
             externals: BTreeSet::new(),
         });
-        let (mut tokens, doc) = (Tokens::default(), ident("doc"));
-        for line in docs {
-            tokens.doc(&doc, line);
-        }
+        let mut docs = docs.to_vec();
         let works = operations != Operations::default();
         if works {
-            tokens.doc(&doc, "");
-            tokens.doc(&doc, &format!("Operations: {}.", count(operations)));
+            docs.extend([String::new(), format!("Operations: {}.", count(operations))]);
         }
+        let mut tokens = Tokens::default();
+        tokens.doc(&docs);
         tokens.extend(signature.clone());
         if works {
             self.kernels.push((tokens.name_of_function(), operations));
@@ -383,7 +381,7 @@ impl Body {
 
 /// What the functions use of the runtime, in the order in which rustfmt sorts it.
 fn imports(mechanism: &Mechanism, used: &BTreeSet<&'static str>) -> Vec<Ident> {
-    let mut types = vec!["Error", "Group", "Mechanism", "Real", "SMatrix", "SVector", "Solution"];
+    let mut types = vec!["Error", "Real", "SMatrix", "SVector", "Solution"];
     if !mechanism.points.is_empty() {
         types.push("Vector2");
     }
@@ -466,16 +464,33 @@ fn columns_of(entries: &[impl ToTokens], rows: usize) -> TokenStream {
     quote!(SMatrix::from([#(#columns),*]))
 }
 
-/// The names of the components of points and outputs, in the order in which kernels return them.
-fn component_names(names: &[Ident], dimension: usize, orders: &[&str]) -> Vec<String> {
-    let axes: &[&str] = if dimension == 2 { &["_x", "_y"] } else { &[""] };
-    let mut all = Vec::new();
-    for name in names {
-        for order in orders {
-            all.extend(axes.iter().map(|axis| format!("{name}{axis}{order}")));
+/// Values as lists of lists, of so many each from the inside out; lists of one scalar stand for themselves.
+fn in_parts(values: &[Operand], sizes: &[usize]) -> TokenStream {
+    let mut items: Vec<Tokens> = Vec::new();
+    for value in values {
+        let mut item = Tokens::default();
+        match value {
+            Operand::Name(name) => item.ident(name),
+            Operand::Constant(value) | Operand::Formula(value) => item.extend(value.clone()),
+        }
+        items.push(item);
+    }
+    for &size in sizes {
+        let mut rest = items.into_iter();
+        items = Vec::new();
+        loop {
+            let part: Vec<Tokens> = rest.by_ref().take(size).collect();
+            if part.is_empty() {
+                break;
+            }
+            let mut list = Tokens::default();
+            list.list(Delimiter::Bracket, part);
+            items.push(list);
         }
     }
-    all
+    let mut all = Tokens::default();
+    all.list(Delimiter::None, items);
+    all.into()
 }
 
 /// `finite(NAME, what, [values])?;`, each value once.

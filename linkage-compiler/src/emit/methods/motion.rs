@@ -1,18 +1,17 @@
 //! Everything at once, in one kernel.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::kernel::{Given, Operand};
-use super::super::types::field;
 use super::super::{Types, kernel};
-use super::{Arguments, Body, Kernels, Methods, argument_of, bind, check_finite, component_names, lines};
+use super::{Arguments, Body, Kernels, Methods, argument_of, check_finite, in_parts, lines};
 use crate::derivation::{Form, Quantity};
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
     pub(super) fn motion(&mut self, kernels: Option<&mut Kernels>) {
-        let Types { coordinates, inputs, motion, points, outputs, .. } = self.types;
+        let Types { coordinates, inputs, motion, .. } = self.types;
         let Arguments { q, rate, acceleration, .. } = &self.arguments;
         let code = kernels.map(|kernels| {
             let unknowns = kernels.derivation.unknowns.clone();
@@ -25,7 +24,8 @@ impl Methods<'_> {
             stages = kernels.with_determinants(stages);
             let mut nodes = kernels.variables(&kernels.rates(&all));
             nodes.extend(kernels.variables(&kernels.accelerations(&all)));
-            let quantities: Vec<Quantity> = kernels.derivation.points.iter().chain(&kernels.derivation.outputs).cloned().collect();
+            let quantities: Vec<Quantity> =
+                kernels.derivation.points.iter().chain(&kernels.derivation.outputs).cloned().collect();
             for quantity in &quantities {
                 nodes.extend(quantity.value.iter().chain(&quantity.rate).chain(&quantity.acceleration));
             }
@@ -37,49 +37,31 @@ impl Methods<'_> {
                 self.inputs(kernels, acceleration, |c| c.acceleration),
             ];
             let given = Given { sources, pose: None, branch: &self.arguments.branch };
-            let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
+            let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
             let fields = self.coordinate_fields();
             let count = fields.len();
             let results = std::mem::take(&mut code.results);
             let (rates, rest) = results.split_at(count);
             let (accelerations, rest) = rest.split_at(count);
             let (point_parts, output_parts) = rest.split_at(6 * self.mechanism.points.len());
-            let names: Vec<Ident> = self.mechanism.points.iter().map(|p| field(&p.name)).collect();
-            let (mut bindings, mut checked) = (TokenStream::new(), Vec::new());
             let mut members = TokenStream::new();
-            if !names.is_empty() {
-                let wishes = component_names(&names, 2, &["", "_rate", "_acceleration"]);
-                let (tokens, parts) = bind(point_parts, &wishes, &mut code.taken);
-                bindings.extend(tokens);
-                let values = parts.chunks(6).map(|p| {
-                    let [x, y, u, v, a, b] = [0, 1, 2, 3, 4, 5].map(|index| &p[index]);
-                    quote!(PointMotion { position: Vector2::new(#x, #y), velocity: Vector2::new(#u, #v), acceleration: Vector2::new(#a, #b) })
-                });
-                members.extend(quote!(points: #points { #(#names: #values),* },));
-                code.uses.insert("PointMotion");
-                checked.extend(parts.iter().cloned());
+            if !point_parts.is_empty() {
+                let values = in_parts(point_parts, &[2, 3]);
+                members.extend(quote!(points: point_motions(Self::NAME, [#values])?,));
+                code.uses.insert("point_motions");
             }
-            let names: Vec<Ident> = self.mechanism.outputs.iter().map(|o| field(&o.name)).collect();
-            if !names.is_empty() {
-                let wishes = component_names(&names, 1, &["", "_rate", "_acceleration"]);
-                let (tokens, parts) = bind(output_parts, &wishes, &mut code.taken);
-                bindings.extend(tokens);
-                let values = parts.chunks(3).map(|p| {
-                    let [value, rate, acceleration] = [0, 1, 2].map(|index| &p[index]);
-                    quote!(OutputMotion { value: #value, velocity: #rate, acceleration: #acceleration })
-                });
-                members.extend(quote!(outputs: #outputs { #(#names: #values),* },));
-                code.uses.insert("OutputMotion");
-                checked.extend(parts.iter().cloned());
+            if !output_parts.is_empty() {
+                let values = in_parts(output_parts, &[3]);
+                members.extend(quote!(outputs: output_motions(Self::NAME, [#values])?,));
+                code.uses.insert("output_motions");
             }
-            let mut finite: Vec<Operand> = unknowns.iter().flat_map(|&index| [rates[index].clone(), accelerations[index].clone()]).collect();
-            finite.extend(checked);
-            let verdict = check_finite(&mut code, "motion", &finite);
+            let solved: Vec<Operand> =
+                unknowns.iter().flat_map(|&index| [rates[index].clone(), accelerations[index].clone()]).collect();
+            let verdict = check_finite(&mut code, "motion", &solved);
             code.arguments.push(q.clone());
             Body::new(
                 code,
                 quote! {
-                    #bindings
                     #verdict
                     Ok(#motion {
                         position: *#q,

@@ -35,7 +35,7 @@ impl Methods<'_> {
             stages.push(Stage::Return(results.copied().collect()));
             let sources = vec![self.parameters(), self.coordinates(kernels, &q, |c| c.value)];
             let given = Given { sources, pose: None, branch: &self.arguments.branch };
-            let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.reserved);
+            let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
             if !circular.is_empty() {
                 code.uses.insert("unit");
             }

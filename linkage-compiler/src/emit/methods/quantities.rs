@@ -3,13 +3,10 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::super::kernel::{Operand, Shape, Source};
+use super::super::kernel::{Shape, Source};
 use super::super::names::ident;
 use super::super::types::field;
-use super::{
-    Body, Family, Kernels, Methods, argument_of, bind, check_finite, columns_of, component_names, fenced, lines,
-    literal, member,
-};
+use super::{Body, Family, Kernels, Methods, argument_of, fenced, in_parts, lines, literal};
 use crate::derivation::{Formulas, Quantity};
 use crate::graph::NodeId;
 use crate::model::Request;
@@ -29,16 +26,6 @@ pub(super) struct Members {
 }
 
 impl Members {
-    /// The group from the components of all.
-    fn build(&self, results: &[Operand]) -> TokenStream {
-        let members = self.names.iter().zip(results.chunks(self.dimension)).map(|(name, parts)| match parts {
-            [only] => member(name, only),
-            parts => quote!(#name: Vector2::new(#(#parts),*)),
-        });
-        let group = &self.group;
-        quote!(#group { #(#members),* })
-    }
-
     /// The endings of the names of the components.
     pub(super) fn axes(&self) -> &'static [&'static str] {
         if self.dimension == 2 { &["_x", "_y"] } else { &[""] }
@@ -126,14 +113,12 @@ impl Methods<'_> {
                 if order > 2 {
                     sources.push(self.coordinates(kernels, &jerk, |c| c.jerk));
                 }
-                let mut code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
-                let (bindings, results) = bind(
-                    &code.results,
-                    &component_names(names, dimension, &["", "_rate", "_acceleration", "_jerk"][order..=order]),
-                    &mut code.taken,
-                );
-                let (built, verdict) = (members.build(&results), check_finite(&mut code, &name, &results));
-                Body::new(code, quote!(#bindings #verdict Ok(#built)), [])
+                let code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
+                let (finite, parts): (_, &[usize]) =
+                    if family == Family::Points { ("finite_points", &[2]) } else { ("finite_outputs", &[]) };
+                let values = in_parts(&code.results, parts);
+                let function = ident(finite);
+                Body::new(code, quote!(#function(Self::NAME, #name, [#values])), [finite])
             });
             let mut docs = vec![meaning];
             if order == 0
@@ -188,20 +173,12 @@ impl Methods<'_> {
                 fields: ratios,
             };
             let mut code = self.on_pose(kernels, vec![ratios], &[Stage::Return(nodes)]);
-            let (mut values, mut bindings, mut flat) = (Vec::new(), TokenStream::new(), Vec::new());
-            for (name, parts) in names.iter().zip(code.results.chunks(dimension * v)) {
-                let matrix = columns_of(parts, dimension);
-                let ratio = ident(&code.taken.unique(&format!("{name}_ratios")));
-                bindings.extend(quote!(let #ratio = #matrix;));
-                values.push(ratio.clone());
-                flat.push(ratio);
-            }
-            let checks = flat.iter().map(|ratio| quote!(finite_matrix(Self::NAME, #word, &#ratio)?;));
-            let tail = quote!(#bindings #(#checks)* Ok(#group { #(#names: #values),* }));
+            let values = in_parts(&code.results, &[dimension, v]);
+            let tail = quote!(finite_matrices(Self::NAME, #word, [#values]));
             // A call costs what the ratios cost, too.
             let ratios = self.kernels.iter().find(|(name, _)| name == "velocity_ratios");
             code.operations = ratios.map_or(code.operations, |(_, ratios)| code.operations.plus(*ratios));
-            Body::new(code, tail, ["finite_matrix"])
+            Body::new(code, tail, ["finite_matrices"])
         });
         let name = ident(&format!("{word}_ratios"));
         let mut docs = vec![format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'.")];

@@ -1,6 +1,7 @@
 //! The functions of a scene: mass matrix, forces, accelerations, drives, energy and power.
 
 use std::cell::Cell;
+use std::rc::Rc;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -59,7 +60,9 @@ pub(in crate::emit) fn of_scene(
         free,
         blames: Cell::new(false),
     };
-    methods.reserved.push(place.field.to_string());
+    if let Some(scope) = Rc::get_mut(&mut methods.scope) {
+        scope.reserve(place.field.to_string());
+    }
     let mut derived = derived.and_then(|(plan, derivation)| {
         let scene = derivation.scenes.get(number)?.clone();
         Some((Kernels::new(derivation, plan), scene))
@@ -173,7 +176,7 @@ impl Methods<'_> {
         ];
         sources.splice(2..2, motion);
         let given = Given { sources, pose: None, branch: &self.arguments.branch };
-        kernel::write(kernels.derivation, &given, stages, &self.named, &self.reserved)
+        kernel::write(kernels.derivation, &given, stages, &self.named, &self.scope)
     }
 
     /// A verdict that is made more precise only where it is bad.

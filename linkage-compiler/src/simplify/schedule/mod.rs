@@ -106,7 +106,7 @@ pub struct Signed {
 }
 
 /// How a value is computed; signs have been moved to the sums and results that use it.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Value {
     Symbol(SymbolId),
     /// The sine or cosine of an angle whose direction is given.

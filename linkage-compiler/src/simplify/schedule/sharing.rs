@@ -3,15 +3,11 @@
 //!
 //! This is the greedy elimination of two-term common subexpressions (A. Hosangadi, F. Fallah,
 //! R. Kastner, "Optimizing polynomial expressions by algebraic factorization and common subexpression
-//! elimination", IEEE TCAD 25, 2006). A queue holds the pairs by frequency; what is out of date is put
-//! back, so that the work grows with the number of pairs.
-
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
-use rustc_hash::{FxBuildHasher, FxHashMap};
+//! elimination", IEEE TCAD 25, 2006). A new pair is never more frequent than the one that it comes from,
+//! so that the pairs are gone through by their frequency once; what is out of date is put back.
 
 use super::{Signed, Value, ValueId};
+use crate::places::{Hash, Places};
 
 /// Of a sum or product of more parts than this only neighbours are paired: the pairs of a list grow
 /// with the square of its length.
@@ -87,9 +83,47 @@ struct Sharing {
     /// Which parts stand in several lists, or may come to, being lists themselves: a pair with any
     /// other part is held once at most.
     frequent: Vec<bool>,
-    /// Which lists hold a pair, by their place.
-    holders: FxHashMap<Pair, Vec<usize>>,
-    queue: BinaryHeap<(usize, Reverse<Pair>)>,
+    /// The places of the lists that hold a pair.
+    holders: Vec<(Pair, Holders)>,
+    places: Places,
+    /// The pairs held by as many lists, each as often as it came to be.
+    frequencies: Vec<Vec<Pair>>,
+}
+
+/// The places of lists; most pairs are held by one only.
+struct Holders {
+    first: Option<usize>,
+    others: Vec<usize>,
+}
+
+impl Holders {
+    const NONE: Self = Self { first: None, others: Vec::new() };
+
+    fn iter(&self) -> impl Iterator<Item = usize> {
+        self.first.iter().chain(&self.others).copied()
+    }
+
+    fn len(&self) -> usize {
+        usize::from(self.first.is_some()) + self.others.len()
+    }
+
+    /// How many there are now.
+    fn add(&mut self, place: usize) -> usize {
+        if self.first.is_none() {
+            self.first = Some(place);
+        } else {
+            self.others.push(place);
+        }
+        self.len()
+    }
+
+    fn remove(&mut self, place: usize) {
+        if self.first == Some(place) {
+            self.first = (!self.others.is_empty()).then(|| self.others.remove(0));
+        } else {
+            self.others.retain(|&other| other != place);
+        }
+    }
 }
 
 impl Sharing {
@@ -101,56 +135,42 @@ impl Sharing {
                 frequent[part.value.0] |= std::mem::replace(&mut met[part.value.0], true);
             }
         }
-        let count = lists.len();
-        let mut sharing = Self {
-            kind,
-            lists,
-            frequent,
-            holders: FxHashMap::with_capacity_and_hasher(2 * count, FxBuildHasher),
-            queue: BinaryHeap::new(),
-        };
-        for place in 0..sharing.lists.len() {
-            for pair in sharing.pairs(place) {
-                sharing.holders.entry(pair).or_default().push(place);
-            }
-        }
-        for (&pair, of) in &sharing.holders {
-            if of.len() > 1 {
-                sharing.queue.push((of.len(), Reverse(pair)));
-            }
-        }
-        sharing
+        Self { kind, lists, frequent, holders: Vec::new(), places: Places::default(), frequencies: Vec::new() }
     }
 
     fn run(mut self, values: &mut Vec<Value>) {
-        // Of pairs equally frequent the oldest is taken, so that the result does not depend on chance.
-        while let Some((count, Reverse(pair))) = self.queue.pop() {
-            let now = self.holders.get(&pair).map_or(0, Vec::len);
-            if now < count {
-                if now > 1 {
-                    self.queue.push((now, Reverse(pair)));
-                }
-                continue;
+        let mut pairs = Vec::new();
+        for place in 0..self.lists.len() {
+            self.pairs(place, &mut pairs);
+            for &pair in &pairs {
+                self.hold(pair, place);
             }
-            let of = self.holders.remove(&pair).unwrap_or_default();
-            let whole = of.iter().map(|&place| &self.lists[place]).find(|list| list.parts.len() == 2);
-            // The sign with which the older part stands in the shared sum.
-            let (shared, sign) = match whole {
-                Some(whole) => (whole.value, sign_of(&whole.parts, pair.first())),
-                None => {
-                    let second = Signed { negative: pair.opposed(), value: pair.second() };
-                    values.push(match self.kind {
-                        Kind::Sums => Value::Sum(vec![Signed { negative: false, value: pair.first() }, second]),
-                        Kind::Products => Value::Product(vec![pair.first(), pair.second()]),
-                    });
-                    (ValueId(values.len() - 1), false)
+        }
+        while let Some(mut equal) = self.frequencies.pop() {
+            let count = self.frequencies.len();
+            // Of pairs equally frequent the oldest is taken, so that the result does not depend on chance.
+            if equal.len() > 1 {
+                equal.sort_unstable_by(|one, other| other.cmp(one));
+            }
+            self.frequencies.push(Vec::new());
+            while let Some(pair) = equal.pop() {
+                let Some(index) = self.find(pair) else { continue };
+                let now = self.holders[index].1.len();
+                if now < count {
+                    if now > 1 {
+                        self.frequencies[now].push(pair);
+                    }
+                    continue;
                 }
-            };
-            for place in of {
-                if self.lists[place].value != shared {
-                    self.replace(place, pair, shared, sign);
+                let of = std::mem::replace(&mut self.holders[index].1, Holders::NONE);
+                self.merge(pair, &of, values, &mut pairs);
+                // What has come to be as frequent stands in line with the others.
+                for new in std::mem::take(&mut self.frequencies[count]) {
+                    let place = equal.partition_point(|&other| other > new);
+                    equal.insert(place, new);
                 }
             }
+            self.frequencies.pop();
         }
         for List { value, parts, .. } in self.lists.into_iter().filter(|list| list.is_new) {
             values[value.0] = match self.kind {
@@ -160,13 +180,39 @@ impl Sharing {
         }
     }
 
+    /// Puts one sum or product in place of a pair in all lists that hold it.
+    fn merge(&mut self, pair: Pair, of: &Holders, values: &mut Vec<Value>, pairs: &mut Vec<Pair>) {
+        let whole = of.iter().map(|place| &self.lists[place]).find(|list| list.parts.len() == 2);
+        // The sign with which the older part stands in the shared sum.
+        let (shared, sign) = match whole {
+            Some(whole) => (whole.value, sign_of(&whole.parts, pair.first())),
+            None => {
+                let second = Signed { negative: pair.opposed(), value: pair.second() };
+                values.push(match self.kind {
+                    Kind::Sums => Value::Sum(vec![Signed { negative: false, value: pair.first() }, second]),
+                    Kind::Products => Value::Product(vec![pair.first(), pair.second()]),
+                });
+                (ValueId(values.len() - 1), false)
+            }
+        };
+        for place in of.iter() {
+            if self.lists[place].value != shared {
+                self.replace(place, pair, shared, sign, pairs);
+            }
+        }
+    }
+
     /// Puts the shared pair into a list in place of its two parts.
-    fn replace(&mut self, place: usize, pair: Pair, shared: ValueId, sign: bool) {
-        for other in self.pairs(place) {
-            if let Some(of) = self.holders.get_mut(&other)
-                && let Some(index) = of.iter().position(|holder| *holder == place)
+    fn replace(&mut self, place: usize, pair: Pair, shared: ValueId, sign: bool, pairs: &mut Vec<Pair>) {
+        let is_long = self.lists[place].parts.len() > LONGEST_PAIRED;
+        // Of a short list the pairs of what stays stay.
+        let touches = |pair: Pair, value: ValueId| pair.first() == value || pair.second() == value;
+        self.pairs(place, pairs);
+        for &other in pairs.iter() {
+            if (is_long || touches(other, pair.first()) || touches(other, pair.second()))
+                && let Some(index) = self.find(other)
             {
-                of.remove(index);
+                self.holders[index].1.remove(place);
             }
         }
         let List { parts, is_new, .. } = &mut self.lists[place];
@@ -178,33 +224,55 @@ impl Sharing {
             parts.sort_by_key(|part| part.negative);
         }
         *is_new = true;
-        for other in self.pairs(place) {
-            let of = self.holders.entry(other).or_default();
-            of.push(place);
-            if of.len() > 1 {
-                self.queue.push((of.len(), Reverse(other)));
+        self.pairs(place, pairs);
+        for &other in pairs.iter() {
+            if is_long || touches(other, shared) {
+                self.hold(other, place);
             }
         }
     }
 
-    /// No part stands twice in a list: equal factors are a square, equal terms have a coefficient.
-    fn pairs(&self, place: usize) -> Vec<Pair> {
-        let parts = self.lists[place].parts.as_slice();
-        // What is shared already stands wherever its pair stood.
-        let frequent = |part: &Signed| self.frequent.get(part.value.0).is_none_or(|frequent| *frequent);
-        let reach = if parts.len() > LONGEST_PAIRED { 1 } else { parts.len() };
-        let mut pairs = Vec::new();
-        for (index, a) in parts.iter().enumerate() {
-            if !frequent(a) {
-                continue;
+    fn find(&self, pair: Pair) -> Option<usize> {
+        self.places.find(Hash::of(pair.0), |index| self.holders[index].0 == pair)
+    }
+
+    fn hold(&mut self, pair: Pair, place: usize) {
+        let index = self.find(pair).unwrap_or_else(|| {
+            self.places.insert(Hash::of(pair.0), self.holders.len());
+            self.holders.push((pair, Holders::NONE));
+            self.holders.len() - 1
+        });
+        let count = self.holders[index].1.add(place);
+        if count > 1 {
+            if self.frequencies.len() <= count {
+                self.frequencies.resize(count + 1, Vec::new());
             }
-            for b in &parts[index + 1..parts.len().min(index + 1 + reach)] {
-                if frequent(b) {
-                    pairs.push(Pair::new(*a, *b));
-                }
-            }
+            self.frequencies[count].push(pair);
         }
-        pairs
+    }
+
+    /// The pairs of a list. No part stands twice in it: equal factors are a square, equal terms have a coefficient.
+    fn pairs(&self, place: usize, pairs: &mut Vec<Pair>) {
+        pairs.clear();
+        let parts = self.lists[place].parts.as_slice();
+        let reach = if parts.len() > LONGEST_PAIRED { 1 } else { parts.len() };
+        let mut first = 0;
+        while first < parts.len() {
+            let (a, mut second) = (parts[first], first + 1);
+            let end = if self.is_frequent(a) { parts.len().min(second + reach) } else { second };
+            while second < end {
+                if self.is_frequent(parts[second]) {
+                    pairs.push(Pair::new(a, parts[second]));
+                }
+                second += 1;
+            }
+            first += 1;
+        }
+    }
+
+    fn is_frequent(&self, part: Signed) -> bool {
+        // What is shared already stands wherever its pair stood.
+        part.value.0 >= self.frequent.len() || self.frequent[part.value.0]
     }
 }
 

@@ -3,17 +3,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rustc_hash::{FxBuildHasher, FxHashMap};
-
 use super::{Given, Signed, Value, ValueId};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
+use crate::places::{Hash, Places};
 
 /// Translates nodes to values.
 pub(super) struct Builder<'a> {
     graph: &'a Graph,
     given: &'a Given,
     values: Vec<Value>,
-    ids: FxHashMap<Value, ValueId>,
+    ids: Places,
     of: Translated,
 }
 
@@ -41,13 +40,7 @@ impl std::ops::Index<NodeId> for Translated {
 impl<'a> Builder<'a> {
     /// The values that the roots stand on, and which of them each node became.
     pub(super) fn translate_all(graph: &'a Graph, given: &'a Given, roots: &[NodeId]) -> (Vec<Value>, Translated) {
-        let mut builder = Self {
-            graph,
-            given,
-            values: Vec::new(),
-            ids: FxHashMap::with_capacity_and_hasher(4 * roots.len(), FxBuildHasher),
-            of: Translated::default(),
-        };
+        let mut builder = Self { graph, given, values: Vec::new(), ids: Places::default(), of: Translated::default() };
         builder.build(roots);
         (builder.values, builder.of)
     }
@@ -103,10 +96,13 @@ impl<'a> Builder<'a> {
     }
 
     fn intern(&mut self, value: Value) -> ValueId {
-        *self.ids.entry(value).or_insert_with_key(|value| {
-            self.values.push(value.clone());
-            ValueId(self.values.len() - 1)
-        })
+        let hash = hash(&value);
+        let place = self.ids.find(hash, |place| self.values[place] == value).unwrap_or_else(|| {
+            self.ids.insert(hash, self.values.len());
+            self.values.push(value);
+            self.values.len() - 1
+        });
+        ValueId(place)
     }
 
     fn positive(&mut self, value: Value) -> Signed {
@@ -241,4 +237,37 @@ impl<'a> Builder<'a> {
 
 fn divisor(factors: &[(NodeId, i32)]) -> Vec<(NodeId, i32)> {
     factors.iter().filter(|(_, exponent)| *exponent < 0).copied().collect()
+}
+
+fn hash(value: &Value) -> Hash {
+    let each_signed = |hash: Hash, parts: &[Signed]| {
+        let mut hash = hash;
+        for part in parts {
+            hash = hash.with((part.value.index() as u64) << 1 | u64::from(part.negative));
+        }
+        hash
+    };
+    match value {
+        Value::Symbol(symbol) => Hash::of(0).with(symbol.index() as u64),
+        Value::Direction(function, angle) => Hash::of(1).with(*function as u64).with(angle.index() as u64),
+        Value::Constant(number) => number.hashed(Hash::of(2)),
+        Value::Sum(terms) => each_signed(Hash::of(3), terms),
+        Value::Product(factors) => {
+            let mut hash = Hash::of(4);
+            for factor in factors {
+                hash = hash.with(factor.index() as u64);
+            }
+            hash
+        }
+        Value::Quotient(above, below) => Hash::of(5).with(above.index() as u64).with(below.index() as u64),
+        Value::Square(base) => Hash::of(6).with(base.index() as u64),
+        Value::Call(function, arguments) => each_signed(Hash::of(7).with(*function as u64), arguments),
+        Value::External(external, arguments) => {
+            let mut hash = Hash::of(8).with(external.function.index() as u64);
+            for &times in &external.by {
+                hash = hash.with(u64::from(times));
+            }
+            each_signed(hash, arguments)
+        }
+    }
 }
