@@ -66,7 +66,10 @@ pub mod __private {
     pub use linkage_macros::linkage;
     pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
-    pub use linkage_runtime::{__coordinates, __mechanism, __parameters, __part_of_coordinates, __quantities};
+    pub use linkage_runtime::{
+        __coordinates, __equations, __kernels, __mechanism, __parameters, __part_of_coordinates, __quantities,
+        __symbols,
+    };
     pub use linkage_runtime::{
         Assembly, Balance, Bound, Elbow, Energy, Error, Factorization, Group, Limits, Mechanism, OutputMotion,
         PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, chord, elbow_chord, equilibrium, existing,

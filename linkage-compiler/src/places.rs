@@ -15,6 +15,18 @@ impl Hash {
         Self(kind.wrapping_mul(Self::FACTOR))
     }
 
+    pub(crate) fn of_text(text: &str) -> Self {
+        let mut hash = Self::of(text.len() as u64);
+        let mut rest = text.as_bytes();
+        while let Some((word, after)) = rest.split_first_chunk::<8>() {
+            hash = hash.with(u64::from_le_bytes(*word));
+            rest = after;
+        }
+        let mut last = [0; 8];
+        last[..rest.len()].copy_from_slice(rest);
+        hash.with(u64::from_le_bytes(last))
+    }
+
     #[must_use]
     pub(crate) fn with(self, word: u64) -> Self {
         // High bits come down, so that the next product spreads them.

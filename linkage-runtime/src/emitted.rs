@@ -179,3 +179,30 @@ macro_rules! __mechanism {
         )?
     };
 }
+
+/// Lists of the derivation: the names of parameters or coordinates.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __symbols {
+    ($($name:literal)*) => {
+        &[$($crate::derivation::symbol($name)),*]
+    };
+}
+
+/// Lists of the derivation: left and right sides of equations.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __equations {
+    ($($left:literal $right:literal)*) => {
+        &[$($crate::derivation::equation($left, $right)),*]
+    };
+}
+
+/// Lists of the derivation: functions with the work of each.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __kernels {
+    ($($function:literal $functions:literal $divisions:literal $multiplications:literal $additions:literal)*) => {
+        &[$($crate::derivation::kernel($function, [$functions, $divisions, $multiplications, $additions])),*]
+    };
+}

@@ -1,6 +1,6 @@
 //! `DERIVATION`: the derivation as data, every formula by its source.
 
-use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 
@@ -39,13 +39,13 @@ pub(super) fn constant(
 
     let title = driver.name.to_string();
     let [named_parameters, named_inputs, named_unknowns] =
-        [&parameters, &inputs, &unknowns].map(|names| list(names, |out, name| document.symbol(out, name)));
+        [&parameters, &inputs, &unknowns].map(|names| symbols(names));
     let residual = document.numbered("Psi", &derivation.residual);
     let j = document.matrix(Name::Plain("J"), None, &derivation.jacobian_unknowns(), unknowns.len());
     let a = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
     let blocks: Vec<_> = formulas.inverses.iter().enumerate().collect();
     let blocks = list(&blocks, |out, (number, inverse)| out.extend(document.block(*number, inverse.as_ref())));
-    let determinant = formulas.determinant.map(|node| document.left_and_right(Name::Determinant(None), node));
+    let determinant = formulas.determinant.map(|node| document.equation(Name::Determinant(None), node));
     let determinant = document.optional(determinant);
     let (by_inputs, by_pairs, by_parameters) = (document.by_inputs(), document.by_pairs(), document.by_parameters());
     let ratios = document.derivatives(&unknowns, &by_inputs, &formulas.ratios);
@@ -68,14 +68,15 @@ pub(super) fn constant(
     let outputs = document.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs);
     let conditions: Vec<Condition> = formulas.conditions.iter().copied().collect();
     let conditions = list(&conditions, |out, condition| document.condition(out, *condition));
-    let kernels = list(kernels, |out, (function, operations)| document.kernel(out, function, *operations));
+    let kernels = works(kernels);
     let driver = &driver.name;
     // J stands without a factor before it; a determinant may have no formula.
     let options = if document.has_some { quote!({None, Some}) } else { quote!(None) };
     quote! {
         const _: () = {
             use ::core::option::Option::#options;
-            use #private::derivation::{self, entry, equation, formula, kernel, symbol};
+            use #private::derivation::{self, entry, formula};
+            use #private::{__equations, __kernels, __symbols};
             impl #driver {
                 /// The derivation as data: every formula, to be written as text, `LaTeX` or `MathML`, the order of
                 /// solution and the work of each function. It costs nothing where it is not used.
@@ -154,20 +155,38 @@ fn list<V>(items: &[V], mut write: impl FnMut(&mut Tokens, &V)) -> TokenStream {
     inside.slice()
 }
 
+/// The list of these symbols.
+fn symbols(names: &[&str]) -> TokenStream {
+    let mut inside = Tokens::default();
+    for name in names {
+        inside.append(string(name));
+    }
+    inside.by_macro("__symbols")
+}
+
+/// The list of what each function does.
+fn works(kernels: &[(String, Operations)]) -> TokenStream {
+    let mut inside = Tokens::default();
+    for (function, operations) in kernels {
+        let Operations { functions, divisions, multiplications, additions } = *operations;
+        inside.append(string(function));
+        for count in [functions, divisions, multiplications, additions] {
+            inside.append(Literal::usize_unsuffixed(count));
+        }
+    }
+    inside.by_macro("__kernels")
+}
+
 /// The functions that formulas are handed to, made once.
 struct Words {
-    symbol: Ident,
     formula: Ident,
-    equation: Ident,
     entry: Ident,
-    kernel: Ident,
 }
 
 impl Words {
     fn new() -> Self {
-        let [symbol, formula, equation, entry, kernel] =
-            ["symbol", "formula", "equation", "entry", "kernel"].map(ident);
-        Self { symbol, formula, equation, entry, kernel }
+        let [formula, entry] = ["formula", "entry"].map(ident);
+        Self { formula, entry }
     }
 }
 
@@ -219,10 +238,6 @@ impl<'a> Document<'a> {
         self.parameters.iter().map(|&by| By::One(by)).collect()
     }
 
-    fn symbol(&self, out: &mut Tokens, name: &str) {
-        out.call(&self.words.symbol, |inside| inside.append(string(name)));
-    }
-
     fn name(&self, out: &mut Tokens, name: Name) {
         out.call(&self.words.formula, |inside| inside.append(string(&name.source())));
     }
@@ -233,27 +248,24 @@ impl<'a> Document<'a> {
         out.into()
     }
 
-    fn equation(&mut self, out: &mut Tokens, left: Name, right: NodeId) {
-        out.call(&self.words.equation, |inside| {
-            inside.append(string(&left.source()));
-            inside.punct(',');
-            inside.append(string(self.printer.source(right)));
-        });
+    /// Both sides of an equation, as lists hold them.
+    fn sides(&mut self, out: &mut Tokens, left: Name, right: NodeId) {
+        out.append(string(&left.source()));
+        out.append(string(self.printer.source(right)));
     }
 
-    fn left_and_right(&mut self, left: Name, right: NodeId) -> TokenStream {
-        let mut out = Tokens::default();
-        self.equation(&mut out, left, right);
-        out.into()
+    fn equation(&mut self, left: Name, right: NodeId) -> TokenStream {
+        let (left, right) = (string(&left.source()), string(self.printer.source(right)));
+        quote!(derivation::equation(#left, #right))
     }
 
     /// name_1 = …, name_2 = …
     fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> TokenStream {
-        let mut number = 0;
-        list(nodes, |out, &node| {
-            number += 1;
-            self.equation(out, Name::Plain(&format!("{name}{number}")), node);
-        })
+        let mut out = Tokens::default();
+        for (index, &node) in nodes.iter().enumerate() {
+            self.sides(&mut out, Name::Plain(&format!("{name}{}", index + 1)), node);
+        }
+        out.by_macro("__equations")
     }
 
     fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> TokenStream {
@@ -290,7 +302,7 @@ impl<'a> Document<'a> {
         let group = block.group.words();
         let method = ident(if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
         let determinant =
-            block.determinant.map(|determinant| self.left_and_right(Name::Determinant(number), determinant.value));
+            block.determinant.map(|determinant| self.equation(Name::Determinant(number), determinant.value));
         let determinant = self.optional(determinant);
         let inverse = inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len()));
         let inverse = self.optional(inverse);
@@ -318,12 +330,11 @@ impl<'a> Document<'a> {
         for (by, formulas) in by.iter().zip(formulas) {
             for (of, &formula) in of.iter().zip(formulas) {
                 if let Some(node) = formula.into() {
-                    self.equation(&mut out, by.name(of.as_ref()), node);
-                    out.punct(',');
+                    self.sides(&mut out, by.name(of.as_ref()), node);
                 }
             }
         }
-        out.slice()
+        out.by_macro("__equations")
     }
 
     /// Points and outputs, each component called by its prefix and the name.
@@ -338,8 +349,11 @@ impl<'a> Document<'a> {
         let all: Vec<_> = names.iter().zip(quantities).zip(formulas).collect();
         list(&all, |out, ((name, quantity), formulas)| {
             let components: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{name}")).collect();
-            let values: Vec<_> = components.iter().zip(&quantity.value).collect();
-            let values = list(&values, |out, (component, node)| self.equation(out, Name::Plain(component), **node));
+            let mut values = Tokens::default();
+            for (component, &node) in components.iter().zip(&quantity.value) {
+                self.sides(&mut values, Name::Plain(component), node);
+            }
+            let values = values.by_macro("__equations");
             let ratios = self.derivatives(&components, &by_inputs, &formulas.ratios);
             let second = self.derivatives(&components, &by_pairs, &formulas.ratio_derivatives);
             let first = nonzero(self.derivation, &formulas.sensitivities);
@@ -364,19 +378,5 @@ impl<'a> Document<'a> {
         };
         let text = format!("{} {relation}", self.printer.source(node));
         out.call(&self.words.formula, |inside| inside.append(string(&text)));
-    }
-
-    fn kernel(&self, out: &mut Tokens, function: &str, operations: Operations) {
-        let Operations { functions, divisions, multiplications, additions } = operations;
-        out.call(&self.words.kernel, |inside| {
-            inside.append(string(function));
-            inside.punct(',');
-            let counts = [functions, divisions, multiplications, additions].map(|count| {
-                let mut literal = Tokens::default();
-                literal.append(Literal::usize_unsuffixed(count));
-                literal
-            });
-            inside.list(Delimiter::Bracket, counts);
-        });
     }
 }

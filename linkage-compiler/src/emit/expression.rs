@@ -109,7 +109,7 @@ fn compute(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: Value
             if !number.is_zero() && !number.is_one() {
                 names.take_number();
             }
-            tokens.extend(turn(*number).unwrap_or_else(|| constant(*number)));
+            tokens.extend(names.constant(*number, |number| turn(number).unwrap_or_else(|| constant(number))));
         }
         Value::Symbol(symbol) => tokens.append(names.symbol(*symbol)),
         // Given directions are named before any expression is written.

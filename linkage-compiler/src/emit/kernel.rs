@@ -89,16 +89,15 @@ pub(super) fn write(
 ) -> Code {
     let at_hand = given.pose.map(PosePlan::given).unwrap_or_default();
     let schedule = schedule::schedule(&derivation.graph, stages, &at_hand, named);
-    let own: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
-    let used: BTreeSet<SymbolId> = schedule
-        .used()
-        .iter()
-        .filter_map(|&id| match schedule.value(id) {
-            Value::Symbol(symbol) => Some(*symbol),
-            _ => None,
-        })
-        .collect();
-    let symbols: BTreeSet<SymbolId> = used.difference(&own).copied().collect();
+    let mut used = Vec::new();
+    for &id in schedule.used() {
+        if let Value::Symbol(symbol) = schedule.value(id) {
+            used.push(*symbol);
+        }
+    }
+    used.sort_unstable();
+    let own: Vec<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
+    let symbols: Vec<SymbolId> = used.iter().copied().filter(|symbol| !own.contains(symbol)).collect();
     let mut names = Names::new(&derivation.graph, scope);
     // In the order of their making: the user's own names come first and stay as they are.
     for &symbol in &symbols {
@@ -138,14 +137,15 @@ fn used_by(line: &Line) -> Option<&'static str> {
 }
 
 /// `let Type { field, other: name, .. } = *value;` with the fields that are used; nothing if none is.
-fn pattern(body: &mut Tokens, source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> bool {
+fn pattern(body: &mut Tokens, source: &Source, used: &[SymbolId], names: &Names) -> bool {
+    let is_used = |symbol: SymbolId| used.binary_search(&symbol).is_ok();
     let from = &source.from;
     let of = match &source.of {
         Shape::Fields(of) => of,
-        Shape::Argument => return source.fields.iter().any(|(_, symbol)| used.contains(symbol)),
+        Shape::Argument => return source.fields.iter().any(|(_, symbol)| is_used(*symbol)),
         Shape::Columns(rows) => {
             let local = |symbol: &SymbolId| {
-                if used.contains(symbol) { names.symbol(*symbol) } else { ident("_") }
+                if is_used(*symbol) { names.symbol(*symbol) } else { ident("_") }
             };
             let parts: Vec<Ident> = source.fields.iter().map(|(_, symbol)| local(symbol)).collect();
             let columns = parts.chunks(*rows).map(|column| quote!([#(#column),*]));
@@ -155,7 +155,7 @@ fn pattern(body: &mut Tokens, source: &Source, used: &BTreeSet<SymbolId>, names:
     };
     let mut fields = Tokens::default();
     let mut count = 0;
-    for (field, symbol) in source.fields.iter().filter(|(_, symbol)| used.contains(symbol)) {
+    for (field, symbol) in source.fields.iter().filter(|(_, symbol)| is_used(*symbol)) {
         let name = names.symbol(*symbol);
         if name != *field {
             fields.word(field);
@@ -233,7 +233,7 @@ struct Writer<'a> {
     derivation: &'a Derivation,
     schedule: &'a Schedule,
     /// The symbols that are used.
-    used: &'a BTreeSet<SymbolId>,
+    used: &'a [SymbolId],
     /// `let`, which most lines begin with.
     keyword: Ident,
 }
@@ -304,7 +304,9 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             let right: Vec<_> = right.iter().map(|value| signed(names, schedule, *value)).collect();
             let targets: Vec<_> = targets
                 .iter()
-                .map(|target| if used.contains(target) { names.introduce(*target).ident } else { ident("_") })
+                .map(|target| {
+                    if used.binary_search(target).is_ok() { names.introduce(*target).ident.clone() } else { ident("_") }
+                })
                 .collect();
             let factors = ident(&names.factors[block]);
             body.extend(quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);));
@@ -317,7 +319,7 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             });
             let group = derivation.blocks[*block].names(derivation);
             let side = ident(&derivation.blocks[*block].branch(derivation));
-            let name = names.introduce(*symbol).ident;
+            let name = names.introduce(*symbol).ident.clone();
             let branch = given.branch;
             body.extend(match triangle {
                 Some(([p, q], [x, y], distance)) => quote!(
@@ -330,14 +332,14 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
         }
         Line::Pivots { symbol, matrix } => {
             let columns = columns(matrix, schedule, names);
-            let name = names.introduce(*symbol).ident;
+            let name = names.introduce(*symbol).ident.clone();
             body.extend(quote!(let #name = product_of_pivots([#(#columns),*]);));
         }
         Line::Newton { block, targets, start, system, .. } => {
             let start: Vec<_> = start.iter().map(|value| signed(names, schedule, *value)).collect();
             let group = derivation.blocks[*block].names(derivation);
             let (unknowns, evaluation) = evaluation(writer, targets, system, names);
-            let targets: Vec<_> = targets.iter().map(|&target| names.introduce(target).ident).collect();
+            let targets: Vec<_> = targets.iter().map(|&target| names.introduce(target).ident.clone()).collect();
             body.extend(quote!(
                 let [#(#targets),*] =
                     newton_group(Self::NAME, #group, [#(#start),*], |[#(#unknowns),*]| { #evaluation })?;
@@ -357,7 +359,7 @@ fn evaluation(
     names: &mut Names,
 ) -> (Vec<Ident>, TokenStream) {
     let mut inner = names.within();
-    let unknowns: Vec<Ident> = unknowns.iter().map(|&unknown| inner.introduce(unknown).ident).collect();
+    let unknowns: Vec<Ident> = unknowns.iter().map(|&unknown| inner.introduce(unknown).ident.clone()).collect();
     let (mut body, mut results) = (Tokens::default(), Vec::new());
     let writer = Writer { schedule: system, ..writer.clone() };
     for line in &system.lines {

@@ -4,10 +4,11 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use proc_macro2::{Ident, Literal, Span};
-use rustc_hash::{FxHashMap, FxHashSet};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use rustc_hash::FxHashMap;
 
 use crate::graph::{ExternalId, Graph, Number, SymbolId};
+use crate::places::{Hash, Places};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
@@ -45,39 +46,49 @@ pub(super) fn call_of(names: &[String]) -> Ident {
 const LONGEST: usize = 36;
 
 /// A name, as text and as a token.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Name {
     pub(super) text: String,
     pub(super) ident: Ident,
 }
 
 /// What the functions of one driver have in common: the names of their arguments and of the runtime's functions,
-/// which no value may have, and the identifiers made so far.
+/// which no value may have, and every name made so far, each of which is checked once.
 #[derive(Debug, Default)]
 pub(super) struct Scope {
-    reserved: FxHashSet<String>,
-    idents: RefCell<FxHashMap<String, Ident>>,
+    words: RefCell<Words>,
+    /// So many of the words are reserved.
+    reserved: usize,
+    /// Numbers as scalars, the few that there are.
+    constants: RefCell<Vec<(Number, TokenStream)>>,
+}
+
+#[derive(Debug, Default)]
+struct Words {
+    names: Vec<Rc<Name>>,
+    places: Places,
 }
 
 impl Scope {
     pub(super) fn new(arguments: impl IntoIterator<Item = String>) -> Self {
-        let reserved = arguments.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)).collect();
-        Self { reserved, idents: RefCell::default() }
-    }
-
-    pub(super) fn reserve(&mut self, argument: String) {
-        self.reserved.insert(argument);
-    }
-
-    /// An identifier, which is checked once.
-    fn ident(&self, text: &str) -> Ident {
-        let mut idents = self.idents.borrow_mut();
-        if let Some(ident) = idents.get(text) {
-            return ident.clone();
+        let mut words = Words::default();
+        for name in arguments.into_iter().chain(RUNTIME_FUNCTIONS.map(str::to_owned)) {
+            words.find(&name);
         }
-        let new = ident(text);
-        idents.insert(text.to_owned(), new.clone());
-        new
+        Self { reserved: words.names.len(), words: RefCell::new(words), constants: RefCell::default() }
+    }
+}
+
+impl Words {
+    /// The number of a word.
+    fn find(&mut self, text: &str) -> usize {
+        let hash = Hash::of_text(text);
+        let known = self.places.find(hash, |place| self.names[place].text == text);
+        known.unwrap_or_else(|| {
+            self.places.insert(hash, self.names.len());
+            self.names.push(Rc::new(Name { text: text.to_owned(), ident: ident(text) }));
+            self.names.len() - 1
+        })
     }
 }
 
@@ -85,7 +96,8 @@ impl Scope {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Taken {
     scope: Rc<Scope>,
-    names: FxHashSet<String>,
+    /// By the number of the word.
+    words: Vec<bool>,
     /// The last number given to a stem, so that a thousandth name is found as fast as the second.
     numbers: FxHashMap<String, usize>,
 }
@@ -93,20 +105,33 @@ pub(super) struct Taken {
 impl Taken {
     /// The name wished for, or one like it that is not taken.
     pub(super) fn unique(&mut self, wish: &str) -> String {
-        if self.is_new(wish) { wish.to_owned() } else { self.numbered(wish, 2) }
+        self.name(wish).text.clone()
     }
 
-    fn is_new(&mut self, name: &str) -> bool {
-        !self.scope.reserved.contains(name) && self.names.insert(name.to_owned())
+    fn name(&mut self, wish: &str) -> Rc<Name> {
+        self.claim(wish).unwrap_or_else(|| self.numbered(wish, 2))
+    }
+
+    /// The name itself, if it is not taken.
+    fn claim(&mut self, name: &str) -> Option<Rc<Name>> {
+        let mut words = self.scope.words.borrow_mut();
+        let word = words.find(name);
+        if self.words.len() <= word {
+            self.words.resize(words.names.len(), false);
+        }
+        if word < self.scope.reserved || std::mem::replace(&mut self.words[word], true) {
+            return None;
+        }
+        Some(Rc::clone(&words.names[word]))
     }
 
     /// The stem with the next number, from `first` on.
-    fn numbered(&mut self, stem: &str, first: usize) -> String {
+    fn numbered(&mut self, stem: &str, first: usize) -> Rc<Name> {
         let mut number = self.numbers.get(stem).copied().unwrap_or(first);
         loop {
-            let name = format!("{stem}_{number}");
+            let name = self.claim(&format!("{stem}_{number}"));
             number += 1;
-            if self.is_new(&name) {
+            if let Some(name) = name {
                 self.numbers.insert(stem.to_owned(), number);
                 return name;
             }
@@ -118,8 +143,8 @@ impl Taken {
 pub(super) struct Names<'a> {
     graph: &'a Graph,
     taken: Taken,
-    values: Vec<Option<Name>>,
-    symbols: FxHashMap<SymbolId, Name>,
+    values: Vec<Option<Rc<Name>>>,
+    symbols: Vec<Option<Rc<Name>>>,
     /// Whether a number had to be made a scalar.
     numbers_taken: Cell<bool>,
     /// The functions of the user's that are called.
@@ -135,7 +160,7 @@ impl<'a> Names<'a> {
             graph,
             taken,
             values: Vec::new(),
-            symbols: FxHashMap::default(),
+            symbols: Vec::new(),
             numbers_taken: Cell::new(false),
             externals: BTreeSet::new(),
             factors: FxHashMap::default(),
@@ -160,14 +185,19 @@ impl<'a> Names<'a> {
         self.taken.unique(wish)
     }
 
-    /// The name wished for, or one like it.
-    fn name(&mut self, wish: &str) -> Name {
-        let text = self.taken.unique(wish);
-        Name { ident: self.taken.scope.ident(&text), text }
-    }
-
     pub(super) fn into_taken(self) -> Taken {
         self.taken
+    }
+
+    /// A number as a scalar, by `write` if it is new.
+    pub(super) fn constant(&self, number: Number, write: impl FnOnce(Number) -> TokenStream) -> TokenStream {
+        let mut constants = self.taken.scope.constants.borrow_mut();
+        if let Some((_, tokens)) = constants.iter().find(|(other, _)| *other == number) {
+            return tokens.clone();
+        }
+        let tokens = write(number);
+        constants.push((number, tokens.clone()));
+        tokens
     }
 
     /// Says that a number had to be made a scalar.
@@ -181,35 +211,34 @@ impl<'a> Names<'a> {
 
     /// The local name of a symbol.
     pub(super) fn symbol(&self, symbol: SymbolId) -> Ident {
-        self.symbols.get(&symbol).map_or_else(|| ident(self.graph.symbol_name(symbol)), |name| name.ident.clone())
+        match self.symbols.get(symbol.index()) {
+            Some(Some(name)) => name.ident.clone(),
+            _ => ident(self.graph.symbol_name(symbol)),
+        }
     }
 
     /// Gives a symbol its own name, or one like it if that is taken.
-    pub(super) fn introduce(&mut self, symbol: SymbolId) -> Name {
-        let name = self.name(self.graph.symbol_name(symbol));
-        self.symbols.insert(symbol, name.clone());
+    pub(super) fn introduce(&mut self, symbol: SymbolId) -> Rc<Name> {
+        let name = self.taken.name(self.graph.symbol_name(symbol));
+        put(&mut self.symbols, symbol.index(), Rc::clone(&name));
         name
     }
 
-    pub(super) fn set(&mut self, value: ValueId, name: Name) {
-        let index = value.index();
-        if self.values.len() <= index {
-            self.values.resize(index + 1, None);
-        }
-        self.values[index] = Some(name);
+    pub(super) fn set(&mut self, value: ValueId, name: Rc<Name>) {
+        put(&mut self.values, value.index(), name);
     }
 
     /// The name of a value that has one.
     pub(super) fn get(&self, schedule: &Schedule, value: ValueId) -> Option<&Name> {
         match schedule.value(value) {
-            Value::Symbol(symbol) => self.symbols.get(symbol),
-            _ => self.values.get(value.index())?.as_ref(),
+            Value::Symbol(symbol) => self.symbols.get(symbol.index())?.as_deref(),
+            _ => self.values.get(value.index())?.as_deref(),
         }
     }
 
     /// A name like this one for a value.
     pub(super) fn give(&mut self, value: ValueId, wish: &str) -> Ident {
-        let name = self.name(wish);
+        let name = self.taken.name(wish);
         let ident = name.ident.clone();
         self.set(value, name);
         ident
@@ -217,82 +246,110 @@ impl<'a> Names<'a> {
 
     /// Names a value after what it is made of.
     pub(super) fn invent(&mut self, schedule: &Schedule, value: ValueId) -> Ident {
-        let wish = schedule
-            .name(value)
-            .map(str::to_owned)
-            .or_else(|| self.describe(schedule, value))
-            .filter(|name| name.len() <= LONGEST)
-            .unwrap_or_else(|| match schedule.value(value) {
-                Value::Sum(_) => "sum_1".to_owned(),
-                Value::Product(_) => "product_1".to_owned(),
-                Value::Quotient(..) => "quotient_1".to_owned(),
-                Value::Square(_) => "square_1".to_owned(),
-                Value::Call(function, _) => format!("{}_1", function.operation().name),
-                _ => "value_1".to_owned(),
+        let mut wish = String::new();
+        match schedule.name(value) {
+            Some(name) => wish.push_str(name),
+            None if self.describe(&mut wish, schedule, value).is_some() => {}
+            None => wish.clear(),
+        }
+        if wish.is_empty() || wish.len() > LONGEST {
+            wish.clear();
+            wish.push_str(match schedule.value(value) {
+                Value::Sum(_) => "sum",
+                Value::Product(_) => "product",
+                Value::Quotient(..) => "quotient",
+                Value::Square(_) => "square",
+                Value::Call(function, _) => function.operation().name,
+                _ => "value",
             });
-        let text = match wish.strip_suffix("_1") {
+            wish.push_str("_1");
+        }
+        let name = match wish.strip_suffix("_1") {
             Some(stem) => self.taken.numbered(stem, 1),
-            None => self.unique(&wish),
+            None => self.taken.name(&wish),
         };
-        let name = Name { ident: self.taken.scope.ident(&text), text };
         let ident = name.ident.clone();
         self.set(value, name);
         ident
     }
 
-    /// A name made of the names of the parts.
-    fn describe(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
+    /// Writes a name made of the names of the parts, if all have one.
+    fn describe(&self, out: &mut String, schedule: &Schedule, value: ValueId) -> Option<()> {
         match schedule.value(value) {
             Value::Product(factors) => {
-                let names: Option<Vec<String>> = factors.iter().map(|&factor| self.part(schedule, factor)).collect();
-                Some(names?.join("_"))
-            }
-            Value::Sum(terms) => match terms.as_slice() {
-                &[Signed { value: a, .. }, Signed { negative, value: b }] => {
-                    let joint = if negative { "minus" } else { "plus" };
-                    Some(format!("{}_{joint}_{}", self.part(schedule, a)?, self.part(schedule, b)?))
+                for (place, &factor) in factors.iter().enumerate() {
+                    if place > 0 {
+                        out.push('_');
+                    }
+                    self.part(out, schedule, factor)?;
                 }
-                _ => None,
-            },
+                Some(())
+            }
+            Value::Sum(terms) => {
+                let &[Signed { value: a, .. }, Signed { negative, value: b }] = terms.as_slice() else { return None };
+                self.part(out, schedule, a)?;
+                out.push_str(if negative { "_minus_" } else { "_plus_" });
+                self.part(out, schedule, b)
+            }
             Value::Quotient(above, below) if is_one(schedule, *above) => {
-                Some(format!("inverse_{}", self.text(schedule, *below)?))
+                out.push_str("inverse_");
+                self.text(out, schedule, *below)
             }
             Value::Quotient(above, below) => {
-                Some(format!("{}_by_{}", self.part(schedule, *above)?, self.part(schedule, *below)?))
+                self.part(out, schedule, *above)?;
+                out.push_str("_by_");
+                self.part(out, schedule, *below)
             }
-            Value::Square(base) => Some(format!("{}_squared", self.text(schedule, *base)?)),
-            Value::Call(function, arguments) => match arguments.as_slice() {
-                &[argument] => {
-                    let inner = self.text(schedule, argument.value).or_else(|| self.describe(schedule, argument.value));
-                    Some(format!("{}_{}", function.operation().name, inner?))
-                }
-                _ => None,
-            },
-            Value::External(external, _) => self.graph.external_name(external).map(str::to_owned),
+            Value::Square(base) => {
+                self.text(out, schedule, *base)?;
+                out.push_str("_squared");
+                Some(())
+            }
+            Value::Call(function, arguments) => {
+                let &[argument] = arguments.as_slice() else { return None };
+                out.push_str(function.operation().name);
+                out.push('_');
+                self.text(out, schedule, argument.value).or_else(|| self.describe(out, schedule, argument.value))
+            }
+            Value::External(external, _) => {
+                out.push_str(self.graph.external_name(external)?);
+                Some(())
+            }
             _ => None,
         }
     }
 
-    /// A part by its name, or by a word for the small things that are written inline.
-    fn part(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
+    /// Writes a part by its name, or by a word for the small things that are written inline.
+    fn part(&self, out: &mut String, schedule: &Schedule, value: ValueId) -> Option<()> {
         let small = |value: &ValueId| {
             matches!(schedule.value(*value), Value::Symbol(_)) || self.get(schedule, *value).is_some()
         };
         match schedule.value(value) {
-            Value::Constant(Number::Ratio(1, 2)) => Some("half".to_owned()),
-            Value::Constant(Number::Ratio(2, 1)) => Some("twice".to_owned()),
-            Value::Square(base) if small(base) => self.describe(schedule, value),
-            Value::Quotient(above, below) if is_one(schedule, *above) && small(below) => self.describe(schedule, value),
-            Value::Product(factors) if factors.iter().all(small) => {
-                self.text(schedule, value).or_else(|| self.describe(schedule, value))
+            Value::Constant(Number::Ratio(1, 2)) => out.push_str("half"),
+            Value::Constant(Number::Ratio(2, 1)) => out.push_str("twice"),
+            Value::Square(base) if small(base) => self.describe(out, schedule, value)?,
+            Value::Quotient(above, below) if is_one(schedule, *above) && small(below) => {
+                self.describe(out, schedule, value)?;
             }
-            _ => self.text(schedule, value),
+            Value::Product(factors) if factors.iter().all(small) => {
+                self.text(out, schedule, value).or_else(|| self.describe(out, schedule, value))?;
+            }
+            _ => self.text(out, schedule, value)?,
         }
+        Some(())
     }
 
-    fn text(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
-        self.get(schedule, value).map(|name| name.text.clone())
+    fn text(&self, out: &mut String, schedule: &Schedule, value: ValueId) -> Option<()> {
+        out.push_str(&self.get(schedule, value)?.text);
+        Some(())
     }
+}
+
+fn put(names: &mut Vec<Option<Rc<Name>>>, index: usize, name: Rc<Name>) {
+    if names.len() <= index {
+        names.resize(index + 1, None);
+    }
+    names[index] = Some(name);
 }
 
 fn is_one(schedule: &Schedule, value: ValueId) -> bool {

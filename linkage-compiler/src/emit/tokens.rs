@@ -39,10 +39,10 @@ impl Tokens {
         self.0.append(&mut other.0);
     }
 
-    /// `#[doc = "…"]` of all lines together.
-    pub(super) fn doc(&mut self, lines: &[String]) {
+    /// `#[doc = "…"]` of all lines together, with the last paragraph if there is one.
+    pub(super) fn doc(&mut self, lines: &[String], last: &str) {
         let mut text = String::new();
-        for line in lines {
+        let mut line = |line: &str| {
             if !text.is_empty() {
                 text.push('\n');
             }
@@ -50,6 +50,13 @@ impl Tokens {
                 text.push(' ');
                 text.push_str(line);
             }
+        };
+        for each in lines {
+            line(each);
+        }
+        if !last.is_empty() {
+            line("");
+            line(last);
         }
         let mut doc = Self::default();
         doc.word("doc");
@@ -81,20 +88,13 @@ impl Tokens {
         slice.into()
     }
 
-    /// Items separated by commas, in brackets unless these are none.
-    pub(super) fn list(&mut self, delimiter: Delimiter, items: impl IntoIterator<Item = Self>) {
-        let mut inside = Self::default();
-        for item in items {
-            if !inside.0.is_empty() {
-                inside.punct(',');
-            }
-            inside.0.extend(item.0);
-        }
-        if delimiter == Delimiter::None {
-            self.0.append(&mut inside.0);
-        } else {
-            self.group(delimiter, inside);
-        }
+    /// `name![…]`
+    pub(super) fn by_macro(self, name: &str) -> TokenStream {
+        let mut call = Self::default();
+        call.word(name);
+        call.punct('!');
+        call.group(Delimiter::Bracket, self);
+        call.into()
     }
 }
 

@@ -74,7 +74,7 @@ pub(super) fn shared(mechanism: &Mechanism, private: &TokenStream) -> TokenStrea
     let order = mechanism.drivers.first().map(|driver| mechanism.coordinate_order(driver)).unwrap_or_default();
     let members: Vec<&Coordinate> = order.iter().map(|&index| &mechanism.coordinates[index]).collect();
     let title = format!(" The coordinates q of [`{name}`] by name; their rates and accelerations as well.");
-    tokens.extend(coordinate_struct(mechanism, &coordinates, &title, &members));
+    tokens.extend(coordinate_struct(mechanism, &coordinates, &title, &members, &derives));
     let (named_members, scalar) = (named(members.iter().map(|member| &member.name)), mark(members.is_empty()));
     tokens.extend(quote!(#private::__coordinates!(#coordinates #named_members #scalar);));
     for (suffix, what, names) in [
@@ -126,7 +126,7 @@ pub(super) fn of_driver(
     {
         let members: Vec<&Coordinate> = indices.iter().map(|&index| &mechanism.coordinates[index]).collect();
         let title = format!(" The {what} of [`{name}`] by name; their rates and accelerations as well.");
-        tokens.extend(coordinate_struct(mechanism, ident, &title, &members));
+        tokens.extend(coordinate_struct(mechanism, ident, &title, &members, &derives));
         let (named, scalar) = (named(members.iter().map(|member| &member.name)), mark(members.is_empty()));
         tokens.extend(quote!(#private::__part_of_coordinates!(#ident #named #coordinates #scalar);));
     }
@@ -275,8 +275,14 @@ pub(super) fn default_of(mechanism: &Mechanism, parameter: &Parameter) -> Option
     Some(expression::plain(number))
 }
 
-fn coordinate_struct(mechanism: &Mechanism, name: &Ident, title: &str, coordinates: &[&Coordinate]) -> TokenStream {
-    let (visibility, derives) = (&mechanism.visibility, derives());
+fn coordinate_struct(
+    mechanism: &Mechanism,
+    name: &Ident,
+    title: &str,
+    coordinates: &[&Coordinate],
+    derives: &TokenStream,
+) -> TokenStream {
+    let visibility = &mechanism.visibility;
     let members = coordinates.iter().map(|coordinate| {
         let docs = docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind));
         let field = field(&coordinate.name);

@@ -83,7 +83,8 @@ struct Methods<'a> {
 }
 
 impl<'a> Methods<'a> {
-    fn new(mechanism: &'a Mechanism, driver: &'a Driver, types: &'a Types) -> Self {
+    /// Beside the arguments no value may be called like `field`.
+    fn new(mechanism: &'a Mechanism, driver: &'a Driver, types: &'a Types, field: Option<&Ident>) -> Self {
         let name = |wish: &str| ident(&argument(mechanism, wish));
         let arguments = Arguments {
             pose: name("pose"),
@@ -106,14 +107,15 @@ impl<'a> Methods<'a> {
             &arguments.branch,
             &arguments.inputs,
             &arguments.guess,
-        ]
-        .map(ToString::to_string);
+        ];
+        let reserved = reserved.into_iter().chain(field).map(ToString::to_string);
+        let scope = Rc::new(Scope::new(reserved));
         Self {
             mechanism,
             driver,
             types,
             arguments,
-            scope: Rc::new(Scope::new(reserved)),
+            scope,
             named: mechanism.named.clone(),
             functions: TokenStream::new(),
             branches: None,
@@ -134,7 +136,7 @@ pub(super) fn of_driver(
     mut derivation: Option<&mut Derivation>,
     private: &TokenStream,
 ) -> Emitted {
-    let mut methods = Methods::new(mechanism, driver, types);
+    let mut methods = Methods::new(mechanism, driver, types, None);
     let formulas = derivation.as_deref_mut().map(Formulas::new);
     let mut kernels = derivation.as_deref_mut().zip(plan).map(|(derivation, plan)| Kernels::new(derivation, plan));
     if let Some(kernels) = &kernels {
@@ -322,13 +324,10 @@ impl Methods<'_> {
             uses: BTreeSet::new(),
             externals: BTreeSet::new(),
         });
-        let mut docs = docs.to_vec();
         let works = operations != Operations::default();
-        if works {
-            docs.extend([String::new(), format!("Operations: {}.", count(operations))]);
-        }
+        let work = if works { format!("Operations: {}.", count(operations)) } else { String::new() };
         let mut tokens = Tokens::default();
-        tokens.doc(&docs);
+        tokens.doc(docs, &work);
         tokens.extend(signature.clone());
         if works {
             self.kernels.push((tokens.name_of_function(), operations));
@@ -464,33 +463,30 @@ fn columns_of(entries: &[impl ToTokens], rows: usize) -> TokenStream {
     quote!(SMatrix::from([#(#columns),*]))
 }
 
-/// Values as lists of lists, of so many each from the inside out; lists of one scalar stand for themselves.
+/// Values separated by commas, in lists of lists of so many each, the outer ones first.
 fn in_parts(values: &[Operand], sizes: &[usize]) -> TokenStream {
-    let mut items: Vec<Tokens> = Vec::new();
-    for value in values {
-        let mut item = Tokens::default();
-        match value {
-            Operand::Name(name) => item.ident(name),
-            Operand::Constant(value) | Operand::Formula(value) => item.extend(value.clone()),
+    let mut tokens = Tokens::default();
+    write_parts(&mut tokens, values, sizes);
+    tokens.into()
+}
+
+fn write_parts(tokens: &mut Tokens, values: &[Operand], sizes: &[usize]) {
+    let part = sizes.iter().product::<usize>().max(1);
+    for (index, values) in values.chunks(part).enumerate() {
+        if index > 0 {
+            tokens.punct(',');
         }
-        items.push(item);
-    }
-    for &size in sizes {
-        let mut rest = items.into_iter();
-        items = Vec::new();
-        loop {
-            let part: Vec<Tokens> = rest.by_ref().take(size).collect();
-            if part.is_empty() {
-                break;
-            }
+        if let Some((_, inner)) = sizes.split_first() {
             let mut list = Tokens::default();
-            list.list(Delimiter::Bracket, part);
-            items.push(list);
+            write_parts(&mut list, values, inner);
+            tokens.group(Delimiter::Bracket, list);
+            continue;
+        }
+        match &values[0] {
+            Operand::Name(name) => tokens.ident(name),
+            Operand::Constant(value) | Operand::Formula(value) => tokens.extend(value.clone()),
         }
     }
-    let mut all = Tokens::default();
-    all.list(Delimiter::None, items);
-    all.into()
 }
 
 /// `finite(NAME, what, [values])?;`, each value once.

@@ -46,7 +46,7 @@ impl Methods<'_> {
             let (point_parts, output_parts) = rest.split_at(6 * self.mechanism.points.len());
             let mut members = TokenStream::new();
             if !point_parts.is_empty() {
-                let values = in_parts(point_parts, &[2, 3]);
+                let values = in_parts(point_parts, &[3, 2]);
                 members.extend(quote!(points: point_motions(Self::NAME, [#values])?,));
                 code.uses.insert("point_motions");
             }

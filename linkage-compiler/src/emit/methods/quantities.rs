@@ -173,7 +173,7 @@ impl Methods<'_> {
                 fields: ratios,
             };
             let mut code = self.on_pose(kernels, vec![ratios], &[Stage::Return(nodes)]);
-            let values = in_parts(&code.results, &[dimension, v]);
+            let values = in_parts(&code.results, &[v, dimension]);
             let tail = quote!(finite_matrices(Self::NAME, #word, [#values]));
             // A call costs what the ratios cost, too.
             let ratios = self.kernels.iter().find(|(name, _)| name == "velocity_ratios");

@@ -1,7 +1,6 @@
 //! The functions of a scene: mass matrix, forces, accelerations, drives, energy and power.
 
 use std::cell::Cell;
-use std::rc::Rc;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -47,22 +46,20 @@ pub(in crate::emit) fn of_scene(
     derived: Option<(&PosePlan, &mut Derivation)>,
     private: &TokenStream,
 ) -> Emitted {
-    let mut methods = Methods::new(mechanism, driver, types);
+    let inner = mechanism_field(mechanism);
+    let mut methods = Methods::new(mechanism, driver, types, Some(&inner));
     let time = mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time));
     let is_driven = |place: &usize| scene.drives.iter().any(|drive| drive.input == driver.inputs[*place]);
     let (driven, free) = (0..driver.inputs.len()).partition(is_driven);
     let place = Setting {
         scene,
-        field: mechanism_field(mechanism),
+        field: inner.clone(),
         time: ident(time),
         inputs: driver.inputs.iter().map(|&index| field(&mechanism.coordinates[index].name)).collect(),
         driven,
         free,
         blames: Cell::new(false),
     };
-    if let Some(scope) = Rc::get_mut(&mut methods.scope) {
-        scope.reserve(place.field.to_string());
-    }
     let mut derived = derived.and_then(|(plan, derivation)| {
         let scene = derivation.scenes.get(number)?.clone();
         Some((Kernels::new(derivation, plan), scene))

@@ -193,7 +193,7 @@ pub struct Schedule {
     values: Vec<Value>,
     pub lines: Vec<Line>,
     /// The expressions that the user named, where they are computed.
-    names: FxHashMap<ValueId, String>,
+    names: Vec<(ValueId, String)>,
     used: Vec<ValueId>,
 }
 
@@ -212,12 +212,13 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
     let roots: Vec<NodeId> = stages.iter().flat_map(Stage::nodes).collect();
     let (mut values, of) = Builder::translate_all(graph, given, &roots);
     sharing::share(&mut values, &roots.iter().map(|root| of[*root].value).collect::<Vec<_>>());
-    let names = named
-        .iter()
-        .filter_map(|(node, name)| {
-            of.get(*node).filter(|signed| !signed.negative).map(|signed| (signed.value, name.clone()))
-        })
-        .collect();
+    let mut names: Vec<(ValueId, String)> = Vec::new();
+    for (node, name) in named {
+        if let Some(Signed { negative: false, value }) = of.get(*node) {
+            names.push((value, name.clone()));
+        }
+    }
+    names.sort_by_key(|(value, _)| *value);
     let mut ordering = Ordering::new(graph, values, &roots.iter().map(|root| of[*root]).collect::<Vec<_>>());
     let introduced: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
     ordering.gather_sines(&introduced);
@@ -306,7 +307,10 @@ impl Schedule {
     /// The name that the user gave to a value.
     #[must_use]
     pub fn name(&self, id: ValueId) -> Option<&str> {
-        self.names.get(&id).map(String::as_str)
+        // Of several names the last.
+        let after = self.names.partition_point(|(value, _)| *value <= id);
+        let (value, name) = self.names.get(after.checked_sub(1)?)?;
+        (*value == id).then_some(name)
     }
 
     /// Every value that the lines stand on, ascending.

@@ -71,13 +71,20 @@ impl Ordering {
             if self.height[id.0].is_some() {
                 continue;
             }
+            if self.values[id.0].is_leaf() {
+                self.height[id.0] = Some(0);
+                continue;
+            }
             if !expanded {
                 stack.push((id, true));
-                let first = stack.len();
+                let mut low = stack.len();
                 self.values[id.0].each_part(|part| stack.push((part, false)));
                 // The first part is to come out first.
-                if stack.len() > first + 1 {
-                    stack[first..].reverse();
+                let mut high = stack.len();
+                while low + 1 < high {
+                    high -= 1;
+                    stack.swap(low, high);
+                    low += 1;
                 }
                 continue;
             }
@@ -88,7 +95,7 @@ impl Ordering {
             let mut height = 0;
             self.values[id.0].each_part(|part| height = height.max(self.height[part.0].map_or(0, |inside| inside + 1)));
             let deserves = self.uses[id.0] > 1 || height > DEEPEST_INLINE;
-            self.height[id.0] = Some(if self.values[id.0].is_leaf() || self.pair(id) || self.call(id) {
+            self.height[id.0] = Some(if self.pair(id) || self.call(id) {
                 0
             } else if deserves {
                 self.lines.push(Line::Let(id));

@@ -149,11 +149,12 @@ impl Sharing {
         while let Some(mut equal) = self.frequencies.pop() {
             let count = self.frequencies.len();
             // Of pairs equally frequent the oldest is taken, so that the result does not depend on chance.
-            if equal.len() > 1 {
-                equal.sort_unstable_by(|one, other| other.cmp(one));
-            }
+            in_order(&mut equal);
             self.frequencies.push(Vec::new());
-            while let Some(pair) = equal.pop() {
+            let mut next = 0;
+            while next < equal.len() {
+                let pair = equal[next];
+                next += 1;
                 let Some(index) = self.find(pair) else { continue };
                 let now = self.holders[index].1.len();
                 if now < count {
@@ -166,7 +167,7 @@ impl Sharing {
                 self.merge(pair, &of, values, &mut pairs);
                 // What has come to be as frequent stands in line with the others.
                 for new in std::mem::take(&mut self.frequencies[count]) {
-                    let place = equal.partition_point(|&other| other > new);
+                    let place = next + equal[next..].partition_point(|&other| other < new);
                     equal.insert(place, new);
                 }
             }
@@ -273,6 +274,25 @@ impl Sharing {
     fn is_frequent(&self, part: Signed) -> bool {
         // What is shared already stands wherever its pair stood.
         part.value.0 >= self.frequent.len() || self.frequent[part.value.0]
+    }
+}
+
+/// Sorts pairs; a few, which is all that most kernels have, are put in their places one by one.
+fn in_order(pairs: &mut [Pair]) {
+    const FEW: usize = 32;
+    if pairs.len() > FEW {
+        pairs.sort_unstable();
+        return;
+    }
+    let mut sorted = 1;
+    while sorted < pairs.len() {
+        let (pair, mut place) = (pairs[sorted], sorted);
+        while place > 0 && pairs[place - 1].0 > pair.0 {
+            pairs[place] = pairs[place - 1];
+            place -= 1;
+        }
+        pairs[place] = pair;
+        sorted += 1;
     }
 }
 

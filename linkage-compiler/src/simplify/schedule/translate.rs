@@ -168,8 +168,8 @@ impl<'a> Builder<'a> {
             }
             let signed = self.of[base];
             negative ^= signed.negative && exponent % 2 != 0;
-            let powers = self.power(signed.value, exponent.unsigned_abs());
-            if exponent > 0 { &mut above } else { &mut below }.extend(powers);
+            let factors = if exponent > 0 { &mut above } else { &mut below };
+            self.power(signed.value, exponent.unsigned_abs(), factors);
         }
         negative ^= constant.is_negative();
         let constant = constant.absolute();
@@ -190,9 +190,8 @@ impl<'a> Builder<'a> {
         Signed { negative, value }
     }
 
-    /// x^n as factors, each a square of squares: x^5 = x (x^2)^2.
-    fn power(&mut self, base: ValueId, exponent: u32) -> Vec<ValueId> {
-        let mut factors = Vec::new();
+    /// Adds x^n as factors, each a square of squares: x^5 = x (x^2)^2.
+    fn power(&mut self, base: ValueId, exponent: u32, factors: &mut Vec<ValueId>) {
         let (mut square, mut rest) = (base, exponent);
         loop {
             if rest % 2 == 1 {
@@ -200,7 +199,7 @@ impl<'a> Builder<'a> {
             }
             rest /= 2;
             if rest == 0 {
-                return factors;
+                return;
             }
             square = self.intern(Value::Square(square));
         }
@@ -213,10 +212,24 @@ impl<'a> Builder<'a> {
         match factors.as_slice() {
             &[only] => only,
             _ => {
-                factors.sort_unstable_by_key(|&id| (self.values[id.0].rank(), id));
+                if !self.is_in_order(&factors) {
+                    factors.sort_unstable_by_key(|&id| (self.values[id.0].rank(), id));
+                }
                 self.intern(Value::Product(factors))
             }
         }
+    }
+
+    fn is_in_order(&self, factors: &[ValueId]) -> bool {
+        let mut last = (0, ValueId(0));
+        for &id in factors {
+            let next = (self.values[id.0].rank(), id);
+            if next < last {
+                return false;
+            }
+            last = next;
+        }
+        true
     }
 
     fn scaled(&mut self, factor: Number, value: ValueId) -> ValueId {
