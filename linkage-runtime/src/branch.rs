@@ -90,7 +90,7 @@ pub fn chord<T: Real, S: Side>(
     // Both factors cannot be negative. Where their product is near the ends of its range, of huge and of
     // tiny lengths, it is that of other units.
     let is_plain = radicand > epsilon * epsilon * epsilon * epsilon && radicand.is_finite();
-    let root = if is_plain { radicand.sqrt() } else { guarded(mechanism, group, factors, size)? };
+    let root = if is_plain { radicand.sqrt() } else { guarded(mechanism, group, low, high, size)? };
     Ok(if side == S::OF_POSITIVE_ROOT { root } else { -root })
 }
 
@@ -119,20 +119,23 @@ pub fn elbow_chord<T: Real, S: Side>(
     line: [T; 2],
     side: S,
 ) -> Result<T, Error> {
-    let ([low, high], [sum, distance]) = (factors, sizes);
+    let ([low, high], [sum, distance], [p, q], [x, y]) = (factors, sizes, links, line);
     let part = real::<T>(CANCELLATION);
-    let factors = if low > part * sum && high > part * distance { factors } else { exactly(links, line, sizes) };
-    chord(mechanism, group, factors, sum, side)
+    let (low, high) =
+        if low > part * sum && high > part * distance { (low, high) } else { exactly(p, q, x, y, sum, distance) };
+    chord(mechanism, group, [low, high], sum, side)
 }
 
 /// (p + q)^2 - D^2 and D^2 - (p - q)^2 of the lengths and the line as they are. What is less than one rounding of the
 /// squares is zero: lengths such as 33.3 and 66.7 are no nearer to what was meant.
+///
+/// Scalars come and go in registers: arrays would be stored on the road that does not call this, too.
 #[cold]
 #[inline(never)]
-fn exactly<T: Real>([p, q]: [T; 2], line: [T; 2], sizes: [T; 2]) -> [T; 2] {
-    let [low, high] = [beyond(two_sum(p, q), line), -beyond(two_sum(p, -q), line)];
+fn exactly<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
+    let (low, high) = (beyond(two_sum(p, q), [x, y]), -beyond(two_sum(p, -q), [x, y]));
     let touching = |factor: T, size: T| if factor.abs() <= T::default_epsilon() * size { T::zero() } else { factor };
-    [touching(low, sizes[0]), touching(high, sizes[1])]
+    (touching(low, sum), touching(high, distance))
 }
 
 /// (a + b)^2 - x^2 - y^2 for a sum a and its rounding error b.
@@ -159,8 +162,8 @@ fn two_product<T: Real>(a: T) -> [T; 2] {
 }
 
 #[cold]
-fn guarded<T: Real>(mechanism: &'static str, group: &'static str, factors: [T; 2], size: T) -> Result<T, Error> {
-    let [low, high] = factors;
+#[inline(never)]
+fn guarded<T: Real>(mechanism: &'static str, group: &'static str, low: T, high: T, size: T) -> Result<T, Error> {
     if !(low.is_finite() && high.is_finite() && size.is_finite()) {
         return Err(Error::NotFinite { mechanism, quantity: "the position" });
     }

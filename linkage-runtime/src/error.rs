@@ -310,8 +310,8 @@ pub(crate) fn all_finite<'a, T: Real>(
     values: impl Iterator<Item = &'a T> + Clone,
 ) -> Result<(), Error> {
     // A sum is finite only if all its terms are, and takes one verdict; but it may be too large where none is.
-    let sum = values.clone().fold(T::zero(), |sum, &value| sum + value);
-    if sum.is_finite() || values.clone().all(T::is_finite) {
+    let sum = values.clone().copied().reduce(|sum, value| sum + value);
+    if sum.is_none_or(|sum| sum.is_finite()) || values.clone().all(T::is_finite) {
         Ok(())
     } else {
         Err(Error::NotFinite { mechanism, quantity })
