@@ -3,10 +3,10 @@
 use nalgebra::SVector;
 
 use crate::scalar::to_f64;
-use crate::{Error, Mechanism, Real, newton, real};
+use crate::{Contact, Equations, Error, Mechanism, Real, newton, real};
 
 /// A mechanism of `U` dependent and `V` independent coordinates with inertia and forces, as a differential
-/// equation of `N` = `U` + 2 `V` unknowns.
+/// equation of `N` = `U` + 2 `V` unknowns, with `C` frictions and stops.
 ///
 /// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then
 /// the rates of the inputs. Its derivative (W v', v'') needs no position to be solved for, follows angles beyond
@@ -17,7 +17,7 @@ use crate::{Error, Mechanism, Real, newton, real};
 /// ```text
 /// |t, y| scene.derivative(t, y)
 /// ```
-pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize> {
+pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C: usize> {
     /// The name of the scene, as errors give it.
     const NAME: &'static str;
     /// The kinematics.
@@ -34,12 +34,29 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize> {
     /// # Errors
     /// [`Error::Negative`] if a mass or an inertia is negative, with its name.
     fn check(&self) -> Result<(), Error>;
-    /// y' = (W v', v'').
+    /// y' = (W v', v''), without frictions and stops.
     ///
     /// # Errors
     /// [`Error::Singular`] where J has no inverse, [`Error::NoInertia`] where an input could accelerate without
     /// a force, [`Error::NotFinite`] with the name of the body or the effect that has no finite value.
     fn derivative(&self, t: T, state: &SVector<T, N>) -> Result<SVector<T, N>, Error>;
+    /// M, Q, W and u'' at v'' = 0, of which [`derivative`](Self::derivative) is made where no input is prescribed.
+    ///
+    /// # Errors
+    /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] with the name of the body or the effect that
+    /// has no finite value.
+    fn equations(&self, t: T, state: &SVector<T, N>) -> Result<Equations<T, U, V>, Error>;
+    /// The frictions and stops as they were declared, in order, at a position and the velocity q'.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] with the name of the effect that has no finite value, [`Error::Negative`] with that of
+    /// the friction whose limit is negative.
+    fn contacts(
+        &self,
+        t: T,
+        q: &Coordinates<Self::Mechanism, T, U, V>,
+        velocity: &Coordinates<Self::Mechanism, T, U, V>,
+    ) -> Result<[Contact<T, U, V>; C], Error>;
     /// The motion that is prescribed of each input: its value, its rate and its acceleration.
     fn prescribed(&self, t: T) -> [Option<[T; 3]>; V];
     /// The value and the rate of each input, with its name.

@@ -696,7 +696,7 @@ impl Methods<'_> {
         let mut imports: Vec<&str> = self.uses.iter().copied().chain(["Error", "Real", "SVector"]).collect();
         let has_inertia = place.scene.inertia.is_some();
         if has_inertia {
-            imports.extend(["SMatrix", "Scene"]);
+            imports.extend(["Contact", "Equations", "SMatrix", "Scene"]);
         }
         imports.sort_unstable();
         imports.dedup();
@@ -719,7 +719,7 @@ impl Methods<'_> {
         };
         let implementation = has_inertia.then(|| {
             quote! {
-                impl<T: Real> Scene<T, #nu, #nv, #n> for #scene<T> {
+                impl<T: Real> Scene<T, #nu, #nv, #n, 0> for #scene<T> {
                     const NAME: &'static str = #text;
                     type Mechanism = #of<T>;
                     fn mechanism(&self) -> &Self::Mechanism {
@@ -739,6 +739,19 @@ impl Methods<'_> {
                         let (q, rates) = Self::parts(state);
                         let (velocity, acceleration) = self.rates(t, &q, rates)?;
                         Ok(Self::state(&velocity, &acceleration))
+                    }
+                    fn equations(&self, t: T, state: &SVector<T, #n>) -> Result<Equations<T, #nu, #nv>, Error> {
+                        let (q, rates) = Self::parts(state);
+                        let (mass, forces) = (self.mass_matrix(&q)?, self.forces(t, &q, rates)?);
+                        Equations::at(&self.#inner, &q, &rates.into(), mass, forces)
+                    }
+                    fn contacts(
+                        &self,
+                        _t: T,
+                        _q: &#coordinates<T>,
+                        _velocity: &#coordinates<T>,
+                    ) -> Result<[Contact<T, #nu, #nv>; 0], Error> {
+                        Ok([])
                     }
                     fn prescribed(&self, #time: T) -> [::core::option::Option<[T; 3]>; #nv] {
                         #drives
