@@ -72,10 +72,10 @@ pub mod __private {
         __symbols,
     };
     pub use linkage_runtime::{
-        Along, Assembly, Balance, Bound, Contact, Elbow, Energy, Equations, Error, Factorization, Group, Limits,
-        Mechanism, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, chord, elbow_chord,
-        equilibrium, existing, finite, finite_each, finite_matrices, finite_matrix, finite_outputs, finite_points,
-        limits, newton, newton_group, not_negative, output_motions, point_motions, product_of_pivots, real, reduced,
-        regular, side_of, unit,
+        Along, Assembly, Balance, Bound, Contact, ContactLaw, Elbow, Energy, Equations, Error, Factorization, Group,
+        Limits, Mechanism, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, chord,
+        elbow_chord, equilibrium, existing, finite, finite_each, finite_matrices, finite_matrix, finite_outputs,
+        finite_points, limits, newton, newton_group, not_negative, output_motions, point_motions, product_of_pivots,
+        real, reduced, regular, side_of, sound, stops, unit,
     };
 }

@@ -28,6 +28,7 @@ mod emitted;
 mod equations;
 mod equilibrium;
 mod error;
+mod inertia;
 pub mod integrate;
 pub mod limits;
 mod linear;
@@ -43,10 +44,11 @@ mod sine;
 pub mod singularity;
 
 pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, side_of};
-pub use contact::{Along, Contact, ContactLaw, Mode};
+pub use contact::{Along, Contact, ContactLaw, Mode, sound, stops};
 pub use equations::Equations;
 pub use equilibrium::{Balance, equilibrium};
 pub use error::{Error, finite, finite_matrix};
+pub use inertia::reduced;
 pub use limits::{Bound, Limits, Search, limits};
 use linear::same_signs;
 pub use linear::{Factorization, product_of_pivots, regular};
@@ -57,4 +59,4 @@ pub use motion::{
 pub use nalgebra;
 pub use position::{Solution, newton, newton_group};
 pub use scalar::{Real, real, unit};
-pub use scene::{Energy, Power, Scene, finite_each, not_negative, reduced};
+pub use scene::{Energy, Power, Scene, finite_each, not_negative};
