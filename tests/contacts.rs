@@ -3,7 +3,12 @@
 use linkage::contact::{Contacts, ReducedEquations};
 use linkage::integrate::{Action, Crossing, Step, System, Tolerance, dop853};
 use linkage::nalgebra::{SVector, vector};
-use linkage::{Error, Mode, Scene};
+use linkage::{Error, Mode, Scene, linkage};
+
+include!("mechanisms/block.rs");
+include!("mechanisms/belt.rs");
+include!("mechanisms/slider_crank_contacts.rs");
+include!("mechanisms/five_bar_contacts.rs");
 
 /// A scene with its contacts as a system for integrators.
 struct Moving<'a, S, const C: usize> {
@@ -128,46 +133,6 @@ fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected}, off {:e}", found - expected);
 }
 
-linkage::linkage! {
-    /// A block on a table, its place told twice.
-    #[derive(Debug, Clone)]
-    pub mechanism Block {
-        param m = 2, g = 9.81, mu = 0.3, k = 50, push = 0, lower = -1, upper = 1, e = 0.4;
-        input x;
-        unknown y;
-        equation y = x;
-        output height = 2 * y;
-        body block { mass m; center (x, 0); }
-
-        scene Sliding {
-            inertia;
-            friction mu, m * g on x;
-            energy;
-            power;
-        }
-        scene Sprung {
-            inertia;
-            spring k on x;
-            friction mu, m * g on x;
-        }
-        scene Pushed {
-            inertia;
-            torque push on x;
-            friction mu, m * g on x;
-        }
-        scene Swelling {
-            inertia;
-            torque push * t on x;
-            friction mu, m * g on x;
-        }
-        scene Bouncing {
-            inertia;
-            torque -m * g on x;
-            stop height in lower..upper, restitution e;
-        }
-    }
-}
-
 fn block(x: f64) -> BlockCoordinates {
     BlockCoordinates { x, y: x }
 }
@@ -270,29 +235,6 @@ fn a_ball_bounces_and_rests() {
     close("fifth", end.events[4].0, 9.0 * fall, 1e-11);
 }
 
-linkage::linkage! {
-    /// A block on a belt that runs, held by a spring.
-    #[derive(Debug, Clone)]
-    pub mechanism Belt {
-        param m = 2, g = 9.81, mu = 0.3, k = 50, speed = 0.5;
-        input x, z;
-        unknown slip;
-        equation slip = x - z;
-        body block { mass m; center (x, 0); }
-        scene Carried {
-            inertia;
-            spring k on x;
-            drive z = speed * t;
-            friction mu, m * g on slip;
-        }
-        scene Driven {
-            inertia;
-            drive z = speed * t;
-            stop z in -1..1, restitution 0.5;
-        }
-    }
-}
-
 /// It is dragged until it has the speed of the belt, rides until the spring is stronger, and slips back.
 #[test]
 fn a_block_on_a_belt() {
@@ -311,33 +253,6 @@ fn a_block_on_a_belt() {
     assert_eq!((end.events[0].3, end.events[1].3), ([Mode::Stick], [Mode::SlipBackward]));
     close("end", end.y[1], reach + 0.5 / omega * (omega * 0.4).sin(), 1e-11);
     close("belt", end.y[2], 0.5 * (free + 0.4), 1e-12);
-}
-
-linkage::linkage! {
-    /// A slider-crank in metres and kilograms with friction where the slider runs and in its three joints.
-    #[derive(Debug, Clone)]
-    pub mechanism Machine {
-        param r = 0.1, l = 0.35, j = 0.02, m = 0.8, mu = 0.2, normal = 40, t0 = 3, r1 = 0.01, r2 = 0.012, r3 = 0.008, n1 = 90;
-        input phi;
-        unknown psi, z;
-        loop r@phi - l@psi = (z, 0);
-        output joint = phi - psi;
-        body crank { inertia j; angle phi; }
-        body piston { mass m; center (z, 0); }
-        scene Guided {
-            inertia;
-            torque t0 on phi;
-            friction mu, normal on z;
-        }
-        scene Jointed {
-            inertia;
-            torque t0 * t on phi;
-            friction mu, r1, n1 on phi;
-            friction mu, r2, n1 on joint;
-            friction mu, r3, n1 on psi;
-            friction mu, normal on z;
-        }
-    }
 }
 
 /// The slider by hand: z = r cos phi + sqrt(l^2 - r^2 sin^2 phi), M = j + m z_1^2, Q = t0 - m z_1 z_2 phi'^2 - F z_1,
@@ -422,55 +337,6 @@ fn joints_hold_together() {
         assert!(force.abs() <= limit * (1.0 + 1e-12), "{force} {limit}");
     }
     assert_eq!(motion.acceleration[0], 0.0);
-}
-
-linkage::linkage! {
-    /// A five-bar in the plane of a table, with both cranks free.
-    #[derive(Debug, Clone)]
-    pub mechanism Pair {
-        param a = 1, b = 2.5, c = 2.2, d = 0.8, e = 2, m2 = 2, m3 = 1.7, j1 = 0.7, j4 = 0.4, j2 = 0.9, j3 = 0.8;
-        param brake1 = 9, brake4 = 0.6, torque = -2.5, place = 0, sign = 1, upper1 = 1.2, lower4 = 0.5, upper4 = 9, e1 = 0.6, middle = 0, half = 1;
-        input theta1, theta4;
-        unknown theta2, theta3;
-        loop a@theta1 + b@theta2 = e@0 + d@theta4 + c@theta3;
-        output opening = theta2 - theta3;
-        point G2 = a@theta1 + (b/2)@theta2;
-        point G3 = e@0 + d@theta4 + (c/2)@theta3;
-        body left { inertia j1; angle theta1; }
-        body arm { mass m2; inertia j2; center G2; angle theta2; }
-        body forearm { mass m3; inertia j3; center G3; angle theta3; }
-        body right { inertia j4; angle theta4; }
-        scene Braked {
-            inertia;
-            torque torque on theta4;
-            friction brake1 on theta1;
-            friction brake4 on theta4;
-            energy;
-        }
-        /// The same with the crank held by hand.
-        scene Clamped {
-            inertia;
-            torque torque on theta4;
-            drive theta1 = place;
-            torque -sign * brake4 on theta4;
-        }
-        scene Stopped {
-            inertia;
-            stop theta1 in -9..upper1, restitution e1;
-            stop theta4 in lower4..upper4, restitution e1;
-            stop opening in -9..9, restitution 0;
-            energy;
-        }
-        scene Narrow {
-            inertia;
-            stop opening in middle - half..middle + half, restitution e1;
-            energy;
-        }
-        scene Curved {
-            inertia;
-            friction brake1, 1 + rate(theta3)^2 on theta1 * sin(theta2);
-        }
-    }
 }
 
 fn pair(theta1: f64, theta4: f64) -> PairCoordinates {

@@ -244,7 +244,7 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
                 return Err(expected(stream, FORM));
             }
             let lower = expression::parse(stream, expressions)?;
-            if stream.parse::<Option<Token![..]>>()?.is_none() {
+            if stream.peek(Token![..=]) || stream.parse::<Option<Token![..]>>()?.is_none() {
                 return Err(expected(stream, FORM));
             }
             let range = [lower, expression::parse(stream, expressions)?];

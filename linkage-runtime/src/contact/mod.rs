@@ -18,6 +18,7 @@ mod held;
 mod impact;
 mod margin;
 mod reduced;
+mod settle;
 mod state;
 mod verdict;
 
