@@ -97,11 +97,13 @@ where
 /// With the numbers of its coordinates, which the trait of systems does not name.
 struct Wrapped<'a, S, const U: usize, const V: usize, const C: usize>(Moving<'a, S, C>);
 
+type Event<const N: usize, const C: usize> = (f64, SVector<f64, N>, [Mode; C], [Mode; C]);
+
 /// How a motion ended, and the events on the way: the time, the state at them, the modes before and after.
 struct End<const N: usize, const C: usize> {
     y: SVector<f64, N>,
     modes: [Mode; C],
-    events: Vec<(f64, SVector<f64, N>, [Mode; C], [Mode; C])>,
+    events: Vec<Event<N, C>>,
 }
 
 fn run<S, const U: usize, const V: usize, const N: usize, const C: usize>(

@@ -125,17 +125,17 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
                 direction = factors.solve(|row| -self.gradient(row));
             }
             let mut blocked: Option<(usize, T)> = None;
-            for place in 0..self.count {
+            for (place, &way) in direction.iter().enumerate().take(self.count) {
                 let Some(Bounds { lower, upper, .. }) = self.bounds[self.free[place]] else { continue };
                 let force = self.forces[self.free[place]];
-                let room = if direction[place] > T::zero() {
+                let room = if way > T::zero() {
                     upper - force
-                } else if direction[place] < T::zero() {
+                } else if way < T::zero() {
                     lower - force
                 } else {
                     continue;
                 };
-                let part = (room / direction[place]).max(T::zero());
+                let part = (room / way).max(T::zero());
                 if (is_endless || part < T::one()) && blocked.is_none_or(|(_, least)| part < least) {
                     blocked = Some((place, part));
                 }
@@ -145,8 +145,8 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
                 _ if is_endless => return Err(next),
                 _ => T::one(),
             };
-            for place in 0..self.count {
-                self.forces[self.free[place]] += direction[place] * part;
+            for (&contact, &way) in self.free.iter().zip(&direction).take(self.count) {
+                self.forces[contact] += way * part;
             }
             let Some((place, _)) = blocked else { return Ok(()) };
             self.pin(place, direction[place] > T::zero());

@@ -129,8 +129,8 @@ impl<T: Real, const C: usize> Factors<T, C> {
             let row = self.order[place];
             x[place] = (0..place).fold(side(row), |sum, before| sum - self.lower[row][before] * x[before]);
         }
-        for place in 0..self.rank {
-            x[place] /= self.pivots[place];
+        for (x, &pivot) in x.iter_mut().zip(&self.pivots).take(self.rank) {
+            *x /= pivot;
         }
         self.back(x)
     }
@@ -149,7 +149,7 @@ impl<T: Real, const C: usize> Factors<T, C> {
     fn back(&self, mut x: [T; C]) -> [T; C] {
         for place in (0..self.rank).rev() {
             for later in place + 1..self.rank {
-                x[place] = x[place] - self.lower[self.order[later]][place] * x[later];
+                x[place] -= self.lower[self.order[later]][place] * x[later];
             }
         }
         x

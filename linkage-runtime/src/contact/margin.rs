@@ -22,15 +22,14 @@ impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
         let mut found = [false; C];
         let combinations: [[T; C]; C] =
             core::array::from_fn(|place| if place < count { self.factors.combination(place) } else { [T::zero(); C] });
-        let motion = |z: &[T; C]| {
-            // Along each contact in the order, and what of it is nothing but rounding.
-            let moved = core::array::from_fn::<T, C, _>(|place| {
+        // Along each contact in the order; what of it is rounding is nothing.
+        let motion = |z: &[T; C]| -> [T; C] {
+            core::array::from_fn(|place| {
                 let terms = combinations[place].iter().zip(z).map(|(&c, &z)| c * z);
                 let (sum, size) =
                     terms.fold((T::zero(), T::zero()), |(sum, size), term| (sum + term, size + term.abs()));
                 if sum.abs() <= nothing::<T>() * size { T::zero() } else { sum }
-            });
-            moved
+            })
         };
         let mut weigh = |z: &[T; C]| {
             let moved = motion(z);
@@ -43,17 +42,15 @@ impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
                 return;
             }
             let mut left = self.forces.iter().zip(z).take(rank).fold(T::zero(), |sum, (&h, &z)| sum + h * z);
-            for place in 0..count {
-                let contact = self.factors.order[place];
+            for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count) {
                 let limit = match equations.contacts[contact].law {
                     ContactLaw::Friction { limit } => limit,
                     ContactLaw::Stop { .. } => T::zero(),
                 };
-                left += (limit + self.rounding(contact)) * moved[place].abs();
+                left += (limit + self.rounding(contact)) * moved.abs();
             }
-            for place in (0..count).filter(|&place| !moved[place].is_zero()) {
-                let contact = self.factors.order[place];
-                let share = left / moved[place].abs();
+            for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count).filter(|(_, s)| !s.is_zero()) {
+                let share = left / moved.abs();
                 if !found[contact] || share < margins[contact] {
                     margins[contact] = share;
                     found[contact] = true;

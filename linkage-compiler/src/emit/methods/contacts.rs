@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::kernel::{Operand, Source};
-use super::super::names::string;
+use super::super::names::{ident, string};
 use super::scene::{Parts, Setting};
 use super::{Body, Methods, argument_of, bind, columns_of, fenced, lines, literal};
 use crate::derivation::ContactFormula;
@@ -57,16 +57,19 @@ impl Methods<'_> {
             for contact in &scene.contacts {
                 let (of_unknowns, of_inputs) = (take(unknowns.len()), take(inputs.len()));
                 let numbers = take(2);
-                let (value, bias) = (numbers[0], numbers[1]);
+                let value = super::member(&ident("value"), numbers[0]);
+                let bias = super::member(&ident("bias"), numbers[1]);
                 let law = match contact.law {
                     ContactFormula::Friction { .. } => {
                         let limit = take(1);
-                        quote!(ContactLaw::Friction { limit: #(#limit)* })
+                        let limit = super::member(&ident("limit"), limit[0]);
+                        quote!(ContactLaw::Friction { #limit })
                     }
                     ContactFormula::Stop { .. } => {
                         let numbers = take(3);
-                        let (lower, upper, restitution) = (numbers[0], numbers[1], numbers[2]);
-                        quote!(ContactLaw::Stop { lower: #lower, upper: #upper, restitution: #restitution })
+                        let names = ["lower", "upper", "restitution"];
+                        let members = names.iter().zip(numbers).map(|(name, value)| super::member(&ident(name), value));
+                        quote!(ContactLaw::Stop { #(#members),* })
                     }
                 };
                 let name = string(&contact.label);
@@ -74,10 +77,10 @@ impl Methods<'_> {
                     Contact {
                         name: #name,
                         along: Along {
-                            value: #value,
+                            #value,
                             unknowns: SVector::from([#(#of_unknowns),*]),
                             inputs: SVector::from([#(#of_inputs),*]),
-                            bias: #bias,
+                            #bias,
                         },
                         law: #law,
                     },

@@ -34,7 +34,8 @@ pub(super) struct Setting<'a> {
     pub(super) inputs: Vec<Ident>,
     driven: Vec<usize>,
     free: Vec<usize>,
-    /// Whether some function asks which effect has no finite value.
+    /// Whether there is an effect that could have no finite value, and whether some function asks which.
+    is_blamable: bool,
     blames: Cell<bool>,
 }
 
@@ -51,6 +52,10 @@ pub(in crate::emit) fn of_scene(
     let time = mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time));
     let is_driven = |place: &usize| scene.drives.iter().any(|drive| drive.input == driver.inputs[*place]);
     let (driven, free) = (0..driver.inputs.len()).partition(is_driven);
+    let mut derived = derived.and_then(|(plan, derivation)| {
+        let scene = derivation.scenes.get(number)?.clone();
+        Some((Kernels::new(derivation, plan), scene))
+    });
     let place = Setting {
         scene,
         field: inner.clone(),
@@ -58,12 +63,12 @@ pub(in crate::emit) fn of_scene(
         inputs: driver.inputs.iter().map(|&index| field(&mechanism.coordinates[index].name)).collect(),
         driven,
         free,
+        is_blamable: derived.as_ref().is_some_and(|(kernels, scene)| {
+            let mut parts = scene.parts.iter().flat_map(|(_, parts)| parts);
+            parts.any(|&part| kernels.derivation.graph.constant_value(part).is_none())
+        }),
         blames: Cell::new(false),
     };
-    let mut derived = derived.and_then(|(plan, derivation)| {
-        let scene = derivation.scenes.get(number)?.clone();
-        Some((Kernels::new(derivation, plan), scene))
-    });
     if scene.inertia.is_some() {
         methods.mass_matrix(&place, parts_of(&mut derived));
     }
@@ -189,7 +194,7 @@ impl Methods<'_> {
     /// A verdict that is made more precise only where it is bad.
     pub(super) fn blamed(&self, place: &Setting, code: &mut Code, what: &str, values: &[Operand]) -> TokenStream {
         let verdict = check_finite(code, what, values);
-        if verdict.is_empty() {
+        if verdict.is_empty() || !place.is_blamable {
             return verdict;
         }
         place.blames.set(true);
@@ -749,6 +754,8 @@ impl Methods<'_> {
         imports.sort_unstable();
         imports.dedup();
         let imports = imports.into_iter().map(ident);
+        let refuses = place.blames.get() || place.scene.wishes.contains(&Wish::Equilibrium);
+        let refusal = refuses.then(|| quote!(Err,));
         let fields = self.coordinate_fields();
         let names = &place.inputs;
         let rates: Vec<Ident> = names.iter().map(|name| ident(&format!("{name}_rate"))).collect();
@@ -836,7 +843,7 @@ impl Methods<'_> {
         quote! {
             const _: () = {
                 use ::core::convert::{From, Into};
-                use ::core::result::Result::{self, Err, Ok};
+                use ::core::result::Result::{self, #refusal Ok};
                 use #private::{#(#imports),*};
                 impl<T: Real> #scene<T> {
                     /// The name of the scene, as errors give it.
