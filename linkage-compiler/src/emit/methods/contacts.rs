@@ -137,7 +137,7 @@ impl Methods<'_> {
             self.with_rates(Body::new(code, tail, ["Equations"]))
         });
         let docs = lines([
-            "M and Q of M v'' = Q without frictions and stops, and W and u'' at v'' = 0 of u'' = W v'' + u''.",
+            "M and Q of M v'' = Q without frictions and stops, W of u' = W v', and u'' at v'' = 0.",
             "",
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` with the name of the body or the effect that has no finite",
