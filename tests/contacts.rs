@@ -7,6 +7,7 @@ use linkage::{Error, Mode, Scene, linkage};
 
 include!("mechanisms/block.rs");
 include!("mechanisms/belt.rs");
+include!("mechanisms/yoke.rs");
 include!("mechanisms/slider_crank_contacts.rs");
 include!("mechanisms/five_bar_contacts.rs");
 
@@ -605,4 +606,60 @@ fn errors_name_the_friction_or_the_stop() {
     assert_eq!(motion.finish(|_, _| true), Err(named));
     close("there", motion.t(), 2.0, 1e-12);
     assert_eq!(named.to_string(), "no forces of frictions and stops agree with the motion of Driven: stop on z");
+}
+
+/// At rest at a dead centre a slider has no lever, and what its friction will do shows only when it moves: energy is the
+/// work of the torque less that of the friction.
+#[test]
+fn a_start_at_a_dead_centre() {
+    for (centre, t0) in [(0.0, 3.0), (0.0, -3.0), (std::f64::consts::PI, 3.0), (std::f64::consts::PI, -3.0)] {
+        let scene = Guided { t0, ..Guided::default() };
+        let guess = MachineCoordinates { phi: centre, psi: 3.1, z: 0.35 + 0.1 * f64::cos(centre) };
+        let start = scene.start(0.0, &guess, &0.0.into()).unwrap();
+        let end = run(&scene, start, 0.12);
+        let (q, rates) = Guided::parts(&end.y);
+        let kinetic = 0.5 * scene.mass_matrix(&q).unwrap()[0] * rates.phi * rates.phi;
+        let turned = (q.phi - centre).abs();
+        assert!(turned > 0.5 && turned < 3.0, "{turned}");
+        close("energy", kinetic, 3.0 * turned - 8.0 * (guess.z - q.z).abs(), 1e-11);
+
+        let scene = Scotch { torque: t0, ..Scotch::default() };
+        let guess = YokeCoordinates { phi: centre, x: 0.1 * f64::cos(centre) };
+        let end = run(&scene, scene.start(0.0, &guess, &0.0.into()).unwrap(), 0.12);
+        let (q, rates) = Scotch::parts(&end.y);
+        let kinetic = 0.5 * scene.mass_matrix(&q).unwrap()[0] * rates.phi * rates.phi;
+        close("energy", kinetic, 3.0 * (q.phi - centre).abs() - 8.0 * (guess.x - q.x).abs(), 1e-11);
+    }
+}
+
+/// Frictions, stops and a force that swings, for a long time: the energy is what was put in less what friction took.
+#[test]
+fn a_long_motion_keeps_its_accounts() {
+    let scene =
+        Shaken { brake1: 2.0, brake4: 1.5, upper1: 1.3, lower4: 0.7, e1: 1.0, torque: 6.0, ..Shaken::default() };
+    let q = Pair::default().solve(&pair(1.0, 1.0)).unwrap().coordinates;
+    let start = scene.start(0.0, &q, &PairInputs { theta1: 0.0, theta4: 0.0 }).unwrap();
+    let (moving, y) = Moving::start(&scene, 0.0, &start).unwrap();
+    let tolerance = Tolerance::new(1e-10, [1.0; 6]).unwrap();
+    let mut motion = dop853(Wrapped(moving), (0.0, y), 30.0, tolerance).unwrap().largest_step(0.02).unwrap();
+    let (mut work, mut last) = (0.0, 0.0);
+    // By Gauss's rule of three points on each piece between events.
+    while let Some(step) = motion.advance().unwrap() {
+        let piece = motion.interpolant().unwrap();
+        let half = 0.5 * (step.t - last);
+        for (place, weight) in [(-0.6_f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6_f64.sqrt(), 5.0 / 9.0)] {
+            let t = last + half * (1.0 + place);
+            let (q, rates) = Shaken::parts(&piece.at(t));
+            let power = scene.power(t, &q, rates).unwrap();
+            work += half * weight * (power.applied - power.dissipated);
+        }
+        last = step.t;
+    }
+    let moving = &motion.system().0;
+    let (q, rates) = Shaken::parts(motion.state());
+    let energy = scene.energy(&q, rates).unwrap();
+    let seen = |mode: Mode| moving.history.iter().filter(|(_, _, after)| after.contains(&mode)).count();
+    let often = [Mode::Stick, Mode::SlipForward, Mode::SlipBackward].map(seen);
+    assert!(often.iter().all(|&often| often > 8) && moving.mended == 0, "{often:?} of {}", moving.history.len());
+    close("energy", energy.kinetic, work, 1e-9);
 }

@@ -40,6 +40,17 @@ linkage! {
             stop opening in middle - half..middle + half, restitution e1;
             energy;
         }
+        scene Shaken {
+            inertia;
+            torque torque * sin(5 * t) on theta1;
+            torque torque * cos(3 * t) / 2 on theta4;
+            friction brake1 on theta1;
+            friction brake4 on theta4;
+            stop theta1 in -1..upper1, restitution e1;
+            stop theta4 in lower4..2, restitution e1;
+            energy;
+            power;
+        }
         scene Curved {
             inertia;
             friction brake1, 1 + rate(theta3)^2 on theta1 * sin(theta2);
