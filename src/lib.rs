@@ -9,8 +9,9 @@ pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
-    Assembly, Balance, Elbow, Energy, Error, Group, Mechanism, OutputMotion, PointMotion, Power, Real, Scene, Slider,
-    Slope, Solution, accuracy, continuation, derivation, limits, nalgebra, position, singularity,
+    Along, Assembly, Balance, Contact, ContactLaw, Elbow, Energy, Equations, Error, Group, Mechanism, Mode,
+    OutputMotion, PointMotion, Power, Real, Scene, Slider, Slope, Solution, accuracy, contact, continuation,
+    derivation, limits, nalgebra, position, singularity,
 };
 
 /// A mechanism under forces: the position is solved for within the rate, the last one being the guess.
@@ -71,10 +72,10 @@ pub mod __private {
         __symbols,
     };
     pub use linkage_runtime::{
-        Assembly, Balance, Bound, Elbow, Energy, Error, Factorization, Group, Limits, Mechanism, OutputMotion,
-        PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, chord, elbow_chord, equilibrium, existing,
-        finite, finite_each, finite_matrices, finite_matrix, finite_outputs, finite_points, limits, newton,
-        newton_group, not_negative, output_motions, point_motions, product_of_pivots, real, reduced, regular, side_of,
-        unit,
+        Along, Assembly, Balance, Bound, Contact, ContactLaw, Elbow, Energy, Equations, Error, Factorization, Group,
+        Limits, Mechanism, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, chord,
+        elbow_chord, equilibrium, existing, finite, finite_each, finite_matrices, finite_matrix, finite_outputs,
+        finite_points, limits, newton, newton_group, not_negative, output_motions, point_motions, product_of_pivots,
+        real, reduced, regular, side_of, sound, stops, unit,
     };
 }

@@ -9,8 +9,10 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-const MECHANISMS: [&str; 22] = [
+const MECHANISMS: [&str; 26] = [
     "andrews_scene",
+    "belt",
+    "block",
     "cam_follower",
     "cam_rocker",
     "components",
@@ -18,6 +20,7 @@ const MECHANISMS: [&str; 22] = [
     "elliptic_trammel",
     "every_function",
     "five_bar",
+    "five_bar_contacts",
     "five_bar_scenes",
     "four_bar",
     "four_bar_scenes",
@@ -31,6 +34,7 @@ const MECHANISMS: [&str; 22] = [
     "scotch_yoke",
     "six_bar",
     "slider_crank",
+    "slider_crank_contacts",
     "slider_crank_scenes",
 ];
 

@@ -101,6 +101,7 @@ mod scenes {
         #[derive(::core::clone::Clone, ::core::fmt::Debug)]
         pub mechanism Acting {
             param mechanism = 1, l = 3, rates = 2, T = 0.5, reduced = 0.25, lambda_1 = 0.1, kinetic = 4;
+            param sound = 0.5, stops = 0.25, Along = -7, Contact = 9;
             input blame;
             unknown phi2, x;
             extern fn gas(x) -> (pressure, slope);
@@ -114,6 +115,8 @@ mod scenes {
                 spring kinetic on blame - phi2;
                 damper 0.3 between (x, 0) and mechanism@blame;
                 potential pressure(x);
+                friction sound, stops, pressure(x) on blame - phi2;
+                stop x in Along..Contact, restitution stops;
                 energy;
                 power;
                 reactions;
@@ -175,6 +178,9 @@ fn greedy_names_of_scenes() {
     let (rates, _) = scene.rates(2.0, &q, 1.5).unwrap();
     assert!((power.applied - (0.1 * rates.x * 2.0 + q.x * q.x) * 1.5).abs() < 1e-13, "{power:?}");
     assert!(scene.energy(&q, 1.5).is_ok() && scene.reactions(2.0, &q, 1.5).is_ok() && scene.check().is_ok());
+    let [friction, stop] = scene.contacts(2.0, &q, &rates).unwrap();
+    assert_eq!((friction.name, stop.name), ("friction on blame - phi2", "stop on x"));
+    assert!(scene.equations(2.0, &q, 1.5).is_ok());
     let given = scenes::Given::new(scene.mechanism_, 0.5, 0.25);
     assert_eq!(given.drive_forces(2.0, &q, 1.5), Ok([0.25]));
 }

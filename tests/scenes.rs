@@ -457,7 +457,7 @@ fn andrews_as_published() {
 /// The state of a scene as plain numbers, integrated by the classical method of Runge and Kutta.
 #[test]
 fn a_state_for_integrators() {
-    fn run<S: Scene<f64, U, V, N>, const U: usize, const V: usize, const N: usize>(
+    fn run<S: Scene<f64, U, V, N, 0>, const U: usize, const V: usize, const N: usize>(
         scene: &S,
         mut y: linkage::nalgebra::SVector<f64, N>,
         step: f64,
@@ -487,6 +487,22 @@ fn a_state_for_integrators() {
         [200, 400].map(|steps| (energy(&run(&idle, start, 1.0 / f64::from(steps), steps as usize)) - total) / total);
     println!("{total} {errors:?}");
     assert!(errors[1].abs() < 1e-6 && errors[0].abs() > 10.0 * errors[1].abs(), "{errors:?}");
+    // The parts of the derivative agree with it.
+    let derivative = idle.derivative(0.0, &start).unwrap();
+    let equations = idle.equations(0.0, &start).unwrap();
+    let acceleration = equations.forces / equations.mass[0];
+    close("v''", acceleration[0], derivative[3], 0.0);
+    let (q, rates) = Idle::parts(&start);
+    let moving = equations.ratios * rates.theta2;
+    (0..2).for_each(|at| close("u'", moving[at], derivative[at], 0.0));
+    let four_bar = &idle.mechanism;
+    let pose = four_bar.pose_at(&q);
+    let velocity = four_bar.velocity(&pose, rates).unwrap();
+    let all = four_bar.acceleration(&pose, &velocity, acceleration[0]).unwrap();
+    let of_unknowns = equations.ratios * acceleration + equations.bias;
+    close("theta3''", of_unknowns[0], all.theta3, 0.0);
+    close("theta4''", of_unknowns[1], all.theta4, 0.0);
+    assert_eq!(idle.contacts(0.0, &q, &velocity).unwrap(), []);
     // The crank has made more than a turn, and the angles say so.
     let end = run(&idle, start, 0.005, 200);
     let (q, _) = Idle::parts(&end);

@@ -302,6 +302,9 @@ use proc_macro::TokenStream;
 /// | `torque LAW on phi;` | a torque on an angle, or a force on a length: its work is LAW times the change of `phi` |
 /// | `force (fx, fy) at P;` | a force at a point |
 /// | `potential V;` | forces from any potential energy |
+/// | `friction mu, radius, normal on phi;` | dry friction in a joint: its greatest torque is the product, of which each factor may be a law |
+/// | `friction mu, normal on s;` | the same along a length |
+/// | `stop s in lower..upper, restitution e;` | s stays within this range, and goes back with the part e of its rate |
 /// | `drive v = LAW;` | the motion of an input is given: what drives it is found by inverse dynamics |
 /// | `energy;`, `power;`, `reactions;`, `equilibrium;` | more functions |
 ///
@@ -319,8 +322,70 @@ use proc_macro::TokenStream;
 /// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; the power that is applied, also by drives, and that is dissipated |
 /// | `reactions(t, &q, v')` | Lagrange's multipliers: the force where a loop is cut, of its left side on its right side |
 /// | `equilibrium(t, &guess)` | the position near the guess where the forces of the inputs that are not driven vanish at rest, by Newton's method; `balance(t, &q)`: these forces and their derivatives, whose signs tell what is stable |
-/// | `check()` | refuses negative masses and inertias by their name |
+/// | `contacts(t, &q, &q')`, `equations(t, &q, v')` | with frictions or stops: each with its scalar and its limits; M, Q, W and u'' at v'' = 0, without them |
+/// | `check()` | refuses by their name negative masses, inertias and frictions, empty ranges of stops, and restitutions that are not between 0 and 1 |
 /// | the trait `Scene` | with `inertia`: the state (q, v') of an integrator, its derivative, its projection on the closures |
+///
+/// ## Dry friction and stops
+///
+/// Frictions and stops act on a coordinate, an output or any other scalar that moves. They jump where the
+/// others are smooth: a joint sticks or slips, a stop is open or closed. So what a scene says of itself (`forces`,
+/// `acceleration`, `drive_forces`, `reactions`, `equilibrium`, `derivative` of the trait `Scene`) is **without** them;
+/// `contacts` tells where they are, and the module `contact` of the runtime has the law: which modes fit a state, the
+/// accelerations and forces in them, the functions whose zeros are the events, and what happens there.
+///
+/// ```
+/// linkage::linkage! {
+///     #[derive(Clone, Debug)]
+///     pub mechanism Press {
+///         param r = 0.1, l = 0.35, j = 0.02, m = 0.8;
+///         param mu = 0.2, normal = 40, radius = 0.01, load = 90, torque = 0.5, e = 0.3;
+///         input phi;
+///         unknown psi, z;
+///         loop r@phi - l@psi = (z, 0);
+///         output joint = phi - psi;
+///         body crank { inertia j; angle phi; }
+///         body ram { mass m; center (z, 0); }
+///
+///         scene Working {
+///             inertia;
+///             torque torque on phi;
+///             friction mu, radius, load on joint;
+///             friction mu, normal on z;
+///             stop z in 0.26..0.6, restitution e;
+///         }
+///     }
+/// }
+/// use linkage::contact::{Contacts, ReducedEquations};
+/// use linkage::nalgebra::SVector;
+/// use linkage::{Mode, Scene};
+///
+/// let press = Working::default();
+/// let guess = PressCoordinates { phi: 1.2, psi: 2.9, z: 0.4 };
+/// let state = press.start(0.0, &guess, &0.0.into())?;
+/// let (q, rates) = Working::parts(&state);
+/// let at = |v: &SVector<f64, 1>| ReducedEquations::of(&press, 0.0, &Working::state(&q, &v[0].into()));
+/// // Half a newton metre is less than the friction of the ram holds at this lever.
+/// let (contacts, rates) = Contacts::begin(0.0, &rates.into(), at)?;
+/// assert_eq!(contacts.modes, [Mode::Stick, Mode::Stick, Mode::Open]);
+/// assert_eq!(contacts.motion(&at(&rates)?)?.acceleration[0], 0.0);
+///
+/// // Ten times as much moves it.
+/// let press = Working { torque: 5.0, ..press };
+/// let at = |v: &SVector<f64, 1>| ReducedEquations::of(&press, 0.0, &Working::state(&q, &v[0].into()));
+/// let (contacts, rates) = Contacts::begin(0.0, &rates, at)?;
+/// assert_eq!(contacts.modes, [Mode::SlipForward, Mode::SlipBackward, Mode::Open]);
+/// assert!(contacts.motion(&at(&rates)?)?.acceleration[0] > 50.0);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
+/// - What sticks holds up to its limit; several joints of one input hold together while |Q| is not more than the sum of
+///   |ds/dv| limit. Static and sliding limit are the same unless the limit is a law of `rate(s)`.
+/// - At an impact s'+ = -e s'-; what rests on another stop is not pushed through it. Impulses of friction are neglected.
+/// - Bouncing ends where the rebound is less than the square root of the scalar's rounding beside the hardest impact of
+///   the series.
+/// - `power` counts limit |s'| of each friction as dissipated; in scenes with contacts it leaves out the power of drives,
+///   which depends on what sticks.
 ///
 /// Effects work along what the closures, points and bodies already compute: one kernel holds all that a function
 /// returns, and takes coordinates that close the mechanism, so that an angle beyond a turn is what it is.

@@ -203,6 +203,43 @@ pub enum Error {
         /// By how much it differs.
         gap: f64,
     },
+    /// A motion begins beyond a stop.
+    BeyondStop {
+        /// The scene.
+        scene: &'static str,
+        /// The stop.
+        stop: &'static str,
+        /// By how much, in the unit of what it stops.
+        gap: f64,
+    },
+    /// A stop whose least value is not below its greatest.
+    NoRange {
+        /// The scene.
+        scene: &'static str,
+        /// The stop.
+        stop: &'static str,
+        /// Its least value.
+        lower: f64,
+        /// Its greatest value.
+        upper: f64,
+    },
+    /// A restitution that is not between 0 and 1.
+    Restitution {
+        /// The scene.
+        scene: &'static str,
+        /// The stop.
+        stop: &'static str,
+        /// Its restitution.
+        value: f64,
+    },
+    /// No forces or impulses of the frictions and stops agree with the motion: a prescribed motion drives through a
+    /// stop, or stops leave no way to move.
+    NoContactForces {
+        /// The scene.
+        scene: &'static str,
+        /// A contact that takes part.
+        contact: &'static str,
+    },
 }
 
 impl fmt::Display for Error {
@@ -270,6 +307,16 @@ impl fmt::Display for Error {
                     f,
                     "{scene} begins with another {quantity} of {coordinate} than its drive says: off by {gap:.1e}"
                 )
+            }
+            Self::BeyondStop { scene, stop, gap } => write!(f, "{scene} begins beyond the {stop}: by {gap:.1e}"),
+            Self::NoRange { scene, stop, lower, upper } => {
+                write!(f, "the {stop} in {scene} leaves nothing between {lower} and {upper}")
+            }
+            Self::Restitution { scene, stop, value } => {
+                write!(f, "the restitution of the {stop} in {scene} is {value}: it must be between 0 and 1")
+            }
+            Self::NoContactForces { scene, contact } => {
+                write!(f, "no forces of frictions and stops agree with the motion of {scene}: {contact}")
             }
         }
     }

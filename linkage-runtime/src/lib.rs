@@ -7,6 +7,7 @@
 //! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
 //! - [`accuracy`]: roads to the position by type, and what their digits cost;
 //! - [`integrate`]: motions from differential equations, with events;
+//! - [`contact`]: dry friction and stops;
 //! - [`Error`]: which mechanism, what residual, how near singular;
 //! - [`singularity`]: singular configurations, and how accurate a position can be;
 //! - [`derivation`]: the formulas behind the code, as data;
@@ -18,13 +19,16 @@
 
 pub mod accuracy;
 mod branch;
+pub mod contact;
 pub mod continuation;
 pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 mod emitted;
+mod equations;
 mod equilibrium;
 mod error;
+mod inertia;
 pub mod integrate;
 pub mod limits;
 mod linear;
@@ -40,8 +44,11 @@ mod sine;
 pub mod singularity;
 
 pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, side_of};
+pub use contact::{Along, Contact, ContactLaw, Mode, sound, stops};
+pub use equations::Equations;
 pub use equilibrium::{Balance, equilibrium};
 pub use error::{Error, finite, finite_matrix};
+pub use inertia::reduced;
 pub use limits::{Bound, Limits, Search, limits};
 use linear::same_signs;
 pub use linear::{Factorization, product_of_pivots, regular};
@@ -52,4 +59,4 @@ pub use motion::{
 pub use nalgebra;
 pub use position::{Solution, newton, newton_group};
 pub use scalar::{Real, real, unit};
-pub use scene::{Energy, Power, Scene, finite_each, not_negative, reduced};
+pub use scene::{Energy, Power, Scene, finite_each, not_negative};

@@ -2,11 +2,12 @@
 
 use nalgebra::SVector;
 
+use crate::contact::within;
 use crate::scalar::to_f64;
-use crate::{Error, Mechanism, Real, newton, real};
+use crate::{Contact, ContactLaw, Equations, Error, Mechanism, Real, newton};
 
 /// A mechanism of `U` dependent and `V` independent coordinates with inertia and forces, as a differential
-/// equation of `N` = `U` + 2 `V` unknowns.
+/// equation of `N` = `U` + 2 `V` unknowns, with `C` frictions and stops.
 ///
 /// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then
 /// the rates of the inputs. Its derivative (W v', v'') needs no position to be solved for, follows angles beyond
@@ -17,7 +18,7 @@ use crate::{Error, Mechanism, Real, newton, real};
 /// ```text
 /// |t, y| scene.derivative(t, y)
 /// ```
-pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize> {
+pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C: usize> {
     /// The name of the scene, as errors give it.
     const NAME: &'static str;
     /// The kinematics.
@@ -32,14 +33,32 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize> {
     /// Refuses parameters that no mechanism has.
     ///
     /// # Errors
-    /// [`Error::Negative`] if a mass or an inertia is negative, with its name.
+    /// [`Error::Negative`] if a mass, an inertia or a friction is negative, with its name; [`Error::NoRange`] and
+    /// [`Error::Restitution`] with that of a stop.
     fn check(&self) -> Result<(), Error>;
-    /// y' = (W v', v'').
+    /// y' = (W v', v''), without frictions and stops.
     ///
     /// # Errors
     /// [`Error::Singular`] where J has no inverse, [`Error::NoInertia`] where an input could accelerate without
     /// a force, [`Error::NotFinite`] with the name of the body or the effect that has no finite value.
     fn derivative(&self, t: T, state: &SVector<T, N>) -> Result<SVector<T, N>, Error>;
+    /// M, Q, W and u'' at v'' = 0, of which [`derivative`](Self::derivative) is made where no input is prescribed.
+    ///
+    /// # Errors
+    /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] with the name of the body or the effect that
+    /// has no finite value.
+    fn equations(&self, t: T, state: &SVector<T, N>) -> Result<Equations<T, U, V>, Error>;
+    /// The frictions and stops as they were declared, in order, at a position and the velocity q'.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] with the name of the effect that has no finite value, [`Error::Negative`] with that of
+    /// the friction whose limit is negative.
+    fn contacts(
+        &self,
+        t: T,
+        q: &Coordinates<Self::Mechanism, T, U, V>,
+        velocity: &Coordinates<Self::Mechanism, T, U, V>,
+    ) -> Result<[Contact<T, U, V>; C], Error>;
     /// The motion that is prescribed of each input: its value, its rate and its acceleration.
     fn prescribed(&self, t: T) -> [Option<[T; 3]>; V];
     /// The value and the rate of each input, with its name.
@@ -58,8 +77,8 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize> {
     /// The state to begin with, at the position near `q` whose inputs are those of `q`.
     ///
     /// # Errors
-    /// Those of [`Scene::check`] and [`Scene::project`], and [`Error::Inconsistent`] if a driven input or its rate
-    /// is not what its law says.
+    /// Those of [`Scene::check`] and [`Scene::project`], [`Error::Inconsistent`] if a driven input or its rate is not
+    /// what its law says, and [`Error::BeyondStop`] if a stop is passed already.
     fn start(
         &self,
         t: T,
@@ -77,6 +96,16 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize> {
                 if !agrees {
                     let gap = to_f64(gap);
                     return Err(Error::Inconsistent { scene: Self::NAME, coordinate, quantity, gap });
+                }
+            }
+        }
+        if C > 0 {
+            let (q, _) = Self::parts(&state);
+            let rest = <Self::Mechanism as Mechanism<T, U, V>>::with_unknowns(&q, SVector::zeros());
+            let rest = <Self::Mechanism as Mechanism<T, U, V>>::with_inputs(&rest, SVector::zeros());
+            for Contact { name, along, law } in self.contacts(t, &q, &rest)? {
+                if let ContactLaw::Stop { lower, upper, .. } = law {
+                    within(Self::NAME, name, along.value, [lower, upper])?;
                 }
             }
         }
@@ -105,55 +134,6 @@ pub struct Power<T> {
     pub applied: T,
     /// Of dampers.
     pub dissipated: T,
-}
-
-/// A pivot below this many roundings of its own entry is no better than the rounding of the others.
-const ROUNDINGS: f64 = 4.0;
-
-/// The accelerations of M x = `forces`, where M is symmetric and given by columns: elimination without exchange,
-/// good for a matrix whose every pivot is positive.
-///
-/// # Errors
-/// [`Error::NoInertia`] with the name of the first coordinate whose pivot is not positive,
-/// [`Error::NotFinite`] if it is not a number.
-#[inline]
-pub fn reduced<T: Real, const N: usize>(
-    scene: &'static str,
-    coordinates: [&'static str; N],
-    columns: [[T; N]; N],
-    forces: [T; N],
-) -> Result<[T; N], Error> {
-    let (mut matrix, mut x) = (columns, forces);
-    for k in 0..N {
-        let pivot = matrix[k][k];
-        if !(pivot > real::<T>(ROUNDINGS) * T::default_epsilon() * columns[k][k] && pivot.is_finite()) {
-            return Err(without_inertia(scene, coordinates[k], pivot, columns[k][k]));
-        }
-        for i in k + 1..N {
-            let factor = matrix[k][i] / pivot;
-            for column in &mut matrix[k + 1..] {
-                column[i] -= factor * column[k];
-            }
-            x[i] -= factor * x[k];
-        }
-    }
-    for k in (0..N).rev() {
-        let mut sum = x[k];
-        for i in k + 1..N {
-            sum -= matrix[i][k] * x[i];
-        }
-        x[k] = sum / matrix[k][k];
-    }
-    Ok(x)
-}
-
-#[cold]
-fn without_inertia<T: Real>(scene: &'static str, coordinate: &'static str, pivot: T, entry: T) -> Error {
-    if !pivot.is_finite() {
-        return Error::NotFinite { mechanism: scene, quantity: "the mass matrix" };
-    }
-    let share = if entry > T::zero() { to_f64(pivot / entry) } else { 0.0 };
-    Error::NoInertia { scene, coordinate, share }
 }
 
 /// Refuses numbers less than zero, and what is not finite.

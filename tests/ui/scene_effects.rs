@@ -35,8 +35,17 @@ linkage! {
             drive theta3 = 2 * t;
             drive theta2 = 2 * theta3;
             drive theta2 = rate(theta2);
-            friction 0.3 on theta4;
+            friction k, c, m3, g on theta4;
+            friction k between G2 and G3;
+            friction -0.3, c * rate(theta4) on theta4;
+            friction k on G2;
+            friction k on l1 * l2;
             stop theta4 in 0..1;
+            stop theta4 on 0..1, restitution 0.5;
+            stop theta4 in 0..=1, restitution 0.5;
+            stop theta4 in 1..0, restitution 1.5;
+            stop theta4 in theta2..t, restitution rate(theta4);
+            stops theta4 in 0..1, restitution 0.5;
             brake 3 on theta4;
             energy;
             energy;

@@ -6,6 +6,7 @@
 
 mod assembly;
 mod check;
+mod contacts;
 mod equilibrium;
 mod formulas;
 mod iteration;
@@ -28,6 +29,7 @@ use crate::simplify::{self, simplify};
 use crate::structure::{self, Group, Method};
 pub use assembly::{Assembly, Choice, Chord};
 pub use check::{LARGEST, check};
+pub use contacts::{Contact, ContactFormula};
 pub use equilibrium::Equilibrium;
 pub use formulas::{Formulas, Inverse, QuantityFormulas};
 pub use limits::Bound;

@@ -8,10 +8,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::contacts::{Contact, ContactFormula};
 use super::equilibrium::Equilibrium;
 use super::reactions::Reactions;
 use super::{Derivation, Places, Row, along_rates, angles, jacobian};
-use crate::graph::{NodeId, Number, SymbolId};
+use crate::graph::{Function, NodeId, Number, SymbolId};
 use crate::model::{self, Account, Driver, Mechanism, Wish};
 use crate::simplify::simplify;
 
@@ -28,7 +29,9 @@ pub struct Scene {
     pub forces: Vec<NodeId>,
     /// What each body and effect adds to them, by what errors call it.
     pub parts: Vec<(String, Vec<NodeId>)>,
-    /// The masses and inertias, by what errors call them.
+    /// The frictions and stops.
+    pub contacts: Vec<Contact>,
+    /// The masses, the inertias and the limits of frictions as far as they are given, by what errors call them.
     pub masses: Vec<(String, NodeId)>,
     /// By place among the inputs.
     pub drives: BTreeMap<usize, Prescribed>,
@@ -136,6 +139,15 @@ impl Derivation {
                 Account::Applied => applied.push((Number::ONE, power)),
             }
         }
+        let contacts = self.derive_contacts(mechanism, scene);
+        for Contact { label, rate, law, .. } in &contacts {
+            // What slips takes limit |s'|, and what sticks nothing.
+            if let ContactFormula::Friction { limit, given } = law {
+                let rate = self.graph.call(Function::Abs, &[*rate]);
+                dissipated.push((Number::ONE, self.graph.multiply(*limit, rate)));
+                masses.extend(given.iter().map(|&factor| (label.clone(), factor)));
+            }
+        }
         let mut sum = |terms: Vec<(Number, NodeId)>| self.graph.sum(&terms);
         let [kinetic, potential, applied, dissipated] = [kinetic, potential, applied, dissipated].map(&mut sum);
         let forces = forces.into_iter().map(&mut sum).collect();
@@ -149,6 +161,7 @@ impl Derivation {
             mass_matrix,
             forces,
             parts: effects,
+            contacts,
             masses,
             drives,
             kinetic,
@@ -195,7 +208,7 @@ impl Derivation {
     }
 
     /// The simplest form beside the sines and cosines that the closures take.
-    fn simplest(&mut self, node: NodeId) -> NodeId {
+    pub(super) fn simplest(&mut self, node: NodeId) -> NodeId {
         let given: BTreeSet<NodeId> = angles(&self.graph, &self.residual);
         simplify(&mut self.graph, &[node], &given)[0]
     }

@@ -12,7 +12,7 @@ use crate::places::{Hash, Places};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 22] = [
+pub(super) const RUNTIME_FUNCTIONS: [&str; 24] = [
     "chord",
     "elbow_chord",
     "equilibrium",
@@ -34,6 +34,8 @@ pub(super) const RUNTIME_FUNCTIONS: [&str; 22] = [
     "reduced",
     "regular",
     "side_of",
+    "sound",
+    "stops",
     "unit",
 ];
 

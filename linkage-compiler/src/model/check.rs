@@ -33,11 +33,15 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// What emitted code calls its own; the types of the user stand beside it.
-const TYPES_OF_EMITTED_CODE: [&str; 23] = [
+const TYPES_OF_EMITTED_CODE: [&str; 27] = [
+    "Along",
     "Assembly",
     "Balance",
     "Bound",
+    "Contact",
+    "ContactLaw",
     "Energy",
+    "Equations",
     "Error",
     "Factorization",
     "From",

@@ -21,7 +21,7 @@ use crate::syntax;
 pub use kind::Kind;
 pub use name::Name;
 pub use request::Request;
-pub use scene::{Account, Body, Drive, Law, Scene, Wish};
+pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, Wish};
 
 /// A mechanism as meant.
 pub struct Mechanism {

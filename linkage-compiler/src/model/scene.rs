@@ -33,6 +33,7 @@ pub struct Scene {
     /// A body and the field that its mass is in.
     pub weights: Vec<(usize, [NodeId; 2])>,
     pub laws: Vec<Law>,
+    pub contacts: Vec<Contact>,
     pub drives: Vec<Drive>,
     pub wishes: BTreeSet<Wish>,
     /// Places among [`Mechanism::scene_parameters`].
@@ -47,6 +48,22 @@ pub struct Law {
     pub law: NodeId,
     pub along: NodeId,
     pub account: Account,
+}
+
+/// A dry friction or a stop.
+pub struct Contact {
+    /// What errors call it.
+    pub label: String,
+    pub along: NodeId,
+    pub law: ContactLaw,
+}
+
+/// What a contact does.
+pub enum ContactLaw {
+    /// The greatest force is the product of these, in terms of parameters, coordinates, rates and time.
+    Friction(Vec<NodeId>),
+    /// In terms of parameters.
+    Stop { range: [NodeId; 2], restitution: NodeId },
 }
 
 /// Where the work of a law goes.
@@ -86,6 +103,8 @@ pub(super) struct Reading {
 /// What a scene names before all bodies and drivers are known.
 struct Names {
     inertia: Option<(Span, Vec<Ident>)>,
+    /// Where the first contact is named.
+    contact: Option<(Span, String)>,
     gravity: Vec<([NodeId; 2], Vec<Ident>)>,
     drives: Vec<(Ident, NodeId)>,
 }
@@ -214,11 +233,12 @@ impl Lowering<'_> {
             inertia: None,
             weights: Vec::new(),
             laws: Vec::new(),
+            contacts: Vec::new(),
             drives: Vec::new(),
             wishes: BTreeSet::new(),
             parameters: Vec::new(),
         };
-        let mut names = Names { inertia: None, gravity: Vec::new(), drives: Vec::new() };
+        let mut names = Names { inertia: None, contact: None, gravity: Vec::new(), drives: Vec::new() };
         for effect in &tree.effects {
             self.effect(effect, &mut scene, &mut names);
         }
@@ -295,6 +315,10 @@ impl Lowering<'_> {
                     scene.laws.push(Law { label, law, along: node, account: Account::Stored(node) });
                 }
             }
+            EffectKind::Friction { .. } | EffectKind::Stop { .. } => {
+                names.contact.get_or_insert_with(|| (keyword.span(), keyword.to_string()));
+                scene.contacts.extend(self.contact(&effect.kind));
+            }
             EffectKind::Drive { input, law } => {
                 let Some(node) = self.law(*law) else { return };
                 let rates: Vec<_> = self.rates.values().filter_map(|&rate| self.graph.as_symbol(rate)).collect();
@@ -319,6 +343,68 @@ impl Lowering<'_> {
         }
     }
 
+    /// A friction or a stop. Every expression is read, whatever is wrong with the others.
+    fn contact(&mut self, kind: &EffectKind) -> Option<Contact> {
+        match kind {
+            EffectKind::Friction { factors, on } => {
+                let mut nodes = Vec::new();
+                for &factor in factors {
+                    let node = self.law(factor);
+                    if node.and_then(|node| self.graph.constant_value(node)).is_some_and(|value| value < 0.0) {
+                        let message = "the limit of a friction is negative: it would drive the mechanism";
+                        self.diagnostics.error(self.expressions.region(factor), message);
+                    }
+                    nodes.push(node);
+                }
+                let along = self.moving(*on);
+                let label = format!("friction on {}", self.text(*on)?);
+                Some(Contact {
+                    label,
+                    along: along?,
+                    law: ContactLaw::Friction(nodes.into_iter().collect::<Option<_>>()?),
+                })
+            }
+            EffectKind::Stop { on, range, restitution } => {
+                let along = self.moving(*on);
+                let mut still = |id: ExpressionId, what: &str| {
+                    let node = self.scalar(id)?;
+                    self.still(id, node, what);
+                    Some(node)
+                };
+                let ends = range.map(|end| still(end, "the end of a stop"));
+                let given = still(*restitution, "the restitution of a stop");
+                let label = format!("stop on {}", self.text(*on)?);
+                let (range, restitution_node) = ([ends[0]?, ends[1]?], given?);
+                let value = |node: NodeId| self.graph.constant_value(node);
+                if let [Some(lower), Some(upper)] = range.map(value)
+                    && lower >= upper
+                {
+                    let region = self.expressions.region(*on);
+                    self.diagnostics.error(region, format_args!("nothing is left between {lower} and {upper}"));
+                }
+                if value(restitution_node).is_some_and(|value| !(0.0..=1.0).contains(&value)) {
+                    let message = "a restitution is between 0 and 1: the part of the rate that an impact gives back";
+                    self.diagnostics.error(self.expressions.region(*restitution), message);
+                }
+                let law = ContactLaw::Stop { range, restitution: restitution_node };
+                Some(Contact { label, along: along?, law })
+            }
+            _ => None,
+        }
+    }
+
+    /// A scalar that the mechanism moves.
+    fn moving(&mut self, id: ExpressionId) -> Option<NodeId> {
+        let node = self.scalar(id)?;
+        if !self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol)) {
+            let message =
+                "nothing moves this: a friction or a stop acts on a coordinate, an output or what is made of them";
+            self.diagnostics.error(self.expressions.region(id), message);
+            return None;
+        }
+        Some(node)
+    }
+
     /// The rate of an expression, by the rates of the coordinates.
     pub(super) fn rate_of(&mut self, node: NodeId) -> NodeId {
         self.graph.differentiate(&[node], &self.rates)[0]
@@ -337,6 +423,10 @@ impl Lowering<'_> {
                 }
                 used.extend(all.iter().copied());
                 scene.inertia = Some(all);
+            }
+            if let (Some((span, word)), None) = (&names.contact, &names.inertia) {
+                let message = format!("a `{word}` acts on what moves: add `inertia;` to `{}`", scene.name);
+                self.diagnostics.error(*span, message);
             }
             for ([x, y], bodies) in &names.gravity {
                 let all = self.bodies(bodies, result);
@@ -447,6 +537,13 @@ impl Scene {
         for (index, field) in &self.weights {
             formulas.extend(field);
             formulas.extend(bodies[*index].mass.iter().flat_map(|(mass, center)| [*mass, center[0], center[1]]));
+        }
+        for contact in &self.contacts {
+            formulas.push(contact.along);
+            match &contact.law {
+                ContactLaw::Friction(factors) => formulas.extend(factors),
+                ContactLaw::Stop { range, restitution } => formulas.extend(range.iter().chain([restitution])),
+            }
         }
         formulas.extend(self.drives.iter().map(|drive| drive.law));
         for &index in self.inertia.iter().flatten() {

@@ -55,6 +55,16 @@ pub enum EffectKind {
         at: ExpressionId,
     },
     Potential(ExpressionId),
+    Friction {
+        /// Whose product is the greatest force.
+        factors: Vec<ExpressionId>,
+        on: ExpressionId,
+    },
+    Stop {
+        on: ExpressionId,
+        range: [ExpressionId; 2],
+        restitution: ExpressionId,
+    },
     Drive {
         input: Ident,
         law: ExpressionId,
@@ -69,7 +79,7 @@ pub enum Place {
     Between(ExpressionId, ExpressionId),
 }
 
-const EFFECTS: [&str; 12] = [
+const EFFECTS: [&str; 14] = [
     "inertia",
     "gravity",
     "spring",
@@ -77,15 +87,14 @@ const EFFECTS: [&str; 12] = [
     "torque",
     "force",
     "potential",
+    "friction",
+    "stop",
     "drive",
     "energy",
     "power",
     "reactions",
     "equilibrium",
 ];
-
-/// Effects that this version does not understand yet.
-const RESERVED: [&str; 2] = ["friction", "stop"];
 
 pub(super) fn body(
     stream: ParseStream,
@@ -218,15 +227,38 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
             EffectKind::Force { law, at: expression::parse(stream, expressions)? }
         }
         "potential" => EffectKind::Potential(expression::parse(stream, expressions)?),
+        "friction" => {
+            let mut factors = vec![expression::parse(stream, expressions)?];
+            while factors.len() < 3 && stream.parse::<Option<Token![,]>>()?.is_some() {
+                factors.push(expression::parse(stream, expressions)?);
+            }
+            if !word(stream, "on") {
+                return Err(expected(stream, "friction mu, radius, normal on phi;` or `friction mu, normal on s;"));
+            }
+            EffectKind::Friction { factors, on: expression::parse(stream, expressions)? }
+        }
+        "stop" => {
+            const FORM: &str = "stop phi in lower..upper, restitution e;";
+            let on = expression::parse(stream, expressions)?;
+            if !word(stream, "in") {
+                return Err(expected(stream, FORM));
+            }
+            let lower = expression::parse(stream, expressions)?;
+            if stream.peek(Token![..=]) || stream.parse::<Option<Token![..]>>()?.is_none() {
+                return Err(expected(stream, FORM));
+            }
+            let range = [lower, expression::parse(stream, expressions)?];
+            if stream.parse::<Option<Token![,]>>()?.is_none() || !word(stream, "restitution") {
+                return Err(expected(stream, FORM));
+            }
+            EffectKind::Stop { on, range, restitution: expression::parse(stream, expressions)? }
+        }
         "drive" => {
             let input = name(stream)?;
             equals(stream)?;
             EffectKind::Drive { input, law: expression::parse(stream, expressions)? }
         }
         "energy" | "power" | "reactions" | "equilibrium" => EffectKind::Wish,
-        reserved if RESERVED.contains(&reserved) => {
-            return Err(syn::Error::new(keyword.span(), format!("`{reserved}` is not understood by this version yet")));
-        }
         unknown => {
             let (hint, all) = (suggestion(unknown, EFFECTS), EFFECTS.join(", "));
             return Err(syn::Error::new(

@@ -4,6 +4,7 @@ mod acceleration;
 mod assemble;
 mod block;
 mod closures;
+mod contacts;
 mod external;
 mod jerk;
 mod limits;

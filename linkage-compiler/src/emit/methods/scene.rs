@@ -12,7 +12,7 @@ use super::super::scene::mechanism_field;
 use super::super::types::field;
 use super::super::{Emitted, Types};
 use super::{Body, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines, literal};
-use crate::derivation::{Derivation, Form, Prescribed, Scene};
+use crate::derivation::{ContactFormula, Derivation, Form, Prescribed, Scene};
 use crate::graph::{NodeId, Number, SymbolId};
 use crate::model::{self, Driver, Mechanism, Wish};
 use crate::simplify::schedule::{Operations, Stage, needed};
@@ -25,16 +25,17 @@ const ERRORS: [&str; 4] = [
 ];
 
 /// What the functions of one scene are written from.
-struct Setting<'a> {
-    scene: &'a model::Scene,
+pub(super) struct Setting<'a> {
+    pub(super) scene: &'a model::Scene,
     /// Its own type, the field of the mechanism, and the argument that holds time.
     field: Ident,
-    time: Ident,
+    pub(super) time: Ident,
     /// The inputs by name, and those that are driven, by place.
-    inputs: Vec<Ident>,
+    pub(super) inputs: Vec<Ident>,
     driven: Vec<usize>,
     free: Vec<usize>,
-    /// Whether some function asks which effect has no finite value.
+    /// Whether there is an effect that could have no finite value, and whether some function asks which.
+    is_blamable: bool,
     blames: Cell<bool>,
 }
 
@@ -51,6 +52,10 @@ pub(in crate::emit) fn of_scene(
     let time = mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time));
     let is_driven = |place: &usize| scene.drives.iter().any(|drive| drive.input == driver.inputs[*place]);
     let (driven, free) = (0..driver.inputs.len()).partition(is_driven);
+    let mut derived = derived.and_then(|(plan, derivation)| {
+        let scene = derivation.scenes.get(number)?.clone();
+        Some((Kernels::new(derivation, plan), scene))
+    });
     let place = Setting {
         scene,
         field: inner.clone(),
@@ -58,12 +63,12 @@ pub(in crate::emit) fn of_scene(
         inputs: driver.inputs.iter().map(|&index| field(&mechanism.coordinates[index].name)).collect(),
         driven,
         free,
+        is_blamable: derived.as_ref().is_some_and(|(kernels, scene)| {
+            let mut parts = scene.parts.iter().flat_map(|(_, parts)| parts);
+            parts.any(|&part| kernels.derivation.graph.constant_value(part).is_none())
+        }),
         blames: Cell::new(false),
     };
-    let mut derived = derived.and_then(|(plan, derivation)| {
-        let scene = derivation.scenes.get(number)?.clone();
-        Some((Kernels::new(derivation, plan), scene))
-    });
     if scene.inertia.is_some() {
         methods.mass_matrix(&place, parts_of(&mut derived));
     }
@@ -87,6 +92,10 @@ pub(in crate::emit) fn of_scene(
     if scene.wishes.contains(&Wish::Equilibrium) {
         methods.equilibrium(&place, parts_of(&mut derived));
     }
+    if !scene.contacts.is_empty() {
+        methods.contacts(&place, parts_of(&mut derived));
+        methods.equations(&place, parts_of(&mut derived));
+    }
     methods.check(&place, parts_of(&mut derived));
     if place.blames.get() {
         methods.blame(&place, parts_of(&mut derived));
@@ -97,7 +106,7 @@ pub(in crate::emit) fn of_scene(
     Emitted { tokens, operations }
 }
 
-type Parts<'a, 'b> = Option<(&'a mut Kernels<'b>, &'a Scene)>;
+pub(super) type Parts<'a, 'b> = Option<(&'a mut Kernels<'b>, &'a Scene)>;
 
 fn parts_of<'a, 'b>(derived: &'a mut Option<(Kernels<'b>, Scene)>) -> Parts<'a, 'b> {
     derived.as_mut().map(|(kernels, scene)| (kernels, &*scene))
@@ -137,7 +146,13 @@ impl Kernels<'_> {
 
 impl Methods<'_> {
     /// A kernel on coordinates, the rates of the inputs, and time.
-    fn on_motion(&self, place: &Setting, kernels: &mut Kernels, scene: &Scene, returned: Vec<NodeId>) -> Code {
+    pub(super) fn on_motion(
+        &self,
+        place: &Setting,
+        kernels: &mut Kernels,
+        scene: &Scene,
+        returned: Vec<NodeId>,
+    ) -> Code {
         let stages = kernels.motion_stages(scene, returned);
         self.on_state(place, kernels, &stages)
     }
@@ -149,7 +164,7 @@ impl Methods<'_> {
     }
 
     /// A kernel on parameters, time, and what else it is given.
-    fn on(&self, place: &Setting, kernels: &Kernels, motion: Vec<Source>, stages: &[Stage]) -> Code {
+    pub(super) fn on(&self, place: &Setting, kernels: &Kernels, motion: Vec<Source>, stages: &[Stage]) -> Code {
         let (mechanism, inner) = (self.mechanism, &place.field);
         let of = |parameter: &model::Parameter| (parameter.name.field.clone(), parameter.symbol);
         let mut fields: Vec<_> = place.scene.parameters.iter().map(|&at| of(&mechanism.scene_parameters[at])).collect();
@@ -177,9 +192,9 @@ impl Methods<'_> {
     }
 
     /// A verdict that is made more precise only where it is bad.
-    fn blamed(&self, place: &Setting, code: &mut Code, what: &str, values: &[Operand]) -> TokenStream {
+    pub(super) fn blamed(&self, place: &Setting, code: &mut Code, what: &str, values: &[Operand]) -> TokenStream {
         let verdict = check_finite(code, what, values);
-        if verdict.is_empty() {
+        if verdict.is_empty() || !place.is_blamable {
             return verdict;
         }
         place.blames.set(true);
@@ -194,7 +209,7 @@ impl Methods<'_> {
     }
 
     /// `t, &q, v'` as the arguments of a function that ignores what its body does not use.
-    fn state_arguments(&self, place: &Setting, body: Option<&Body>) -> TokenStream {
+    pub(super) fn state_arguments(&self, place: &Setting, body: Option<&Body>) -> TokenStream {
         let (coordinates, inputs) = (&self.types.coordinates, &self.types.inputs);
         let [time, q, rate] =
             [&place.time, &self.arguments.q, &self.arguments.rate].map(|argument| argument_of(argument, body));
@@ -202,7 +217,7 @@ impl Methods<'_> {
     }
 
     /// The rates by their name, which a body may use more than once.
-    fn with_rates(&self, mut body: Body) -> Body {
+    pub(super) fn with_rates(&self, mut body: Body) -> Body {
         let rate = &self.arguments.rate;
         if body.arguments.contains(rate) {
             let (inputs, tokens) = (&self.types.inputs, body.tokens);
@@ -251,7 +266,7 @@ impl Methods<'_> {
     }
 
     /// `theta1_theta4_inertia`
-    fn pair_names(&self, place: &Setting, what: &str) -> Vec<String> {
+    pub(super) fn pair_names(&self, place: &Setting, what: &str) -> Vec<String> {
         let names = &place.inputs;
         let pair = |a: &Ident, b: &Ident| if a == b { format!("{a}_{what}") } else { format!("{a}_{b}_{what}") };
         names.iter().flat_map(|a| names.iter().map(move |b| pair(a, b))).collect()
@@ -410,6 +425,9 @@ impl Methods<'_> {
             ),
             "at this position and these rates of the inputs.".to_owned(),
         ];
+        if !place.scene.contacts.is_empty() {
+            docs[1] = "at this position and these rates of the inputs, without frictions and stops.".to_owned();
+        }
         docs.extend(lines(ERRORS));
         let code = parts.map(|(kernels, scene)| {
             let free = if scene.mass_matrix.is_some() { place.free.clone() } else { Vec::new() };
@@ -473,7 +491,8 @@ impl Methods<'_> {
         let code = parts.map(|(kernels, scene)| {
             let mut returned = vec![scene.applied, scene.dissipated];
             let inputs = kernels.derivation.inputs.clone();
-            let rates: Vec<usize> = place.driven.iter().map(|&at| inputs[at]).collect();
+            let known = if scene.contacts.is_empty() { place.driven.as_slice() } else { &[] };
+            let rates: Vec<usize> = known.iter().map(|&at| inputs[at]).collect();
             let rates = kernels.rates(&rates);
             returned.extend(kernels.variables(&rates));
             let mut code = self.on_motion(place, kernels, scene, returned);
@@ -507,9 +526,19 @@ impl Methods<'_> {
                 .map(|(name, value)| super::member(&ident(name), value));
             self.with_rates(Body::new(code, quote!(#calls #bindings #verdict Ok(Power { #(#members),* })), ["Power"]))
         });
-        let mut docs = lines([
-            "The power of forces, torques and drives, and that of dampers: the energy changes by their difference.",
-        ]);
+        let mut docs = match (place.scene.contacts.is_empty(), place.driven.is_empty()) {
+            (true, _) => lines([
+                "The power of forces, torques and drives, and that of dampers: the energy changes by their difference.",
+            ]),
+            (false, true) => lines([
+                "The power of forces and torques, and that of dampers and frictions, which take limit |s'|: between",
+                "impacts the energy changes by their difference.",
+            ]),
+            (false, false) => lines([
+                "The power of forces and torques, and that of dampers and frictions, which take limit |s'|. That of the",
+                "drives depends on what sticks, and is not among them.",
+            ]),
+        };
         docs.extend(lines(ERRORS));
         let arguments = self.state_arguments(place, code.as_ref());
         let signature = quote!(pub fn power(#arguments) -> Result<Power<T>, Error>);
@@ -641,21 +670,45 @@ impl Methods<'_> {
 
     fn check(&mut self, place: &Setting, parts: Parts) {
         let code = parts.map(|(kernels, scene)| {
-            let nodes = scene.masses.iter().map(|(_, node)| *node).collect();
+            let mut nodes: Vec<NodeId> = scene.masses.iter().map(|(_, node)| *node).collect();
+            let mut stops = Vec::new();
+            for contact in &scene.contacts {
+                if let ContactFormula::Stop { range, restitution } = contact.law {
+                    stops.push(string(&contact.label));
+                    nodes.extend(range);
+                    nodes.push(restitution);
+                }
+            }
             let code = self.on_state(place, kernels, &[Stage::Return(nodes)]);
-            let pairs = scene.masses.iter().zip(&code.results).map(|((label, _), value)| {
+            let (masses, ends) = code.results.split_at(scene.masses.len());
+            let pairs = scene.masses.iter().zip(masses).map(|((label, _), value)| {
                 let label = string(label);
                 quote!((#label, #value))
             });
-            let tail = quote!(not_negative::<T, _>(Self::NAME, [#(#pairs),*]));
-            Body::new(code, tail, ["not_negative"])
+            let masses = quote!(not_negative::<T, _>(Self::NAME, [#(#pairs),*]));
+            if stops.is_empty() {
+                return Body::new(code, masses, ["not_negative"]);
+            }
+            let ends = stops.iter().zip(ends.chunks(3)).map(|(label, values)| quote!((#label, #(#values),*)));
+            let tail = quote!(#masses?; stops(Self::NAME, [#(#ends),*]));
+            Body::new(code, tail, ["not_negative", "stops"])
         });
-        let docs = lines([
-            "Refuses parameters that no body has.",
-            "",
-            "# Errors",
-            "`Negative` if a mass or an inertia is negative, `NotFinite` if it is not finite, with its name.",
-        ]);
+        let docs = if place.scene.contacts.is_empty() {
+            lines([
+                "Refuses parameters that no body has.",
+                "",
+                "# Errors",
+                "`Negative` if a mass or an inertia is negative, `NotFinite` if it is not finite, with its name.",
+            ])
+        } else {
+            lines([
+                "Refuses parameters that no body, no friction and no stop has.",
+                "",
+                "# Errors",
+                "With its name: `Negative` if a mass, an inertia or a friction is negative, `NoRange` if nothing is left between",
+                "stops, `Restitution` if one is not between 0 and 1, `NotFinite` if a number is not finite.",
+            ])
+        };
         self.function(&docs, &quote!(pub fn check(&self) -> Result<(), Error>), code);
     }
 
@@ -696,11 +749,13 @@ impl Methods<'_> {
         let mut imports: Vec<&str> = self.uses.iter().copied().chain(["Error", "Real", "SVector"]).collect();
         let has_inertia = place.scene.inertia.is_some();
         if has_inertia {
-            imports.extend(["SMatrix", "Scene"]);
+            imports.extend(["Contact", "Equations", "SMatrix", "Scene"]);
         }
         imports.sort_unstable();
         imports.dedup();
         let imports = imports.into_iter().map(ident);
+        let refuses = place.blames.get() || place.scene.wishes.contains(&Wish::Equilibrium);
+        let refusal = refuses.then(|| quote!(Err,));
         let fields = self.coordinate_fields();
         let names = &place.inputs;
         let rates: Vec<Ident> = names.iter().map(|name| ident(&format!("{name}_rate"))).collect();
@@ -717,9 +772,42 @@ impl Methods<'_> {
         } else {
             (quote!(t), quote!(let [#(#laws),*] = self.drives(t);))
         };
+        let count = literal(place.scene.contacts.len());
+        let equations = if place.scene.contacts.is_empty() {
+            quote! {
+                fn equations(&self, t: T, state: &SVector<T, #n>) -> Result<Equations<T, #nu, #nv>, Error> {
+                    let (q, rates) = Self::parts(state);
+                    let (mass, forces) = (self.mass_matrix(&q)?, self.forces(t, &q, rates)?);
+                    Equations::at(&self.#inner, &q, &rates.into(), mass, forces)
+                }
+                fn contacts(
+                    &self,
+                    _t: T,
+                    _q: &#coordinates<T>,
+                    _velocity: &#coordinates<T>,
+                ) -> Result<[Contact<T, #nu, #nv>; #count], Error> {
+                    Ok([])
+                }
+            }
+        } else {
+            quote! {
+                fn equations(&self, t: T, state: &SVector<T, #n>) -> Result<Equations<T, #nu, #nv>, Error> {
+                    let (q, rates) = Self::parts(state);
+                    self.equations(t, &q, rates)
+                }
+                fn contacts(
+                    &self,
+                    t: T,
+                    q: &#coordinates<T>,
+                    velocity: &#coordinates<T>,
+                ) -> Result<[Contact<T, #nu, #nv>; #count], Error> {
+                    self.contacts(t, q, velocity)
+                }
+            }
+        };
         let implementation = has_inertia.then(|| {
             quote! {
-                impl<T: Real> Scene<T, #nu, #nv, #n> for #scene<T> {
+                impl<T: Real> Scene<T, #nu, #nv, #n, #count> for #scene<T> {
                     const NAME: &'static str = #text;
                     type Mechanism = #of<T>;
                     fn mechanism(&self) -> &Self::Mechanism {
@@ -740,6 +828,7 @@ impl Methods<'_> {
                         let (velocity, acceleration) = self.rates(t, &q, rates)?;
                         Ok(Self::state(&velocity, &acceleration))
                     }
+                    #equations
                     fn prescribed(&self, #time: T) -> [::core::option::Option<[T; 3]>; #nv] {
                         #drives
                         [#(#prescribed),*]
@@ -754,7 +843,7 @@ impl Methods<'_> {
         quote! {
             const _: () = {
                 use ::core::convert::{From, Into};
-                use ::core::result::Result::{self, Err, Ok};
+                use ::core::result::Result::{self, #refusal Ok};
                 use #private::{#(#imports),*};
                 impl<T: Real> #scene<T> {
                     /// The name of the scene, as errors give it.
