@@ -10,7 +10,7 @@ pub use linkage_runtime::drawing;
 pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
     Along, Assembly, Balance, Contact, ContactLaw, Elbow, Energy, Equations, Error, Group, Mechanism, Mode,
-    OutputMotion, PointMotion, Power, Real, Scene, Slider, Slope, Solution, accuracy, contact, continuation,
+    OutputMotion, PointMotion, Power, Real, Scene, Slider, Slope, Solution, Unreduced, accuracy, contact, continuation,
     derivation, limits, nalgebra, position, singularity,
 };
 
@@ -73,8 +73,8 @@ pub mod __private {
     };
     pub use linkage_runtime::{
         Along, Assembly, Balance, Bound, Contact, ContactLaw, Elbow, Energy, Equations, Error, Factorization, Group,
-        Limits, Mechanism, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, chord,
-        elbow_chord, equilibrium, existing, finite, finite_each, finite_matrices, finite_matrix, finite_outputs,
+        Limits, Mechanism, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, Unreduced,
+        chord, elbow_chord, equilibrium, existing, finite, finite_each, finite_matrices, finite_matrix, finite_outputs,
         finite_points, limits, newton, newton_group, not_negative, output_motions, point_motions, product_of_pivots,
         real, reduced, regular, side_of, sound, stops, unit,
     };

@@ -59,4 +59,4 @@ pub use motion::{
 pub use nalgebra;
 pub use position::{Solution, newton, newton_group};
 pub use scalar::{Real, real, unit};
-pub use scene::{Energy, Power, Scene, finite_each, not_negative};
+pub use scene::{Coordinates, Energy, Inputs, Power, Scene, Unreduced, finite_each, not_negative};

@@ -1,6 +1,6 @@
 //! Mechanisms with forces: the trait that integrators take, and what the code emitted for scenes calls.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::contact::within;
 use crate::scalar::to_f64;
@@ -59,6 +59,17 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C
         q: &Coordinates<Self::Mechanism, T, U, V>,
         velocity: &Coordinates<Self::Mechanism, T, U, V>,
     ) -> Result<[Contact<T, U, V>; C], Error>;
+    /// M and F of M q'' + Psi_q' lambda = F in all coordinates, at these rates q' of all of them: what any choice of
+    /// independent coordinates takes.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] if an entry is not finite.
+    fn unreduced(
+        &self,
+        t: T,
+        q: &Coordinates<Self::Mechanism, T, U, V>,
+        rate: &Coordinates<Self::Mechanism, T, U, V>,
+    ) -> Result<Unreduced<T, U, V>, Error>;
     /// The motion that is prescribed of each input: its value, its rate and its acceleration.
     fn prescribed(&self, t: T) -> [Option<[T; 3]>; V];
     /// The value and the rate of each input, with its name.
@@ -117,6 +128,21 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C
 pub type Coordinates<M, T, const U: usize, const V: usize> = <M as Mechanism<T, U, V>>::Coordinates;
 /// The inputs v of a mechanism by name.
 pub type Inputs<M, T, const U: usize, const V: usize> = <M as Mechanism<T, U, V>>::Inputs;
+
+/// Inertia and forces in all coordinates, M q'' + Psi_q' lambda = F, apart by the unknowns u and the inputs v.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unreduced<T, const U: usize, const V: usize> {
+    /// M_uu.
+    pub unknowns: SMatrix<T, U, U>,
+    /// M_uv.
+    pub mixed: SMatrix<T, U, V>,
+    /// M_vv.
+    pub inputs: SMatrix<T, V, V>,
+    /// F_u, with the quadratic velocity terms of the inertia.
+    pub unknown_forces: SVector<T, U>,
+    /// F_v, with the quadratic velocity terms of the inertia.
+    pub input_forces: SVector<T, V>,
+}
 
 /// The energy of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -20,6 +20,7 @@ mod reactions;
 mod scene;
 mod sensitivity;
 mod solution;
+mod unreduced;
 
 use std::collections::{BTreeMap, BTreeSet};
 

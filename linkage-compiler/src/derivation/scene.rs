@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::contacts::{Contact, ContactFormula};
 use super::equilibrium::Equilibrium;
 use super::reactions::Reactions;
+use super::unreduced::Unreduced;
 use super::{Derivation, Places, Row, along_rates, angles, jacobian};
 use crate::graph::{Function, NodeId, Number, SymbolId};
 use crate::model::{self, Account, Driver, Mechanism, Wish};
@@ -40,6 +41,8 @@ pub struct Scene {
     /// The power of the laws that drive and that brake.
     pub applied: NodeId,
     pub dissipated: NodeId,
+    /// In all coordinates, if anything has inertia.
+    pub unreduced: Option<Unreduced>,
     pub reactions: Option<Reactions>,
     pub equilibrium: Option<Equilibrium>,
 }
@@ -154,6 +157,7 @@ impl Derivation {
         let mass_matrix = mass_matrix.into_iter().map(|row| row.into_iter().map(&mut sum).collect()).collect();
         let mass_matrix = scene.inertia.is_some().then_some(mass_matrix);
         let drives = self.prescribed(mechanism, scene);
+        let unreduced = scene.inertia.is_some().then(|| self.derive_unreduced(mechanism, scene));
         let reactions = scene.wishes.contains(&Wish::Reactions).then(|| self.derive_reactions(mechanism, scene));
         Scene {
             place,
@@ -168,6 +172,7 @@ impl Derivation {
             potential,
             applied,
             dissipated,
+            unreduced,
             reactions,
             equilibrium: None,
         }

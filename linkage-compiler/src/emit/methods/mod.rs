@@ -14,6 +14,7 @@ mod quantities;
 mod ratio_derivatives;
 mod scene;
 mod sensitivity;
+mod unreduced;
 mod velocity;
 
 use std::cell::RefCell;

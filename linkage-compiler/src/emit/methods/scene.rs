@@ -75,6 +75,7 @@ pub(in crate::emit) fn of_scene(
     methods.forces(&place, parts_of(&mut derived));
     if scene.inertia.is_some() {
         methods.rates(&place, parts_of(&mut derived));
+        methods.unreduced(&place, parts_of(&mut derived));
     }
     if !place.driven.is_empty() {
         methods.drives(&place, parts_of(&mut derived));
@@ -749,7 +750,7 @@ impl Methods<'_> {
         let mut imports: Vec<&str> = self.uses.iter().copied().chain(["Error", "Real", "SVector"]).collect();
         let has_inertia = place.scene.inertia.is_some();
         if has_inertia {
-            imports.extend(["Contact", "Equations", "SMatrix", "Scene"]);
+            imports.extend(["Contact", "Equations", "SMatrix", "Scene", "Unreduced"]);
         }
         imports.sort_unstable();
         imports.dedup();
@@ -829,6 +830,14 @@ impl Methods<'_> {
                         Ok(Self::state(&velocity, &acceleration))
                     }
                     #equations
+                    fn unreduced(
+                        &self,
+                        t: T,
+                        q: &#coordinates<T>,
+                        rate: &#coordinates<T>,
+                    ) -> Result<Unreduced<T, #nu, #nv>, Error> {
+                        self.unreduced(t, q, rate)
+                    }
                     fn prescribed(&self, #time: T) -> [::core::option::Option<[T; 3]>; #nv] {
                         #drives
                         [#(#prescribed),*]
