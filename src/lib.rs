@@ -11,7 +11,7 @@ pub use linkage_runtime::sheet;
 pub use linkage_runtime::{
     Along, Assembly, Balance, Contact, ContactLaw, Elbow, Energy, Equations, Error, Group, Mechanism, Mode,
     OutputMotion, PointMotion, Power, Real, Scene, Slider, Slope, Solution, Unreduced, accuracy, contact, continuation,
-    derivation, limits, nalgebra, position, singularity,
+    derivation, limits, nalgebra, position, simulation, singularity,
 };
 
 /// A mechanism under forces: the position is solved for within the rate, the last one being the guess.

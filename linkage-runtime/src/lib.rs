@@ -8,6 +8,7 @@
 //! - [`accuracy`]: roads to the position by type, and what their digits cost;
 //! - [`integrate`]: motions from differential equations, with events;
 //! - [`contact`]: dry friction and stops;
+//! - [`simulation`]: scenes in motion, through dead points and change points;
 //! - [`Error`]: which mechanism, what residual, how near singular;
 //! - [`singularity`]: singular configurations, and how accurate a position can be;
 //! - [`derivation`]: the formulas behind the code, as data;
@@ -40,6 +41,7 @@ mod scalar;
 mod scene;
 #[cfg(feature = "sheet")]
 pub mod sheet;
+pub mod simulation;
 mod sine;
 pub mod singularity;
 

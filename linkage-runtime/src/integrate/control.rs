@@ -45,6 +45,11 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
         self.relative * (to_f64(self.scale[component]) + size)
     }
 
+    /// The root of the mean square of a change at `y` beside what is allowed.
+    pub(super) fn share(&self, change: &SVector<T, N>, y: &SVector<T, N>) -> f64 {
+        ComplexField::sqrt(self.squares(change, |i| to_f64(y[i]).abs()) / N as f64)
+    }
+
     /// sum (`v_i` / allowed)^2.
     fn squares(&self, v: &SVector<T, N>, size: impl Fn(usize) -> f64) -> f64 {
         (0..N).fold(0.0, |sum, i| {
@@ -112,6 +117,8 @@ pub(super) fn first_length<T: Real, const N: usize>(
 /// What is kept from step to step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Controller {
+    /// What of the change that the last error asks for is dared.
+    pub(super) safety: f64,
     /// The length proposed, without sign; none before the first step.
     pub(super) length: Option<f64>,
     /// The last error that was accepted.
@@ -122,7 +129,7 @@ pub(super) struct Controller {
 
 impl Controller {
     pub(super) fn new() -> Self {
-        Self { length: None, error: 1e-4, rejected: false }
+        Self { safety: SAFETY, length: None, error: 1e-4, rejected: false }
     }
 
     /// Takes the error of a step of this length, proposes the next length and tells whether the step is accepted.
@@ -139,9 +146,9 @@ impl Controller {
         let next = if accepted {
             let stabilised = if rule.beta == 0.0 { power } else { power / ComplexField::powf(self.error, rule.beta) };
             self.error = error.max(1e-4);
-            length / (stabilised / SAFETY).min(slowest).max(fastest)
+            length / (stabilised / self.safety).min(slowest).max(fastest)
         } else {
-            length / (power / SAFETY).min(slowest)
+            length / (power / self.safety).min(slowest)
         };
         // A step that follows a rejected one is not longer.
         self.length = Some(if accepted && self.rejected { next.min(length) } else { next });

@@ -1,12 +1,12 @@
 //! Dense output: the state between the ends of a step.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::tableau::{self, Slopes, Tableau};
 use crate::{Real, real};
 
 /// The largest number of coefficients.
-const COEFFICIENTS: usize = 8;
+const COEFFICIENTS: usize = 9;
 
 /// The state within a step as a polynomial in s = (t - start) / h, from 0 to 1, which takes on state and rate at both
 /// ends:
@@ -53,6 +53,63 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
         self
     }
 
+    /// The polynomial that starts at `state` and has the slopes y' at these parts of the step, one for each.
+    pub(crate) fn of_slopes<const P: usize>(
+        (start, state): (T, SVector<T, N>),
+        length: T,
+        parts: &[f64; P],
+        slopes: &[SVector<T, N>; P],
+    ) -> Option<Self> {
+        let mut by_coefficient = SMatrix::<f64, P, P>::zeros();
+        for (row, &s) in parts.iter().enumerate() {
+            // Of the k-th function, from 1, the value and the slope.
+            let (mut value, mut slope) = (s, 1.0);
+            for column in 0..P {
+                by_coefficient[(row, column)] = slope;
+                let (factor, rate) = if column % 2 == 0 { (1.0 - s, -1.0) } else { (s, 1.0) };
+                (value, slope) = (value * factor, slope * factor + value * rate);
+            }
+        }
+        let inverse = by_coefficient.try_inverse()?;
+        let mut coefficients = [SVector::zeros(); COEFFICIENTS];
+        coefficients[0] = state;
+        for (row, coefficient) in coefficients[1..].iter_mut().take(P).enumerate() {
+            for (column, slope) in slopes.iter().enumerate() {
+                *coefficient += slope * (real::<T>(inverse[(row, column)]) * length);
+            }
+        }
+        Some(Self { start, length, coefficients, used: P + 1 })
+    }
+
+    /// The same polynomial, of degree 8 at most, on a part of its step if that ends at `end`.
+    pub(crate) fn up_to(&self, end: T) -> Option<Self> {
+        let length = end - self.start;
+        if length.abs() >= self.length.abs() {
+            return None;
+        }
+        let parts = [0.0, 0.14, 0.28, 0.42, 0.58, 0.72, 0.86, 1.0];
+        let slopes = parts.map(|part| self.slope_at(self.start + length * real(part)));
+        Self::of_slopes((self.start, self.coefficients[0]), length, &parts, &slopes)
+    }
+
+    /// The last coefficient, which tells how far the polynomial is from the motion.
+    pub(crate) fn last(&self) -> SVector<T, N> {
+        self.coefficients[self.used - 1]
+    }
+
+    /// y' at t.
+    pub(crate) fn slope_at(&self, t: T) -> SVector<T, N> {
+        let s = (t - self.start) / self.length;
+        let rest = T::one() - s;
+        let (inner, last) = self.coefficients[..self.used].split_at(self.used - 1);
+        let start = (last[0], SVector::zeros());
+        let (_, slope) = inner.iter().enumerate().rev().fold(start, |(value, slope), (i, coefficient)| {
+            let (factor, rate) = if i % 2 == 0 { (s, T::one()) } else { (rest, -T::one()) };
+            (coefficient + value * factor, slope * factor + value * rate)
+        });
+        slope / self.length
+    }
+
     /// Where the step starts and where it ends.
     #[must_use]
     pub fn interval(&self) -> (T, T) {
@@ -67,7 +124,7 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
 
     /// The state at this part of the step.
     #[inline]
-    pub(super) fn at_fraction(&self, s: T) -> SVector<T, N> {
+    pub(crate) fn at_fraction(&self, s: T) -> SVector<T, N> {
         let rest = T::one() - s;
         let (inner, last) = self.coefficients[..self.used].split_at(self.used - 1);
         inner

@@ -64,6 +64,12 @@ impl<S: System<T, N, 0>, T: Real, const N: usize> FixedStep<S, T, N> {
         &self.system
     }
 
+    /// Takes the last step back, to the state before it.
+    pub(crate) fn undo(&mut self, state: SVector<T, N>) {
+        self.steps -= 1;
+        self.state = state;
+    }
+
     /// Takes a step.
     ///
     /// # Errors

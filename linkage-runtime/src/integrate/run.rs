@@ -12,6 +12,9 @@ use super::{Outputs, System, step};
 use crate::scalar::to_f64;
 use crate::{Error, Real};
 
+/// The part of the tolerance by which a state may be corrected without another evaluation of the rate.
+const NEGLIGIBLE: f64 = 0.01;
+
 /// What an integration has cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
@@ -288,17 +291,94 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
         Ok(Step { t: self.t, state: self.state, event: None })
     }
 
+    /// The same start, end and settings by another method or with another system.
+    pub(crate) fn with<M2: Method, S2: System<T, N, K2>, const K2: usize>(
+        self,
+        system: impl FnOnce(S) -> S2,
+    ) -> Result<Integration<M2, S2, T, N, K2>, Error> {
+        let (largest, most_steps, stiffness_every, parts) =
+            (self.largest, self.most_steps, self.stiffness_every, self.parts);
+        let (length, safety) = (self.controller.length, self.controller.safety);
+        let mut other = Integration::new(system(self.system), (self.start, self.state), self.end, self.tolerance)?;
+        (other.largest, other.most_steps, other.stiffness_every, other.parts) =
+            (largest, most_steps, stiffness_every, parts);
+        (other.controller.length, other.controller.safety) = (length, safety);
+        Ok(other)
+    }
+
+    /// Whether a step begins here.
+    pub(crate) fn is_at_boundary(&self) -> bool {
+        self.place == Place::Boundary && !self.sides.waiting.contains(&true)
+    }
+
+    pub(crate) fn system_mut(&mut self) -> &mut S {
+        &mut self.system
+    }
+
+    /// The length of the step to be tried next, without sign.
+    pub(crate) fn next_length(&self) -> Option<f64> {
+        self.controller.length
+    }
+
+    /// Makes the next step no longer than this.
+    pub(crate) fn limit_next(&mut self, length: f64) {
+        self.controller.length =
+            Some(self.controller.length.map_or(length, |next| if next < length { next } else { length }));
+    }
+
+    /// Dares this part of the change of length that the last error asks for.
+    pub(crate) fn set_safety(&mut self, safety: f64) {
+        self.controller.safety = safety;
+    }
+
+    pub(crate) fn set_tolerance(&mut self, tolerance: Tolerance<T, N>) {
+        self.tolerance = tolerance;
+    }
+
+    /// Goes on from another state than the one reached: a projected one, or one in other coordinates.
+    pub(crate) fn exchange(&mut self, state: SVector<T, N>) {
+        self.state = state;
+        self.continues = false;
+    }
+
+    /// Goes on from a state that differs from the one reached by what is left of the closures. Beside the tolerance that
+    /// is mostly nothing, and the last slope stands for the next one.
+    pub(crate) fn correct(&mut self, state: SVector<T, N>) {
+        self.continues = self.continues && self.tolerance.share(&(state - self.state), &state) <= NEGLIGIBLE;
+        self.state = state;
+    }
+
+    /// Goes on from a place before the one reached; the length of the steps is kept.
+    pub(crate) fn go_back(&mut self, t: T, state: SVector<T, N>) {
+        (self.from, self.to) = ((t, state), (t, state));
+        self.interpolant = Some(Interpolant::constant(t, state));
+        self.t = t;
+        self.place = Place::Boundary;
+        self.sides.waiting = [false; K];
+        self.exchange(state);
+    }
+
+    /// Takes a step that was made by other means, up to the end of the interpolant.
+    pub(crate) fn pass(&mut self, step: Interpolant<T, N>) {
+        let end = step.interval().1;
+        self.from = (self.t, self.state);
+        self.to = (end, step.at(end));
+        self.interpolant = Some(step);
+        self.place = Place::Within(0.0);
+        self.continues = false;
+    }
+
     /// The interval of which the states are at hand: from the start of the last step to where the integration is.
-    pub(super) fn reached(&self) -> [T; 2] {
+    pub(crate) fn reached(&self) -> [T; 2] {
         [self.from.0, self.t]
     }
 
-    pub(super) fn end(&self) -> T {
+    pub(crate) fn end(&self) -> T {
         self.end
     }
 
     /// The state at a time that was reached in the last step; its ends as they are.
-    pub(super) fn state_within(&mut self, t: T) -> Result<SVector<T, N>, Error> {
+    pub(crate) fn state_within(&mut self, t: T) -> Result<SVector<T, N>, Error> {
         if t == self.from.0 {
             return Ok(self.from.1);
         }

@@ -1,0 +1,36 @@
+//! Scenes in motion: the equations that `linkage!` emits for a scene, integrated, with the closures held.
+//!
+//! [`simulate`] takes a scene with `inertia`, a start and an end, and gives the states one after the other with all
+//! coordinates and their rates by name.
+//!
+//! 1. *Coordinates.* The motion is that of y = (q, v') by the emitted equations in the inputs. After each step the
+//!    closures are closed again by Newton's method from where the integrator has left them, with the inputs held: one or
+//!    two iterations to rounding, on the branch and in the turn where the motion is, also where a group has no
+//!    closed form.
+//! 2. *Dead points of the input*, where J has no inverse: near one the motion is followed in other independent
+//!    coordinates, those that elimination with complete pivoting of [J A] leaves over, and in the inputs again when these
+//!    are good again. No step goes over a singularity of its own coordinates.
+//! 3. *Change points*, where [J A] itself loses rank, as where the links of a parallelogram are in line, and no
+//!    coordinate helps: a step of a collocation method goes over it along the branch whose tangent continues; it stands
+//!    if the closures hold there where the step says, and at the change point to rounding. Where two branches only come
+//!    near each other the motion follows its own round the bend.
+//!
+//! The branch never changes but like this: what cannot be followed ends with an [`Error`](crate::Error), and what was
+//! computed until then stays.
+//!
+//! Prescribed inputs keep to their laws. Reproducible: the same calls give the same bits. Nothing is allocated.
+
+mod independent;
+mod motion;
+mod over;
+mod real_time;
+mod run;
+mod scales;
+mod state;
+mod watch;
+
+pub use motion::Motion;
+pub use real_time::RealTime;
+pub use run::{AtSingularity, Outputs, Passages, Simulation, simulate};
+pub use state::State;
+pub use watch::{Then, Unwatched, Watch, Watched};

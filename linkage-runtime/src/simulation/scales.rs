@@ -1,0 +1,67 @@
+//! Sizes of coordinates and closures, so that no unit has a say in a verdict.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::{Mechanism, Real};
+
+/// What size of a coordinate and of a closure matters: of an angle 1, of a length that of the loops it is in.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scales<T, const U: usize, const V: usize> {
+    pub(super) closures: SVector<T, U>,
+    pub(super) unknowns: SVector<T, U>,
+    pub(super) inputs: SVector<T, V>,
+}
+
+impl<T: Real, const U: usize, const V: usize> Scales<T, U, V> {
+    pub(super) fn of<M: Mechanism<T, U, V>>(mechanism: &M, q: &M::Coordinates) -> Self {
+        let pose = mechanism.pose_at(q);
+        let by_unknowns = mechanism.jacobian_unknowns_sizes(&pose);
+        let by_inputs = mechanism.jacobian_inputs_sizes(&pose);
+        // A closure is as large as an angle can make it.
+        let terms = mechanism.closure_sizes(&pose);
+        let closures = SVector::from_fn(|row, _| {
+            let of_unknowns = largest(&by_unknowns, row, &M::UNKNOWN_ANGLES);
+            let of_angles = of_unknowns.max(largest(&by_inputs, row, &M::INPUT_ANGLES));
+            usable(if of_angles.is_zero() { terms[row] } else { of_angles })
+        });
+        Self {
+            closures,
+            unknowns: coordinates(&by_unknowns, &closures, &M::UNKNOWN_ANGLES),
+            inputs: coordinates(&by_inputs, &closures, &M::INPUT_ANGLES),
+        }
+    }
+
+    /// That of a coordinate by its column in [J A].
+    pub(super) fn coordinate(&self, column: usize) -> T {
+        if column < U { self.unknowns[column] } else { self.inputs[column - U] }
+    }
+
+    /// The size of rates beside the sizes of their coordinates: an angular frequency.
+    pub(super) fn speed(&self, unknowns: &SVector<T, U>, inputs: &SVector<T, V>) -> T {
+        unknowns.component_div(&self.unknowns).amax().max(inputs.component_div(&self.inputs).amax())
+    }
+}
+
+fn largest<T: Real, const U: usize, const C: usize>(sizes: &SMatrix<T, U, C>, row: usize, angles: &[bool; C]) -> T {
+    let angles = (0..C).filter(|&column| angles[column]);
+    angles.fold(T::zero(), |most, column| most.max(sizes[(row, column)].abs()))
+}
+
+fn coordinates<T: Real, const U: usize, const C: usize>(
+    sizes: &SMatrix<T, U, C>,
+    closures: &SVector<T, U>,
+    angles: &[bool; C],
+) -> SVector<T, C> {
+    SVector::from_fn(|column, _| {
+        if angles[column] {
+            return T::one();
+        }
+        let rows = (0..U).filter(|&row| !sizes[(row, column)].is_zero());
+        usable(rows.fold(T::zero(), |most, row| most.max(closures[row] / sizes[(row, column)].abs())))
+    })
+}
+
+/// What is not a size is 1.
+fn usable<T: Real>(size: T) -> T {
+    if size > T::zero() && size.is_finite() { size } else { T::one() }
+}

@@ -1,0 +1,90 @@
+//! What cannot be simulated says why, and what was computed stays.
+
+use linkage::simulation::simulate;
+use linkage::{Error, linkage};
+
+linkage! {
+    #[derive(Debug, Clone)]
+    mechanism Lever {
+        param a = 0.3, b = 0.9, c = 0.6, d = 1, m = 1, g = 9.81;
+        input theta;
+        unknown phi, psi;
+        loop a@theta + b@phi = d@0 + c@psi;
+        body crank { mass m; inertia m * a^2 / 12; center (a/2)@theta; angle theta; }
+        body rocker { mass m; inertia m * c^2 / 12; center d@0 + (c/2)@psi; angle psi; }
+        scene Fading { inertia; gravity (0, -g); torque sqrt(1 - t) on theta; }
+        scene Weighing { inertia; gravity (0, -g); }
+        scene Given { inertia; drive theta = 2 * t; }
+    }
+}
+
+fn start() -> LeverCoordinates<f64> {
+    Lever::default().solve(&LeverCoordinates { theta: 0.0, phi: 0.8, psi: 1.9 }).unwrap().coordinates
+}
+
+#[test]
+fn a_law_that_ends() {
+    let scene = Fading::default();
+    let mut motion = simulate(&scene, (0.0, start(), 1.0), 2.0, 1e-9).unwrap();
+    let states: Vec<_> = motion.by_ref().collect();
+    let (last, before) = states.split_last().unwrap();
+    let error = last.unwrap_err();
+    println!("{error:?} {}", motion.t());
+    assert!(matches!(error, Error::NotFinite { quantity, .. } if quantity.contains("torque")), "{error:?}");
+    // Up to the last moment at which there is a torque.
+    assert!(before.len() > 5 && before.iter().all(Result::is_ok));
+    assert!(motion.t() > 1.0 - 1e-6 && motion.t() <= 1.0);
+    assert!(motion.next().is_none());
+    assert_eq!(before.last().unwrap().unwrap(), *motion.state());
+    // The same by output times.
+    let mut motion = simulate(&scene, (0.0, start(), 1.0), 2.0, 1e-9).unwrap();
+    let states: Vec<_> = motion.at([0.25, 0.5, 1.5, 1.75]).collect();
+    assert!(states.len() == 3 && states[1].is_ok() && states[2] == Err(error), "{states:?}");
+}
+
+#[test]
+fn starts_that_make_no_sense() {
+    let mut scene = Weighing::default();
+    let error = |scene: &Weighing<f64>, tolerance: f64, rate: f64, end: f64| {
+        simulate(scene, (0.0, start(), rate), end, tolerance).err()
+    };
+    assert!(error(&scene, 1e-9, 1.0, 1.0).is_none());
+    assert!(matches!(error(&scene, 0.0, 1.0, 1.0), Some(Error::OutOfRange { .. })));
+    assert!(matches!(error(&scene, 1e-9, 1.0, f64::NAN), Some(Error::OutOfRange { .. })));
+    assert!(error(&scene, 1e-9, f64::NAN, 1.0).is_some());
+    scene.m = 0.0;
+    assert!(matches!(error(&scene, 1e-9, 1.0, 1.0), Some(Error::NoInertia { coordinate: "theta", .. })));
+    scene.m = -1.0;
+    assert!(matches!(error(&scene, 1e-9, 1.0, 1.0), Some(Error::Negative { .. })));
+    let given = Given::default();
+    let rate = simulate(&given, (0.0, start(), 1.0), 1.0, 1e-9).err();
+    assert!(matches!(rate, Some(Error::Inconsistent { quantity: "rate", .. })), "{rate:?}");
+    let place = simulate(&given, (0.5, start(), 2.0), 1.0, 1e-9).err();
+    assert!(matches!(place, Some(Error::Inconsistent { quantity: "position", .. })), "{place:?}");
+}
+
+linkage! {
+    /// Driven to where it cannot go.
+    mechanism Reach {
+        param r = 0.05, l = 0.18;
+        input z;
+        unknown phi, psi;
+        loop r@phi + l@psi = (z, 0);
+        body rod { mass 1; inertia 0.1; center (r/2)@phi; angle phi; }
+        scene Pulled { inertia; drive z = 0.2 + 0.1 * t; }
+    }
+}
+
+/// At 0.3 s crank and rod are in line, and the law goes on.
+#[test]
+fn a_drive_beyond_the_dead_point() {
+    let scene = Pulled::default();
+    let q = ReachCoordinates { z: 0.2, phi: 0.9, psi: -0.2 };
+    let q = scene.mechanism.solve(&q).unwrap().coordinates;
+    let mut motion = simulate(&scene, (0.0, q, 0.1), 1.0, 1e-9).unwrap();
+    let error = motion.finish(|_, _| true).unwrap_err();
+    println!("{error:?} at {}", motion.t());
+    assert!(matches!(error, Error::Singular { mechanism: "Reach", group: "phi, psi", .. }), "{error:?}");
+    assert!(motion.t() > 0.299 && motion.t() <= 0.3, "{}", motion.t());
+    assert!((motion.state().q.z - (0.2 + 0.1 * motion.t())).abs() < 1e-15);
+}

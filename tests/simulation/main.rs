@@ -1,0 +1,9 @@
+//! Scenes in motion against exact laws, published figures and the same motion in other coordinates.
+
+mod andrews;
+mod change_points;
+mod dead_points;
+mod doors;
+mod failures;
+mod long_runs;
+mod windows;
