@@ -324,7 +324,50 @@ use proc_macro::TokenStream;
 /// | `equilibrium(t, &guess)` | the position near the guess where the forces of the inputs that are not driven vanish at rest, by Newton's method; `balance(t, &q)`: these forces and their derivatives, whose signs tell what is stable |
 /// | `contacts(t, &q, &q')`, `equations(t, &q, v')` | with frictions or stops: each with its scalar and its limits; M, Q, W and u'' at v'' = 0, without them |
 /// | `check()` | refuses by their name negative masses, inertias and frictions, empty ranges of stops, and restitutions that are not between 0 and 1 |
+/// | `unreduced(t, &q, &q')` | with `inertia`: M and F of `M q'' + Psi_q' lambda = F` in all coordinates, whichever are independent; without frictions and stops |
 /// | the trait `Scene` | with `inertia`: the state (q, v') of an integrator, its derivative, its projection on the closures |
+///
+/// ## Simulation
+///
+/// `simulation::simulate` takes a scene with `inertia` (and without frictions and stops) from a start to an end, and
+/// gives the states with all coordinates and rates by name. It goes through dead points of the input, in other
+/// coordinates, and straight on through change points; what it cannot follow is an error, and what was computed stays.
+///
+/// ```
+/// linkage::linkage! {
+///     #[derive(Debug, Clone)]
+///     pub mechanism Engine {
+///         param r = 0.05, l = 0.18, j = 0.01, m = 0.9, g = 9.81;
+///         input z;
+///         unknown phi, psi;
+///         loop r@phi + l@psi = (z, 0);
+///         body crank { inertia j; angle phi; }
+///         body piston { mass m; center (z, 0); }
+///         scene Running { inertia; gravity (0, -g); energy; }
+///     }
+/// }
+/// use linkage::integrate::Crossing;
+/// use linkage::simulation::{Then, simulate};
+///
+/// let scene = Running::default();
+/// let start = EngineCoordinates { z: 0.2, phi: 0.7, psi: -0.2 };
+/// // The time, a position near that of this z, and z'; the end; the relative error allowed of a step.
+/// let mut motion = simulate(&scene, (0.0, start, -1.0), 1.0, 1e-9)?;
+/// for state in motion.at([0.25, 0.5, 0.75, 1.0]) {
+///     let state = state?;
+///     println!("{:4} s: {:8.5} rad, {:8.5} rad/s", state.t, state.q.phi, state.rate.phi);
+/// }
+/// // The piston drives it over both dead points, turn after turn.
+/// assert!(motion.state().q.phi > 6.5 && motion.passages().exchanges > 4);
+///
+/// // Up to the end of the first turn.
+/// let turn = |phi: f64| phi - std::f64::consts::TAU;
+/// let motion = simulate(&scene, (0.0, start, -1.0), 1.0, 1e-9)?;
+/// let mut motion = motion.events([Crossing::Rising], |state| Ok([turn(state.q.phi)]), |_, _| Ok(Then::Stop))?;
+/// motion.finish(|_state, _progress| true)?;
+/// assert!(turn(motion.state().q.phi).abs() < 1e-12);
+/// # Ok::<(), linkage::Error>(())
+/// ```
 ///
 /// ## Dry friction and stops
 ///

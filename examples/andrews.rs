@@ -1,0 +1,68 @@
+//! Andrews' squeezing mechanism: what its digits cost, by method and tolerance.
+//!
+//! `cargo run --release --example andrews`
+
+use std::time::Instant;
+
+use linkage::integrate::{Dop853, Dopri5, Method};
+use linkage::linkage;
+use linkage::simulation::simulate;
+
+include!("../tests/mechanisms/andrews_scene.rs");
+
+const START: SqueezerCoordinates = SqueezerCoordinates {
+    beta: -0.061_713_890_014_276_45,
+    theta: 0.0,
+    gamma: 0.455_279_819_163_070_4,
+    phi: 0.222_668_390_165_885_87,
+    delta: 0.487_364_979_543_842_55,
+    omega: -0.222_668_390_165_885_87,
+    epsilon: 1.230_547_444_549_821_2,
+};
+
+/// The angles at t = 0.03 s, by extrapolation of order 24 with 42 digits.
+const END: SqueezerCoordinates = SqueezerCoordinates {
+    beta: 15.810_771_195_153_708,
+    theta: -15.756_371_058_411_84,
+    gamma: 0.040_822_240_119_645_85,
+    phi: -0.534_730_116_342_079_6,
+    delta: 0.524_409_965_879_954_1,
+    omega: 0.534_730_116_342_079_6,
+    epsilon: 1.048_080_741_041_937_8,
+};
+
+/// Repetitions, of which the fastest counts.
+const REPETITIONS: usize = 50;
+
+fn angles(q: SqueezerCoordinates<f64>) -> [f64; 7] {
+    [q.beta, q.theta, q.gamma, q.phi, q.delta, q.omega, q.epsilon]
+}
+
+fn row<M: Method>(name: &str, tolerance: f64) -> Result<(), linkage::Error> {
+    let scene = Squeezing::default();
+    let mut fastest = f64::INFINITY;
+    let mut row = (0.0_f64, 0);
+    for _ in 0..REPETITIONS {
+        let clock = Instant::now();
+        let mut motion = simulate(&scene, (0.0, START, 0.0), 0.03, tolerance)?.method::<M>()?;
+        motion.finish(|_, _| true)?;
+        fastest = fastest.min(clock.elapsed().as_secs_f64());
+        let pairs = angles(motion.state().q).into_iter().zip(angles(END));
+        let error = pairs.fold(0.0_f64, |worst, (found, exact)| worst.max((found / exact - 1.0).abs()));
+        row = (error, motion.counts().evaluations);
+    }
+    println!("| {name} | {tolerance:.0e} | {:.1e} | {} | {:.3} |", row.0, row.1, 1e3 * fastest);
+    Ok(())
+}
+
+fn main() -> Result<(), linkage::Error> {
+    println!("| method | tolerance | largest relative error of an angle | right-hand sides | time in ms |");
+    println!("|---|---|---|---|---|");
+    for exponent in [6, 8, 10, 11, 12, 13, 14] {
+        row::<Dop853>("order 8(5,3)", 10.0_f64.powi(-exponent))?;
+    }
+    for exponent in [4, 6, 8, 10] {
+        row::<Dopri5>("order 5(4)", 10.0_f64.powi(-exponent))?;
+    }
+    Ok(())
+}
