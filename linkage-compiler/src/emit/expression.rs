@@ -53,20 +53,29 @@ fn operand(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: Signe
         (true, true) => Binding::Prefix,
         (true, false) => inner.min(Binding::Prefix),
     };
+    let inside = |tokens: &mut Tokens| match (name, flipped) {
+        (Some(name), _) => tokens.ident(&name.ident),
+        (None, Some(terms)) => {
+            let flip = |term: &Signed| Signed { negative: !term.negative, value: term.value };
+            let mut terms: Vec<Signed> = terms.iter().map(flip).collect();
+            terms.sort_by_key(|term| term.negative);
+            sum(tokens, names, schedule, &terms);
+        }
+        (None, None) => compute(tokens, names, schedule, value.value),
+    };
+    // Most operands stand without brackets.
+    if outer >= at_least && !bracketed {
+        if negative {
+            tokens.punct('-');
+        }
+        inside(tokens);
+        return;
+    }
     within(tokens, outer < at_least, |tokens| {
         if negative {
             tokens.punct('-');
         }
-        within(tokens, bracketed, |tokens| match (name, flipped) {
-            (Some(name), _) => tokens.ident(&name.ident),
-            (None, Some(terms)) => {
-                let flip = |term: &Signed| Signed { negative: !term.negative, value: term.value };
-                let mut terms: Vec<Signed> = terms.iter().map(flip).collect();
-                terms.sort_by_key(|term| term.negative);
-                sum(tokens, names, schedule, &terms);
-            }
-            (None, None) => compute(tokens, names, schedule, value.value),
-        });
+        within(tokens, bracketed, inside);
     });
 }
 

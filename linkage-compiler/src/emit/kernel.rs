@@ -1,5 +1,6 @@
 //! One kernel: what it is given, its stages, and the Rust that carries them out.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -16,7 +17,7 @@ use crate::simplify::schedule::{self, Line, Operations, Schedule, Signed, Stage,
 
 /// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
 /// fields is used.
-pub(super) struct Source {
+pub(super) struct Source<'a> {
     /// The argument of the function, but for `self`.
     pub argument: Option<Ident>,
     /// The expression taken apart, such as `*rate`.
@@ -24,7 +25,7 @@ pub(super) struct Source {
     /// What holds them.
     pub of: Shape,
     /// The fields, and the symbols they are known by.
-    pub fields: Vec<(String, SymbolId)>,
+    pub fields: Vec<(Cow<'a, str>, SymbolId)>,
 }
 
 /// What is taken apart.
@@ -39,7 +40,7 @@ pub(super) enum Shape {
 
 /// What a kernel starts from.
 pub(super) struct Given<'a> {
-    pub sources: Vec<Source>,
+    pub sources: Vec<Source<'a>>,
     /// The pose, if sines and cosines are given by one.
     pub pose: Option<&'a PosePlan>,
     /// The argument that says which solution of a group is meant.
@@ -157,7 +158,7 @@ fn pattern(body: &mut Tokens, source: &Source, used: &[SymbolId], names: &Names)
     let mut count = 0;
     for (field, symbol) in source.fields.iter().filter(|(_, symbol)| is_used(*symbol)) {
         let name = names.symbol(*symbol);
-        if name != *field {
+        if name != field.as_ref() {
             fields.word(field);
             fields.punct(':');
         }

@@ -21,8 +21,8 @@ impl Methods<'_> {
             docs.extend(fenced(
                 nodes.iter().enumerate().map(|(row, &node)| format!("gamma_{} = {}", row + 1, kernels.text(node))),
             ));
-            let rates = |methods: &Self, kernels: &Kernels| vec![methods.coordinates(kernels, &rate, |c| c.rate)];
-            let written = self.on_pose(kernels, rates(self, kernels), &[Stage::Return(nodes)]);
+            let rates = self.coordinates(kernels, &rate, |c| c.rate);
+            let written = self.on_pose(kernels, vec![rates], &[Stage::Return(nodes)]);
             let results = &written.results;
             let tail = quote!(SVector::from([#(#results),*]));
             gamma = Some(Body::new(written, tail, []));
@@ -31,8 +31,8 @@ impl Methods<'_> {
             let side = kernels.derivation.acceleration_side();
             let mut stages = kernels.derivation.solution(&[(side, kernels.accelerations(&unknowns))], Form::Entries);
             stages.push(Stage::Return(kernels.variables(&kernels.accelerations(&all))));
-            let mut sources = rates(self, kernels);
-            sources.push(self.inputs(kernels, &acceleration, |c| c.acceleration));
+            let rates = self.coordinates(kernels, &rate, |c| c.rate);
+            let sources = vec![rates, self.inputs(kernels, &acceleration, |c| c.acceleration)];
             let mut written = self.on_pose(kernels, sources, &stages);
             let solved: Vec<_> = unknowns.iter().map(|&index| written.results[index].clone()).collect();
             let finite = check_finite(&mut written, "acceleration", &solved);
@@ -42,7 +42,7 @@ impl Methods<'_> {
         }
         let [own, own_rate] = [&pose, &rate].map(|argument| argument_of(argument, gamma.as_ref()));
         let signature = quote!(#[must_use] pub fn gamma(&self, #own: &#pose_type<T>, #own_rate: &#coordinates<T>) -> SVector<T, #nu>);
-        self.function(&docs, &signature, gamma);
+        self.function(&docs, signature, gamma);
         let docs = lines([
             "The acceleration q'' at the velocity q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
             "",
@@ -52,6 +52,6 @@ impl Methods<'_> {
         let [pose, rate, acceleration] =
             [&pose, &rate, &acceleration].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn acceleration(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>, #acceleration: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }

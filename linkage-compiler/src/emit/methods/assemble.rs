@@ -1,5 +1,7 @@
 //! Position group by group.
 
+use std::borrow::Cow;
+
 use proc_macro2::Ident;
 use quote::quote;
 
@@ -81,7 +83,7 @@ impl Methods<'_> {
             let (v, argument) = (argument_of(&v, body.as_ref()), quote!(impl Into<#inputs<T>>));
             let signature =
                 quote!(pub fn assemble(&self, #v: #argument, #branch: #branch_type) -> Result<#pose<T>, Error>);
-            self.function(&docs, &signature, body);
+            self.function(&docs, signature, body);
             self.branches(&sides);
             self.is_assembled = true;
         } else {
@@ -98,7 +100,7 @@ impl Methods<'_> {
             let coordinates = &self.types.coordinates;
             let signature = quote!(pub fn assemble_near(&self, #guess: &#coordinates<T>, #branch: #branch_type)
                 -> Result<#pose<T>, Error>);
-            self.function(&docs, &signature, body);
+            self.function(&docs, signature, body);
         }
         self.branch_of(kernels, &chords, &sides);
         self.branches = Some(sides);
@@ -121,20 +123,20 @@ impl Methods<'_> {
         let docs = lines(["The branch that a position belongs to."]);
         let argument = argument_of(&argument, Some(&body));
         let signature = quote!(#[must_use] pub fn branch_of(&self, #argument: &#pose<T>) -> #branch_type);
-        self.function(&docs, &signature, Some(body));
+        self.function(&docs, signature, Some(body));
     }
 }
 
 impl Methods<'_> {
     /// The inputs of a guess, and the unknowns that have no closed form under names of their own.
-    fn guess(&self, kernels: &Kernels, guess: &Ident, guesses: &[(usize, SymbolId)]) -> Source {
+    fn guess<'k>(&self, kernels: &'k Kernels, guess: &Ident, guesses: &[(usize, SymbolId)]) -> Source<'k> {
         let coordinates = &kernels.derivation.coordinates;
         let inputs = kernels.derivation.inputs.iter().map(|&index| (index, coordinates[index].value));
         let fields = inputs.chain(guesses.iter().copied());
-        let mut fields: Vec<_> = fields.map(|(index, symbol)| (coordinates[index].name.clone(), symbol)).collect();
+        let mut fields: Vec<_> = fields.map(|(index, symbol)| (Cow::from(&coordinates[index].name), symbol)).collect();
         // The others are fields as well, so that the pattern is complete only if it names them all.
         let named = fields.len();
-        fields.extend((named..coordinates.len()).map(|_| (String::new(), SymbolId::NONE)));
+        fields.extend((named..coordinates.len()).map(|_| (Cow::from(""), SymbolId::NONE)));
         let of = &self.types.coordinates;
         Source { argument: Some(guess.clone()), from: quote!(*#guess), of: Shape::Fields(quote!(#of)), fields }
     }
@@ -158,7 +160,7 @@ impl Methods<'_> {
             let #v = #v.into();
             existing(#branch_type::all(), move |#branch| self.assemble(#v, #branch))
         );
-        self.function(&docs, &signature, Some(Body::plain(tokens, [v], ["existing"])));
+        self.function(&docs, signature, Some(Body::plain(tokens, [v], ["existing"])));
     }
 }
 

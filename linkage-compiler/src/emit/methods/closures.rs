@@ -36,7 +36,7 @@ impl Methods<'_> {
         });
         let pose = argument_of(&self.arguments.pose, code.as_ref());
         let signature = quote!(#[must_use] pub fn #function(&self, #pose: &#pose_type<T>) -> #of);
-        self.function(docs, &signature, code);
+        self.function(docs, signature, code);
     }
 
     pub(super) fn closures(&mut self, kernels: Option<&mut Kernels>) {
@@ -119,7 +119,7 @@ impl Methods<'_> {
         let pose_type = self.types.pose.clone();
         let pose = argument_of(&pose, body.as_ref());
         let signature = quote!(#[must_use] pub fn jacobian(&self, #pose: &#pose_type<T>) -> SMatrix<T, #nu, #nq>);
-        self.function(&docs, &signature, body);
+        self.function(&docs, signature, body);
     }
 
     fn jacobian_sizes(&mut self, kernels: Option<&mut Kernels>) {
@@ -192,11 +192,11 @@ impl Methods<'_> {
         }
         let own = argument_of(&pose, whole.as_ref());
         let signature = quote!(#[must_use] pub fn determinant(&self, #own: &#pose_type<T>) -> T);
-        self.function(&docs, &signature, whole);
+        self.function(&docs, signature, whole);
         let pose = argument_of(&pose, parts.as_ref());
         let count = literal(count);
         let signature = quote!(#[must_use] pub fn block_determinants(&self, #pose: &#pose_type<T>) -> [T; #count]);
-        self.function(&blocks_docs, &signature, parts);
+        self.function(&blocks_docs, signature, parts);
     }
 }
 

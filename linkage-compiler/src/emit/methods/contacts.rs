@@ -100,7 +100,7 @@ impl Methods<'_> {
         let signature = quote!(pub fn contacts(&self, #time: T, #q: &#coordinates<T>, #rate: &#coordinates<T>)
             -> Result<[Contact<T, #u, #v>; #count], Error>);
         self.uses.insert("Contact");
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     /// M, Q, W and u'' at v'' = 0 in one kernel.
@@ -147,6 +147,6 @@ impl Methods<'_> {
         let arguments = self.state_arguments(place, code.as_ref());
         let signature = quote!(pub fn equations(#arguments) -> Result<Equations<T, #nu, #nv>, Error>);
         self.uses.insert("Equations");
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }

@@ -43,6 +43,6 @@ impl Methods<'_> {
         let [pose, rate, acceleration, jerk] =
             [&pose, &rate, &acceleration, &jerk].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn jerk(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>, #acceleration: &#coordinates<T>, #jerk: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }

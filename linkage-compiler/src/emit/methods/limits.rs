@@ -46,7 +46,7 @@ impl Methods<'_> {
         };
         let signature =
             quote!(pub fn #function(&self, #from: #argument, #branch: #branch_type) -> Result<Limits<T>, Error>);
-        self.function(&docs, &signature, body);
+        self.function(&docs, signature, body);
     }
 
     fn search(&mut self, kernels: &mut Kernels, assembly: &Assembly, place: usize) -> Body {

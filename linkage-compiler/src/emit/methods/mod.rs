@@ -17,6 +17,7 @@ mod sensitivity;
 mod unreduced;
 mod velocity;
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -263,52 +264,52 @@ impl Methods<'_> {
 
     // Sources of symbols.
 
-    fn parameters(&self) -> Source {
-        let fields = self.mechanism.parameters.iter().map(|p| (p.name.field.clone(), p.symbol)).collect();
+    fn parameters(&self) -> Source<'_> {
+        let fields = self.mechanism.parameters.iter().map(|p| (Cow::from(&p.name.field), p.symbol)).collect();
         Source { argument: None, from: quote!(*self), of: Shape::Fields(quote!(Self)), fields }
     }
 
-    fn pose_source(&self, kernels: &Kernels) -> Source {
+    fn pose_source<'k>(&self, kernels: &'k Kernels) -> Source<'k> {
         let mut fields: Vec<_> =
-            kernels.plan.values.iter().map(|(_, field, symbol)| (field.clone(), *symbol)).collect();
-        fields.extend(kernels.plan.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol)));
-        fields.extend(kernels.plan.externals.iter().map(|(_, field, symbol)| (field.clone(), *symbol)));
+            kernels.plan.values.iter().map(|(_, field, symbol)| (Cow::from(field), *symbol)).collect();
+        fields.extend(kernels.plan.determinants.iter().map(|(_, field, symbol)| (Cow::from(field), *symbol)));
+        fields.extend(kernels.plan.externals.iter().map(|(_, field, symbol)| (Cow::from(field), *symbol)));
         // Directions are fields as well, so that the pattern is never complete.
-        fields.extend(kernels.plan.directions.values().map(|field| (field.clone(), SymbolId::NONE)));
+        fields.extend(kernels.plan.directions.values().map(|field| (Cow::from(field), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
         Source { argument: Some(pose.clone()), from: quote!(*#pose), of: Shape::Fields(quote!(#of)), fields }
     }
 
-    fn coordinates(
+    fn coordinates<'k>(
         &self,
-        kernels: &Kernels,
+        kernels: &'k Kernels,
         from: &Ident,
         symbol: fn(&crate::derivation::Coordinate) -> SymbolId,
-    ) -> Source {
-        let fields = kernels.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c))).collect();
+    ) -> Source<'k> {
+        let fields = kernels.derivation.coordinates.iter().map(|c| (Cow::from(&c.name), symbol(c))).collect();
         let of = &self.types.coordinates;
         Source { argument: Some(from.clone()), from: quote!(*#from), of: Shape::Fields(quote!(#of)), fields }
     }
 
-    fn inputs(
+    fn inputs<'k>(
         &self,
-        kernels: &Kernels,
+        kernels: &'k Kernels,
         from: &Ident,
         symbol: fn(&crate::derivation::Coordinate) -> SymbolId,
-    ) -> Source {
+    ) -> Source<'k> {
         let fields = kernels
             .derivation
             .inputs
             .iter()
             .map(|&index| &kernels.derivation.coordinates[index])
-            .map(|c| (c.name.clone(), symbol(c)))
+            .map(|c| (Cow::from(&c.name), symbol(c)))
             .collect();
         let of = &self.types.inputs;
         Source { argument: Some(from.clone()), from: quote!(#from.into()), of: Shape::Fields(quote!(#of)), fields }
     }
 
     /// A kernel on a pose and what else it is given.
-    fn on_pose(&self, kernels: &Kernels, sources: Vec<Source>, stages: &[Stage]) -> Code {
+    fn on_pose<'k>(&'k self, kernels: &'k Kernels, sources: Vec<Source<'k>>, stages: &[Stage]) -> Code {
         let mut all = vec![self.parameters(), self.pose_source(kernels)];
         all.extend(sources);
         let given = Given { sources: all, pose: Some(kernels.plan), branch: &self.arguments.branch };
@@ -318,7 +319,7 @@ impl Methods<'_> {
     // Functions.
 
     /// Writes a function; without a body it is a stub that only has the right signature.
-    fn function(&mut self, docs: &[String], signature: &TokenStream, body: Option<Body>) {
+    fn function(&mut self, docs: &[String], signature: TokenStream, body: Option<Body>) {
         let Body { tokens: body, operations, uses, externals, .. } = body.unwrap_or_else(|| Body {
             tokens: quote!(::core::unreachable!()),
             operations: Operations::default(),
@@ -330,7 +331,7 @@ impl Methods<'_> {
         let work = if works { format!("Operations: {}.", count(operations)) } else { String::new() };
         let mut tokens = Tokens::default();
         tokens.doc(docs, &work);
-        tokens.extend(signature.clone());
+        tokens.extend(signature);
         if works {
             self.kernels.push((tokens.name_of_function(), operations));
         }

@@ -82,6 +82,6 @@ impl Methods<'_> {
         ]);
         let [q, rate, acceleration] = [q, rate, acceleration].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn motion(&self, #q: &#coordinates<T>, #rate: impl Into<#inputs<T>>, #acceleration: impl Into<#inputs<T>>) -> Result<#motion<T>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }

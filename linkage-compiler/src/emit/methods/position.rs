@@ -47,7 +47,7 @@ impl Methods<'_> {
             [format!("The position at these coordinates, ready for use: one sine and cosine for each angle{calls}.")];
         let q = argument_of(&q, body.as_ref());
         let signature = quote!(#[must_use] pub fn pose_at(&self, #q: &#coordinates<T>) -> #pose<T>);
-        self.function(&docs, &signature, body);
+        self.function(&docs, signature, body);
 
         // The name of a function is never that of a `let`, so the trait's can be called beside it.
         let (guess, solution) = (quote!(&#coordinates<T>), quote!(Solution<#coordinates<T>>));
@@ -59,7 +59,7 @@ impl Methods<'_> {
         ];
         self.function(
             &docs,
-            &quote!(pub fn solve(&self, guess: #guess) -> Result<#solution, Error>),
+            quote!(pub fn solve(&self, guess: #guess) -> Result<#solution, Error>),
             Some(Body::plain(quote!(newton(self, guess)), [], ["newton"])),
         );
     }

@@ -1,5 +1,7 @@
 //! Points and outputs: value, rate, acceleration and their own velocity ratios.
 
+use std::borrow::Cow;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -140,7 +142,7 @@ impl Methods<'_> {
             });
             let signature =
                 quote!(pub fn #function(&self, #pose: &#pose_type<T> #(#more)*) -> Result<#group<#item>, Error>);
-            self.function(&docs, &signature, code);
+            self.function(&docs, signature, code);
         }
         let laws = kernels.as_deref().zip(formulas).map(|(kernels, formulas)| {
             let mut lines = Vec::new();
@@ -165,7 +167,7 @@ impl Methods<'_> {
                     nodes.extend(quantity.jacobian.iter().map(|row| kernels.derivation.quantity_ratio(row, input)));
                 }
             }
-            let ratios = kernels.derivation.ratios.iter().flatten().map(|&ratio| (String::new(), ratio)).collect();
+            let ratios = kernels.derivation.ratios.iter().flatten().map(|&ratio| (Cow::from(""), ratio)).collect();
             let ratios = Source {
                 argument: Some(pose.clone()),
                 from: quote!(self.velocity_ratios(#pose)?.data.0),
@@ -191,6 +193,6 @@ impl Methods<'_> {
         let pose = argument_of(&pose, code.as_ref());
         let signature =
             quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }

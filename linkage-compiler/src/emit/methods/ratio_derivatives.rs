@@ -72,7 +72,7 @@ impl Methods<'_> {
         docs.extend(lines(ERRORS));
         let pose = argument_of(&pose, code.as_ref());
         let signature = quote!(pub fn velocity_ratio_derivatives(&self, #pose: &#pose_type<T>) -> Result<[SMatrix<T, #nv, #nv>; #nu], Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
         for family in [Family::Points, Family::Outputs] {
             self.quantity_ratio_derivatives(kernels.as_deref_mut(), formulas, family);
         }
@@ -139,6 +139,6 @@ impl Methods<'_> {
             Family::Outputs => quote!(SMatrix<T, #nv, #nv>),
         };
         let signature = quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<#item>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }

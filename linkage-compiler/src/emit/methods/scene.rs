@@ -1,5 +1,6 @@
 //! The functions of a scene: mass matrix, forces, accelerations, drives, energy and power.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 
 use proc_macro2::{Ident, TokenStream};
@@ -165,12 +166,14 @@ impl Methods<'_> {
     }
 
     /// A kernel on parameters, time, and what else it is given.
-    pub(super) fn on(&self, place: &Setting, kernels: &Kernels, motion: Vec<Source>, stages: &[Stage]) -> Code {
+    pub(super) fn on(&self, place: &Setting, kernels: &Kernels, motion: Vec<Source<'_>>, stages: &[Stage]) -> Code {
         let (mechanism, inner) = (self.mechanism, &place.field);
-        let of = |parameter: &model::Parameter| (parameter.name.field.clone(), parameter.symbol);
+        fn of(parameter: &model::Parameter) -> (Cow<'_, str>, SymbolId) {
+            (Cow::from(&parameter.name.field), parameter.symbol)
+        }
         let mut fields: Vec<_> = place.scene.parameters.iter().map(|&at| of(&mechanism.scene_parameters[at])).collect();
         // The mechanism is a field as well, so that the pattern is never complete.
-        fields.push((inner.to_string(), SymbolId::NONE));
+        fields.push((Cow::from(inner.to_string()), SymbolId::NONE));
         let driver = &self.driver.name;
         let mut sources = vec![
             Source {
@@ -184,7 +187,7 @@ impl Methods<'_> {
                 argument: Some(place.time.clone()),
                 from: TokenStream::new(),
                 of: Shape::Argument,
-                fields: mechanism.time.map(|time| (String::new(), time)).into_iter().collect(),
+                fields: mechanism.time.map(|time| (Cow::from(""), time)).into_iter().collect(),
             },
         ];
         sources.splice(2..2, motion);
@@ -249,7 +252,7 @@ impl Methods<'_> {
         ]));
         let (q, coordinates) = (argument_of(&self.arguments.q, code.as_ref()), &self.types.coordinates);
         let signature = quote!(pub fn mass_matrix(&self, #q: &#coordinates<T>) -> Result<SMatrix<T, #nv, #nv>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     fn entries(&self, name: &str, columns: usize, nodes: &[NodeId], kernels: &Kernels) -> Vec<String> {
@@ -291,7 +294,7 @@ impl Methods<'_> {
         docs.extend(lines(ERRORS));
         let arguments = self.state_arguments(place, code.as_ref());
         let signature = quote!(pub fn forces(#arguments) -> Result<SVector<T, #nv>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     /// M of some rows and columns.
@@ -386,14 +389,14 @@ impl Methods<'_> {
         docs.extend(errors.clone());
         let arguments = self.state_arguments(place, code.as_ref());
         let signature = quote!(pub fn rates(#arguments) -> Result<(#coordinates<T>, #inputs<T>), Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
         let (time, q, rate) = (&place.time, &self.arguments.q, &self.arguments.rate);
         let mut docs = lines(["The accelerations v'' of the inputs: M v'' = Q, and the laws of what is driven."]);
         docs.extend(errors);
         let body = Body::plain(quote!(Ok(self.rates(#time, #q, #rate)?.1)), [time, q, rate], []);
         let arguments = self.state_arguments(place, Some(&body));
         let signature = quote!(pub fn acceleration(#arguments) -> Result<#inputs<T>, Error>);
-        self.function(&docs, &signature, Some(body));
+        self.function(&docs, signature, Some(body));
     }
 
     /// The laws of the driven inputs with their derivatives.
@@ -412,7 +415,7 @@ impl Methods<'_> {
         });
         let time = argument_of(&place.time, code.as_ref());
         let signature = quote!(#[must_use] pub fn drives(&self, #time: T) -> [[T; 3]; #count]);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     /// Inverse dynamics: `M_d v'' - Q_d`.
@@ -463,7 +466,7 @@ impl Methods<'_> {
         });
         let arguments = self.state_arguments(place, code.as_ref());
         let signature = quote!(pub fn drive_forces(#arguments) -> Result<[T; #count], Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     fn energy(&mut self, place: &Setting, parts: Parts) {
@@ -484,7 +487,7 @@ impl Methods<'_> {
         let [q, rate] = [&self.arguments.q, &self.arguments.rate].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn energy(&self, #q: &#coordinates<T>, #rate: impl Into<#inputs<T>>) -> Result<Energy<T>, Error>);
         self.uses.insert("Energy");
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     fn power(&mut self, place: &Setting, parts: Parts) {
@@ -544,7 +547,7 @@ impl Methods<'_> {
         let arguments = self.state_arguments(place, code.as_ref());
         let signature = quote!(pub fn power(#arguments) -> Result<Power<T>, Error>);
         self.uses.insert("Power");
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     fn reactions(&mut self, place: &Setting, parts: Parts) {
@@ -602,7 +605,7 @@ impl Methods<'_> {
         docs.extend(lines(ERRORS));
         let arguments = self.state_arguments(place, code.as_ref());
         let signature = quote!(pub fn reactions(#arguments) -> Result<SVector<T, #nu>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     /// The forces at rest with their derivatives, and where they vanish.
@@ -636,7 +639,7 @@ impl Methods<'_> {
         let [own_time, own] = [&time, &q].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn balance(&self, #own_time: T, #own: &#coordinates<T>)
             -> Result<Balance<T, #count>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
         let names: Vec<&Ident> = place.free.iter().map(|&at| &place.inputs[at]).collect();
         let inner = &place.field;
         let driven: Vec<&Ident> = place.driven.iter().map(|&at| &place.inputs[at]).collect();
@@ -666,7 +669,7 @@ impl Methods<'_> {
         let body = Body::plain(tokens, [&time, guess], ["Balance", "equilibrium", "newton"]);
         let signature =
             quote!(pub fn equilibrium(&self, #time: T, #guess: &#coordinates<T>) -> Result<#coordinates<T>, Error>);
-        self.function(&docs, &signature, Some(body));
+        self.function(&docs, signature, Some(body));
     }
 
     fn check(&mut self, place: &Setting, parts: Parts) {
@@ -710,7 +713,7 @@ impl Methods<'_> {
                 "stops, `Restitution` if one is not between 0 and 1, `NotFinite` if a number is not finite.",
             ])
         };
-        self.function(&docs, &quote!(pub fn check(&self) -> Result<(), Error>), code);
+        self.function(&docs, quote!(pub fn check(&self) -> Result<(), Error>), code);
     }
 
     /// Which body or effect has no finite value.
@@ -738,7 +741,7 @@ impl Methods<'_> {
         let signature =
             quote!(#[cold] fn blame(&self, #time: T, #q: &#coordinates<T>, #rate: #inputs<T>) -> Result<(), Error>);
         let docs = lines(["Refuses the body or the effect that has no finite value, by its name."]);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 
     fn scene_block(&self, place: &Setting, private: &TokenStream) -> TokenStream {

@@ -1,5 +1,7 @@
 //! Sensitivities to the parameters, of the unknowns and of points and outputs.
 
+use std::borrow::Cow;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -73,7 +75,7 @@ impl Methods<'_> {
         docs.extend(lines(ERRORS));
         let pose = argument_of(&pose, code.as_ref());
         let signature = quote!(pub fn sensitivity(&self, #pose: &#pose_type<T>) -> Result<SMatrix<T, #nu, #np>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
         for family in [Family::Points, Family::Outputs] {
             self.quantity_sensitivities(kernels.as_deref_mut(), formulas, family, &solved);
         }
@@ -110,11 +112,11 @@ impl Methods<'_> {
             for quantity in kernels.quantities(family).to_vec() {
                 nodes.extend(kernels.derivation.quantity_sensitivities(&quantity, solved).concat());
             }
-            let fields: Vec<(String, SymbolId)> = kernels
+            let fields: Vec<(Cow<str>, SymbolId)> = kernels
                 .derivation
                 .sensitivity
                 .iter()
-                .flat_map(|first| first.names.iter().flatten().map(|&name| (String::new(), name)))
+                .flat_map(|first| first.names.iter().flatten().map(|&name| (Cow::from(""), name)))
                 .collect();
             let source = Source {
                 argument: Some(pose.clone()),
@@ -156,6 +158,6 @@ impl Methods<'_> {
         let pose = argument_of(&pose, code.as_ref());
         let signature =
             quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #np>>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }

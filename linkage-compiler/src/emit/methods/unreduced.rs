@@ -74,6 +74,6 @@ impl Methods<'_> {
         let (nu, nv) = (literal(u), literal(v));
         let signature = quote!(pub fn unreduced(&self, #time: T, #q: &#coordinates<T>, #rate: &#coordinates<T>)
             -> Result<Unreduced<T, #nu, #nv>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }

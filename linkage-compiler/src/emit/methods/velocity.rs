@@ -1,5 +1,7 @@
 //! Linear systems in J: velocity ratios and velocities.
 
+use std::borrow::Cow;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -33,7 +35,7 @@ impl Methods<'_> {
             let side = kernels.variables(&sides);
             let mut stages = kernels.derivation.solution(&[(side, symbols.clone())], Form::Factored);
             stages.push(Stage::Return(kernels.variables(&symbols)));
-            let fields = sides.iter().map(|&side| (String::new(), side)).collect();
+            let fields = sides.iter().map(|&side| (Cow::from(""), side)).collect();
             let source =
                 Source { argument: Some(right.clone()), from: quote!(#right.data.0), of: Shape::Columns(u), fields };
             let mut code = self.on_pose(kernels, vec![source], &stages);
@@ -49,7 +51,7 @@ impl Methods<'_> {
         ]);
         let [own, right] = [&pose, &right].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn solve_jacobian(&self, #own: &#pose_type<T>, #right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
 
         let code = kernels.as_deref_mut().map(|kernels| {
             let mut stages = kernels.ratio_stages();
@@ -85,7 +87,7 @@ impl Methods<'_> {
         let own = argument_of(&pose, code.as_ref());
         let signature =
             quote!(pub fn velocity_ratios(&self, #own: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
 
         let code = kernels.map(|kernels| {
             let (unknowns, all) = (kernels.derivation.unknowns.clone(), (0..u + v).collect::<Vec<_>>());
@@ -108,7 +110,7 @@ impl Methods<'_> {
         ]);
         let [pose, rate] = [&pose, &rate].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn velocity(&self, #pose: &#pose_type<T>, #rate: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
-        self.function(&docs, &signature, code);
+        self.function(&docs, signature, code);
     }
 }
 
