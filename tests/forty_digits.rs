@@ -7,6 +7,12 @@
 //! the position contributes. Without the terms, a point that moves along a straight line whatever its lengths are
 //! would have the condition number zero across that line.
 //!
+//! A condition number speaks of small changes. Some 1e-5 from a change point a rounding is no small one: angular
+//! accelerations have two digits left, and a point whose condition number is small, because its links stay as long as
+//! they are, moves by the square of what the angles are off. Where a point is off by more than is promised, its
+//! condition is therefore not differentiated but measured: datum by datum and closure by closure, the 48-digit answer
+//! with one rounding more and with one less.
+//!
 //! ```text
 //! POSES=100000 cargo test --release --all-features --test forty_digits -- --nocapture
 //! ```
@@ -39,6 +45,7 @@ fn poses() -> usize {
 }
 
 /// What a pose is made from.
+#[derive(Clone)]
 struct Data {
     parameters: Vec<f64>,
     inputs: Vec<f64>,
@@ -152,9 +159,9 @@ impl Judge {
         tape.evaluate(|symbol| self.bound(data, y, symbol), self.external())
     }
 
-    /// u, u', u'' to 40 digits, from the emitted code's: each residual in full, what it asks for by J^-1 in doubles,
-    /// some 14 digits a time. None where the residuals do not vanish.
-    fn solve(&self, data: &Data, found: &[f64]) -> Option<Vec<Big>> {
+    /// u, u', u'' to 40 digits, from the emitted code's, where the closures and their derivatives have these values:
+    /// each residual in full, what it asks for by J^-1 in doubles, some 14 digits a time. None where they do not arrive.
+    fn solve(&self, data: &Data, found: &[f64], closed_at: &[f64]) -> Option<Vec<Big>> {
         const TIMES: usize = 20;
         let n = found.len() / 3;
         let inverse = DMatrix::from_row_slice(n, n, &self.evaluate(&self.jacobian, data, found)).try_inverse()?;
@@ -164,7 +171,8 @@ impl Judge {
             let mut residual = || {
                 let bind = |symbol| self.bound(data, &y, symbol);
                 let rows = tape.evaluate_again(&mut values, bind, self.external());
-                let rows = DVector::from_iterator(n, rows.iter().map(Scalar::double));
+                let rows = rows.iter().zip(&closed_at[order * n..]).map(|(row, &value)| (row - big(value)).double());
+                let rows = DVector::from_iterator(n, rows);
                 let is_solved = rows.amax() < 1e-40;
                 for (value, step) in y[order * n..].iter_mut().zip((&inverse * rows).iter()) {
                     *value -= big(*step);
@@ -174,6 +182,46 @@ impl Judge {
             (0..TIMES).any(|_| residual()).then_some(())?;
         }
         Some(y)
+    }
+
+    /// The condition numbers of the points, times their values, from changes by one rounding.
+    fn measured_conditions(&self, data: &Data, y: &[Big], found: &[f64]) -> Option<Vec<f64>> {
+        const EPSILON: f64 = f64::EPSILON;
+        let rounded: Vec<f64> = y.iter().map(Scalar::double).collect();
+        let exact = self.evaluate(&self.points, data, y);
+        let none = vec![0.0; y.len()];
+        let mut sum: Vec<f64> = self.magnitudes(&self.points, data, &rounded);
+        let mut add = |changed: [(&Data, &[f64]); 2]| {
+            let mut most = vec![0.0_f64; exact.len()];
+            for (data, offsets) in changed {
+                let points = self.evaluate(&self.points, data, &self.solve(data, found, offsets)?);
+                for (most, (point, exact)) in most.iter_mut().zip(points.iter().zip(&exact)) {
+                    *most = most.max((point - exact).double().abs());
+                }
+            }
+            sum.iter_mut().zip(most).for_each(|(sum, most)| *sum += most / EPSILON);
+            Some(())
+        };
+        for place in 0..self.data.len() {
+            let [more, less] = [1.0 + EPSILON, 1.0 - EPSILON].map(|factor| {
+                let mut data = data.clone();
+                let Data { parameters, inputs, rates, accelerations, .. } = &mut data;
+                let datum = [parameters, inputs, rates, accelerations].into_iter().flatten().nth(place);
+                *datum.expect("a datum") *= factor;
+                data
+            });
+            add([(&more, &none), (&less, &none)])?;
+        }
+        let terms: Vec<f64> = self.closures.iter().flat_map(|tape| self.magnitudes(tape, data, &rounded)).collect();
+        for (place, size) in terms.iter().enumerate() {
+            let [more, less] = [EPSILON * size, -EPSILON * size].map(|offset| {
+                let mut offsets = none.clone();
+                offsets[place] = offset;
+                offsets
+            });
+            add([(data, &more), (data, &less)])?;
+        }
+        Some(sum)
     }
 
     /// The condition numbers of y and of the points, times their values.
@@ -307,7 +355,7 @@ fn judge(file: &str, branches: usize, run: impl Fn(&Data) -> Option<Motion>) -> 
             continue;
         };
         let found: Vec<f64> = motion.coordinates.iter().flat_map(|q| unknowns.iter().map(|&place| q[place])).collect();
-        let Some(y) = judge.solve(&data, &found) else {
+        let Some(y) = judge.solve(&data, &found, &vec![0.0; found.len()]) else {
             panic!("{file}: nothing near {:?} closes {:?} at {:?}", motion.coordinates, data.parameters, data.inputs)
         };
         count += 1;
@@ -324,9 +372,20 @@ fn judge(file: &str, branches: usize, run: impl Fn(&Data) -> Option<Motion>) -> 
                 at(place_of[unknowns[index]].name.clone())
             });
             let part = order * third..(order + 1) * third;
-            worst.note(&motion.points[order], &points[part.clone()], &of_points[part], |index| {
-                at(format!("point {}", index / 2 + 1))
-            });
+            let (expected, conditions) = (&points[part.clone()], &of_points[part.clone()]);
+            let of_point = |index| at(format!("point {}", index / 2 + 1));
+            let mut off = Worst::default();
+            off.note(&motion.points[order], expected, conditions, of_point);
+            if off.error > ULPS {
+                println!("{file}: {:.2} ulp x condition as differentiated, {}", off.error, off.place);
+                let measured = judge.measured_conditions(&data, &y, &found).expect("positions a rounding away");
+                off = Worst::default();
+                off.note(&motion.points[order], expected, &measured[part], of_point);
+                println!("{file}: {:.2} ulp x condition as measured, {}", off.error, off.place);
+            }
+            if off.error > worst.error {
+                *worst = off;
+            }
         }
     }
     for (order, worst) in ["position", "velocity", "acceleration"].iter().zip(&worst) {

@@ -22,6 +22,9 @@ mod three_sides_to_an_angle;
 mod turns;
 mod wrong_side;
 
+#[path = "../source/cam_laws.rs"]
+mod cam_laws;
+
 // `forty_digits` uses what is not used here: it evaluates whole graphs.
 #[path = "../oracle/precise.rs"]
 #[allow(dead_code)]
