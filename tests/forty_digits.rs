@@ -167,13 +167,13 @@ impl Judge {
         let inverse = DMatrix::from_row_slice(n, n, &self.evaluate(&self.jacobian, data, found)).try_inverse()?;
         let mut y: Vec<Big> = found.iter().map(|&value| big(value)).collect();
         for (order, tape) in self.closures.iter().enumerate() {
-            let mut values = Vec::new();
+            let (sizes, mut values) = (self.magnitudes(tape, data, found), Vec::new());
             let mut residual = || {
                 let bind = |symbol| self.bound(data, &y, symbol);
                 let rows = tape.evaluate_again(&mut values, bind, self.external());
                 let rows = rows.iter().zip(&closed_at[order * n..]).map(|(row, &value)| (row - big(value)).double());
                 let rows = DVector::from_iterator(n, rows);
-                let is_solved = rows.amax() < 1e-40;
+                let is_solved = rows.iter().zip(&sizes).all(|(row, size)| row.abs() <= 1e-40 * size);
                 for (value, step) in y[order * n..].iter_mut().zip((&inverse * rows).iter()) {
                     *value -= big(*step);
                 }
