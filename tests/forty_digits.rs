@@ -13,6 +13,28 @@
 //! condition is therefore not differentiated but measured: datum by datum and closure by closure, the 48-digit answer
 //! with one rounding more and with one less.
 //!
+//! The largest errors of 100 000 poses each, in ulp times condition number. One pose of the coupled wheels, 2.4e-5 rad
+//! from a change point, stands at 0.28 by its measured condition, at 9.67 by its differentiated one.
+//!
+//! | mechanism | position | velocity | acceleration | mechanism | position | velocity | acceleration |
+//! |---|---|---|---|---|---|---|---|
+//! | andrews                | 1.21 | 0.99 | 1.00 | cam_follower           | 0.72 | 0.68 | 0.68 |
+//! | cam_rocker             | 0.57 | 0.42 | 0.42 | cardan                 | 0.39 | 0.22 | 0.27 |
+//! | chebyshev              | 0.83 | 0.49 | 0.49 | coupled_wheels         | 2.06 | 1.16 | 1.89 |
+//! | crank_shaper           | 0.60 | 0.69 | 0.67 | double_butterfly       | 2.76 | 2.06 | 1.92 |
+//! | elliptic_trammel       | 0.32 | 0.37 | 0.45 | five_bar               | 1.02 | 0.55 | 0.51 |
+//! | four_bar               | 0.89 | 0.57 | 0.60 | geared_five_bar        | 0.82 | 0.35 | 0.40 |
+//! | geneva                 | 0.73 | 0.61 | 0.57 | hart                   | 0.78 | 0.54 | 0.48 |
+//! | hoecken                | 1.15 | 0.52 | 0.46 | inverted_slider_crank  | 1.47 | 0.75 | 0.70 |
+//! | jansen                 | 1.08 | 0.61 | 0.55 | klann                  | 0.49 | 0.54 | 0.48 |
+//! | offset_slider_crank    | 0.57 | 0.39 | 0.44 | pantograph             | 1.21 | 0.60 | 1.62 |
+//! | peaucellier            | 1.19 | 0.59 | 0.55 | roberts                | 0.90 | 0.44 | 0.51 |
+//! | scotch_yoke            | 0.25 | 0.26 | 0.31 | stephenson_i           | 0.94 | 0.57 | 0.51 |
+//! | stephenson_ii          | 2.90 | 2.50 | 2.47 | stephenson_iii         | 1.01 | 0.57 | 0.49 |
+//! | v_twin                 | 0.79 | 0.58 | 0.73 | watt_i                 | 1.12 | 0.57 | 0.49 |
+//! | watt_ii                | 1.28 | 0.66 | 0.69 | watt_line              | 1.09 | 1.11 | 0.99 |
+//! | whitworth              | 0.71 | 0.54 | 0.56 | wiper                  | 2.81 | 1.09 | 1.63 |
+//!
 //! ```text
 //! POSES=100000 cargo test --release --all-features --test forty_digits -- --nocapture
 //! ```

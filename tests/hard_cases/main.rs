@@ -1,6 +1,7 @@
 //! Hard cases, one a file, each with the program or the formula that is known to fail there. Where the usual form of
 //! a formula fails, it runs beside the emitted code and is seen to; the reference are 48-digit floats.
 
+mod all_flat_at_once;
 mod bad_input;
 mod dead_centre;
 mod equal_link_slider_crank;
