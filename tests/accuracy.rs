@@ -158,7 +158,10 @@ fn closed_form_near_a_dead_point() {
     assert!(matches!(four_bar("1e-9"), Err(Error::Singular { group: "theta3, theta4", .. })));
     let exact = |sine: &str| four_bar::errors::<DoubleDouble, ClosedForm>(sine, branch::<f64>).unwrap();
     within(exact("1e-3"), [2e-29, 2e-26, 3e-23]);
-    within(exact("1e-6"), [3e-27, 2e-21, 5e-15]);
+    // A rounding of the squares over the cube of the sine: 3.2e-15. `elbow_chord`'s factors are in double-double as right
+    // as those of plain squares and no more: of 100 000 triangles as flat, off by 0.080 and 0.088 of 2^-104 of the
+    // squares in the median, by 0.91 and 0.95 at worst.
+    within(exact("1e-6"), [3e-27, 2e-21, 3.3e-15]);
     within(exact("1e-9"), [3e-25, 3e-16, 2e-7]);
     within(jansen::errors::<f64, ClosedForm>("1e-3", leg::<f64>).unwrap(), [2e-12, 4e-9, 1e-5]);
     assert!(matches!(
@@ -205,7 +208,7 @@ fn newton_keeps_its_branch() {
     for step in 0..60 {
         match Newton::<1>::position(&m, &here, 0.9 + 0.05 * f64::from(step)) {
             Ok(there) => assert_eq!(m.branch_of(&there.pose), left),
-            Err(Error::OtherBranch { .. }) => refused += 1,
+            Err(Error::OtherBranch { group: "theta3, theta4", .. }) => refused += 1,
             Err(other) => panic!("{other}"),
         }
     }

@@ -129,6 +129,8 @@ pub fn elbow_chord<T: Real, S: Side>(
 /// (p + q)^2 - D^2 and D^2 - (p - q)^2 of the lengths and the line as they are. What is less than one rounding of the
 /// squares is zero: lengths such as 33.3 and 66.7 are no nearer to what was meant.
 ///
+/// In a scalar without fused multiplication, such as double-double, the squares' own roundings stay.
+///
 /// Scalars come and go in registers: arrays would be stored on the road that does not call this, too.
 #[cold]
 #[inline(never)]

@@ -97,3 +97,19 @@ pub trait Assembly<T: Real, const U: usize, const V: usize>: Mechanism<T, U, V> 
     /// The branch that a position belongs to.
     fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
 }
+
+/// The name of the first group whose determinant changes its sign from one position to another.
+pub(crate) fn other_group<M, T, const U: usize, const V: usize>(
+    mechanism: &M,
+    pose: &M::Pose,
+    other: &M::Pose,
+) -> &'static str
+where
+    T: Real,
+    M: Mechanism<T, U, V>,
+{
+    let [these, those] = [pose, other].map(|pose| mechanism.block_determinants(pose));
+    let mut pairs = these.as_ref().iter().zip(those.as_ref()).zip(M::GROUPS);
+    let group = pairs.find(|((this, that), _)| !same_signs(&[**this], &[**that]));
+    group.map(|(_, group)| group.name).unwrap_or_default()
+}

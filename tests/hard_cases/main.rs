@@ -1,6 +1,7 @@
 //! Hard cases, one a file, each with the program or the formula that is known to fail there. Where the usual form of
 //! a formula fails, it runs beside the emitted code and is seen to; the reference are 48-digit floats.
 
+mod all_flat_at_once;
 mod bad_input;
 mod dead_centre;
 mod equal_link_slider_crank;
@@ -21,6 +22,9 @@ mod three_joints_in_line;
 mod three_sides_to_an_angle;
 mod turns;
 mod wrong_side;
+
+#[path = "../source/cam_laws.rs"]
+mod cam_laws;
 
 // `forty_digits` uses what is not used here: it evaluates whole graphs.
 #[path = "../oracle/precise.rs"]

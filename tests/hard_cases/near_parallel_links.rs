@@ -2,8 +2,18 @@
 //! many digits as the links are parallel, and with it every velocity. A factorisation of J by a library and the
 //! products that symbolic tools emit do so; so does W. Kahan's difference of products, the sines being rounded before.
 //! The emitted code has sin(a - b), of the stored angles.
+//!
+//! In doubles no formula of stored sines and cosines keeps every velocity within 4e-16. Measured at the poses below, at
+//! sin(theta3 - theta4) = 1e-3, the worst of the emitted form is 5.9e-16. With every sine rounded correctly and the
+//! exact determinant it is 5.3e-16; with a division each and l4 cancelled, three roundings beside the numerator's,
+//! 5.0e-16; with the numerator as W. Kahan's difference of products the same 5.0e-16. Only a numerator from sines of
+//! more than 53 bits comes to 3.7e-16: sin(theta2 - theta4) as s2 c4 - c2 s4 has the roundings of four stored numbers,
+//! enlarged by (|s2 c4| + |c2 s4|) / |sin(theta2 - theta4)|, up to two here; the sine of the rounded difference has the
+//! difference's and comes to 6.5e-16. The accelerations have the squares of the velocities, so that correctly rounded
+//! velocities alone leave 5.9e-16. The same code in double-double arithmetic loses nothing but the last rounding.
 
 use linkage::linkage;
+use linkage_double::DoubleDouble;
 use nalgebra::vector;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -33,12 +43,32 @@ fn exact(m: &FourBar, q: &FourBarCoordinates, rate: f64, acceleration: f64) -> [
     [[w3, w4], accelerations]
 }
 
+/// The same by the emitted code in double-double arithmetic, rounded to doubles.
+fn in_double_double(m: &FourBar, q: &FourBarCoordinates, rate: f64, acceleration: f64) -> [[f64; 2]; 2] {
+    let [l1, l2, l3, l4] = [m.l1, m.l2, m.l3, m.l4].map(DoubleDouble::from);
+    let m = FourBar { l1, l2, l3, l4 };
+    let [theta2, theta3, theta4] = [q.theta2, q.theta3, q.theta4].map(DoubleDouble::from);
+    let pose = m.pose_at(&FourBarCoordinates { theta2, theta3, theta4 });
+    let velocity = m.velocity(&pose, DoubleDouble::from(rate)).unwrap();
+    let acceleration = m.acceleration(&pose, &velocity, DoubleDouble::from(acceleration)).unwrap();
+    [velocity, acceleration].map(|q| [q.theta3.high(), q.theta4.high()])
+}
+
+fn short(errors: &[f64]) -> String {
+    errors.iter().map(|error| format!("{error:.1e} ")).collect()
+}
+
+#[track_caller]
+fn within(found: [f64; 3], bounds: [f64; 3]) {
+    assert!(found.iter().zip(bounds).all(|(&found, bound)| found <= bound), "{found:?} exceeds {bounds:?}");
+}
+
 #[test]
 fn velocities_and_accelerations() {
     let m = FourBar::default();
     let mut random = SmallRng::seed_from_u64(20_091_121);
     for digits in [3, 6, 9] {
-        let (mut ours, mut naive) = ([Vec::new(), Vec::new()], [0.0_f64; 2]);
+        let (mut ours, mut double, mut naive) = ([Vec::new(), Vec::new()], [0.0_f64; 2], [0.0_f64; 2]);
         for _ in 0..1000 {
             let theta4 = random.random_range(-3.0..3.0);
             let theta3 = theta4 + 10_f64.powi(-digits).asin();
@@ -50,6 +80,7 @@ fn velocities_and_accelerations() {
             let velocity = m.velocity(&pose, 1.5).unwrap();
             let acceleration = m.acceleration(&pose, &velocity, -0.7).unwrap();
             let found = [[velocity.theta3, velocity.theta4], [acceleration.theta3, acceleration.theta4]];
+            let in_double_double = in_double_double(&m, &q, 1.5, -0.7);
             // J from the same sines, by a library.
             let j = m.jacobian_unknowns(&pose).lu();
             let by_library = j.solve(&-(m.jacobian_inputs(&pose) * vector![1.5])).unwrap();
@@ -60,22 +91,22 @@ fn velocities_and_accelerations() {
                 for unknown in 0..2 {
                     let expected = &exact[order][unknown];
                     ours[order].push(relative(found[order][unknown], expected));
+                    double[order] = double[order].max(relative(in_double_double[order][unknown], expected));
                     naive[order] = naive[order].max(relative(library[order][unknown], expected));
                 }
             }
         }
         let [velocity, acceleration] = ours.map(|mut errors| {
             errors.sort_by(f64::total_cmp);
-            [errors[errors.len() / 2], errors[errors.len() - 1]]
+            [errors.len() / 2, errors.len() * 99 / 100, errors.len() - 1].map(|place| errors[place])
         });
-        println!(
-            "1e-{digits}, velocity and acceleration: library {:.1e} {:.1e} at worst, emitted {:.1e} {:.1e}, \
-             half of the time {:.1e} {:.1e}",
-            naive[0], naive[1], velocity[1], acceleration[1], velocity[0], acceleration[0]
-        );
-        // Some ten roundings lead to an acceleration, and none of them is amplified.
-        assert!(velocity[0] <= 4e-16 && acceleration[0] <= 4e-16, "{velocity:?} {acceleration:?}");
-        assert!(velocity[1] <= 1e-15 && acceleration[1] <= 2e-15, "{velocity:?} {acceleration:?}");
+        println!("1e-{digits}, velocity, acceleration: library at worst {}", short(&naive));
+        println!("    emitted, median, 99 %, worst {}, {}", short(&velocity), short(&acceleration));
+        println!("    double-double at worst {}", short(&double));
+        within(velocity, [1.3e-16, 4.6e-16, 6e-16]);
+        within(acceleration, [2.8e-16, 1.2e-15, 1.4e-15]);
+        // Half a rounding of the double that is returned.
+        assert!(double.iter().all(|&error| error <= 1.12e-16), "{double:?}");
         let lost = 1e-17 * 10_f64.powi(digits);
         assert!(naive[0] > lost && naive[1] > lost, "{naive:?}");
     }

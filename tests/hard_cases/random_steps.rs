@@ -1,28 +1,48 @@
-//! Random steps over mechanisms of the gallery and over random four-bars.
+//! Random steps over every mechanism of the gallery and over random four-bars.
 //!
 //! Known to fail: followers that trust Newton's method to find the nearest position. Each position is held against
 //! the closed form of the branch that the events alone allow; what is not an event must be a typed error.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use linkage::continuation::{Direction, Event, Options, Path};
-use linkage::{Elbow, Error, linkage};
+use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Options, Path};
+use linkage::nalgebra::SVector;
+use linkage::{Assembly, Elbow, Error, Mechanism, linkage};
+use nalgebra::vector;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
+include!("../mechanisms/andrews.rs");
+include!("../mechanisms/cam_follower.rs");
+include!("../mechanisms/cam_rocker.rs");
+include!("../mechanisms/cardan.rs");
+include!("../mechanisms/chebyshev.rs");
+include!("../mechanisms/coupled_wheels.rs");
 include!("../mechanisms/crank_shaper.rs");
+include!("../mechanisms/double_butterfly.rs");
+include!("../mechanisms/elliptic_trammel.rs");
+include!("../mechanisms/five_bar.rs");
 include!("../mechanisms/four_bar.rs");
+include!("../mechanisms/geared_five_bar.rs");
 include!("../mechanisms/geneva.rs");
+include!("../mechanisms/hart.rs");
 include!("../mechanisms/hoecken.rs");
 include!("../mechanisms/inverted_slider_crank.rs");
 include!("../mechanisms/jansen.rs");
 include!("../mechanisms/klann.rs");
 include!("../mechanisms/offset_slider_crank.rs");
+include!("../mechanisms/pantograph.rs");
 include!("../mechanisms/peaucellier.rs");
+include!("../mechanisms/roberts.rs");
+include!("../mechanisms/scotch_yoke.rs");
 include!("../mechanisms/six_bar.rs");
+include!("../mechanisms/stephenson_i.rs");
+include!("../mechanisms/stephenson_ii.rs");
 include!("../mechanisms/stephenson_iii.rs");
 include!("../mechanisms/v_twin.rs");
+include!("../mechanisms/watt_i.rs");
 include!("../mechanisms/watt_ii.rs");
+include!("../mechanisms/watt_line.rs");
 include!("../mechanisms/whitworth.rs");
 include!("../mechanisms/wiper.rs");
 
@@ -31,6 +51,7 @@ include!("../mechanisms/wiper.rs");
 struct Count {
     steps: usize,
     dead_points: usize,
+    change_points: usize,
     errors: usize,
     silent: usize,
 }
@@ -39,6 +60,7 @@ impl std::ops::AddAssign for Count {
     fn add_assign(&mut self, other: Self) {
         self.steps += other.steps;
         self.dead_points += other.dead_points;
+        self.change_points += other.change_points;
         self.errors += other.errors;
         self.silent += other.silent;
     }
@@ -50,75 +72,199 @@ fn stride(random: &mut SmallRng) -> f64 {
     if random.random() { size } else { -size }
 }
 
-/// Sends the input here and there. On the way no position may belong to another branch than the first.
-macro_rules! there_and_back {
-    ($M:ident, $input:ident, $steps:expr, $random:expr) => {{
-        let (m, random, mut count) = ($M::default(), &mut *$random, Count::default());
-        'starts: while count.steps < $steps {
-            let mut exists = None;
-            for _ in 0..200 {
-                let input = random.random_range(0.0..TAU);
-                let all: Vec<_> = m.branches(input).filter_map(Result::ok).collect();
-                if !all.is_empty() {
-                    exists = Some(all[random.random_range(0..all.len())]);
-                    break;
-                }
-            }
-            let Some((branch, pose)) = exists else { panic!("no position") };
-            let start = pose.coordinates();
-            let Ok(mut path) = Path::new(&m, &start, Direction::Increasing) else {
-                (count.steps, count.errors) = (count.steps + 1, count.errors + 1);
-                continue;
-            };
-            for _ in 0..50 {
+/// The largest difference of the unknowns: of angles but for whole turns, of lengths by the largest.
+fn difference<M: Mechanism<f64, U, V>, const U: usize, const V: usize>(
+    one: &M::Coordinates,
+    two: &M::Coordinates,
+) -> f64 {
+    let (one, two) = (M::unknowns(one), M::unknowns(two));
+    let is_length = |index: &usize| !M::UNKNOWN_ANGLES[*index];
+    let largest = (0..U).filter(is_length).map(|index| two[index].abs()).fold(0.0, f64::max);
+    let part = |index: usize| match one[index] - two[index] {
+        turn if M::UNKNOWN_ANGLES[index] => 2.0 * (turn / 2.0).sin().abs(),
+        length => length.abs() / largest,
+    };
+    // A length that is zero to the last digit on both sides is no difference.
+    (0..U).map(part).filter(|part| !part.is_nan()).fold(0.0, f64::max)
+}
+
+/// Sends the input here and there, from one of the positions that `starts` has at an input. On the way no position may
+/// be another than the one that `expected` has from where the walk started, from the last position, at the input.
+fn walk<M: Mechanism<f64, U, 1>, const U: usize>(
+    m: &M,
+    starts: impl Fn(f64, &mut SmallRng) -> Vec<M::Coordinates>,
+    expected: impl Fn(&M::Coordinates, &M::Coordinates, f64) -> Option<M::Coordinates>,
+    steps: usize,
+    random: &mut SmallRng,
+) -> Count {
+    let mut count = Count::default();
+    'starts: while count.steps < steps {
+        let all = (0..1000).map(|_| starts(random.random_range(0.0..TAU), random)).find(|all| !all.is_empty());
+        let all = all.unwrap_or_else(|| panic!("{}: no position", M::NAME));
+        let start = all[random.random_range(0..all.len())];
+        let options = Options { at_change_point: AtChangePoint::Stop, ..Options::default() };
+        let mut path = match Path::with(m, &start, Direction::Increasing, options) {
+            Ok(path) => path,
+            Err(error) => {
                 count.steps += 1;
-                let input = path.position().$input + stride(random);
-                match path.advance_to(input) {
-                    Ok(step) => {
-                        let pose = m.pose_at(&step.position);
-                        let expected = m.assemble(input, branch).map(|pose| m.jacobian_unknowns(&pose));
-                        let off = expected.map(|j| (j - m.jacobian_unknowns(&pose)).amax() / j.amax());
-                        // The closed form and the follower meet to rounding, or at a dead point to its root.
-                        if m.branch_of(&pose) != branch || !off.is_ok_and(|off| off < 1e-7) {
-                            println!("{} at {:?}: {off:?}", stringify!($M), step.position);
-                            count.silent += 1;
-                        }
+                stop(&mut count, &error);
+                continue;
+            }
+        };
+        for _ in 0..50 {
+            count.steps += 1;
+            let before = path.position();
+            let input = M::inputs(&before)[0] + stride(random);
+            match path.advance_to(input) {
+                Ok(step) => {
+                    let is_branch = m.same_branch(&m.pose_at(&start), &m.pose_at(&step.position));
+                    let off = expected(&start, &before, input).map(|q| difference::<M, U, 1>(&step.position, &q));
+                    // The closed form and the follower meet to rounding, or at a dead point to its root.
+                    if !is_branch || off.is_none_or(|off| off > 1e-7) {
+                        let [before, after] = [before, step.position].map(|q| (M::inputs(&q)[0], M::unknowns(&q)));
+                        println!("{} from {before:?} to {after:?}: {off:?}", M::NAME);
+                        count.silent += 1;
                     }
-                    Err(Error::DeadPoint { .. }) => {
-                        count.dead_points += 1;
-                        continue 'starts;
-                    }
-                    Err(Error::Lost { .. } | Error::ChangePoint { .. }) => {
-                        count.errors += 1;
-                        continue 'starts;
-                    }
-                    Err(error) => panic!("{error}"),
+                }
+                Err(error) => {
+                    stop(&mut count, &error);
+                    continue 'starts;
                 }
             }
         }
-        println!("{}: {count:?}", stringify!($M));
-        count
+    }
+    println!("{}: {count:?}", M::NAME);
+    count
+}
+
+/// What may end a walk.
+fn stop(count: &mut Count, error: &Error) {
+    match error {
+        Error::DeadPoint { .. } => count.dead_points += 1,
+        Error::ChangePoint { .. } => count.change_points += 1,
+        Error::Lost { .. } => count.errors += 1,
+        error => panic!("{error}"),
+    }
+}
+
+/// The position of a mechanism without closed form at an input, from another position, by steps so short that Newton's
+/// method has nothing to choose: each corrects the tangent by a hundredth of the step at most.
+fn by_short_steps<M: Mechanism<f64, U, 1>, const U: usize>(
+    m: &M,
+    from: &M::Coordinates,
+    input: f64,
+) -> Option<M::Coordinates> {
+    let (mut q, mut step) = (*from, 0.01);
+    loop {
+        let left = input - M::inputs(&q)[0];
+        if left == 0.0 {
+            return Some(q);
+        }
+        let pose = m.pose_at(&q);
+        let ratios = -m.solve_jacobian(&pose, &m.jacobian_inputs(&pose).into_owned()).ok()?;
+        let length = left.abs().min(step / (1.0 + ratios.amax()));
+        let forward = length.copysign(left);
+        let next = if length == left.abs() { input } else { M::inputs(&q)[0] + forward };
+        let predicted = M::with_inputs(&M::with_unknowns(&q, M::unknowns(&q) + ratios * forward), vector![next]);
+        let corrected = (0..6).try_fold(predicted, |q, _| {
+            let pose = m.pose_at(&q);
+            let correction = m.solve_jacobian(&pose, &m.residual(&pose)).ok()?;
+            Some(M::with_unknowns(&q, M::unknowns(&q) - correction))
+        })?;
+        let correction = (M::unknowns(&corrected) - M::unknowns(&predicted)).amax();
+        if correction <= 0.01 * length * (1.0 + ratios.amax()) + 1e-14 {
+            (q, step) = (corrected, (2.0 * step).min(0.01));
+        } else if step > 1e-12 {
+            step /= 2.0;
+        } else {
+            return None;
+        }
+    }
+}
+
+/// Walks of a mechanism with one input, positions by closed form.
+macro_rules! closed {
+    ($M:ident, $Branch:ident, $steps:expr, $random:expr) => {{
+        let m = $M::default();
+        let at = |input: f64, branch| m.assemble(input, branch).ok().map(|pose| pose.coordinates());
+        let starts = |input: f64, _: &mut SmallRng| $Branch::all().filter_map(|branch| at(input, branch)).collect();
+        let expected = |start: &_, _: &_, input| at(input, m.branch_of(&m.pose_at(start)));
+        walk(&m, starts, expected, $steps, $random)
+    }};
+}
+
+/// Walks of a mechanism without closed form.
+macro_rules! newton {
+    ($M:ident, $Coordinates:ident, $steps:expr, $random:expr) => {{
+        let m = $M::default();
+        let starts = |input: f64, random: &mut SmallRng| {
+            let mut q = $Coordinates::from(SVector::from_fn(|_, _| random.random_range(-PI..PI)));
+            q = <$M as Mechanism<f64, _, 1>>::with_inputs(&q, vector![input]);
+            m.solve(&q).ok().map(|solution| solution.coordinates).into_iter().collect()
+        };
+        walk(&m, starts, |_: &_, before: &_, input| by_short_steps(&m, before, input), $steps, $random)
+    }};
+}
+
+/// Walks of a mechanism with two inputs that both follow one parameter.
+macro_rules! along {
+    ($M:ident, $Branch:ident, $inputs:expr, $steps:expr, $random:expr) => {{
+        let m = Along { mechanism: $M::default(), inputs: $inputs };
+        let at = |parameter: f64, branch| {
+            let pose = Assembly::assemble(&m.mechanism, (m.inputs)(parameter)[0].into(), branch).ok()?;
+            Some(AlongCoordinates { q: pose.coordinates(), parameter })
+        };
+        let starts = |s: f64, _: &mut SmallRng| $Branch::all().filter_map(|branch| at(s, branch)).collect();
+        let expected = |start: &AlongCoordinates<_>, _: &AlongCoordinates<_>, s| {
+            at(s, m.mechanism.branch_of(&m.mechanism.pose_at(&m.position(start))))
+        };
+        walk(&m, starts, expected, $steps, $random)
     }};
 }
 
 fn gallery(steps: usize) -> Count {
     let random = &mut SmallRng::seed_from_u64(7);
     let mut count = Count::default();
-    count += there_and_back!(CrankShaper, theta, steps, random);
-    count += there_and_back!(FourBar, theta2, steps, random);
-    count += there_and_back!(Geneva, theta, steps, random);
-    count += there_and_back!(Hoecken, theta2, steps, random);
-    count += there_and_back!(InvertedSliderCrank, theta2, steps, random);
-    count += there_and_back!(Jansen, crank, steps, random);
-    count += there_and_back!(Klann, theta, steps, random);
-    count += there_and_back!(OffsetSliderCrank, theta2, steps, random);
-    count += there_and_back!(Peaucellier, theta, steps, random);
-    count += there_and_back!(SixBar, theta1, steps, random);
-    count += there_and_back!(StephensonIII, theta2, steps, random);
-    count += there_and_back!(VTwin, theta, steps, random);
-    count += there_and_back!(WattII, theta2, steps, random);
-    count += there_and_back!(Whitworth, theta, steps, random);
-    count += there_and_back!(Wiper, theta, steps, random);
+    count += closed!(Andrews, AndrewsBranch, steps, random);
+    count += closed!(CamFollower, CamFollowerBranch, steps, random);
+    count += closed!(CamRocker, CamRockerBranch, steps, random);
+    count += closed!(Cardan, CardanBranch, steps, random);
+    count += closed!(ChebyshevCoupler, ChebyshevCouplerBranch, steps, random);
+    count += closed!(ChebyshevRocker, ChebyshevRockerBranch, steps, random);
+    count += closed!(CoupledWheels, CoupledWheelsBranch, steps, random);
+    count += closed!(CrankShaper, CrankShaperBranch, steps, random);
+    count += closed!(EllipticTrammel, EllipticTrammelBranch, steps, random);
+    count += closed!(FourBar, FourBarBranch, steps, random);
+    count += closed!(GearedFiveBar, GearedFiveBarBranch, steps, random);
+    count += closed!(Geneva, GenevaBranch, steps, random);
+    count += closed!(Hart, HartBranch, steps, random);
+    count += closed!(Hoecken, HoeckenBranch, steps, random);
+    count += closed!(InvertedSliderCrank, InvertedSliderCrankBranch, steps, random);
+    count += closed!(Jansen, JansenBranch, steps, random);
+    count += closed!(Klann, KlannBranch, steps, random);
+    count += closed!(OffsetSliderCrank, OffsetSliderCrankBranch, steps, random);
+    count += closed!(Peaucellier, PeaucellierBranch, steps, random);
+    count += closed!(Roberts, RobertsBranch, steps, random);
+    count += closed!(ScotchYoke, ScotchYokeBranch, steps, random);
+    count += closed!(SixBar, SixBarBranch, steps, random);
+    count += closed!(StephensonI, StephensonIBranch, steps, random);
+    count += closed!(StephensonIII, StephensonIIIBranch, steps, random);
+    count += closed!(VTwin, VTwinBranch, steps, random);
+    count += closed!(WattI, WattIBranch, steps, random);
+    count += closed!(WattII, WattIIBranch, steps, random);
+    count += closed!(WattLine, WattLineBranch, steps, random);
+    count += closed!(Whitworth, WhitworthBranch, steps, random);
+    count += closed!(Wiper, WiperBranch, steps, random);
+    count += newton!(DoubleButterfly, DoubleButterflyCoordinates, steps, random);
+    count += newton!(StephensonII, StephensonIICoordinates, steps, random);
+    // The cranks of the five-bar geared, the tracer of the pantograph round a circle that leaves what it reaches.
+    let geared = |s: f64| [vector![s, 0.7 * s + 1.0], vector![1.0, 0.7], vector![0.0, 0.0]];
+    count += along!(FiveBar, FiveBarBranch, geared, steps, random);
+    let circle = |s: f64| {
+        let (sine, cosine) = s.sin_cos();
+        [vector![3.6 + 3.5 * cosine, 3.5 * sine], 3.5 * vector![-sine, cosine], -3.5 * vector![cosine, sine]]
+    };
+    count += along!(Pantograph, PantographBranch, circle, steps, random);
     count
 }
 
@@ -168,7 +314,7 @@ fn four_bars(steps: usize) -> Count {
 
 #[test]
 fn no_silent_change() {
-    let mut count = gallery(200);
+    let mut count = gallery(100);
     count += four_bars(4_000);
     println!("{count:?}");
     assert_eq!(count.silent, 0);
@@ -178,7 +324,7 @@ fn no_silent_change() {
 #[test]
 #[ignore = "minutes without optimisation"]
 fn no_silent_change_in_a_million_steps() {
-    let mut count = gallery(40_000);
+    let mut count = gallery(20_000);
     count += four_bars(400_000);
     println!("{count:?}");
     assert_eq!(count.silent, 0);

@@ -1,4 +1,4 @@
-//! The same graph in 160 bits: 48 digits, with the trigonometry of dashu.
+//! Floats of 160 bits, 48 digits, with the trigonometry of dashu.
 
 use std::cell::RefCell;
 use std::collections::{HashMap, VecDeque};
@@ -6,7 +6,7 @@ use std::collections::{HashMap, VecDeque};
 use dashu_float::FBig;
 use dashu_float::ops::Abs;
 use dashu_float::round::mode::HalfEven;
-use linkage_compiler::graph::{External, Function, Graph, Node, NodeId, Number, SymbolId};
+use linkage_compiler::graph::{Function, Number};
 
 pub type Big = FBig<HalfEven, 2>;
 
@@ -22,20 +22,71 @@ pub fn pi() -> Big {
     big(0.0).atan2(&big(-1.0))
 }
 
+/// Cosine and sine of one angle.
+type Direction = (Big, Big);
+
+/// An angle, to a double and in full, and its direction.
+type Known = (f64, Big, Direction);
+
 thread_local! {
-    static LAST: RefCell<VecDeque<(Big, (Big, Big))>> = const { RefCell::new(VecDeque::new()) };
+    static RECENT: RefCell<VecDeque<Known>> = const { RefCell::new(VecDeque::new()) };
+    static TABLE: RefCell<HashMap<i64, Direction>> = RefCell::new(HashMap::new());
+    static INVERSE_FACTORIALS: Vec<Big> = inverse_factorials();
 }
 
-/// Sine and cosine, which take nearly all of the time, of one angle once.
-fn sine_cosine(x: &Big) -> (Big, Big) {
-    LAST.with_borrow_mut(|last| {
-        if let Some((_, value)) = last.iter().find(|(angle, _)| angle == x) {
-            return value.clone();
-        }
-        let value = x.sin_cos();
-        last.push_front((x.clone(), value.clone()));
-        last.truncate(64);
+/// 1, 1/2, 1/6, ...: to the first that is no digit of a sum that begins with 1 at an angle of 2^-11.
+fn inverse_factorials() -> Vec<Big> {
+    let next = |(n, value): &(i32, Big)| Some((n + 1, value / big(f64::from(n + 1))));
+    std::iter::successors(Some((0, big(1.0))), next).map(|(_, value)| value).take(20).collect()
+}
+
+/// Cosine and sine, by addition to those of an angle nearby: dashu's, which cost more than all else, are asked for at
+/// the multiples of 2^-10, each once. An iterate is added to the one before.
+pub fn direction(angle: &Big) -> Direction {
+    const STEPS: f64 = 1024.0;
+    let double = angle.double();
+    RECENT.with_borrow_mut(|recent| {
+        let near = recent.iter().find(|known| (known.0 - double).abs() < 1e-9 || known.1 == *angle);
+        let value = if let Some((_, from, direction)) = near {
+            if from == angle {
+                return direction.clone();
+            }
+            turned(direction, &(angle - from))
+        } else {
+            let nearest = (double * STEPS).round();
+            let from = big(nearest / STEPS);
+            TABLE.with_borrow_mut(|table| {
+                let known = table.entry(nearest as i64).or_insert_with(|| {
+                    let (sine, cosine) = from.sin_cos();
+                    (cosine, sine)
+                });
+                turned(known, &(angle - &from))
+            })
+        };
+        recent.push_front((double, angle.clone(), value.clone()));
+        recent.truncate(32);
         value
+    })
+}
+
+/// A direction turned by an angle of at most 2^-11, whose sine and cosine are Taylor's.
+fn turned((cosine, sine): &Direction, angle: &Big) -> Direction {
+    let size = angle.double().abs();
+    if size == 0.0 {
+        return (cosine.clone(), sine.clone());
+    }
+    // The first power of the angle that no digit is left of.
+    let bits = (PRECISION + 16) as f64;
+    let terms = ((bits / -size.log2()).ceil() as usize + 1).min(19);
+    INVERSE_FACTORIALS.with(|factors| {
+        let square = angle * angle;
+        let series = |from: usize| {
+            let powers = (from..=terms.max(from)).step_by(2).collect::<Vec<_>>();
+            let last = factors[powers[powers.len() - 1]].clone();
+            powers[..powers.len() - 1].iter().rev().fold(last, |sum, &n| &factors[n] - &square * sum)
+        };
+        let (c, s) = (series(0), angle * series(1));
+        (cosine * &c - sine * &s, sine * &c + cosine * &s)
     })
 }
 
@@ -46,6 +97,7 @@ pub trait Scalar: Clone {
     fn pi() -> Self;
     fn add(&self, other: &Self) -> Self;
     fn multiply(&self, other: &Self) -> Self;
+    fn negate(&self) -> Self;
     fn power(&self, exponent: i32) -> Self;
     fn call(function: Function, arguments: &[Self]) -> Self;
     fn double(&self) -> f64;
@@ -66,6 +118,9 @@ impl Scalar for f64 {
     }
     fn multiply(&self, other: &Self) -> Self {
         self * other
+    }
+    fn negate(&self) -> Self {
+        -self
     }
     fn power(&self, exponent: i32) -> Self {
         self.powi(exponent)
@@ -99,6 +154,9 @@ impl Scalar for Big {
     fn multiply(&self, other: &Self) -> Self {
         self * other
     }
+    fn negate(&self) -> Self {
+        -self.clone()
+    }
     fn power(&self, exponent: i32) -> Self {
         let power = (1..exponent.abs()).fold(self.clone(), |power, _| &power * self);
         if exponent < 0 { big(1.0) / power } else { power }
@@ -106,8 +164,8 @@ impl Scalar for Big {
     fn call(function: Function, arguments: &[Self]) -> Self {
         let x = &arguments[0];
         match function {
-            Function::Sin => sine_cosine(x).0,
-            Function::Cos => sine_cosine(x).1,
+            Function::Sin => direction(x).1,
+            Function::Cos => direction(x).0,
             Function::Tan => x.tan(),
             Function::Asin => x.asin(),
             Function::Acos => x.acos(),
@@ -123,125 +181,4 @@ impl Scalar for Big {
     fn double(&self) -> f64 {
         self.to_f64().value()
     }
-}
-
-/// Expressions in the order in which they can be evaluated.
-pub struct Tape {
-    nodes: Vec<Node>,
-    places: HashMap<NodeId, usize>,
-    roots: Vec<usize>,
-}
-
-impl Tape {
-    pub fn new(graph: &Graph, roots: &[NodeId]) -> Self {
-        let order = graph.reachable(roots);
-        let places: HashMap<NodeId, usize> = order.iter().enumerate().map(|(place, &id)| (id, place)).collect();
-        let nodes = order.iter().map(|&id| graph.node(id).clone()).collect();
-        Self { nodes, roots: roots.iter().map(|root| places[root]).collect(), places }
-    }
-
-    /// The values of the roots. `external` has the values of the user's functions in doubles, which are taken for
-    /// exact: they are data.
-    pub fn evaluate<S: Scalar>(
-        &self,
-        bind: impl Fn(SymbolId) -> S,
-        external: impl Fn(&External, &[f64]) -> f64,
-    ) -> Vec<S> {
-        let values = self.values(bind, external);
-        self.roots.iter().map(|&root| values[root].clone()).collect()
-    }
-
-    /// The sum of the magnitudes of the terms of each root, multiplied out.
-    pub fn magnitudes(&self, bind: impl Fn(SymbolId) -> f64, external: impl Fn(&External, &[f64]) -> f64) -> Vec<f64> {
-        let values = self.values(bind, external);
-        let mut sizes: Vec<f64> = Vec::with_capacity(values.len());
-        for (place, node) in self.nodes.iter().enumerate() {
-            let size = |id: &NodeId| sizes[self.places[id]];
-            sizes.push(match node {
-                Node::Sum { constant, terms } => {
-                    let terms = terms.iter().map(|(factor, term)| factor.to_f64().abs() * size(term));
-                    constant.to_f64().abs() + terms.sum::<f64>()
-                }
-                Node::Product { coefficient, factors } => {
-                    let power = |(base, exponent): &(NodeId, i32)| match exponent {
-                        1.. => size(base).powi(*exponent),
-                        _ => values[self.places[base]].abs().powi(*exponent),
-                    };
-                    coefficient.to_f64().abs() * factors.iter().map(power).product::<f64>()
-                }
-                _ => values[place].abs(),
-            });
-        }
-        self.roots.iter().map(|&root| sizes[root]).collect()
-    }
-
-    fn values<S: Scalar>(&self, bind: impl Fn(SymbolId) -> S, external: impl Fn(&External, &[f64]) -> f64) -> Vec<S> {
-        let mut values: Vec<S> = Vec::with_capacity(self.nodes.len());
-        for node in &self.nodes {
-            let child = |id: &NodeId| &values[self.places[id]];
-            let value = match node {
-                Node::Constant(number) => S::number(*number),
-                Node::Pi => S::pi(),
-                Node::Symbol(symbol) => bind(*symbol),
-                Node::Sum { constant, terms } => {
-                    let mut sum = (!constant.is_zero()).then(|| S::number(*constant));
-                    for (factor, term) in terms {
-                        let term = if factor.is_one() {
-                            child(term).clone()
-                        } else {
-                            S::number(*factor).multiply(child(term))
-                        };
-                        sum = Some(sum.map_or(term.clone(), |sum| sum.add(&term)));
-                    }
-                    sum.unwrap_or_else(|| S::of(0.0))
-                }
-                Node::Product { coefficient, factors } => {
-                    let mut product = (!coefficient.is_one()).then(|| S::number(*coefficient));
-                    for (base, exponent) in factors {
-                        let power = child(base).power(*exponent);
-                        product = Some(product.map_or(power.clone(), |product| product.multiply(&power)));
-                    }
-                    product.unwrap_or_else(|| S::of(1.0))
-                }
-                Node::Call(function, arguments) => {
-                    let arguments: Vec<S> = arguments.iter().map(|id| child(id).clone()).collect();
-                    S::call(*function, &arguments)
-                }
-                Node::External(function, arguments) => {
-                    let arguments: Vec<f64> = arguments.iter().map(|id| child(id).double()).collect();
-                    S::of(external(function, &arguments))
-                }
-            };
-            values.push(value);
-        }
-        values
-    }
-}
-
-/// The x of A x = b, A by rows: elimination with partial pivoting.
-pub fn solve(mut a: Vec<Vec<Big>>, mut b: Vec<Big>) -> Vec<Big> {
-    let n = b.len();
-    for column in 0..n {
-        let pivot =
-            (column..n).max_by(|&i, &k| a[i][column].clone().abs().cmp(&a[k][column].clone().abs())).expect("a row");
-        a.swap(column, pivot);
-        b.swap(column, pivot);
-        let pivot_row = a[column].clone();
-        for row in column + 1..n {
-            let factor = &a[row][column] / &pivot_row[column];
-            for (entry, above) in a[row].iter_mut().zip(&pivot_row) {
-                *entry -= &factor * above;
-            }
-            let part = &factor * &b[column];
-            b[row] -= part;
-        }
-    }
-    for row in (0..n).rev() {
-        for other in row + 1..n {
-            let part = &a[row][other] * &b[other];
-            b[row] -= part;
-        }
-        b[row] = &b[row] / &a[row][row];
-    }
-    b
 }

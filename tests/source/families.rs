@@ -2,17 +2,17 @@
 
 use std::fmt::Write;
 
-/// m four-bars, the rocker of each driving the next: m blocks of two unknowns.
+/// m four-bars, the rocker of each driving the next: m blocks of two unknowns. All names are of the same length.
 pub fn chain(loops: usize) -> String {
     let (mut parameters, mut unknowns, mut closures) = (String::new(), String::new(), String::new());
     for i in 0..loops {
-        let input = if i == 0 { "v".to_owned() } else { format!("s{}", i - 1) };
-        let _ = write!(parameters, "param a{i} = 1, b{i} = 3, c{i} = 2, d{i} = 3;");
-        let _ = write!(unknowns, "unknown t{i}, s{i};");
-        let _ = write!(closures, "loop a{i}@{input} + b{i}@t{i} = d{i}@0 + c{i}@s{i};");
+        let input = if i == 0 { "v".to_owned() } else { format!("s{:02}", i - 1) };
+        let _ = write!(parameters, "param a{i:02} = 1, b{i:02} = 3, c{i:02} = 2, d{i:02} = 3;");
+        let _ = write!(unknowns, "unknown t{i:02}, s{i:02};");
+        let _ = write!(closures, "loop a{i:02}@{input} + b{i:02}@t{i:02} = d{i:02}@0 + c{i:02}@s{i:02};");
     }
     let last = loops - 1;
-    format!("mechanism Chain {{ {parameters} input v; {unknowns} {closures} point P = c{last}@s{last}; }}")
+    format!("mechanism Chain {{ {parameters} input v; {unknowns} {closures} point P = c{last:02}@s{last:02}; }}")
 }
 
 /// m loops that all pass through all 2 m unknown links: one block of 2 m unknowns, J without zeros.

@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::{Method, Reached};
+use crate::mechanism::other_group;
 use crate::{Error, Mechanism, Real};
 
 /// `K` steps of Newton's method from a position nearby, predicted by its velocity ratios: u + W (v' - v), then `K` times
@@ -32,7 +33,7 @@ where
         if mechanism.same_branch(&from.pose, &here.pose) {
             Ok(here)
         } else {
-            Err(Error::OtherBranch { mechanism: M::NAME, group: "the unknowns" })
+            Err(Error::OtherBranch { mechanism: M::NAME, group: other_group(mechanism, &from.pose, &here.pose) })
         }
     }
 }

@@ -4,6 +4,7 @@ use nalgebra::{ComplexField, SVector};
 
 use super::newton::predicted;
 use super::{Method, Reached};
+use crate::mechanism::other_group;
 use crate::scalar::to_f64;
 use crate::{Error, Mechanism, Real, newton, real};
 
@@ -204,6 +205,6 @@ where
     if mechanism.same_branch(&from.pose, &here.pose) {
         Ok(here)
     } else {
-        Err(Error::OtherBranch { mechanism: M::NAME, group: "the unknowns" })
+        Err(Error::OtherBranch { mechanism: M::NAME, group: other_group(mechanism, &from.pose, &here.pose) })
     }
 }

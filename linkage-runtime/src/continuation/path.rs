@@ -6,6 +6,7 @@ use super::options::{AtChangePoint, Direction, Options};
 use super::place::{Place, weak};
 use super::tangent::Elimination;
 use super::vector::Vector;
+use crate::mechanism::other_group;
 use crate::scalar::to_f64;
 use crate::{Error, Mechanism, Real, position, real};
 
@@ -78,7 +79,7 @@ where
         if !solution.same_branch {
             return Err(Error::OtherBranch {
                 mechanism: M::NAME,
-                group: other_group(mechanism, guess, &solution.coordinates),
+                group: other_group(mechanism, &mechanism.pose_at(guess), &mechanism.pose_at(&solution.coordinates)),
             });
         }
         let q = solution.coordinates;
@@ -192,17 +193,27 @@ where
         if is_outside {
             return Err(Error::Invalid { mechanism: M::NAME, quantity: "the input, which its range must hold" });
         }
-        let mut passed = None;
+        let (mut passed, mut turns, mut rests) = (None, 0, 0_usize);
         for _ in 0..self.options.most_steps {
             let gap = self.curve.input_distance(input - self.input());
             if gap.is_zero() {
                 return Ok(Step { event: passed, ..self.here(None) });
             }
-            let heading = self.place.tangent.input * gap;
+            let mut heading = self.place.tangent.input * gap;
             if heading < T::zero() && self.place.tangent.input.abs() > weak() {
+                // Once because the input is behind, once because a dead point was left for the other side.
+                if turns == 2 {
+                    let refusal = Refusal { residual: 0.0, regularity: to_f64(self.place.regularity) };
+                    return Err(self.curve.lost(&self.place.q, 0, refusal));
+                }
                 self.turn_back();
+                (heading, turns) = (-heading, turns + 1);
             }
+            let before = self.length;
             let (step, is_target) = self.advance_wanting(Some(input), None)?;
+            // A path that stands at a dead point may be told so once more; twice, and no way leads on.
+            rests += usize::from(self.length - before <= weak());
+            let is_onward = heading > T::zero() || rests > 2;
             match step.event {
                 Some(Event::DeadPoint { group }) => {
                     let left = self.curve.input_distance(input - self.input()).abs();
@@ -210,7 +221,7 @@ where
                         self.place.q = Curve::<'_, M, T, U>::with_input(&self.place.q, input);
                         return Ok(self.here(step.event));
                     }
-                    if heading > T::zero() {
+                    if is_onward {
                         return Err(Error::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
                     }
                 }
@@ -218,6 +229,11 @@ where
                     passed = step.event;
                     if self.options.at_change_point == AtChangePoint::Stop && !is_target {
                         return Err(Error::ChangePoint { mechanism: M::NAME, group });
+                    }
+                    // Where all groups are flat at once the motions cross at the end of the input's range.
+                    if !is_target && is_onward && self.place.tangent.input.abs() <= weak() {
+                        let left = self.curve.input_distance(input - self.input()).abs();
+                        return Err(Error::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
                     }
                 }
                 _ => {}
@@ -400,16 +416,4 @@ where
             step
         })
     }
-}
-
-/// The first group that changes its branch from one position to another.
-fn other_group<M, T, const U: usize>(mechanism: &M, q: &M::Coordinates, other: &M::Coordinates) -> &'static str
-where
-    T: Real,
-    M: Mechanism<T, U, 1>,
-{
-    let [these, those] = [q, other].map(|q| mechanism.block_determinants(&mechanism.pose_at(q)));
-    let mut signs = these.as_ref().iter().zip(those.as_ref()).map(|(a, b)| (*a >= T::zero()) == (*b >= T::zero()));
-    let place = signs.position(|same| !same);
-    place.and_then(|place| M::GROUPS.get(place)).map(|group| group.name).unwrap_or_default()
 }
