@@ -18,6 +18,8 @@ include!("mechanisms/cam_follower.rs");
 include!("mechanisms/cam_rocker.rs");
 include!("mechanisms/norton_four_bar.rs");
 include!("mechanisms/five_bar.rs");
+include!("mechanisms/five_bar_scenes.rs");
+include!("mechanisms/slider_crank_scenes.rs");
 
 macro_rules! snapshot {
     ($name:ident, $value:expr) => {
@@ -44,6 +46,9 @@ snapshot!(norton_four_bar, NortonFourBar::DERIVATION);
 snapshot!(norton_four_bar_in_latex, NortonFourBar::DERIVATION.to_latex());
 snapshot!(five_bar, FiveBar::DERIVATION);
 snapshot!(four_bar_in_latex, FourBar::DERIVATION.to_latex());
+snapshot!(scene_of_a_five_bar, Free::DERIVATION);
+snapshot!(scene_of_an_engine, Turning::DERIVATION);
+snapshot!(scene_of_an_engine_in_latex, Turning::DERIVATION.to_latex());
 
 fn texts(equations: &[Equation]) -> Vec<String> {
     equations.iter().map(ToString::to_string).collect()

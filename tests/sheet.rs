@@ -13,6 +13,7 @@ include!("mechanisms/cam_follower.rs");
 include!("mechanisms/cam_rocker.rs");
 include!("mechanisms/four_bar.rs");
 include!("mechanisms/norton_four_bar.rs");
+include!("mechanisms/slider_crank_scenes.rs");
 
 const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 4 3\"><script>alert(1)</script>\
                    <path d=\"M0 0L3 2\" stroke=\"#b00\"/></svg>";
@@ -111,4 +112,27 @@ fn large_matrices_are_lists_of_entries() {
     let html = Sheet::new(&large).to_html();
     assert_balanced(&html);
     assert!(html.contains("<mrow><mn>7</mn><mo>,</mo><mn>1</mn></mrow></msub><mo>=</mo><mn>1</mn>"));
+}
+
+/// The sections of scenes come behind those of the mechanism, and their equations are counted on.
+#[test]
+fn scenes_have_sections_of_their_own() {
+    let mut sheet = Sheet::new(Crank::DERIVATION);
+    sheet.scene(Turning::DERIVATION).scene(Steady::DERIVATION);
+    let html = sheet.to_html();
+    assert_balanced(&html);
+    for scene in ["Turning", "Steady"] {
+        assert!(html.contains(&format!("<h2>Equations of motion: <code>{scene}</code></h2>")), "{scene}");
+        assert!(html.contains(&format!("<h2>Operations: <code>{scene}</code></h2>")), "{scene}");
+    }
+    for effect in Turning::DERIVATION.forces {
+        assert!(html.contains(&format!("<h3>{}</h3>", effect.name)), "{}", effect.name);
+    }
+    let numbers = html.match_indices("class=\"number\">(").map(|(at, found)| {
+        let rest = &html[at + found.len()..];
+        rest[..rest.find(')').unwrap_or(0)].parse::<usize>().unwrap()
+    });
+    let numbers: Vec<usize> = numbers.collect();
+    let of_forces: usize = Turning::DERIVATION.forces.iter().map(|effect| effect.forces.len()).sum();
+    assert!(numbers.len() > of_forces && numbers.iter().copied().eq(1..=numbers.len()), "{numbers:?}");
 }

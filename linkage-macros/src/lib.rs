@@ -319,6 +319,7 @@ use proc_macro::TokenStream;
 /// | `forces(t, &q, v')` | Q with the quadratic velocity terms |
 /// | `acceleration(t, &q, v')`, `rates(t, &q, v')` | v'', and q' with v''; with `inertia` |
 /// | `drives(t)`, `drive_forces(t, &q, v')` | value, rate and acceleration of what is driven, and the forces that it takes: M v'' - Q |
+/// | `DERIVATION` | the equations of motion as data: M, the share of each body and each effect in Q, the potential energy; `sheet` shows them |
 /// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; the power that is applied, also by drives, and that is dissipated |
 /// | `reactions(t, &q, v')` | Lagrange's multipliers: the force where a loop is cut, of its left side on its right side |
 /// | `equilibrium(t, &guess)` | the position near the guess where the forces of the inputs that are not driven vanish at rest, by Newton's method; `balance(t, &q)`: these forces and their derivatives, whose signs tell what is stable |

@@ -92,7 +92,8 @@ impl Derivation {
         let (mut effects, mut masses) = (Vec::new(), Vec::new());
         for (index, body) in mechanism.bodies.iter().enumerate() {
             let parts = self.moving_parts(index, body, scene);
-            let mut added = Vec::new();
+            let is_moved = !parts.is_empty();
+            let mut added = vec![Vec::new(); count];
             for MovingPart { property, factor, scalars, fields, is_inert } in parts {
                 masses.push((format!("the {property} of {}", body.name.text), factor));
                 let moved: Vec<Along> = scalars.iter().map(|&scalar| self.along(scalar)).collect();
@@ -112,7 +113,7 @@ impl Derivation {
                     }
                     let sum = self.scalar_product(pairs);
                     let force = self.graph.multiply(factor, sum);
-                    added.push(force);
+                    added[row].push((Number::MINUS_ONE, force));
                     forces.push((Number::MINUS_ONE, force));
                 }
                 if is_inert {
@@ -122,7 +123,8 @@ impl Derivation {
                 let weight = self.scalar_product(scalars.into_iter().zip(fields).collect());
                 potential.push((Number::MINUS_ONE, self.graph.multiply(factor, weight)));
             }
-            if !added.is_empty() {
+            if is_moved {
+                let added = added.iter().map(|terms| self.graph.sum(terms)).collect();
                 effects.push((format!("body {}", body.name.text), added));
             }
         }

@@ -6,9 +6,9 @@ use rustc_hash::FxHashMap;
 
 use super::names::{ident, string};
 use super::tokens::Tokens;
-use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row};
+use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
 use crate::graph::{Condition, Name, NodeId, Printer, SymbolId};
-use crate::model::{Driver, Mechanism};
+use crate::model::{self, Driver, Mechanism};
 use crate::simplify::schedule::Operations;
 
 /// The constant, in a scope of its own for the names that it uses.
@@ -98,6 +98,85 @@ pub(super) fn constant(
                     points: #points,
                     outputs: #outputs,
                     conditions: #conditions,
+                    kernels: #kernels
+                };
+            }
+        };
+    }
+}
+
+/// The equations of motion of a scene, in a scope of its own likewise.
+pub(super) fn of_scene(
+    mechanism: &Mechanism,
+    (driver, scene): (&Driver, &model::Scene),
+    (derivation, derived): (&Derivation, &Scene),
+    kernels: &[(String, Operations)],
+    private: &TokenStream,
+) -> TokenStream {
+    let text = |index: &usize| mechanism.coordinates[*index].name.text.as_str();
+    let inputs: Vec<&str> = driver.inputs.iter().map(text).collect();
+    let unknowns: Vec<&str> = driver.unknowns.iter().map(text).collect();
+    let mut names = names(mechanism, derivation, &inputs, &unknowns);
+    for parameter in &mechanism.scene_parameters {
+        names.insert(parameter.symbol, Name::Plain(&parameter.name.text));
+    }
+    let graph = &derivation.graph;
+    let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
+    let own = scene.parameters.iter().map(|&place| mechanism.scene_parameters[place].name.text.as_str());
+    let own: Vec<&str> = own.collect();
+    let mut document = Document {
+        words: Words::new(),
+        printer: Printer::new(graph, &shown),
+        derivation,
+        parameters: &own,
+        inputs: &inputs,
+        unknowns: &unknowns,
+        has_some: false,
+    };
+    let mut mass_matrix = Tokens::default();
+    for (row, entries) in derived.mass_matrix.iter().flatten().enumerate() {
+        for (column, &entry) in entries.iter().enumerate().skip(row) {
+            let name = if inputs.len() == 1 { "M".to_owned() } else { format!("M{}{}", row + 1, column + 1) };
+            document.sides(&mut mass_matrix, Name::Plain(&name), entry);
+        }
+    }
+    let mass_matrix = mass_matrix.by_macro("__equations");
+    let effects: Vec<TokenStream> = derived
+        .parts
+        .iter()
+        .filter(|(_, forces)| forces.iter().any(|&force| !graph.is_zero(force)))
+        .map(|(label, forces)| {
+            let mut sides = Tokens::default();
+            for (index, &force) in forces.iter().enumerate().filter(|(_, force)| !graph.is_zero(**force)) {
+                let name = if forces.len() == 1 { "Q".to_owned() } else { format!("Q{}", index + 1) };
+                document.sides(&mut sides, Name::Plain(&name), force);
+            }
+            let (label, sides) = (string(label), sides.by_macro("__equations"));
+            quote!(derivation::Effect { name: #label, forces: #sides })
+        })
+        .collect();
+    let potential = (!graph.is_zero(derived.potential)).then(|| {
+        let equation = document.equation(Name::Plain("V"), derived.potential);
+        quote!(Some(#equation))
+    });
+    let options = if potential.is_some() { quote!(Some) } else { quote!(None) };
+    let potential = potential.unwrap_or_else(|| quote!(None));
+    let (parameters, kernels) = (symbols(&own), works(kernels));
+    let (name, title, of) = (&scene.name, scene.name.to_string(), driver.name.to_string());
+    quote! {
+        const _: () = {
+            use ::core::option::Option::#options;
+            use #private::{__equations, __kernels, __symbols, derivation};
+            impl #name {
+                /// The equations of motion as data: every formula, to be written as text, `LaTeX` or `MathML`, and
+                /// the work of each function. It costs nothing where it is not used.
+                pub const DERIVATION: &'static derivation::Scene = &derivation::Scene {
+                    scene: #title,
+                    mechanism: #of,
+                    parameters: #parameters,
+                    mass_matrix: #mass_matrix,
+                    forces: &[#(#effects),*],
+                    potential: #potential,
                     kernels: #kernels
                 };
             }

@@ -7,11 +7,13 @@
 mod latex;
 mod notation;
 pub(crate) mod outline;
+mod scene;
 mod text;
 
 use core::fmt;
 
 use notation::Notation;
+pub use scene::{Effect, Scene};
 
 /// A formula. Its [`Display`](fmt::Display) is one line of Unicode: `−l₃·l₄·sin(θ₃ − θ₄)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{Block, Derivation, Equation, Formula, Kernel, Matrix, Quantity};
+use super::{Block, Derivation, Equation, Formula, Kernel, Matrix, Quantity, Scene};
 
 /// An equation between whole matrices, in every notation.
 pub(crate) struct Law {
@@ -78,6 +78,13 @@ pub(crate) const ACCELERATION: Law = Law {
              <mover><mi>v</mi><mo>¨</mo></mover><mo>+</mo><mi>γ</mi><mo>)</mo></mrow></mrow></mrow>",
 };
 
+/// M·v̈ = Q.
+pub(crate) const MOTION: Law = Law {
+    text: "M·v̈ = Q",
+    latex: "M \\ddot{v} = Q",
+    mathml: "<mrow><mi>M</mi><mover><mi>v</mi><mo>¨</mo></mover><mo>=</mo><mi>Q</mi></mrow>",
+};
+
 /// The headings and what leads each section in.
 pub(crate) mod words {
     pub(crate) const COORDINATES: &str = "Coordinates";
@@ -91,6 +98,8 @@ pub(crate) mod words {
     pub(crate) const SENSITIVITY: &str = "Sensitivity";
     pub(crate) const POINTS: &str = "Points";
     pub(crate) const OUTPUTS: &str = "Outputs";
+    pub(crate) const MOTION: &str = "Equations of motion";
+    pub(crate) const POTENTIAL: &str = "Potential energy";
     pub(crate) const OPERATIONS: &str = "Operations";
     pub(crate) const CONDITIONS: &str = "Conditions";
 
@@ -112,6 +121,9 @@ pub(crate) mod words {
     pub(crate) const LEAD_SENSITIVITY: &str = "With the inputs held, the unknowns follow the parameters p by";
     pub(crate) const LEAD_PARAMETERS: &str =
         "with the derivatives of the closure equations with respect to the parameters, where they are not zero:";
+    pub(crate) const LEAD_MOTION: &str = "The velocity ratios carry all inertia and all forces to the inputs:";
+    pub(crate) const LEAD_MASS_MATRIX: &str = "with the reduced mass matrix";
+    pub(crate) const LEAD_FORCES: &str = "and the generalised forces, the sum of what follows; the bias of an unknown is its acceleration while no input accelerates:";
     pub(crate) const LEAD_CONDITIONS: &str = "The formulas take for granted that";
 }
 
@@ -227,6 +239,36 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
         for condition in derivation.conditions {
             pen.display(condition)?;
         }
+    }
+    Ok(())
+}
+
+/// Writes the equations of motion with this pen.
+pub(super) fn write_scene(scene: &Scene, pen: &mut dyn Pen) -> fmt::Result {
+    let mut number = 0;
+    pen.title(scene.scene)?;
+    if !scene.parameters.is_empty() {
+        pen.list(words::GIVEN, &mut scene.parameters.iter().map(|symbol| symbol.formula))?;
+    }
+    pen.heading(words::MOTION)?;
+    pen.lead(words::LEAD_MOTION)?;
+    pen.law(&MOTION)?;
+    if !scene.mass_matrix.is_empty() {
+        pen.lead(words::LEAD_MASS_MATRIX)?;
+        equations(pen, &mut number, scene.mass_matrix)?;
+    }
+    pen.lead(words::LEAD_FORCES)?;
+    for effect in scene.forces {
+        pen.lead(effect.name)?;
+        equations(pen, &mut number, effect.forces)?;
+    }
+    if let Some(potential) = scene.potential {
+        pen.heading(words::POTENTIAL)?;
+        equations(pen, &mut number, &[potential])?;
+    }
+    if !scene.kernels.is_empty() {
+        pen.heading(words::OPERATIONS)?;
+        pen.kernels(scene.kernels)?;
     }
     Ok(())
 }

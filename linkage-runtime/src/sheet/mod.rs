@@ -18,7 +18,7 @@ mod lines;
 mod numbers;
 mod page;
 
-use crate::derivation::Derivation;
+use crate::derivation::{Derivation, Scene};
 
 #[derive(Debug, Clone, PartialEq)]
 struct Table {
@@ -37,6 +37,7 @@ struct Picture {
 pub struct Sheet<'a> {
     derivation: &'a Derivation,
     title: Option<String>,
+    scenes: Vec<&'a Scene>,
     tables: Vec<Table>,
     pictures: Vec<Picture>,
 }
@@ -45,12 +46,18 @@ impl<'a> Sheet<'a> {
     /// The sheet of a derivation, without numbers or pictures.
     #[must_use]
     pub fn new(derivation: &'a Derivation) -> Self {
-        Self { derivation, title: None, tables: Vec::new(), pictures: Vec::new() }
+        Self { derivation, title: None, scenes: Vec::new(), tables: Vec::new(), pictures: Vec::new() }
     }
 
     /// The heading; without it the name of the mechanism.
     pub fn title(&mut self, title: impl Into<String>) -> &mut Self {
         self.title = Some(title.into());
+        self
+    }
+
+    /// The equations of motion of a scene of this mechanism, behind the kinematics.
+    pub fn scene(&mut self, scene: &'a Scene) -> &mut Self {
+        self.scenes.push(scene);
         self
     }
 

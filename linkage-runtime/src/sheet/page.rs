@@ -1,7 +1,7 @@
 //! The page, section by section.
 
 use crate::derivation::outline::{self, Law, words};
-use crate::derivation::{Derivation, Equation, Formula, Matrix, Quantity, Symbol};
+use crate::derivation::{Derivation, Equation, Formula, Kernel, Matrix, Quantity, Scene, Symbol};
 
 use super::html::{display, escape, inline, matrix, svg_address};
 use super::{Picture, Sheet, Table, lines, numbers};
@@ -27,9 +27,15 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     page.requests(derivation);
     page.quantities(words::POINTS, derivation.points);
     page.quantities(words::OUTPUTS, derivation.outputs);
+    for scene in &sheet.scenes {
+        page.scene(scene);
+    }
     page.numbers(derivation, &sheet.tables);
     page.pictures(&sheet.pictures);
-    page.operations(derivation);
+    page.operations(None, derivation.kernels);
+    for scene in &sheet.scenes {
+        page.operations(Some(scene.scene), scene.kernels);
+    }
     page.conditions(derivation.conditions);
     let title = escape(sheet.title.as_deref().unwrap_or(derivation.mechanism));
     format!(
@@ -250,14 +256,40 @@ impl Page {
         });
     }
 
-    fn operations(&mut self, derivation: &Derivation) {
-        if derivation.kernels.is_empty() {
+    fn scene(&mut self, scene: &Scene) {
+        self.section(&format!("{}: <code>{}</code>", words::MOTION, escape(scene.scene)), |page| {
+            if !scene.parameters.is_empty() {
+                let given = list(scene.parameters.iter().map(|Symbol { formula, .. }| formula));
+                page.push(&format!("<p>{}: {given}</p>", words::GIVEN));
+            }
+            page.lead(words::LEAD_MOTION);
+            page.law(&outline::MOTION);
+            if !scene.mass_matrix.is_empty() {
+                page.lead(words::LEAD_MASS_MATRIX);
+                page.equations(scene.mass_matrix);
+            }
+            page.lead(words::LEAD_FORCES);
+            for effect in scene.forces {
+                page.push(&format!("<article>\n<h3>{}</h3>", escape(effect.name)));
+                page.equations(effect.forces);
+                page.push("</article>");
+            }
+            if let Some(potential) = scene.potential {
+                page.lead(words::POTENTIAL);
+                page.equations(&[potential]);
+            }
+        });
+    }
+
+    fn operations(&mut self, scene: Option<&str>, kernels: &[Kernel]) {
+        if kernels.is_empty() {
             return;
         }
-        self.section(words::OPERATIONS, |page| {
+        let of = scene.map_or_else(String::new, |scene| format!(": <code>{}</code>", escape(scene)));
+        self.section(&format!("{}{of}", words::OPERATIONS), |page| {
             page.lead("What one call of each function costs:");
             let mut rows = String::new();
-            for kernel in derivation.kernels {
+            for kernel in kernels {
                 let counts = kernel.operations;
                 let counts = [counts.functions, counts.divisions, counts.multiplications, counts.additions];
                 let cells: String = counts.iter().map(|count| format!("<td>{count}</td>")).collect();

@@ -11,7 +11,7 @@ use super::super::names::{ident, string};
 use super::super::pose::PosePlan;
 use super::super::scene::mechanism_field;
 use super::super::types::field;
-use super::super::{Emitted, Types};
+use super::super::{Emitted, Types, document};
 use super::{Body, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines, literal};
 use crate::derivation::{ContactFormula, Derivation, Form, Prescribed, Scene};
 use crate::graph::{NodeId, Number, SymbolId};
@@ -104,6 +104,10 @@ pub(in crate::emit) fn of_scene(
     }
     let mut tokens = methods.scene_block(&place, private);
     tokens.extend(methods.calls(private));
+    if let Some((kernels, derived)) = &derived {
+        let derived = (&*kernels.derivation, derived);
+        tokens.extend(document::of_scene(mechanism, (driver, scene), derived, &methods.kernels, private));
+    }
     let operations = methods.kernels.iter().fold(Operations::default(), |sum, (_, kernel)| sum.plus(*kernel));
     Emitted { tokens, operations }
 }
