@@ -1,5 +1,5 @@
 linkage! {
-    /// One windows.
+    /// One window.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism OneWindows {
         param l = 1, m = 1, g = 9.81;
