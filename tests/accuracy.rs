@@ -9,12 +9,15 @@ use linkage::nalgebra::SVector;
 use linkage::{Assembly, Error, Mechanism, Real, linkage};
 use linkage_double::DoubleDouble;
 
-#[path = "../examples/accuracy_cost/frontier.rs"]
+#[path = "../examples/accuracy_cost/dominance.rs"]
+mod dominance;
+#[path = "../examples/price/frontier.rs"]
 mod frontier;
 #[path = "../examples/accuracy_cost/oracle.rs"]
 mod oracle;
 
-use frontier::{Price, cheapest, dominated, frontier};
+use dominance::dominated;
+use frontier::{Price, cheapest, frontier};
 use oracle::{Case, poses_of};
 
 include!("mechanisms/double_butterfly.rs");

@@ -7,17 +7,20 @@
 use std::error::Error;
 
 mod chart;
-mod frontier;
+mod dominance;
 #[macro_use]
 mod methods;
 mod oracle;
 mod page;
+#[path = "../price/mod.rs"]
+mod price;
 mod stall;
 
 mod double_butterfly;
 mod four_bar;
 mod jansen;
 
+use price::frontier;
 use stall::{Point, QUANTITIES, Stall, Work};
 
 /// Every method, in the order of the list.

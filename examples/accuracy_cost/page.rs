@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::price::{self, axes};
 use crate::stall::Stall;
 use crate::{METHODS, WANTED, answer, chart, describe};
 
@@ -9,12 +10,13 @@ pub fn html(stalls: &[Stall]) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>What digits cost</title>\n\
-         <style>{}{}</style>\n</head>\n<body>\n<header>\n<h1>What digits cost</h1>\n\
+         <style>{}{}{}</style>\n</head>\n<body>\n<header>\n<h1>What digits cost</h1>\n\
          <p>The largest error against 45 digits, beside the median time of one evaluation, all methods timed in turns. \
          Orange: clearly more exact than everything that is faster. Of positions the error is in radians; of \
          velocities it is relative to the largest of them, of accelerations to the larger of those and the square of the \
          velocities, which they are made of.</p>\n<ol class=\"methods\">",
-        include_str!("style.css"),
+        price::STYLE,
+        axes::STYLE,
         chart::STYLE
     );
     let mut push = |text: std::fmt::Arguments| {

@@ -2,8 +2,9 @@
 
 use linkage::Error;
 
-use crate::frontier::{Price, Prices, dominated, frontier};
+use crate::dominance::dominated;
 use crate::oracle::Poses;
+use crate::price::frontier::{Price, Prices, frontier};
 
 /// What is asked for, by its order.
 pub const QUANTITIES: [&str; 3] = ["position", "velocity", "acceleration"];

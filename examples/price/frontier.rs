@@ -8,39 +8,10 @@ pub struct Price {
 }
 
 /// Errors within this factor are alike: three bits are what roundings happen to do at a few poses.
-const SAME_ERROR: f64 = 8.0;
-
-/// Times within this factor are alike: another run gives them in another order.
-const SAME_TIME: f64 = 1.1;
-
-impl Price {
-    fn is_worse(self, other: Self) -> bool {
-        self.error > SAME_ERROR * other.error || self.time > SAME_TIME * other.time
-    }
-}
+pub const SAME_ERROR: f64 = 8.0;
 
 /// The price of each point where there is a result.
 pub type Prices = Vec<Option<Price>>;
-
-/// Whether `other` has a result wherever `one` has, nowhere clearly worse in error or time, and somewhere clearly better.
-pub fn is_dominated_by(one: &[Option<Price>], other: &[Option<Price>]) -> bool {
-    let mut better = false;
-    for (one, other) in one.iter().zip(other) {
-        match (one, other) {
-            (None, _) => {}
-            (Some(_), None) => return false,
-            (Some(one), Some(other)) if other.is_worse(*one) => return false,
-            (Some(one), Some(other)) => better |= one.is_worse(*other),
-        }
-    }
-    better
-}
-
-/// For each method the one that makes it superfluous at every point, if there is one.
-pub fn dominated(methods: &[Prices]) -> Vec<Option<usize>> {
-    let by = |one: &Prices| methods.iter().position(|other| is_dominated_by(one, other));
-    methods.iter().map(by).collect()
-}
 
 /// The methods at one point of which each is clearly more exact than all that are faster, by rising time.
 pub fn frontier(prices: &[Option<Price>]) -> Vec<usize> {

@@ -1,0 +1,173 @@
+//! Steps by a tolerance: ours with the closures held, ours and other crates' on the bare right-hand side.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use differential_equations::prelude::{ExplicitRungeKutta, IVP};
+use linkage::Scene;
+use linkage::integrate::{Dop853, Dopri5, Integration, Method, Tolerance};
+use linkage::nalgebra::SVector;
+use linkage::simulation::simulate;
+
+use super::list::{
+    DIFFERENTIAL_EQUATIONS_5, DIFFERENTIAL_EQUATIONS_8, INTEGRATE_5, INTEGRATE_8, ODE_SOLVERS_5, ODE_SOLVERS_8,
+    Outcome, SIMULATE_5, SIMULATE_8, Work,
+};
+use super::problem::Problem;
+
+/// Steps after which any of them gives up: the bound that ours and `ode_solvers` have by themselves.
+pub const MOST_STEPS: usize = 100_000;
+
+/// The end of a run and the right-hand sides it took, or why there is none.
+pub type End<const N: usize> = Result<(SVector<f64, N>, usize), String>;
+
+/// From a tolerance to an end.
+type Run<S, const U: usize, const V: usize, const N: usize> = fn(&Problem<S, U, V, N>, f64) -> End<N>;
+
+pub fn works<S, const U: usize, const V: usize, const N: usize>(problem: &Rc<Problem<S, U, V, N>>) -> Vec<Work>
+where
+    S: Scene<f64, U, V, N, 0> + 'static,
+{
+    let methods: [(usize, Run<S, U, V, N>); 8] = [
+        (SIMULATE_8, simulated::<Dop853, S, U, V, N>),
+        (SIMULATE_5, simulated::<Dopri5, S, U, V, N>),
+        (INTEGRATE_8, integrated::<Dop853, S, U, V, N>),
+        (INTEGRATE_5, integrated::<Dopri5, S, U, V, N>),
+        (ODE_SOLVERS_8, by_ode_solvers::<true, S, U, V, N>),
+        (ODE_SOLVERS_5, by_ode_solvers::<false, S, U, V, N>),
+        (DIFFERENTIAL_EQUATIONS_8, by_differential_equations::<true, S, U, V, N>),
+        (DIFFERENTIAL_EQUATIONS_5, by_differential_equations::<false, S, U, V, N>),
+    ];
+    methods.into_iter().flat_map(|(method, end)| by_tolerance(problem, method, end)).collect()
+}
+
+/// Digits of the tightest tolerance: code that is not optimised is not timed for long.
+const MOST_DIGITS: i32 = if cfg!(debug_assertions) { 7 } else { 13 };
+
+/// A method at tolerances from 1e-3 on.
+pub fn by_tolerance<S, const U: usize, const V: usize, const N: usize>(
+    problem: &Rc<Problem<S, U, V, N>>,
+    method: usize,
+    end: impl Fn(&Problem<S, U, V, N>, f64) -> End<N> + Copy + 'static,
+) -> impl Iterator<Item = Work>
+where
+    S: Scene<f64, U, V, N, 0> + 'static,
+{
+    (3..=MOST_DIGITS).map(move |digits| {
+        let (problem, setting) = (Rc::clone(problem), 10.0_f64.powi(-digits));
+        let run = move || {
+            let (y, evaluations) = end(&problem, setting)?;
+            Ok(Outcome { error: problem.error(&y), gap: problem.gap(&y), evaluations })
+        };
+        Work { method, setting, run: Box::new(run) }
+    })
+}
+
+fn simulated<M, S, const U: usize, const V: usize, const N: usize>(
+    problem: &Problem<S, U, V, N>,
+    tolerance: f64,
+) -> End<N>
+where
+    M: Method,
+    S: Scene<f64, U, V, N, 0>,
+{
+    let end = || {
+        let (q, rates) = S::parts(&problem.start);
+        let mut motion = simulate(&problem.scene, (0.0, q, rates), problem.end, tolerance)?.method::<M>()?;
+        motion.finish(|_, _| true)?;
+        Ok((S::state(&motion.state().q, &rates), motion.counts().evaluations))
+    };
+    end().map_err(|error: linkage::Error| error.to_string())
+}
+
+fn integrated<M, S, const U: usize, const V: usize, const N: usize>(
+    problem: &Problem<S, U, V, N>,
+    tolerance: f64,
+) -> End<N>
+where
+    M: Method,
+    S: Scene<f64, U, V, N, 0>,
+{
+    let end = || {
+        let rate = |t: f64, y: &SVector<f64, N>| problem.scene.derivative(t, y);
+        let tolerance = Tolerance::new(tolerance, [1.0; N])?;
+        let mut motion = Integration::<M, _, f64, N, 0>::new(rate, (0.0, problem.start), problem.end, tolerance)?;
+        motion.finish(|_, _| true)?;
+        Ok((*motion.state(), motion.counts().evaluations))
+    };
+    end().map_err(|error: linkage::Error| error.to_string())
+}
+
+/// y', or what is not a number where there is none, for integrators that know no failure.
+#[inline]
+pub fn rate<S, const U: usize, const V: usize, const N: usize>(
+    problem: &Problem<S, U, V, N>,
+    t: f64,
+    y: &SVector<f64, N>,
+) -> SVector<f64, N>
+where
+    S: Scene<f64, U, V, N, 0>,
+{
+    problem.scene.derivative(t, y).unwrap_or_else(|_| SVector::repeat(f64::NAN))
+}
+
+/// The right-hand side and how often it is called.
+struct Called<'a, S, const U: usize, const V: usize, const N: usize>(&'a Problem<S, U, V, N>, &'a Cell<usize>);
+
+impl<S, const U: usize, const V: usize, const N: usize> ode_solvers::System<f64, ode_solvers::SVector<f64, N>>
+    for Called<'_, S, U, V, N>
+where
+    S: Scene<f64, U, V, N, 0>,
+{
+    #[inline]
+    fn system(&self, t: f64, y: &ode_solvers::SVector<f64, N>, slope: &mut ode_solvers::SVector<f64, N>) {
+        self.1.set(self.1.get() + 1);
+        *slope = <[f64; N]>::from(rate(self.0, t, &<[f64; N]>::from(*y).into())).into();
+    }
+}
+
+fn by_ode_solvers<const IS_EIGHT: bool, S, const U: usize, const V: usize, const N: usize>(
+    problem: &Problem<S, U, V, N>,
+    tolerance: f64,
+) -> End<N>
+where
+    S: Scene<f64, U, V, N, 0>,
+{
+    let calls = Cell::new(0);
+    let start = ode_solvers::SVector::<f64, N>::from(<[f64; N]>::from(problem.start));
+    let called = Called(problem, &calls);
+    let sparse = ode_solvers::dop_shared::OutputType::Sparse;
+    let last = if IS_EIGHT {
+        let mut stepper = ode_solvers::Dop853::new(called, 0.0, problem.end, problem.end, start, tolerance, tolerance);
+        stepper.set_output(sparse);
+        stepper.integrate().map(|_| stepper.y_out().last().copied())
+    } else {
+        let mut stepper = ode_solvers::Dopri5::new(called, 0.0, problem.end, problem.end, start, tolerance, tolerance);
+        stepper.set_output(sparse);
+        stepper.integrate().map(|_| stepper.y_out().last().copied())
+    };
+    let last = last.map_err(|error| error.to_string())?.ok_or("no state")?;
+    Ok((<[f64; N]>::from(last).into(), calls.get()))
+}
+
+fn by_differential_equations<const IS_EIGHT: bool, S, const U: usize, const V: usize, const N: usize>(
+    problem: &Problem<S, U, V, N>,
+    tolerance: f64,
+) -> End<N>
+where
+    S: Scene<f64, U, V, N, 0>,
+{
+    let calls = Cell::new(0);
+    let system = |t: f64, y: &SVector<f64, N>, slope: &mut SVector<f64, N>| {
+        calls.set(calls.get() + 1);
+        *slope = rate(problem, t, y);
+    };
+    let motion = IVP::ode_from_fn(system, 0.0, problem.end, problem.start);
+    let solution = if IS_EIGHT {
+        motion.method(ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
+    } else {
+        motion.method(ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
+    };
+    let solution = solution.map_err(|error| format!("{error:?}"))?;
+    Ok((*solution.y.last().ok_or("no state")?, calls.get()))
+}

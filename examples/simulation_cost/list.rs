@@ -1,0 +1,151 @@
+//! Every run of every method, evaluated and timed.
+
+use std::time::Instant;
+
+use super::price::frontier::{Price, Prices, cheapest, frontier};
+
+/// A curve of the charts.
+pub struct Method {
+    pub name: &'static str,
+    /// Its colour, and whether it is dashed.
+    pub class: &'static str,
+    /// What its settings are.
+    pub setting: Setting,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Setting {
+    Tolerance,
+    Step,
+}
+
+const fn method(name: &'static str, class: &'static str, setting: Setting) -> Method {
+    Method { name, class, setting }
+}
+
+pub const SIMULATE_8: usize = 0;
+pub const SIMULATE_5: usize = 1;
+pub const INTEGRATE_8: usize = 2;
+pub const INTEGRATE_5: usize = 3;
+pub const ODE_SOLVERS_8: usize = 4;
+pub const ODE_SOLVERS_5: usize = 5;
+pub const DIFFERENTIAL_EQUATIONS_8: usize = 6;
+pub const DIFFERENTIAL_EQUATIONS_5: usize = 7;
+pub const REAL_TIME: usize = 9;
+pub const ACCELERATIONS: usize = 10;
+pub const WEAKLY: usize = 11;
+pub const STRONGLY: usize = 12;
+pub const PROJECTED: usize = 13;
+
+/// Every method, in the order of the list.
+pub const METHODS: [Method; 14] = [
+    method("simulate, 8(5,3)", "simulate", Setting::Tolerance),
+    method("simulate, 5(4)", "simulate five", Setting::Tolerance),
+    method("integrate, 8(5,3)", "integrate", Setting::Tolerance),
+    method("integrate, 5(4)", "integrate five", Setting::Tolerance),
+    method("ode_solvers, 8(5,3)", "ode-solvers", Setting::Tolerance),
+    method("ode_solvers, 5(4)", "ode-solvers five", Setting::Tolerance),
+    method("differential-equations, 8(5,3)", "differential-equations", Setting::Tolerance),
+    method("differential-equations, 5(4)", "differential-equations five", Setting::Tolerance),
+    method("diffsol, Tsitouras 5(4)", "diffsol five", Setting::Tolerance),
+    method("RealTime, order 4", "real-time", Setting::Step),
+    method("index 1, order 4", "accelerations", Setting::Step),
+    method("index 1, Baumgarte weak", "weakly", Setting::Step),
+    method("index 1, Baumgarte strong", "strongly", Setting::Step),
+    method("index 1, projected", "projected", Setting::Step),
+];
+
+/// What a run gives.
+#[derive(Debug, Clone, Copy)]
+pub struct Outcome {
+    /// In radians.
+    pub error: f64,
+    /// By how much the closures are open at the end, in metres.
+    pub gap: f64,
+    /// Of the right-hand side.
+    pub evaluations: usize,
+}
+
+/// One method at one setting.
+pub struct Work {
+    pub method: usize,
+    /// The tolerance, or the step in seconds.
+    pub setting: f64,
+    pub run: Box<dyn Fn() -> Result<Outcome, String>>,
+}
+
+/// A run and what it costs, or why it came to no end.
+pub struct Row {
+    pub method: usize,
+    pub setting: f64,
+    pub outcome: Result<(Outcome, Price), String>,
+}
+
+/// All runs with a mechanism.
+pub struct List {
+    pub title: &'static str,
+    pub about: &'static str,
+    pub rows: Vec<Row>,
+}
+
+/// What takes longer than this, in nanoseconds, needs fewer readings.
+const LONG: f64 = 1e7;
+const ROUNDS_OF_LONG: usize = 3;
+
+/// A smaller error is a rounding's good luck, and has no place on an axis.
+const LEAST: f64 = 1e-17;
+
+fn timed(work: &Work) -> (Result<Outcome, String>, f64) {
+    let clock = Instant::now();
+    let outcome = std::hint::black_box((work.run)());
+    (outcome, 1e9 * clock.elapsed().as_secs_f64())
+}
+
+impl List {
+    /// Times every work in turns, `rounds` times; the medians count.
+    pub fn open(title: &'static str, about: &'static str, works: Vec<Work>, rounds: usize) -> Self {
+        let (outcomes, mut times): (Vec<_>, Vec<_>) =
+            works.iter().map(timed).map(|(outcome, time)| (outcome, vec![time])).unzip();
+        for round in 1..rounds {
+            for ((work, outcome), times) in works.iter().zip(&outcomes).zip(&mut times) {
+                if outcome.is_ok() && (round < ROUNDS_OF_LONG || times[0] < LONG) {
+                    times.push(timed(work).1);
+                }
+            }
+        }
+        let rows = works.into_iter().zip(outcomes).zip(times).map(|((work, outcome), mut times)| {
+            times.sort_by(f64::total_cmp);
+            let priced = |outcome: Outcome| {
+                let price = Price { error: outcome.error.max(LEAST), time: times[times.len() / 2] };
+                if outcome.error.is_finite() { Ok((outcome, price)) } else { Err("not a number".to_owned()) }
+            };
+            Row { method: work.method, setting: work.setting, outcome: outcome.and_then(priced) }
+        });
+        Self { title, about, rows: rows.collect() }
+    }
+
+    /// What each row costs.
+    pub fn prices(&self) -> Prices {
+        self.rows.iter().map(|row| row.outcome.as_ref().ok().map(|(_, price)| *price)).collect()
+    }
+
+    /// The rows that are clearly more exact than all that are faster.
+    pub fn front(&self) -> Vec<usize> {
+        frontier(&self.prices())
+    }
+
+    /// The cheapest row of these methods with this error or less.
+    pub fn cheapest(&self, methods: &[usize], error: f64) -> Option<(&Row, Outcome, Price)> {
+        let priced = self.rows.iter().zip(self.prices());
+        let prices: Prices = priced.map(|(row, price)| price.filter(|_| methods.contains(&row.method))).collect();
+        let (index, _) = cheapest(&prices, error)?;
+        let row = &self.rows[index];
+        row.outcome.as_ref().ok().map(|&(outcome, price)| (row, outcome, price))
+    }
+
+    /// What came out of a method at a setting.
+    pub fn at(&self, method: usize, setting: f64) -> Option<(Outcome, Price)> {
+        let is_it = |row: &&Row| row.method == method && (row.setting / setting - 1.0).abs() < 1e-9;
+        self.rows.iter().find(is_it)?.outcome.as_ref().ok().copied()
+    }
+}

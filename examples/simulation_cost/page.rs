@@ -1,0 +1,78 @@
+//! The page: charts, what they say, and every number.
+
+use std::fmt::Write;
+
+use super::chart;
+use super::list::{List, METHODS};
+use super::price::{self, axes};
+use super::reading::Paragraph;
+use super::report::setting;
+
+/// What the shared style does not have.
+const STYLE: &str = ".legend{list-style:none;columns:17rem;max-width:64rem;margin:1rem 0 0;padding:0}\
+    .legend svg{width:28px;height:14px;margin-right:.5rem;vertical-align:-2px}\
+    main p,main li,main h3{max-width:52rem}.charts{max-width:64rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,22rem),1fr))}.about{color:var(--soft)}table{width:min(100%,38rem)}\
+    td.why{color:var(--soft);text-align:left;white-space:normal}";
+
+pub fn html(lists: &[List], reading: &[Paragraph]) -> String {
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>What a simulation's digits cost</title>\n\
+         <style>{}{}{}{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>What a simulation's digits cost</h1>\n\
+         <p>The largest error of an angle at the end, in radians, beside the median time of a whole run, all methods \
+         timed in turns. Ringed: clearly more exact than everything that is faster, steps of one length included. Dashed: \
+         order 5. All but the formulations with multipliers (index 1) take the same right-hand side; on it alone the \
+         absolute tolerance is the relative one, in rad and rad/s.</p>\n<ul class=\"legend\">",
+        price::STYLE,
+        axes::STYLE,
+        chart::STYLE
+    );
+    let mut push = |text: std::fmt::Arguments| {
+        // Writing to a string does not fail.
+        let _ = html.write_fmt(text);
+    };
+    for (_, name, class) in chart::methods(lists) {
+        push(format_args!("<li><svg viewBox=\"0 0 28 14\">{}</svg>{name}</li>", chart::swatch(class)));
+    }
+    push(format_args!("</ul>\n</header>\n<main>\n<h2>What it says</h2>\n"));
+    for paragraph in reading {
+        push(format_args!("<h3>{}</h3>\n<ul>", paragraph.question));
+        paragraph.answers.iter().for_each(|answer| push(format_args!("<li>{answer}</li>")));
+        push(format_args!("</ul>\n<p class=\"about\">{}</p>\n", paragraph.remark));
+    }
+    for list in lists {
+        push(format_args!(
+            "<section>\n<h2>{}</h2>\n<p class=\"about\">{}</p>\n<div class=\"charts\">",
+            list.title, list.about
+        ));
+        for panel in chart::panels(list) {
+            push(format_args!("<figure>{}</figure>", chart::figure(&panel)));
+        }
+        push(format_args!(
+            "</div>\n<details><summary>All numbers</summary>\n<table><tr><th>method</th><td>setting</td><td>error</td>\
+             <td>right-hand sides</td><td>ms</td><td>gap</td></tr>"
+        ));
+        let front = list.front();
+        for (index, row) in list.rows.iter().enumerate() {
+            let class = if front.contains(&index) { " class=\"front\"" } else { "" };
+            let (name, setting) = (METHODS[row.method].name, setting(row.method, row.setting));
+            push(format_args!("<tr{class}><th>{name}</th><td>{setting}</td>"));
+            match &row.outcome {
+                Ok((outcome, price)) => push(format_args!(
+                    "<td>{:.1e}</td><td>{}</td><td>{:.3}</td><td>{:.0e}</td></tr>",
+                    price.error,
+                    outcome.evaluations,
+                    1e-6 * price.time,
+                    outcome.gap
+                )),
+                Err(error) => {
+                    let error = error.lines().next().unwrap_or_default().replace('<', "&lt;");
+                    push(format_args!("<td class=\"why\" colspan=\"4\">{error}</td></tr>"));
+                }
+            }
+        }
+        push(format_args!("</table>\n</details>\n</section>\n"));
+    }
+    push(format_args!("</main>\n</body>\n</html>\n"));
+    html
+}

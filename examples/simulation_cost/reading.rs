@@ -1,0 +1,135 @@
+//! What the numbers say.
+
+use super::list::{
+    ACCELERATIONS, INTEGRATE_8, List, METHODS, ODE_SOLVERS_8, PROJECTED, REAL_TIME, Row, SIMULATE_5, SIMULATE_8,
+    STRONGLY, WEAKLY,
+};
+use super::report::setting;
+
+/// What an engineer asks for, in radians: a picture, and a design.
+const WANTED: [f64; 2] = [1e-4, 1e-8];
+
+/// The tolerance at which holding the closures is priced.
+const TOLERANCE: f64 = 1e-10;
+
+/// An angle off by this, in radians, is that of another motion.
+const LOST: f64 = 1.0;
+
+/// Tolerances below this are tight.
+const TIGHT: f64 = 1.01e-11;
+
+/// The step at which the formulations are compared, in seconds.
+pub const STEP: f64 = if cfg!(debug_assertions) { 4e-3 } else { 1e-3 };
+
+/// A question, what answers it, and what is to be known about the answer.
+pub struct Paragraph {
+    pub question: String,
+    pub answers: Vec<String>,
+    pub remark: &'static str,
+}
+
+/// A paragraph for each question.
+pub fn paragraphs(lists: &[List; 4]) -> [Paragraph; 4] {
+    let [squeezer, windows, sprung, turning] = lists;
+    [digits(&[squeezer, sprung, turning]), holding(&[squeezer, sprung, turning]), lost(windows), formulations(turning)]
+}
+
+fn digits(lists: &[&List]) -> Paragraph {
+    let ours = [SIMULATE_8, SIMULATE_5];
+    let others: Vec<usize> = (ODE_SOLVERS_8..REAL_TIME).collect();
+    let said = |list: &List, methods: &[usize], wanted: f64| {
+        let Some((row, outcome, price)) = list.cheapest(methods, wanted) else { return "no run".to_owned() };
+        let (name, setting, time) =
+            (METHODS[row.method].name, setting(row.method, row.setting), milliseconds(price.time));
+        format!("{name} at {setting}, {time} and {} right-hand sides", outcome.evaluations)
+    };
+    let both = |list: &&List, wanted: f64| {
+        let (ours, others) = (said(list, &ours, wanted), said(list, &others, wanted));
+        format!("{}, {wanted:.0e} rad: {ours}; of the others {others}.", list.title)
+    };
+    Paragraph {
+        question: "An angle at the end: the fastest by simulate, and by the other crates on the bare right-hand side"
+            .to_owned(),
+        answers: lists.iter().flat_map(|list| WANTED.map(|wanted| both(list, wanted))).collect(),
+        remark: "Right-hand sides are most of the time, whoever steps. An error of the end is partly luck: it may pass \
+                 through zero.",
+    }
+}
+
+fn holding(lists: &[&List]) -> Paragraph {
+    let of_list = |list: &&List| {
+        let (held, with) = list.at(SIMULATE_8, TOLERANCE)?;
+        let (open, without) = list.at(INTEGRATE_8, TOLERANCE)?;
+        let (ratio, held, open) = (with.time / without.time, metres(held.gap), metres(open.gap));
+        Some(format!(
+            "{}: {ratio:.2} times the time; closures open by {held}, not {open}; error {:.0e} rad, not {:.0e}.",
+            list.title, with.error, without.error
+        ))
+    };
+    Paragraph {
+        question: format!(
+            "What holding the closures costs: simulate beside integrate on the bare right-hand side, order 8 at {TOLERANCE:.0e}"
+        ),
+        answers: lists.iter().filter_map(of_list).collect(),
+        remark: "The tolerance decides about the error, the closing does not: it buys positions that fit together, and \
+                 singularities that are seen.",
+    }
+}
+
+fn lost(list: &List) -> Paragraph {
+    let told = |who: &str, of: &dyn Fn(&Row) -> bool| {
+        let rows: Vec<&Row> = list.rows.iter().filter(|row| of(row)).collect();
+        let errors: Vec<f64> =
+            rows.iter().filter_map(|row| row.outcome.as_ref().ok()).map(|(_, price)| price.error).collect();
+        let lost = errors.iter().filter(|&&error| error > LOST).count();
+        format!(
+            "{who}: of {} runs {} end there, {lost} elsewhere without a word, {} with an error.",
+            rows.len(),
+            errors.len() - lost,
+            rows.len() - errors.len()
+        )
+    };
+    let is_bare = |row: &Row| (INTEGRATE_8..REAL_TIME).contains(&row.method);
+    Paragraph {
+        question: format!("{}, over change points: who ends within {LOST} rad", list.title),
+        answers: vec![
+            told("simulate", &|row| row.method <= SIMULATE_5),
+            told("Integrators on the bare right-hand side, ours among them", &is_bare),
+            told("The same, at 1e-11 and below", &|row| is_bare(row) && row.setting < TIGHT),
+            told("RealTime", &|row| row.method == REAL_TIME),
+            told("Multipliers, alone or weakly stabilised", &|row| [ACCELERATIONS, WEAKLY].contains(&row.method)),
+            told("Multipliers, strongly stabilised or projected", &|row| [STRONGLY, PROJECTED].contains(&row.method)),
+        ],
+        remark: "What keeps to the closures by steps of one length goes straight on as long as no step ends at the \
+                 place itself; nothing there looks for it.",
+    }
+}
+
+fn formulations(list: &List) -> Paragraph {
+    let of_method = |method: usize| {
+        let (outcome, price) = list.at(method, STEP)?;
+        let (name, time, gap) = (METHODS[method].name, milliseconds(price.time), metres(outcome.gap));
+        Some(format!("{name}: {:.1e} rad in {time}, closures open by {gap}.", price.error))
+    };
+    let methods = [REAL_TIME, ACCELERATIONS, WEAKLY, STRONGLY, PROJECTED];
+    let mut answers: Vec<String> = methods.into_iter().filter_map(of_method).collect();
+    let at_the_error = list.at(REAL_TIME, STEP).and_then(|(_, price)| list.cheapest(&[SIMULATE_8], price.error));
+    if let Some((row, _, price)) = at_the_error {
+        let (setting, time) = (setting(row.method, row.setting), milliseconds(price.time));
+        answers.push(format!("simulate has no larger an error than RealTime at {setting}, in {time}."));
+    }
+    Paragraph {
+        question: format!("{}, formulations at steps of {:.0} ms", list.title, 1e3 * STEP),
+        answers,
+        remark: "The multipliers come from one general elimination of the whole matrix in each right-hand side; code \
+                 made for each mechanism would take less.",
+    }
+}
+
+fn milliseconds(nanoseconds: f64) -> String {
+    format!("{:.2} ms", 1e-6 * nanoseconds)
+}
+
+fn metres(gap: f64) -> String {
+    if gap == 0.0 { "0 m".to_owned() } else { format!("{gap:.0e} m") }
+}

@@ -1,0 +1,46 @@
+//! `diffsol` on the bare right-hand side: Tsitouras's pair of order 5(4), on vectors of nalgebra.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
+use linkage::Scene;
+use linkage::nalgebra::SVector;
+
+use crate::integrators::{End, MOST_STEPS, by_tolerance, rate};
+use crate::list::{METHODS, Work};
+use crate::problem::Problem;
+
+pub fn works<S, const U: usize, const V: usize, const N: usize>(problem: &Rc<Problem<S, U, V, N>>) -> Vec<Work>
+where
+    S: Scene<f64, U, V, N, 0> + 'static,
+{
+    let method = METHODS.iter().position(|method| method.name.starts_with("diffsol")).expect("a method of the list");
+    by_tolerance(problem, method, |problem, tolerance| end(problem, tolerance)).collect()
+}
+
+fn end<S, const U: usize, const V: usize, const N: usize>(problem: &Problem<S, U, V, N>, tolerance: f64) -> End<N>
+where
+    S: Scene<f64, U, V, N, 0>,
+{
+    let calls = Cell::new(0);
+    let rhs = |y: &[f64], _: &[f64], t: f64, slope: &mut [f64]| {
+        calls.set(calls.get() + 1);
+        slope.copy_from_slice(rate(problem, t, &SVector::from_column_slice(y)).as_slice());
+    };
+    let init = |_: &[f64], _: f64, y: &mut [f64]| y.copy_from_slice(problem.start.as_slice());
+    let motion = OdeBuilder::<NalgebraMat<f64>>::new().rtol(tolerance).atol([tolerance]).rhs(rhs).init(init, N).build();
+    let motion = motion.map_err(|error| error.to_string())?;
+    let mut solver = motion.tsit45().map_err(|error| error.to_string())?;
+    solver.set_stop_time(problem.end).map_err(|error| error.to_string())?;
+    for step in 0.. {
+        if step == MOST_STEPS {
+            return Err(format!("{MOST_STEPS} steps lead to t = {} only", solver.state().t));
+        }
+        if solver.step().map_err(|error| error.to_string())? == OdeSolverStopReason::TstopReached {
+            break;
+        }
+    }
+    let y = SVector::from_iterator((0..N).map(|component| solver.state().y[component]));
+    Ok((y, calls.get()))
+}

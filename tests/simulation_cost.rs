@@ -1,0 +1,134 @@
+//! What the price list of simulation stands on: its references, by 31 digits and two methods, its formulations, by the
+//! figures of another program, and the orders of its methods.
+
+use linkage::Scene;
+use linkage::integrate::{Dop853, Dopri5, Method};
+use linkage::nalgebra::SVector;
+use linkage::simulation::{RealTime, simulate};
+use linkage_double::DoubleDouble;
+
+#[path = "../examples/simulation_cost/formulations.rs"]
+mod formulations;
+#[path = "../examples/simulation_cost/four_bars.rs"]
+mod four_bars;
+#[path = "../examples/simulation_cost/problem.rs"]
+mod problem;
+
+use formulations::{Hold, Multipliers};
+use four_bars::Turning;
+use problem::Problem;
+
+/// The coordinates at the end of the same problem by numbers of 31 digits.
+fn end<M: Method, S, D, const U: usize, const V: usize, const N: usize>(
+    problem: &Problem<S, U, V, N>,
+    scene: &D,
+    tolerance: f64,
+) -> SVector<f64, N>
+where
+    S: Scene<f64, U, V, N, 0>,
+    D: Scene<DoubleDouble, U, V, N, 0>,
+{
+    let (q, rates) = D::parts(&problem.start.map(DoubleDouble::from));
+    let end = DoubleDouble::from(problem.end);
+    let motion = simulate(scene, (DoubleDouble::from(0.0), q, rates), end, tolerance).unwrap();
+    let mut motion = motion.method::<M>().unwrap().most_steps(1_000_000);
+    motion.finish(|_, _| true).unwrap();
+    D::state(&motion.state().q, &rates).map(DoubleDouble::high)
+}
+
+fn bars() -> four_bars::Bars<DoubleDouble> {
+    let four_bars::Bars { a, b, c, d } = four_bars::Bars::default();
+    [a, b, c, d].map(DoubleDouble::from).into()
+}
+
+fn apart<const N: usize>(found: &SVector<f64, N>, expected: &SVector<f64, N>) -> f64 {
+    println!("{found:?}");
+    (found - expected).amax()
+}
+
+/// Where the code is optimised also at a tighter tolerance, by another method, and for 44 turns.
+#[test]
+fn the_references_by_31_digits() {
+    let problem = four_bars::sprung();
+    let four_bars::Sprung { m, g, k, l0, xp, yp, .. } = problem.scene;
+    let scene = four_bars::Sprung::from((bars(), [m, g, k, l0, xp, yp].map(DoubleDouble::from)));
+    let sprung = |tolerance| end::<Dop853, _, _, 2, 1, 4>(&problem, &scene, tolerance);
+    assert!(apart(&sprung(1e-16), &problem.expected) < 2e-13);
+    if cfg!(debug_assertions) {
+        return;
+    }
+    assert!(apart(&sprung(1e-18), &problem.expected) < 2e-14);
+    assert!(apart(&end::<Dopri5, _, _, 2, 1, 4>(&problem, &scene, 1e-14), &problem.expected) < 5e-13);
+    let problem = four_bars::turning();
+    let four_bars::Turning { m, g, .. } = problem.scene;
+    let scene = four_bars::Turning::from((bars(), [m, g].map(DoubleDouble::from)));
+    // 2e-12 at 1e-16, and some of a hundredth of it here; an angle of 275 rad is itself rounded to 6e-14.
+    assert!(apart(&end::<Dop853, _, _, 2, 1, 4>(&problem, &scene, 1e-18), &problem.expected) < 1e-13);
+}
+
+/// The motion with multipliers by steps of this number, and the widest gap on the way.
+fn with_multipliers<S>(problem: &Problem<S, 2, 1, 4>, hold: Hold, steps: u32) -> (SVector<f64, 4>, f64)
+where
+    S: Scene<f64, 2, 1, 4, 0>,
+{
+    let mut motion = Multipliers::<S, 2, 1, 4, 3, 5>::new(problem, hold).unwrap();
+    let h = problem.end / f64::from(steps);
+    let mut gap = 0.0_f64;
+    for step in 0..steps {
+        motion.step(f64::from(step) * h, h).unwrap();
+        gap = gap.max(problem.gap(&motion.y()));
+    }
+    (motion.y(), gap)
+}
+
+/// Steps, theta at the end and the widest gap by another program, written in another language for the same equations.
+type Rows = [(u32, f64, f64); 2];
+const ACCELERATIONS: Rows =
+    [(5000, 275.063_206_182_975_6, 5.915_420_5e-3), (20_000, 274.967_904_587_985_46, 2.332_102_6e-5)];
+const WEAKLY: Rows = [(5000, 274.974_741_823_660_34, 1.415_255_8e-6), (20_000, 274.967_532_238_091_9, 5.535_610_4e-9)];
+const STRONGLY: Rows =
+    [(5000, 274.975_866_395_133_9, 1.116_225_7e-6), (20_000, 274.967_550_437_505_74, 3.880_448_7e-9)];
+const PROJECTED: Rows = [(5000, 274.964_844_557_934_1, 0.0), (20_000, 274.967_494_473_272_04, 0.0)];
+
+#[test]
+fn the_formulations_are_those_of_another_program() {
+    let problem = four_bars::turning();
+    let theta = |y: &SVector<f64, 4>| Turning::parts(y).0.theta;
+    let rows = if cfg!(debug_assertions) { 1 } else { 2 };
+    for (hold, expected) in [
+        (Hold::Accelerations, ACCELERATIONS),
+        (Hold::Baumgarte(5.0), WEAKLY),
+        (Hold::Baumgarte(50.0), STRONGLY),
+        (Hold::Projection, PROJECTED),
+    ] {
+        for (steps, end, widest) in &expected[..rows] {
+            let (y, gap) = with_multipliers(&problem, hold, *steps);
+            println!("{hold:?} {steps}: {:e} {gap:e} {:e}", theta(&y) - end, gap / widest - 1.0);
+            assert!((theta(&y) - end).abs() < 2e-9, "{hold:?} {steps}");
+            assert!((gap - widest).abs() < 1e-3 * widest + 1e-14, "{hold:?} {steps}: {gap:e}");
+        }
+    }
+    // Its reference, in double precision.
+    assert!((theta(&problem.expected) - 274.967_493_169_763_77).abs() < 5e-9);
+}
+
+/// Half the step is a sixteenth of the error, by Kutta's method in every formulation.
+#[test]
+fn every_formulation_is_of_order_four() {
+    let problem = four_bars::sprung();
+    let order = |error: &dyn Fn(u32) -> f64| (error(2500) / error(5000)).log2();
+    for hold in [Hold::Accelerations, Hold::Baumgarte(5.0), Hold::Baumgarte(50.0), Hold::Projection] {
+        let order = order(&|steps| problem.error(&with_multipliers(&problem, hold, steps).0));
+        println!("{hold:?} {order}");
+        assert!((order - 4.0).abs() < 0.25, "{hold:?} {order}");
+    }
+    let in_the_inputs = |steps: u32| {
+        let (q, rates) = four_bars::Sprung::parts(&problem.start);
+        let mut clock = RealTime::new(&problem.scene, (0.0, q, rates), problem.end / f64::from(steps)).unwrap();
+        (0..steps).for_each(|_| clock.step().unwrap());
+        problem.error(&four_bars::Sprung::state(&clock.state().unwrap().q, &rates))
+    };
+    let order = order(&in_the_inputs);
+    println!("{order}");
+    assert!((order - 4.0).abs() < 0.25, "{order}");
+}
