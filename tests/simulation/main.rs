@@ -2,6 +2,8 @@
 
 mod andrews;
 mod change_points;
+mod contacts;
+mod contacts_of_linkages;
 mod dead_points;
 mod doors;
 mod failures;

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use super::control::{Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
-use super::event::Sides;
+use super::event::{Found, Sides};
 use super::tableau::{self, Method, SLOPES, Slopes};
 use super::{Outputs, System, step};
 use crate::scalar::to_f64;
@@ -14,6 +14,9 @@ use crate::{Error, Real};
 
 /// The part of the tolerance by which a state may be corrected without another evaluation of the rate.
 const NEGLIGIBLE: f64 = 0.01;
+
+/// A step of this part of the interval is not made shorter for the sake of its guards.
+const SHORTEST: f64 = 1e-6;
 
 /// What an integration has cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -37,11 +40,10 @@ pub struct Step<T, const N: usize> {
     pub event: Option<usize>,
 }
 
-/// The last time of an event: which events it has had, and whether the motion started anew with one.
+/// The last time of an event, and whether the motion started anew with one.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Instant<T, const K: usize> {
+pub(super) struct Instant<T> {
     pub(super) t: T,
-    pub(super) events: [bool; K],
     pub(super) anew: bool,
 }
 
@@ -58,7 +60,7 @@ pub(super) enum Place {
 /// An integration under way: an iterator over its steps and events, which ends with an error or at the end of the
 /// interval. What was reached stays readable after an error.
 #[derive(Debug, Clone)]
-pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0> {
+pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0, const C: usize = 0> {
     pub(super) method: PhantomData<M>,
     pub(super) system: S,
     pub(super) tolerance: Tolerance<T, N>,
@@ -83,11 +85,16 @@ pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0> {
     pub(super) counts: Counts,
     pub(super) stiff: u32,
     pub(super) not_stiff: u32,
-    pub(super) sides: Sides<K>,
-    pub(super) instant: Instant<T, K>,
+    pub(super) sides: Sides<K, C>,
+    pub(super) instant: Instant<T>,
 }
 
-impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Integration<M, S, T, N, K> {
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
     /// Of this system from state `y` at `start` to `end`, which may be the earlier.
     ///
     /// # Errors
@@ -121,7 +128,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
             stiff: 0,
             not_stiff: 0,
             sides,
-            instant: Instant { t: start, events: [false; K], anew: false },
+            instant: Instant { t: start, anew: false },
         })
     }
 
@@ -204,7 +211,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     #[must_use]
     pub fn is_over(&self) -> bool {
         match self.place {
-            Place::Boundary => self.t == self.end && !self.sides.waiting.contains(&true),
+            Place::Boundary => self.t == self.end && !self.sides.waits(),
             Place::Within(_) => false,
             Place::Over => true,
         }
@@ -230,7 +237,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     }
 
     /// The states at these times, which follow one another in the direction of the integration.
-    pub fn at<I: IntoIterator<Item = T>>(&mut self, times: I) -> Outputs<'_, M, S, T, I::IntoIter, N, K> {
+    pub fn at<I: IntoIterator<Item = T>>(&mut self, times: I) -> Outputs<'_, M, S, T, I::IntoIter, N, K, C> {
         Outputs::new(self, times.into_iter())
     }
 
@@ -269,33 +276,44 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     }
 
     fn proceed(&mut self) -> Result<Step<T, N>, Error> {
-        if K > 0 && self.sides.waiting.contains(&true) {
+        if self.sides.waits() {
             return self.deliver();
         }
-        let from = match self.place {
-            Place::Within(part) => part,
-            _ => {
-                self.step()?;
-                0.0
+        loop {
+            let (from, is_new) = match self.place {
+                Place::Within(part) => (part, false),
+                _ => {
+                    self.step()?;
+                    (0.0, true)
+                }
+            };
+            let found = if K + C > 0 { self.search(from)? } else { Found::Nothing };
+            let length = to_f64(self.to.0 - self.from.0).abs();
+            match found {
+                Found::Hit(hit) => {
+                    (self.t, self.state) = (hit.t, hit.state);
+                    self.place = Place::Within(hit.at);
+                    return self.deliver();
+                }
+                // What jumps stays unclear in any step.
+                Found::Unclear if is_new && length > SHORTEST * to_f64(self.end - self.start).abs() => {
+                    self.go_back(self.from.0, self.from.1);
+                    self.limit_next(length / 16.0);
+                }
+                _ => {
+                    (self.t, self.state) = self.to;
+                    self.place = Place::Boundary;
+                    return Ok(Step { t: self.t, state: self.state, event: None });
+                }
             }
-        };
-        if K > 0
-            && let Some(hit) = self.search(from)?
-        {
-            (self.t, self.state) = (hit.t, hit.state);
-            self.place = Place::Within(hit.at);
-            return self.deliver();
         }
-        (self.t, self.state) = self.to;
-        self.place = Place::Boundary;
-        Ok(Step { t: self.t, state: self.state, event: None })
     }
 
     /// The same start, end and settings by another method or with another system.
-    pub(crate) fn with<M2: Method, S2: System<T, N, K2>, const K2: usize>(
+    pub(crate) fn with<M2: Method, S2: System<T, N, K2, C>, const K2: usize>(
         self,
         system: impl FnOnce(S) -> S2,
-    ) -> Result<Integration<M2, S2, T, N, K2>, Error> {
+    ) -> Result<Integration<M2, S2, T, N, K2, C>, Error> {
         let (largest, most_steps, stiffness_every, parts) =
             (self.largest, self.most_steps, self.stiffness_every, self.parts);
         let (length, safety) = (self.controller.length, self.controller.safety);
@@ -308,7 +326,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
 
     /// Whether a step begins here.
     pub(crate) fn is_at_boundary(&self) -> bool {
-        self.place == Place::Boundary && !self.sides.waiting.contains(&true)
+        self.place == Place::Boundary && !self.sides.waits()
     }
 
     pub(crate) fn system_mut(&mut self) -> &mut S {
@@ -354,7 +372,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
         self.interpolant = Some(Interpolant::constant(t, state));
         self.t = t;
         self.place = Place::Boundary;
-        self.sides.waiting = [false; K];
+        self.sides.forget();
         self.exchange(state);
     }
 
@@ -394,7 +412,12 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     }
 }
 
-impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Iterator for Integration<M, S, T, N, K> {
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Iterator for Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
     type Item = Result<Step<T, N>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {

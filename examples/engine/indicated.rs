@@ -1,0 +1,38 @@
+//! What gas and rings do from one angle of the crank to another, whatever the motion between.
+
+use std::f64::consts::PI;
+
+use linkage::{Error, Slope};
+
+use crate::gauss::nodes;
+use crate::machine::{CYCLE, EngineBranch, KINKS, Running};
+
+/// The work of the gas and the heat of the rings: pressure over volume, and friction over way.
+///
+/// # Errors
+/// Where no position can be assembled: with a rod shorter than the crank.
+pub fn work(scene: &Running<f64>, [from, to]: [f64; 2]) -> Result<[f64; 2], Error> {
+    let engine = &scene.mechanism;
+    let mut ends = vec![from, to];
+    // Where a law has a kink, and the dead centres.
+    for kink in KINKS.map(f64::to_radians).into_iter().chain([0.0, PI, 2.0 * PI, 3.0 * PI]) {
+        let first = ((from - kink) / CYCLE).ceil();
+        ends.extend((0..).map(|count| kink + (first + f64::from(count)) * CYCLE).take_while(|place| *place < to));
+    }
+    ends.sort_by(f64::total_cmp);
+    let mut work = [0.0, 0.0];
+    for pair in ends.windows(2) {
+        let parts = ((pair[1] - pair[0]) / 0.2).ceil();
+        let place = |part: u32| pair[0] + (pair[1] - pair[0]) * f64::from(part) / parts;
+        for part in 0..parts as u32 {
+            for [phi, weight] in nodes([place(part), place(part + 1)]) {
+                let pose = engine.assemble(phi, EngineBranch { psi: Slope::Rising })?;
+                let rate = engine.velocity(&pose, 1.0)?;
+                let outputs = engine.outputs(&pose)?;
+                work[0] += weight * (outputs.pressure - scene.ambient) * -rate.z * PI / 4.0 * engine.bore.powi(2);
+                work[1] += weight * scene.mu * (scene.tension + scene.face * outputs.pressure) * rate.z.abs();
+            }
+        }
+    }
+    Ok(work)
+}

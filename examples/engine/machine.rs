@@ -1,0 +1,135 @@
+//! The engine: one cylinder of four strokes, in metres, kilograms and seconds; x points up, along the cylinder.
+
+use std::f64::consts::TAU;
+
+use linkage::linkage;
+
+/// Where the accounts begin: firing top dead centre, the cylinder full of mixture.
+pub const START: EngineCoordinates<f64> = EngineCoordinates { phi: 0.0, psi: 0.0, z: 0.1865 };
+
+/// From one firing to the next.
+pub const CYCLE: f64 = 2.0 * TAU;
+
+/// Where the laws of the gas have kinks, in degrees of the crank: valves open and close, the mixture catches fire.
+pub const KINKS: [f64; 7] = [-200.0, -160.0, SPARK, 130.0, 180.0, 340.0, 380.0];
+
+/// Twenty degrees before top dead centre.
+const SPARK: f64 = -20.0;
+
+/// What the valves and the flame do over the angle of the crank, 0 being the top dead centre at which the mixture burns.
+mod gas {
+    use linkage::Real;
+    use linkage::nalgebra::convert;
+
+    /// The angle within the cycle that begins as the intake valve closes, at 200 degrees before firing.
+    fn within<T: Real>(phi: T) -> T {
+        let (first, cycle) = (convert::<f64, T>((-200_f64).to_radians()), T::two_pi() + T::two_pi());
+        phi - ((phi - first) / cycle).floor() * cycle
+    }
+
+    /// From 0 to 1 between two angles, by the polynomial 3-4-5, with two derivatives.
+    pub fn gate<T: Real>(phi: T, from: T, to: T) -> (T, T, T) {
+        let x = ((within(phi) - from) / (to - from)).clamp(T::zero(), T::one());
+        let [two, six, ten, fifteen, thirty, sixty] = [2.0, 6.0, 10.0, 15.0, 30.0, 60.0].map(convert::<f64, T>);
+        let square = x * (T::one() - x);
+        (
+            x * x * x * (ten - x * (fifteen - six * x)),
+            thirty * square * square / (to - from),
+            sixty * square * (T::one() - two * x) / ((to - from) * (to - from)),
+        )
+    }
+
+    /// The burnt part of the mixture, Wiebe's function of J. B. Heywood, "Internal Combustion Engine Fundamentals"
+    /// (1988), equation 9.30 with a = 5 and m = 2, with two derivatives.
+    pub fn burnt<T: Real>(phi: T, start: T, duration: T) -> (T, T, T) {
+        let [two, three, a] = [2.0, 3.0, 5.0].map(convert::<f64, T>);
+        let x = ((within(phi) - start) / duration).max(T::zero());
+        let unburnt = (-a * x * x * x).exp();
+        let first = three * a * x * x;
+        let second = two * three * a * x;
+        (T::one() - unburnt, first * unburnt / duration, (second - first * first) * unburnt / (duration * duration))
+    }
+}
+
+linkage! {
+    /// A slider-crank driven by gas.
+    ///
+    /// Pressure by L. Eriksson and I. Andersson, "An Analytic Model for Cylinder Pressure in a Four Stroke SI Engine",
+    /// SAE 2002-01-0371: between a polytrope of compression and one of expansion as the mixture burns, and that of
+    /// the manifolds while a valve is open.
+    #[derive(Debug, Clone)]
+    pub mechanism Engine {
+        /// Crank radius and length of the rod.
+        param r = 0.043, l = 0.1435;
+        /// Bore, and the ratio of compression.
+        param bore = 0.086, compression = 10;
+        /// Of the manifolds and outside, Pa.
+        param intake = 0.9e5, exhaust = 1.1e5, ambient = 1e5;
+        /// Exponents of compression and expansion, and how many times hotter the mixture gets by burning.
+        param kc = 1.3, ke = 1.28, heat = 3.4;
+        /// Where burning begins, and how long it takes.
+        param spark = -20deg, duration = 60deg;
+        /// The crank with its counterweight: the mass centre lies opposite the pin.
+        param m2 = 2.4, b2 = 0.012, j2 = 3.5e-3;
+        /// The rod: its centre from the crank's pin.
+        param m3 = 0.55, b3 = 0.043, j3 = 1.9e-3;
+        param m4 = 0.45;
+        param flywheel = 0.05, g = 9.81;
+        /// Piston rings: what presses them by themselves, and the area on which the gas presses them.
+        param mu = 0.08, tension = 400, face = 8e-4;
+        /// An eddy current brake: its torque beside its speed.
+        param brake = 0.105;
+        /// For measuring: where the crank is, its rate and acceleration, and the friction there.
+        param place = 0, speed = 0, gain = 0, drag = 0;
+
+        input phi;
+        unknown psi, z;
+        loop r@phi + l@psi = (z, 0);
+
+        point Pin = r@phi;
+        point Crank = (-b2)@phi;
+        point Rod = Pin + b3@psi;
+        point Piston = (z, 0);
+
+        let area = pi / 4 * bore^2;
+        let clearance = 2 * r * area / (compression - 1);
+        let full = 2 * r * area + clearance;
+        output volume = clearance + area * (r + l - z);
+
+        extern fn gas::burnt(phi, start, duration) -> (burnt, burning, burning_rate);
+        extern fn gas::gate(phi, from, to) -> (gate, gate_slope, gate_bend);
+        let compressed = intake * exp(kc * ln(full / volume));
+        let expanded = heat * intake * exp((kc - ke) * ln(compression)) * exp(ke * ln(full / volume));
+        let burning_part = burnt(phi, spark, duration);
+        let closed = compressed + burning_part * (expanded - compressed);
+        let open = 1 - gate(phi, -200deg, -160deg) + gate(phi, 130deg, 180deg);
+        let sucking = 1 - gate(phi, 0, 40deg) + gate(phi, 340deg, 380deg);
+        let manifold = exhaust + sucking * (intake - exhaust);
+        output pressure = closed + open * (manifold - closed);
+
+        body crank { mass m2; inertia j2; center Crank; angle phi; }
+        body wheel { inertia flywheel; angle phi; }
+        body rod { mass m3; inertia j3; center Rod; angle psi; }
+        body piston { mass m4; center Piston; }
+
+        /// The engine on its brake.
+        scene Running {
+            inertia;
+            gravity (-g, 0);
+            force (-area * (pressure - ambient), 0) at Piston;
+            friction mu, tension + face * pressure on z;
+            damper brake on phi;
+            energy;
+            power;
+        }
+        /// Its motion as it is, without flywheel and brake: what holds it is the torque in the shaft and the force at the
+        /// piston's pin.
+        scene Measured {
+            inertia crank, rod, piston;
+            gravity (-g, 0);
+            force (-area * (pressure - ambient) + drag, 0) at Piston;
+            drive phi = place + speed * t + gain / 2 * t^2;
+            reactions;
+        }
+    }
+}

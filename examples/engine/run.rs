@@ -1,0 +1,117 @@
+//! The engine in motion, and the accounts of its energy along it.
+
+use linkage::Error;
+use linkage::integrate::Crossing;
+use linkage::simulation::{State, Then, simulate};
+
+use crate::gauss::nodes;
+use crate::machine::{EngineCoordinates, EngineInputs, KINKS, Running, START};
+
+pub type Moment = State<f64, EngineCoordinates<f64>, 1>;
+
+/// The relative error allowed of a step.
+const TOLERANCE: f64 = 1e-13;
+
+/// What came and went from the start to a moment, in joules.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Account {
+    pub t: f64,
+    /// More kinetic and potential energy.
+    pub gained: f64,
+    /// Work of the gas.
+    pub applied: f64,
+    /// Heat of rings and brake.
+    pub dissipated: f64,
+}
+
+impl Account {
+    /// What does not add up.
+    pub fn gap(&self) -> f64 {
+        self.gained - (self.applied - self.dissipated)
+    }
+}
+
+/// From a firing on.
+pub struct Run {
+    pub scene: Running<f64>,
+    /// In order, several in each step.
+    pub moments: Vec<Moment>,
+    /// At the end of each step: power by Gauss's quadrature within each.
+    pub accounts: Vec<Account>,
+}
+
+impl Run {
+    /// From this speed, for a time, or until the crank is at this angle.
+    ///
+    /// # Errors
+    /// Those of the simulation.
+    pub fn new(scene: Running<f64>, speed: f64, (end, angle): (f64, f64)) -> Result<Self, Error> {
+        // A step ends where a law has a kink: sin((phi - kink) / 2) rises there, once in a cycle.
+        let kinks = KINKS.map(f64::to_radians);
+        let mut motion = simulate(&scene, (0.0, START, speed), end, TOLERANCE)?.events(
+            [Crossing::Rising; KINKS.len() + 1],
+            |state: &Moment| {
+                let mut values = [state.q.phi - angle; KINKS.len() + 1];
+                for (value, kink) in values.iter_mut().zip(kinks) {
+                    *value = ((state.q.phi - kink) / 2.0).sin();
+                }
+                Ok(values)
+            },
+            |event, state| {
+                let rates = EngineInputs { phi: state.rate.phi };
+                Ok(if event < KINKS.len() { Then::Restart(rates) } else { Then::Stop })
+            },
+        )?;
+        let energy = |state: &Moment| -> Result<f64, Error> {
+            let energy = scene.energy(&state.q, state.rate.phi)?;
+            Ok(energy.kinetic + energy.potential)
+        };
+        let mut last = *motion.state();
+        let start = energy(&last)?;
+        let mut account = Account::default();
+        let (mut moments, mut accounts) = (vec![last], vec![account]);
+        while let Some(state) = motion.advance()? {
+            if state.t == last.t {
+                continue;
+            }
+            let nodes = nodes([last.t, state.t]);
+            for (state, [_, weight]) in motion.at(nodes.map(|[t, _]| t)).zip(nodes) {
+                let state = state?;
+                let power = scene.power(state.t, &state.q, state.rate.phi)?;
+                account.applied += weight * power.applied;
+                account.dissipated += weight * power.dissipated;
+                moments.push(state);
+            }
+            moments.push(state);
+            (account.t, account.gained) = (state.t, energy(&state)? - start);
+            accounts.push(account);
+            last = state;
+        }
+        Ok(Self { scene, moments, accounts })
+    }
+
+    /// The ends of the steps: there the rings change their direction.
+    pub fn ends(&self) -> impl Iterator<Item = &Moment> {
+        self.moments.iter().step_by(9)
+    }
+
+    /// A quantity over the time of the whole run, by the same quadrature.
+    ///
+    /// # Errors
+    /// Those of the quantity.
+    pub fn integral(&self, mut quantity: impl FnMut(&Moment) -> Result<f64, Error>) -> Result<f64, Error> {
+        let mut sum = 0.0;
+        for (step, ends) in self.moments[1..].chunks(9).zip(self.accounts.windows(2)) {
+            for (state, [_, weight]) in step.iter().zip(nodes([ends[0].t, ends[1].t])) {
+                sum += weight * quantity(state)?;
+            }
+        }
+        Ok(sum)
+    }
+
+    /// The moments since the last but so many firings.
+    pub fn last_cycles(&self, count: f64) -> &[Moment] {
+        let from = self.moments[self.moments.len() - 1].q.phi - count * crate::machine::CYCLE;
+        &self.moments[self.moments.partition_point(|state| state.q.phi < from)..]
+    }
+}
