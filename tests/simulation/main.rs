@@ -2,6 +2,7 @@
 
 mod andrews;
 mod change_points;
+mod contacts;
 mod dead_points;
 mod doors;
 mod failures;

@@ -14,6 +14,7 @@
 //! limit, by 1024 roundings, and slips at its limit, so that a block pushed exactly as hard as its friction holds stays.
 
 mod bounded;
+mod change;
 mod held;
 mod impact;
 mod margin;
@@ -24,6 +25,8 @@ mod verdict;
 
 use nalgebra::SVector;
 
+pub use change::Change;
+pub(crate) use change::changes;
 pub use reduced::{ReducedContact, ReducedEquations};
 pub(crate) use state::within;
 pub use state::{ContactMotion, Contacts};

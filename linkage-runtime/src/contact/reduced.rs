@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{Contact, ContactLaw};
-use crate::{Equations, Error, Mechanism, Real, Scene};
+use crate::{Coordinates, Equations, Error, Mechanism, Real, Scene};
 
 /// M v'' = Q + S' f with the contacts' s' = S v' + `drift` and s'' = S v'' + `bias`, where v are `V` coordinates that
 /// move independently: the inputs of a scene, or any others.
@@ -79,6 +79,15 @@ impl<T: Real, const V: usize, const C: usize> ReducedEquations<T, V, C> {
         t: T,
         state: &SVector<T, N>,
     ) -> Result<Self, Error> {
+        Self::with_velocity(scene, t, state).map(|(reduced, _)| reduced)
+    }
+
+    /// The same, and q'.
+    pub(crate) fn with_velocity<S: Scene<T, U, V, N, C>, const U: usize, const N: usize>(
+        scene: &S,
+        t: T,
+        state: &SVector<T, N>,
+    ) -> Result<(Self, Coordinates<S::Mechanism, T, U, V>), Error> {
         let Equations { mass, forces, ratios, bias } = scene.equations(t, state)?;
         let (q, rates) = S::parts(state);
         let rates: SVector<T, V> = rates.into();
@@ -95,7 +104,7 @@ impl<T: Real, const V: usize, const C: usize> ReducedEquations<T, V, C> {
                 reduced.prescribe(at, acceleration);
             }
         }
-        Ok(reduced)
+        Ok((reduced, velocity))
     }
 
     /// Gives a coordinate this acceleration: its rate and acceleration act on the others as they do, and no force or

@@ -80,18 +80,43 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     ) -> Result<(Self, SVector<T, V>), Error> {
         let mut evaluate = evaluate;
         let equations = evaluate(rates)?;
-        let mut modes = [Mode::Open; C];
-        for (mode, contact) in modes.iter_mut().zip(&equations.contacts) {
-            match contact.law {
-                ContactLaw::Friction { .. } => *mode = slip_or_stick(contact.rate(rates)),
-                ContactLaw::Stop { lower, upper, .. } => {
-                    within(equations.scene, contact.name, contact.value, [lower, upper])?;
-                }
+        for contact in &equations.contacts {
+            if let ContactLaw::Stop { lower, upper, .. } = contact.law {
+                within(equations.scene, contact.name, contact.value, [lower, upper])?;
             }
         }
-        let mut contacts = Self { modes, hardest: [T::zero(); C] };
-        let rates = contacts.settle(t, rates, evaluate)?;
+        let mut contacts = Self::open();
+        let rates = contacts.resume(t, rates, evaluate)?;
         Ok((contacts, rates))
+    }
+
+    /// Nothing acts.
+    pub(crate) fn open() -> Self {
+        Self { modes: [Mode::Open; C], hardest: [T::zero(); C] }
+    }
+
+    /// The modes that go with other rates v', given by a blow from outside; and the rates from here on, as those of
+    /// [`begin`](Self::begin). What rests on a stop and keeps no rate rests on.
+    ///
+    /// # Errors
+    /// As [`settle`](Self::settle).
+    pub fn resume<const V: usize>(
+        &mut self,
+        t: T,
+        rates: &SVector<T, V>,
+        evaluate: impl FnMut(&SVector<T, V>) -> Result<ReducedEquations<T, V, C>, Error>,
+    ) -> Result<SVector<T, V>, Error> {
+        let mut evaluate = evaluate;
+        let equations = evaluate(rates)?;
+        for (mode, contact) in self.modes.iter_mut().zip(&equations.contacts) {
+            let rate = contact.rate(rates);
+            match contact.law {
+                ContactLaw::Friction { .. } => *mode = slip_or_stick(rate),
+                ContactLaw::Stop { .. } if is_nothing(rate) => {}
+                ContactLaw::Stop { .. } => *mode = Mode::Open,
+            }
+        }
+        self.settle(t, rates, evaluate)
     }
 
     /// The accelerations in these modes.

@@ -1,5 +1,7 @@
 //! The events of an integration under way, one after the other.
 
+use nalgebra::SVector;
+
 use super::System;
 use super::event::{Action, Hit};
 use super::run::{Instant, Integration, Place, Step, finite};
@@ -7,7 +9,12 @@ use super::tableau::Method;
 use crate::scalar::to_f64;
 use crate::{Error, Real};
 
-impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Integration<M, S, T, N, K> {
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
     /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
     /// rate, and if that has one on the dense output.
     pub(super) fn search(&mut self, from: f64) -> Result<Option<Hit<T, N>>, Error> {
@@ -32,29 +39,38 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
 
     /// The next of the events that have happened here.
     pub(super) fn deliver(&mut self) -> Result<Step<T, N>, Error> {
-        let event = self.sides.waiting.iter().position(|&waiting| waiting).unwrap_or(0);
-        self.sides.waiting[event] = false;
         let (t, state) = (self.t, self.state);
         let resolution = 4.0 * self.roundings() * to_f64(self.to.0 - self.from.0).abs();
         if to_f64(t - self.instant.t).abs() > resolution {
-            self.instant = Instant { t, events: [false; K], anew: false };
-        } else if self.instant.events[event] && self.instant.anew {
+            self.instant = Instant { t, anew: false };
+            self.sides.anew();
+        }
+        let (event, again) = self.sides.deliver();
+        if again && self.instant.anew {
             return Err(Error::EventsWithoutEnd { t: to_f64(t), event });
         }
-        self.instant.events[event] = true;
         match self.system.at_event(event, t, &state)? {
             Action::Record => {}
-            Action::Stop => self.place = Place::Over,
-            Action::Restart(state) => {
-                finite("the state after an event", t, &state)?;
-                self.state = state;
-                self.continues = false;
-                self.instant.anew = true;
-                if self.place != Place::Over {
-                    self.place = Place::Boundary;
-                }
-            }
+            Action::Stop => self.stop(),
+            Action::Restart(state) => self.restart(state)?,
         }
         Ok(Step { t, state, event: Some(event) })
+    }
+
+    /// Nothing follows.
+    pub(crate) fn stop(&mut self) {
+        self.place = Place::Over;
+    }
+
+    /// The motion starts anew here, from this state.
+    pub(crate) fn restart(&mut self, state: SVector<T, N>) -> Result<(), Error> {
+        finite("the state after an event", self.t, &state)?;
+        self.state = state;
+        self.continues = false;
+        self.instant.anew = true;
+        if self.place != Place::Over {
+            self.place = Place::Boundary;
+        }
+        Ok(())
     }
 }

@@ -30,17 +30,28 @@ pub enum Action<T, const N: usize> {
     Restart(SVector<T, N>),
 }
 
-/// On which side of zero the functions are, as far as the integration has gone.
+/// On which side of zero the functions are, as far as the integration has gone: the user's, then the guards.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sides<const K: usize> {
-    /// 1 or -1; 0 where a function has been zero since the start.
-    signs: [i8; K],
-    /// Happened at the time reached, not delivered yet.
-    pub(super) waiting: [bool; K],
-    /// How far from zero rounding has left the functions that have just had their events; of the others -1.
-    residues: [f64; K],
-    crossings: [Crossing; K],
+pub(super) struct Sides<const K: usize, const C: usize> {
+    events: [Side; K],
+    guards: [Side; C],
 }
+
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// 1 or -1; 0 where the function has been zero since the start.
+    sign: i8,
+    /// Its event has happened at the time reached, and is not delivered yet.
+    waits: bool,
+    /// It has had an event at the last time of events.
+    has_happened: bool,
+    /// How far from zero rounding has left a function that has just had its event; of the others -1.
+    residue: f64,
+    crossing: Crossing,
+}
+
+/// Of the events and of the guards.
+type Values<const K: usize, const C: usize> = ([f64; K], [f64; C]);
 
 /// The first events in the step after some part of it.
 pub(super) struct Hit<T: Real, const N: usize> {
@@ -61,27 +72,88 @@ fn sign(value: f64) -> i8 {
     }
 }
 
-pub(super) fn values<S: System<T, N, K>, T: Real, const N: usize, const K: usize>(
+fn values<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
     system: &mut S,
     t: T,
     state: &SVector<T, N>,
-) -> Result<[f64; K], Error> {
-    let values = system.events(t, state)?.map(to_f64);
-    if values.iter().all(|value| value.is_finite()) {
-        Ok(values)
+) -> Result<Values<K, C>, Error> {
+    let events = if K > 0 { system.events(t, state)?.map(to_f64) } else { [0.0; K] };
+    let guards = if C > 0 { system.guards(t, state)?.map(to_f64) } else { [0.0; C] };
+    if events.iter().chain(&guards).all(|value| value.is_finite()) {
+        Ok((events, guards))
     } else {
         Err(Error::NotFiniteAt { quantity: "an event function", t: to_f64(t) })
     }
 }
 
-impl<const K: usize> Sides<K> {
+impl Side {
+    fn new(crossing: Crossing) -> Self {
+        Self { sign: 0, waits: false, has_happened: false, residue: -1.0, crossing }
+    }
+
+    /// Whether the function has reached zero or passed it.
+    fn passed(&self, value: f64) -> bool {
+        self.sign != 0 && sign(value) != self.sign
+    }
+
+    /// Whether a passage is an event.
+    fn counts(&self) -> bool {
+        match self.crossing {
+            Crossing::Rising => self.sign < 0,
+            Crossing::Falling => self.sign > 0,
+            Crossing::Either => true,
+        }
+    }
+}
+
+impl<const K: usize, const C: usize> Sides<K, C> {
     pub(super) fn new(crossings: [Crossing; K]) -> Self {
-        Self { signs: [0; K], waiting: [false; K], residues: [-1.0; K], crossings }
+        Self { events: crossings.map(Side::new), guards: [Side::new(Crossing::Falling); C] }
+    }
+
+    fn each(&self) -> impl Iterator<Item = &Side> {
+        self.events.iter().chain(&self.guards)
+    }
+
+    fn each_mut(&mut self) -> impl Iterator<Item = &mut Side> {
+        self.events.iter_mut().chain(&mut self.guards)
+    }
+
+    fn with<'a>(&'a self, values: &'a Values<K, C>) -> impl Iterator<Item = (&'a Side, f64)> {
+        self.each().zip(values.0.iter().chain(&values.1).copied())
+    }
+
+    fn with_mut<'a>(&'a mut self, values: &'a Values<K, C>) -> impl Iterator<Item = (&'a mut Side, f64)> {
+        self.each_mut().zip(values.0.iter().chain(&values.1).copied())
+    }
+
+    /// Whether an event has happened that is not delivered yet.
+    pub(super) fn waits(&self) -> bool {
+        self.each().any(|side| side.waits)
+    }
+
+    /// Nothing is to be delivered.
+    pub(super) fn forget(&mut self) {
+        self.each_mut().for_each(|side| side.waits = false);
+    }
+
+    /// Another time of events: none has happened yet.
+    pub(super) fn anew(&mut self) {
+        self.each_mut().for_each(|side| side.has_happened = false);
+    }
+
+    /// The next event to be delivered, and whether it has happened at this time already.
+    pub(super) fn deliver(&mut self) -> (usize, bool) {
+        let next = self.each_mut().enumerate().find(|(_, side)| side.waits);
+        next.map_or((0, false), |(event, side)| {
+            side.waits = false;
+            (event, core::mem::replace(&mut side.has_happened, true))
+        })
     }
 
     /// The sides at the start of a motion. A function that is zero, or that its event has left within rounding of
     /// zero, is on the side that it leaves for: `after` is a little later.
-    pub(super) fn begin<T: Real, S: System<T, N, K>, const N: usize>(
+    pub(super) fn begin<T: Real, S: System<T, N, K, C>, const N: usize>(
         &mut self,
         system: &mut S,
         (t, state): (T, &SVector<T, N>),
@@ -89,45 +161,31 @@ impl<const K: usize> Sides<K> {
     ) -> Result<(), Error> {
         let now = values(system, t, state)?;
         let next = values(system, later, after)?;
-        for i in 0..K {
-            let on_zero = now[i] == 0.0 || now[i].abs() <= self.residues[i];
-            self.signs[i] = if on_zero { sign(next[i] - now[i]) } else { sign(now[i]) };
+        for ((side, now), next) in self.with_mut(&now).zip(next.0.iter().chain(&next.1)) {
+            let on_zero = now == 0.0 || now.abs() <= side.residue;
+            side.sign = if on_zero { sign(next - now) } else { sign(now) };
         }
         Ok(())
     }
 
-    /// Whether function i has reached zero or passed it.
-    fn passed(&self, i: usize, value: f64) -> bool {
-        self.signs[i] != 0 && sign(value) != self.signs[i]
-    }
-
-    /// Whether a passage of function i is an event.
-    fn counts(&self, i: usize) -> bool {
-        match self.crossings[i] {
-            Crossing::Rising => self.signs[i] < 0,
-            Crossing::Falling => self.signs[i] > 0,
-            Crossing::Either => true,
-        }
-    }
-
-    fn any(&self, values: &[f64; K]) -> bool {
-        (0..K).any(|i| self.passed(i, values[i]) && self.counts(i))
+    fn any(&self, values: &Values<K, C>) -> bool {
+        self.with(values).any(|(side, value)| side.passed(value) && side.counts())
     }
 
     /// Takes over the sides that these values show.
-    fn follow(&mut self, values: &[f64; K]) {
-        for (i, &value) in values.iter().enumerate() {
-            if self.passed(i, value) {
-                self.signs[i] = -self.signs[i];
-            } else if self.signs[i] == 0 {
-                self.signs[i] = sign(value);
+    fn follow(&mut self, values: &Values<K, C>) {
+        for (side, value) in self.with_mut(values) {
+            if side.passed(value) {
+                side.sign = -side.sign;
+            } else if side.sign == 0 {
+                side.sign = sign(value);
             }
         }
     }
 
     /// The first events within the step after the part `from`, looked for at `parts` equal parts of the step: a
     /// function that goes through zero twice between two of them is not seen.
-    pub(super) fn search<T: Real, S: System<T, N, K>, const N: usize>(
+    pub(super) fn search<T: Real, S: System<T, N, K, C>, const N: usize>(
         &mut self,
         system: &mut S,
         step: &Interpolant<T, N>,
@@ -145,9 +203,9 @@ impl<const K: usize> Sides<K> {
                 let at = self.locate(system, step, (before, s), roundings)?;
                 let (t, state) = (step.time(at), step.at_fraction(real(at)));
                 let there = values(system, t, &state)?;
-                for (i, &value) in there.iter().enumerate() {
-                    self.waiting[i] = self.passed(i, value) && self.counts(i);
-                    self.residues[i] = if self.waiting[i] { value.abs() } else { -1.0 };
+                for (side, value) in self.with_mut(&there) {
+                    side.waits = side.passed(value) && side.counts();
+                    side.residue = if side.waits { value.abs() } else { -1.0 };
                 }
                 self.follow(&there);
                 return Ok(Some(Hit { at, t, state }));
@@ -159,16 +217,16 @@ impl<const K: usize> Sides<K> {
     }
 
     /// The least of the functions that may have an event, as they are before it: positive, and then zero or less.
-    fn least(&self, values: &[f64; K]) -> f64 {
-        (0..K)
-            .filter(|&i| self.signs[i] != 0 && self.counts(i))
-            .fold(f64::INFINITY, |least, i| least.min(f64::from(self.signs[i]) * values[i]))
+    fn least(&self, values: &Values<K, C>) -> f64 {
+        self.with(values)
+            .filter(|(side, _)| side.sign != 0 && side.counts())
+            .fold(f64::INFINITY, |least, (side, value)| least.min(f64::from(side.sign) * value))
     }
 
     /// Where the first event has just happened, to within `roundings` of the step: by the ITP method (Oliveira and
     /// Takahashi, *An Enhancement of the Bisection Method Average Performance Preserving Minmax Optimality*, ACM
     /// Trans. Math. Softw. 47 (2020)), which takes at most one evaluation more than bisection.
-    fn locate<T: Real, S: System<T, N, K>, const N: usize>(
+    fn locate<T: Real, S: System<T, N, K, C>, const N: usize>(
         &self,
         system: &mut S,
         step: &Interpolant<T, N>,

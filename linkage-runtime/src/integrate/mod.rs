@@ -75,12 +75,12 @@ use crate::{Error, Real};
 ///
 /// # Errors
 /// As [`Integration::new`].
-pub fn dop853<S: System<T, N, K>, T: Real, const N: usize, const K: usize>(
+pub fn dop853<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
     system: S,
     start: (T, SVector<T, N>),
     end: T,
     tolerance: Tolerance<T, N>,
-) -> Result<Integration<Dop853, S, T, N, K>, Error> {
+) -> Result<Integration<Dop853, S, T, N, K, C>, Error> {
     Integration::new(system, start, end, tolerance)
 }
 
@@ -89,11 +89,11 @@ pub fn dop853<S: System<T, N, K>, T: Real, const N: usize, const K: usize>(
 ///
 /// # Errors
 /// As [`Integration::new`].
-pub fn dopri5<S: System<T, N, K>, T: Real, const N: usize, const K: usize>(
+pub fn dopri5<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
     system: S,
     start: (T, SVector<T, N>),
     end: T,
     tolerance: Tolerance<T, N>,
-) -> Result<Integration<Dopri5, S, T, N, K>, Error> {
+) -> Result<Integration<Dopri5, S, T, N, K, C>, Error> {
     Integration::new(system, start, end, tolerance)
 }

@@ -15,22 +15,22 @@ use crate::{Error, Real};
 /// It ends after the last time, where an event stops the integration, or with an error; what came before stands. A
 /// time that is not in the part of the interval that lies ahead is an [`Error::OutOfRange`].
 #[derive(Debug)]
-pub struct Outputs<'a, M, S, T: Real, I, const N: usize, const K: usize> {
-    integration: &'a mut Integration<M, S, T, N, K>,
+pub struct Outputs<'a, M, S, T: Real, I, const N: usize, const K: usize, const C: usize = 0> {
+    integration: &'a mut Integration<M, S, T, N, K, C>,
     times: I,
     failed: bool,
 }
 
-impl<'a, M, S, T: Real, I, const N: usize, const K: usize> Outputs<'a, M, S, T, I, N, K> {
-    pub(super) fn new(integration: &'a mut Integration<M, S, T, N, K>, times: I) -> Self {
+impl<'a, M, S, T: Real, I, const N: usize, const K: usize, const C: usize> Outputs<'a, M, S, T, I, N, K, C> {
+    pub(super) fn new(integration: &'a mut Integration<M, S, T, N, K, C>, times: I) -> Self {
         Self { integration, times, failed: false }
     }
 }
 
-impl<M, S, T, I, const N: usize, const K: usize> Outputs<'_, M, S, T, I, N, K>
+impl<M, S, T, I, const N: usize, const K: usize, const C: usize> Outputs<'_, M, S, T, I, N, K, C>
 where
     M: Method,
-    S: System<T, N, K>,
+    S: System<T, N, K, C>,
     T: Real,
     I: Iterator<Item = T>,
 {
@@ -49,10 +49,10 @@ where
     }
 }
 
-impl<M, S, T, I, const N: usize, const K: usize> Iterator for Outputs<'_, M, S, T, I, N, K>
+impl<M, S, T, I, const N: usize, const K: usize, const C: usize> Iterator for Outputs<'_, M, S, T, I, N, K, C>
 where
     M: Method,
-    S: System<T, N, K>,
+    S: System<T, N, K, C>,
     T: Real,
     I: Iterator<Item = T>,
 {

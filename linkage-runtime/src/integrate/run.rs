@@ -37,11 +37,10 @@ pub struct Step<T, const N: usize> {
     pub event: Option<usize>,
 }
 
-/// The last time of an event: which events it has had, and whether the motion started anew with one.
+/// The last time of an event, and whether the motion started anew with one.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Instant<T, const K: usize> {
+pub(super) struct Instant<T> {
     pub(super) t: T,
-    pub(super) events: [bool; K],
     pub(super) anew: bool,
 }
 
@@ -58,7 +57,7 @@ pub(super) enum Place {
 /// An integration under way: an iterator over its steps and events, which ends with an error or at the end of the
 /// interval. What was reached stays readable after an error.
 #[derive(Debug, Clone)]
-pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0> {
+pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0, const C: usize = 0> {
     pub(super) method: PhantomData<M>,
     pub(super) system: S,
     pub(super) tolerance: Tolerance<T, N>,
@@ -83,11 +82,16 @@ pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0> {
     pub(super) counts: Counts,
     pub(super) stiff: u32,
     pub(super) not_stiff: u32,
-    pub(super) sides: Sides<K>,
-    pub(super) instant: Instant<T, K>,
+    pub(super) sides: Sides<K, C>,
+    pub(super) instant: Instant<T>,
 }
 
-impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Integration<M, S, T, N, K> {
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
     /// Of this system from state `y` at `start` to `end`, which may be the earlier.
     ///
     /// # Errors
@@ -121,7 +125,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
             stiff: 0,
             not_stiff: 0,
             sides,
-            instant: Instant { t: start, events: [false; K], anew: false },
+            instant: Instant { t: start, anew: false },
         })
     }
 
@@ -204,7 +208,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     #[must_use]
     pub fn is_over(&self) -> bool {
         match self.place {
-            Place::Boundary => self.t == self.end && !self.sides.waiting.contains(&true),
+            Place::Boundary => self.t == self.end && !self.sides.waits(),
             Place::Within(_) => false,
             Place::Over => true,
         }
@@ -230,7 +234,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     }
 
     /// The states at these times, which follow one another in the direction of the integration.
-    pub fn at<I: IntoIterator<Item = T>>(&mut self, times: I) -> Outputs<'_, M, S, T, I::IntoIter, N, K> {
+    pub fn at<I: IntoIterator<Item = T>>(&mut self, times: I) -> Outputs<'_, M, S, T, I::IntoIter, N, K, C> {
         Outputs::new(self, times.into_iter())
     }
 
@@ -269,7 +273,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     }
 
     fn proceed(&mut self) -> Result<Step<T, N>, Error> {
-        if K > 0 && self.sides.waiting.contains(&true) {
+        if self.sides.waits() {
             return self.deliver();
         }
         let from = match self.place {
@@ -279,7 +283,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
                 0.0
             }
         };
-        if K > 0
+        if K + C > 0
             && let Some(hit) = self.search(from)?
         {
             (self.t, self.state) = (hit.t, hit.state);
@@ -292,10 +296,10 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     }
 
     /// The same start, end and settings by another method or with another system.
-    pub(crate) fn with<M2: Method, S2: System<T, N, K2>, const K2: usize>(
+    pub(crate) fn with<M2: Method, S2: System<T, N, K2, C>, const K2: usize>(
         self,
         system: impl FnOnce(S) -> S2,
-    ) -> Result<Integration<M2, S2, T, N, K2>, Error> {
+    ) -> Result<Integration<M2, S2, T, N, K2, C>, Error> {
         let (largest, most_steps, stiffness_every, parts) =
             (self.largest, self.most_steps, self.stiffness_every, self.parts);
         let (length, safety) = (self.controller.length, self.controller.safety);
@@ -308,7 +312,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
 
     /// Whether a step begins here.
     pub(crate) fn is_at_boundary(&self) -> bool {
-        self.place == Place::Boundary && !self.sides.waiting.contains(&true)
+        self.place == Place::Boundary && !self.sides.waits()
     }
 
     pub(crate) fn system_mut(&mut self) -> &mut S {
@@ -354,7 +358,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
         self.interpolant = Some(Interpolant::constant(t, state));
         self.t = t;
         self.place = Place::Boundary;
-        self.sides.waiting = [false; K];
+        self.sides.forget();
         self.exchange(state);
     }
 
@@ -394,7 +398,12 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
     }
 }
 
-impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Iterator for Integration<M, S, T, N, K> {
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Iterator for Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
     type Item = Result<Step<T, N>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {

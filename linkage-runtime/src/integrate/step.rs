@@ -8,7 +8,12 @@ use super::{System, control};
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
 
-impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Integration<M, S, T, N, K> {
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
     /// Takes a step.
     pub(super) fn step(&mut self) -> Result<(), Error> {
         let rule = const { &M::TABLEAU.control };
@@ -26,7 +31,7 @@ impl<M: Method, S: System<T, N, K>, T: Real, const N: usize, const K: usize> Int
             self.controller.length = Some(self.first_length(span)?);
         }
         let epsilon = to_f64(T::default_epsilon());
-        if K > 0 && anew {
+        if K + C > 0 && anew {
             let little = real::<T>(ComplexField::sqrt(epsilon) * direction * self.length());
             let after = y + self.slopes[0] * little;
             self.sides.begin(&mut self.system, (t, &y), (t + little, &after))?;
@@ -153,7 +158,7 @@ const fn uses(weights: Weights, slope: usize) -> bool {
 
 /// The rate, counting.
 #[inline(always)]
-pub(super) fn counted<'a, S: System<T, N, K>, T: Real, const N: usize, const K: usize>(
+pub(super) fn counted<'a, S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
     system: &'a mut S,
     counts: &'a mut Counts,
 ) -> impl FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error> + 'a {

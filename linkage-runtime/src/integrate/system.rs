@@ -5,11 +5,11 @@ use nalgebra::SVector;
 use super::{Action, Crossing};
 use crate::{Error, Real};
 
-/// A system of N differential equations y' = f(t, y) with K events. A closure is one without events.
+/// A system of N differential equations y' = f(t, y) with K events and C guards. A closure is one without any.
 ///
 /// One object has it all, so that its parts may share what they know: the last position as a guess, which coordinates
 /// are the independent ones, whether a block sticks or slips.
-pub trait System<T: Real, const N: usize, const K: usize> {
+pub trait System<T: Real, const N: usize, const K: usize, const C: usize = 0> {
     /// y' = f(t, y).
     ///
     /// # Errors
@@ -25,6 +25,16 @@ pub trait System<T: Real, const N: usize, const K: usize> {
     /// Which way they must pass through zero.
     fn crossings(&self) -> [Crossing; K] {
         [Crossing::Either; K]
+    }
+
+    /// The functions that end the law of the rate where they fall through zero, beside the user's events: of what
+    /// sticks how much more it holds, of what is apart how far. Guard i is event K + i.
+    ///
+    /// # Errors
+    /// If they cannot be computed, which ends the integration.
+    fn guards(&mut self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
+        let _ = (t, y);
+        Ok([T::one(); C])
     }
 
     /// What happens at event `event`; of events at the same time the first comes first.

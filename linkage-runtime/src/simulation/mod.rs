@@ -27,10 +27,11 @@ mod real_time;
 mod run;
 mod scales;
 mod state;
+mod touching;
 mod watch;
 
 pub use motion::Motion;
 pub use real_time::RealTime;
 pub use run::{AtSingularity, Outputs, Passages, Simulation, simulate};
-pub use state::State;
+pub use state::{State, Touch};
 pub use watch::{Then, Unwatched, Watch, Watched};

@@ -3,17 +3,16 @@
 //! q' = N z' and M_r z'' = Q_r with M_r = N' M N and Q_r = N' (F - M b), where N spans what [J A] leaves free and b is
 //! q'' at z'' = 0. With the inputs for z these are the equations that are emitted.
 
-use core::marker::PhantomData;
-
 use nalgebra::{SMatrix, SVector};
 
 use super::independent::{Factors, Independent};
 use super::scales::Scales;
-use super::state::State;
-use super::watch::{Then, Watch};
-use crate::integrate::{Action, Crossing, Interpolant, System};
+use super::state::{State, Touch};
+use super::watch::{Unwatched, Watch};
+use crate::contact::{Contacts, ReducedContact, ReducedEquations};
+use crate::integrate::{Crossing, Interpolant, System};
 use crate::scene::{Coordinates, Inputs};
-use crate::{Error, Mechanism, Real, Scene, finite, newton, real, reduced};
+use crate::{Error, Mechanism, Mode, Real, Scene, finite, newton, real};
 
 /// By which coordinates the motion is followed.
 #[derive(Debug, Clone, Copy)]
@@ -37,36 +36,54 @@ const ENOUGH: f64 = 1e-3;
 
 /// A scene in motion, as an integrator takes it.
 #[derive(Debug, Clone)]
-pub struct Motion<'a, S, W, T: Real, const U: usize, const V: usize, const N: usize> {
+pub struct Motion<'a, S, W, T: Real, const U: usize, const V: usize, const N: usize, const C: usize> {
     pub(super) scene: &'a S,
     pub(super) watch: W,
     pub(super) scales: Scales<T, U, V>,
     pub(super) road: Road<T, U, V, N>,
-    pub(super) scalar: PhantomData<T>,
+    pub(super) contacts: Contacts<T, C>,
+    pub(super) names: [&'static str; C],
 }
 
-type Position<S, T, const U: usize, const V: usize, const N: usize> =
-    Coordinates<<S as Scene<T, U, V, N, 0>>::Mechanism, T, U, V>;
+type Position<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
+    Coordinates<<S as Scene<T, U, V, N, C>>::Mechanism, T, U, V>;
 
-impl<S, W, T, const U: usize, const V: usize, const N: usize> Motion<'_, S, W, T, U, V, N>
+impl<'a, S, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'a, S, Unwatched, T, U, V, N, C>
 where
-    S: Scene<T, U, V, N, 0>,
+    S: Scene<T, U, V, N, C>,
     T: Real,
 {
+    /// In the inputs, with no contact acting.
+    pub(super) fn new(scene: &'a S, scales: Scales<T, U, V>) -> Self {
+        Self { scene, watch: Unwatched, scales, road: Road::Inputs, contacts: Contacts::open(), names: [""; C] }
+    }
+}
+
+impl<'a, S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'a, S, W, T, U, V, N, C>
+where
+    S: Scene<T, U, V, N, C>,
+    T: Real,
+{
+    /// The same with other events.
+    pub(super) fn watched<W2>(self, watch: W2) -> Motion<'a, S, W2, T, U, V, N, C> {
+        let Self { scene, scales, road, contacts, names, .. } = self;
+        Motion { scene, watch, scales, road, contacts, names }
+    }
+
     /// y of a position and the rates of the independent coordinates.
-    pub(super) fn pack(q: &Position<S, T, U, V, N>, rates: &SVector<T, V>) -> SVector<T, N> {
+    pub(super) fn pack(q: &Position<S, T, U, V, N, C>, rates: &SVector<T, V>) -> SVector<T, N> {
         S::state(q, &Inputs::<S::Mechanism, T, U, V>::from(*rates))
     }
 
-    pub(super) fn unpack(y: &SVector<T, N>) -> (Position<S, T, U, V, N>, SVector<T, V>) {
+    pub(super) fn unpack(y: &SVector<T, N>) -> (Position<S, T, U, V, N, C>, SVector<T, V>) {
         let (q, rates) = S::parts(y);
         (q, rates.into())
     }
 
     pub(super) fn joined(
-        q: &Position<S, T, U, V, N>,
+        q: &Position<S, T, U, V, N, C>,
         (unknowns, inputs): (SVector<T, U>, SVector<T, V>),
-    ) -> Position<S, T, U, V, N> {
+    ) -> Position<S, T, U, V, N, C> {
         S::Mechanism::with_unknowns(&S::Mechanism::with_inputs(q, inputs), unknowns)
     }
 
@@ -75,9 +92,23 @@ where
         self.scene.prescribed(t).map(|law| law.is_some())
     }
 
-    pub(super) fn factors(&self, independent: &Independent<T, U, V>, q: &Position<S, T, U, V, N>) -> Factors<T, U, V> {
+    pub(super) fn factors(
+        &self,
+        independent: &Independent<T, U, V>,
+        q: &Position<S, T, U, V, N, C>,
+    ) -> Factors<T, U, V> {
         let mechanism = self.scene.mechanism();
         independent.factors(mechanism, &mechanism.pose_at(q), &self.scales)
+    }
+
+    /// The factors if the position is apart from a change point that is passed.
+    pub(super) fn regular(
+        &self,
+        independent: &Independent<T, U, V>,
+        q: &Position<S, T, U, V, N, C>,
+    ) -> Option<Factors<T, U, V>> {
+        let factors = self.factors(independent, q);
+        (factors.pivots().amin() > independent.regularity() * real(LEAST_PART)).then_some(factors)
     }
 
     /// u' and v'.
@@ -94,8 +125,7 @@ where
                 Ok(independent.apart(&(self.factors(independent, &q).basis() * rates), &rates))
             }
             Road::Over(independent, step) => {
-                let factors = self.factors(independent, &q);
-                if factors.pivots().amin() > independent.regularity() * real(LEAST_PART) {
+                if let Some(factors) = self.regular(independent, &q) {
                     return Ok(independent.apart(&(factors.basis() * rates), &rates));
                 }
                 // Near the change point [J A] does not tell.
@@ -105,10 +135,26 @@ where
         }
     }
 
-    pub(super) fn state(&self, t: T, y: &SVector<T, N>) -> Result<State<T, Position<S, T, U, V, N>>, Error> {
+    /// y of a position and the rates of the inputs.
+    pub(super) fn with_rates(
+        &self,
+        q: &Position<S, T, U, V, N, C>,
+        rates: &SVector<T, V>,
+    ) -> Result<SVector<T, N>, Error> {
+        let (Road::Others(independent) | Road::Over(independent, _)) = &self.road else {
+            return Ok(Self::pack(q, rates));
+        };
+        let mechanism = self.scene.mechanism();
+        let pose = mechanism.pose_at(q);
+        let right = mechanism.jacobian_inputs(&pose) * -rates;
+        Ok(Self::pack(q, &independent.of(&mechanism.solve_jacobian(&pose, &right)?, rates)))
+    }
+
+    pub(super) fn state(&self, t: T, y: &SVector<T, N>) -> Result<State<T, Position<S, T, U, V, N, C>, C>, Error> {
         let (q, _) = Self::unpack(y);
         let rate = Self::joined(&q, self.velocity(t, y)?);
-        Ok(State { t, q, rate, event: None })
+        let touch = |place: usize| Touch { name: self.names[place], mode: self.contacts.modes[place], change: None };
+        Ok(State { t, q, rate, event: None, contacts: core::array::from_fn(touch) })
     }
 
     /// y with the closures closed again and prescribed inputs where their laws say.
@@ -136,18 +182,15 @@ where
         let q = match &self.road {
             Road::Inputs => self.closed_in_inputs(&q)?,
             Road::Others(independent) => self.closed_by(independent, &q)?,
-            Road::Over(independent, _) => {
-                let regularity = self.factors(independent, &q).pivots().amin();
-                let is_apart = regularity > independent.regularity() * real(LEAST_PART);
-                if is_apart { self.closed_by(independent, &q)? } else { q }
-            }
+            Road::Over(independent, _) if self.regular(independent, &q).is_none() => q,
+            Road::Over(independent, _) => self.closed_by(independent, &q)?,
         };
         Ok(Self::pack(&q, &rates))
     }
 
     /// The position near `q` with the same inputs. Where an integrator has left it, one step of Newton's method is
     /// mostly so small that the next would be less than rounding.
-    fn closed_in_inputs(&self, q: &Position<S, T, U, V, N>) -> Result<Position<S, T, U, V, N>, Error> {
+    fn closed_in_inputs(&self, q: &Position<S, T, U, V, N, C>) -> Result<Position<S, T, U, V, N, C>, Error> {
         let mechanism = self.scene.mechanism();
         let mut q = *q;
         let mut last = None;
@@ -179,8 +222,8 @@ where
     pub(super) fn closed_by(
         &self,
         independent: &Independent<T, U, V>,
-        q: &Position<S, T, U, V, N>,
-    ) -> Result<Position<S, T, U, V, N>, Error> {
+        q: &Position<S, T, U, V, N, C>,
+    ) -> Result<Position<S, T, U, V, N, C>, Error> {
         let mechanism = self.scene.mechanism();
         let mut q = *q;
         let mut last = None;
@@ -206,14 +249,14 @@ where
     }
 
     /// The name of the group whose determinant is smallest beside its size.
-    pub(super) fn change_point(&self, q: &Position<S, T, U, V, N>) -> Error {
+    pub(super) fn change_point(&self, q: &Position<S, T, U, V, N, C>) -> Error {
         let mechanism = self.scene.mechanism();
         let (_, group) = weakest(mechanism, &mechanism.pose_at(q));
         Error::ChangePoint { mechanism: S::Mechanism::NAME, group }
     }
 
     /// Why no coordinates are left: what is prescribed comes to a dead point, or two motions cross.
-    pub(super) fn cannot_go_on(&self, t: T, q: &Position<S, T, U, V, N>) -> Error {
+    pub(super) fn cannot_go_on(&self, t: T, q: &Position<S, T, U, V, N, C>) -> Error {
         let mechanism = self.scene.mechanism();
         let is_driven = self.held(t).contains(&true);
         let freely = Independent::choose(mechanism, &mechanism.pose_at(q), &self.scales, &[false; V]);
@@ -221,7 +264,7 @@ where
         if is_driven && is_regular { self.singular(q) } else { self.change_point(q) }
     }
 
-    pub(super) fn singular(&self, q: &Position<S, T, U, V, N>) -> Error {
+    pub(super) fn singular(&self, q: &Position<S, T, U, V, N, C>) -> Error {
         let mechanism = self.scene.mechanism();
         let (regularity, group) = weakest(mechanism, &mechanism.pose_at(q));
         let regularity = crate::scalar::to_f64(regularity);
@@ -235,6 +278,26 @@ where
         factors: &Factors<T, U, V>,
         (t, y): (T, &SVector<T, N>),
     ) -> Result<SVector<T, N>, Error> {
+        self.rate_of(&self.equations_by(independent, factors, (t, y))?)
+    }
+
+    /// y' from the equations and the velocity.
+    fn rate_of(
+        &self,
+        (equations, velocity): &(ReducedEquations<T, V, C>, Position<S, T, U, V, N, C>),
+    ) -> Result<SVector<T, N>, Error> {
+        let accelerations = self.contacts.acceleration(equations)?;
+        finite(S::NAME, "the acceleration", accelerations.data.0[0])?;
+        Ok(Self::pack(velocity, &accelerations))
+    }
+
+    /// M_r, Q_r and the contacts in the coordinates of a choice, and q'.
+    pub(super) fn equations_by(
+        &self,
+        independent: &Independent<T, U, V>,
+        factors: &Factors<T, U, V>,
+        (t, y): (T, &SVector<T, N>),
+    ) -> Result<(ReducedEquations<T, V, C>, Position<S, T, U, V, N, C>), Error> {
         let mechanism = self.scene.mechanism();
         let (q, rates) = Self::unpack(y);
         let basis = factors.basis();
@@ -251,39 +314,44 @@ where
         }
         let all = self.scene.unreduced(t, &q, &velocity)?;
         let moved = all.unknowns * unknowns + all.mixed * inputs;
-        let mut mass = unknowns.tr_mul(&moved) + inputs.tr_mul(&(all.mixed.tr_mul(&unknowns) + all.inputs * inputs));
+        let mass = unknowns.tr_mul(&moved) + inputs.tr_mul(&(all.mixed.tr_mul(&unknowns) + all.inputs * inputs));
         let left_unknowns = all.unknown_forces - all.unknowns * of_unknowns - all.mixed * of_inputs;
         let left_inputs = all.input_forces - all.mixed.tr_mul(&of_unknowns) - all.inputs * of_inputs;
-        let mut forces = unknowns.tr_mul(&left_unknowns) + inputs.tr_mul(&left_inputs);
-        // What is prescribed moves as its law says, whatever the forces.
-        for (input, law) in self.scene.prescribed(t).iter().enumerate() {
-            let Some([_, _, acceleration]) = *law else { continue };
-            let Some(at) = independent.free.iter().position(|&free| free == U + input) else { continue };
-            forces -= mass.column(at) * acceleration;
-            mass.row_mut(at).fill(T::zero());
-            mass.column_mut(at).fill(T::zero());
-            (mass[(at, at)], forces[at]) = (T::one(), acceleration);
-        }
+        let forces = unknowns.tr_mul(&left_unknowns) + inputs.tr_mul(&left_inputs);
+        let contacts = self
+            .scene
+            .contacts(t, &q, &velocity)?
+            .map(|contact| ReducedContact::new(&contact, (&unknowns, &inputs), (&of_unknowns, &of_inputs)));
         let name = |column: usize| {
             if column < U { S::Mechanism::UNKNOWNS[column] } else { S::Mechanism::INPUTS[column - U] }
         };
-        let accelerations = reduced(S::NAME, independent.free.map(name), mass.data.0, forces.into())?;
-        finite(S::NAME, "the acceleration", accelerations)?;
-        Ok(Self::pack(&velocity, &SVector::from(accelerations)))
+        let coordinates = independent.free.map(name);
+        let mut equations = ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts };
+        // What is prescribed moves as its law says, whatever the forces.
+        for (input, law) in self.scene.prescribed(t).iter().enumerate() {
+            let Some([_, _, acceleration]) = *law else { continue };
+            if let Some(at) = independent.free.iter().position(|&free| free == U + input) {
+                equations.prescribe(at, acceleration);
+            }
+        }
+        Ok((equations, velocity))
     }
 }
 
-impl<S, W, T, const U: usize, const V: usize, const N: usize, const K: usize> System<T, N, K>
-    for Motion<'_, S, W, T, U, V, N>
+impl<S, W, T, const U: usize, const V: usize, const N: usize, const K: usize, const C: usize> System<T, N, K, C>
+    for Motion<'_, S, W, T, U, V, N, C>
 where
-    S: Scene<T, U, V, N, 0>,
-    W: Watch<T, Position<S, T, U, V, N>, Inputs<S::Mechanism, T, U, V>, K>,
+    S: Scene<T, U, V, N, C>,
+    W: Watch<T, Position<S, T, U, V, N, C>, Inputs<S::Mechanism, T, U, V>, K, C>,
     T: Real,
 {
     #[inline]
     fn rate(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
         let (Road::Others(independent) | Road::Over(independent, _)) = &self.road else {
-            return self.scene.derivative(t, y);
+            if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) {
+                return self.scene.derivative(t, y);
+            }
+            return self.rate_of(&ReducedEquations::with_velocity(self.scene, t, y)?);
         };
         let (q, _) = Self::unpack(y);
         let factors = self.factors(independent, &q);
@@ -308,25 +376,8 @@ where
         self.watch.crossings()
     }
 
-    fn at_event(&mut self, event: usize, t: T, y: &SVector<T, N>) -> Result<Action<T, N>, Error> {
-        let state = self.state(t, y)?;
-        Ok(match self.watch.at_event(event, &State { event: Some(event), ..state })? {
-            Then::GoOn => Action::Record,
-            Then::Stop => Action::Stop,
-            Then::Restart(rates) => {
-                let (q, rates) = (state.q, rates.into());
-                let rates = match &self.road {
-                    Road::Inputs => rates,
-                    Road::Others(independent) | Road::Over(independent, _) => {
-                        let mechanism = self.scene.mechanism();
-                        let pose = mechanism.pose_at(&q);
-                        let right = mechanism.jacobian_inputs(&pose) * -rates;
-                        independent.of(&mechanism.solve_jacobian(&pose, &right)?, &rates)
-                    }
-                };
-                Action::Restart(Self::pack(&q, &rates))
-            }
-        })
+    fn guards(&mut self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
+        self.margins(t, y)
     }
 }
 

@@ -66,9 +66,9 @@ pub(super) enum Ahead<T: Real, const N: usize> {
     ChangePoint(Interpolant<T, N>),
 }
 
-impl<S, W, T, const U: usize, const V: usize, const N: usize> Motion<'_, S, W, T, U, V, N>
+impl<S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'_, S, W, T, U, V, N, C>
 where
-    S: Scene<T, U, V, N, 0>,
+    S: Scene<T, U, V, N, C>,
     T: Real,
 {
     /// The step over the change point ahead, if one is near; `way` is 1 or -1 in time, `tolerance` that of the

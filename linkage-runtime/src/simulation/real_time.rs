@@ -1,10 +1,8 @@
 //! Simulation in step with a clock.
 
-use core::marker::PhantomData;
-
 use nalgebra::SVector;
 
-use super::motion::{Motion, Road};
+use super::motion::Motion;
 use super::scales::Scales;
 use super::state::State;
 use super::watch::Unwatched;
@@ -19,7 +17,7 @@ pub struct RealTime<'a, S, T: Real, const U: usize, const V: usize, const N: usi
 }
 
 /// A motion whose closures are closed before each step.
-struct Closing<'a, S, T: Real, const U: usize, const V: usize, const N: usize>(Motion<'a, S, Unwatched, T, U, V, N>);
+struct Closing<'a, S, T: Real, const U: usize, const V: usize, const N: usize>(Motion<'a, S, Unwatched, T, U, V, N, 0>);
 
 impl<S, T, const U: usize, const V: usize, const N: usize> System<T, N, 0> for Closing<'_, S, T, U, V, N>
 where
@@ -55,7 +53,7 @@ where
     ) -> Result<Self, Error> {
         let y = scene.start(t, &q, &rates.into())?;
         let scales = Scales::of(scene.mechanism(), &q);
-        let motion = Motion { scene, watch: Unwatched, scales, road: Road::Inputs, scalar: PhantomData };
+        let motion = Motion::new(scene, scales);
         Ok(Self { steps: FixedStep::new(Closing(motion), (t, y), length)? })
     }
 

@@ -1,15 +1,14 @@
 //! A simulation: step after step, in the coordinates that are good for the step.
 
-use core::marker::PhantomData;
-
 use nalgebra::SVector;
 
 use super::independent::Independent;
 use super::motion::{Motion, Road, weakest};
 use super::over::Ahead;
 use super::scales::Scales;
-use super::state::State;
+use super::state::{State, Touch};
 use super::watch::{Then, Unwatched, Watch, Watched};
+use crate::contact::{Change, Contacts};
 use crate::integrate::{Counts, Crossing, Dop853, Integration, Interpolant, Method, Tolerance};
 use crate::scalar::to_f64;
 use crate::scene::{Coordinates, Inputs};
@@ -59,13 +58,14 @@ pub struct Passages {
     pub change_points: usize,
 }
 
-type Position<S, T, const U: usize, const V: usize, const N: usize> =
-    Coordinates<<S as Scene<T, U, V, N, 0>>::Mechanism, T, U, V>;
-type Moment<S, T, const U: usize, const V: usize, const N: usize> = State<T, Position<S, T, U, V, N>>;
-type Rates<S, T, const U: usize, const V: usize, const N: usize> =
-    Inputs<<S as Scene<T, U, V, N, 0>>::Mechanism, T, U, V>;
-type Signs<S, T, const U: usize, const V: usize, const N: usize> =
-    <<S as Scene<T, U, V, N, 0>>::Mechanism as Mechanism<T, U, V>>::BlockDeterminants;
+type Position<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
+    Coordinates<<S as Scene<T, U, V, N, C>>::Mechanism, T, U, V>;
+type Moment<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
+    State<T, Position<S, T, U, V, N, C>, C>;
+type Rates<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
+    Inputs<<S as Scene<T, U, V, N, C>>::Mechanism, T, U, V>;
+type Signs<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
+    <<S as Scene<T, U, V, N, C>>::Mechanism as Mechanism<T, U, V>>::BlockDeterminants;
 
 /// A simulation under way: an iterator over the [states](State) at the ends of its steps and at its events, which ends
 /// with an error or at the end of the interval. What was reached stays readable after an error.
@@ -76,26 +76,31 @@ pub struct Simulation<
     const U: usize,
     const V: usize,
     const N: usize,
+    const C: usize,
     M = Dop853,
     W = Unwatched,
     const K: usize = 0,
 > where
-    S: Scene<T, U, V, N, 0>,
+    S: Scene<T, U, V, N, C>,
     T: Real,
 {
-    integration: Integration<M, Motion<'a, S, W, T, U, V, N>, T, N, K>,
+    integration: Integration<M, Motion<'a, S, W, T, U, V, N, C>, T, N, K, C>,
     relative: f64,
     /// The size of rates beside those of coordinates.
     frequency: T,
     at_singularity: AtSingularity,
-    state: Moment<S, T, U, V, N>,
+    state: Moment<S, T, U, V, N, C>,
+    /// The contacts in the step that led to the state.
+    contacts: Contacts<T, C>,
     /// Where the step begins, closed, with the signs of the determinants there.
-    from: (T, SVector<T, N>),
-    signs: Signs<S, T, U, V, N>,
+    from: (T, SVector<T, N>, Contacts<T, C>),
+    signs: Signs<S, T, U, V, N, C>,
     passages: Passages,
     /// Steps in other coordinates that are left since one in the inputs went over a singularity.
     warned: u32,
     is_over: bool,
+    /// Why nothing follows the state.
+    failure: Option<Error>,
     /// The next step is prepared.
     is_prepared: bool,
 }
@@ -111,23 +116,25 @@ pub struct Simulation<
 /// Those of [`Scene::start`]: [`Error::Negative`], [`Error::Inconsistent`], [`Error::NotConverged`]; those of the
 /// equations of motion there; [`Error::OutOfRange`] for a tolerance below ten roundings or above 1 and for times
 /// that are not finite.
-pub fn simulate<S, T, const U: usize, const V: usize, const N: usize>(
+pub fn simulate<S, T, const U: usize, const V: usize, const N: usize, const C: usize>(
     scene: &S,
-    (t, q, rates): (T, Position<S, T, U, V, N>, impl Into<Rates<S, T, U, V, N>>),
+    (t, q, rates): (T, Position<S, T, U, V, N, C>, impl Into<Rates<S, T, U, V, N, C>>),
     end: T,
     tolerance: f64,
-) -> Result<Simulation<'_, S, T, U, V, N>, Error>
+) -> Result<Simulation<'_, S, T, U, V, N, C>, Error>
 where
-    S: Scene<T, U, V, N, 0>,
+    S: Scene<T, U, V, N, C>,
     T: Real,
 {
     let mechanism = scene.mechanism();
     let y = scene.start(t, &q, &rates.into())?;
     let (q, _) = S::parts(&y);
     let scales = Scales::of(mechanism, &q);
-    let motion = Motion { scene, watch: Unwatched, scales, road: Road::Inputs, scalar: PhantomData };
+    let mut motion = Motion::new(scene, scales);
+    let y = if C > 0 { motion.begin(t, &y)? } else { y };
+    let contacts = motion.contacts;
     let (unknowns, inputs) = motion.velocity(t, &y)?;
-    let (_, accelerations) = Motion::<S, Unwatched, T, U, V, N>::unpack(&scene.derivative(t, &y)?);
+    let (_, accelerations) = Motion::<S, Unwatched, T, U, V, N, C>::unpack(&scene.derivative(t, &y)?);
     let speed = scales.speed(&unknowns, &inputs);
     let urge = accelerations.component_div(&scales.inputs).amax().sqrt();
     let span = to_f64(end - t).abs();
@@ -144,47 +151,49 @@ where
         frequency,
         at_singularity: AtSingularity::Pass,
         state,
-        from: (t, y),
+        contacts,
+        from: (t, y, contacts),
         signs: mechanism.block_determinants(&mechanism.pose_at(&q)),
         passages: Passages::default(),
         warned: 0,
         is_over: false,
+        failure: None,
         is_prepared: false,
     })
 }
 
 /// The sizes of the components of y.
-fn scale_of<S, W, T, const U: usize, const V: usize, const N: usize>(
-    motion: &Motion<'_, S, W, T, U, V, N>,
-    q: &Position<S, T, U, V, N>,
+fn scale_of<S, W, T, const U: usize, const V: usize, const N: usize, const C: usize>(
+    motion: &Motion<'_, S, W, T, U, V, N, C>,
+    q: &Position<S, T, U, V, N, C>,
     frequency: T,
 ) -> SVector<T, N>
 where
-    S: Scene<T, U, V, N, 0>,
+    S: Scene<T, U, V, N, C>,
     T: Real,
 {
     let scales = &motion.scales;
-    let sizes = Motion::<S, W, T, U, V, N>::joined(q, (scales.unknowns, scales.inputs));
+    let sizes = Motion::<S, W, T, U, V, N, C>::joined(q, (scales.unknowns, scales.inputs));
     let rates = match &motion.road {
         Road::Inputs => scales.inputs,
         Road::Others(independent) | Road::Over(independent, _) => independent.of(&scales.unknowns, &scales.inputs),
     };
-    Motion::<S, W, T, U, V, N>::pack(&sizes, &(rates * frequency))
+    Motion::<S, W, T, U, V, N, C>::pack(&sizes, &(rates * frequency))
 }
 
-impl<'a, S, T, const U: usize, const V: usize, const N: usize, M, W, const K: usize>
-    Simulation<'a, S, T, U, V, N, M, W, K>
+impl<'a, S, T, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize>
+    Simulation<'a, S, T, U, V, N, C, M, W, K>
 where
-    S: Scene<T, U, V, N, 0>,
+    S: Scene<T, U, V, N, C>,
     T: Real,
     M: Method,
-    W: Watch<T, Position<S, T, U, V, N>, Rates<S, T, U, V, N>, K>,
+    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
 {
     /// The same by another method: [`Dopri5`](crate::integrate::Dopri5) for pictures.
     ///
     /// # Errors
     /// None that [`simulate`] has not found.
-    pub fn method<M2: Method>(self) -> Result<Simulation<'a, S, T, U, V, N, M2, W, K>, Error> {
+    pub fn method<M2: Method>(self) -> Result<Simulation<'a, S, T, U, V, N, C, M2, W, K>, Error> {
         self.with(|motion| motion)
     }
 
@@ -199,28 +208,22 @@ where
         crossings: [Crossing; K2],
         values: F,
         action: A,
-    ) -> Result<Simulation<'a, S, T, U, V, N, M, Watched<F, A, K2>, K2>, Error>
+    ) -> Result<Simulation<'a, S, T, U, V, N, C, M, Watched<F, A, K2>, K2>, Error>
     where
-        F: FnMut(&Moment<S, T, U, V, N>) -> Result<[T; K2], Error>,
-        A: FnMut(usize, &Moment<S, T, U, V, N>) -> Result<Then<Rates<S, T, U, V, N>>, Error>,
+        F: FnMut(&Moment<S, T, U, V, N, C>) -> Result<[T; K2], Error>,
+        A: FnMut(usize, &Moment<S, T, U, V, N, C>) -> Result<Then<Rates<S, T, U, V, N, C>>, Error>,
     {
-        self.with(|Motion { scene, scales, road, scalar, .. }| Motion {
-            scene,
-            watch: Watched { crossings, values, action },
-            scales,
-            road,
-            scalar,
-        })
+        self.with(|motion| motion.watched(Watched { crossings, values, action }))
     }
 
     #[allow(clippy::type_complexity)] // As above.
     fn with<M2, W2, const K2: usize>(
         self,
-        motion: impl FnOnce(Motion<'a, S, W, T, U, V, N>) -> Motion<'a, S, W2, T, U, V, N>,
-    ) -> Result<Simulation<'a, S, T, U, V, N, M2, W2, K2>, Error>
+        motion: impl FnOnce(Motion<'a, S, W, T, U, V, N, C>) -> Motion<'a, S, W2, T, U, V, N, C>,
+    ) -> Result<Simulation<'a, S, T, U, V, N, C, M2, W2, K2>, Error>
     where
         M2: Method,
-        W2: Watch<T, Position<S, T, U, V, N>, Rates<S, T, U, V, N>, K2>,
+        W2: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K2, C>,
     {
         Ok(Simulation {
             integration: self.integration.with(motion)?,
@@ -228,11 +231,13 @@ where
             frequency: self.frequency,
             at_singularity: self.at_singularity,
             state: self.state,
+            contacts: self.contacts,
             from: self.from,
             signs: self.signs,
             passages: self.passages,
             warned: self.warned,
             is_over: self.is_over,
+            failure: self.failure,
             is_prepared: self.is_prepared,
         })
     }
@@ -277,7 +282,7 @@ where
 
     /// The last state that was reached.
     #[must_use]
-    pub fn state(&self) -> &Moment<S, T, U, V, N> {
+    pub fn state(&self) -> &Moment<S, T, U, V, N, C> {
         &self.state
     }
 
@@ -301,7 +306,10 @@ where
 
     /// The states at these times, which follow one another in the direction of the simulation, by dense output and
     /// with the closures closed: the steps are those that are taken without them.
-    pub fn at<I: IntoIterator<Item = T>>(&mut self, times: I) -> Outputs<'_, 'a, S, T, I::IntoIter, U, V, N, M, W, K> {
+    pub fn at<I: IntoIterator<Item = T>>(
+        &mut self,
+        times: I,
+    ) -> Outputs<'_, 'a, S, T, I::IntoIter, U, V, N, C, M, W, K> {
         Outputs { simulation: self, times: times.into_iter(), failed: false }
     }
 
@@ -310,7 +318,7 @@ where
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
-    pub fn finish(&mut self, mut watch: impl FnMut(&Moment<S, T, U, V, N>, f64) -> bool) -> Result<(), Error> {
+    pub fn finish(&mut self, mut watch: impl FnMut(&Moment<S, T, U, V, N, C>, f64) -> bool) -> Result<(), Error> {
         while let Some(state) = self.advance()? {
             if !watch(&state, self.progress()) {
                 break;
@@ -324,16 +332,16 @@ where
     /// # Errors
     /// What the scene returns where no shorter step avoids it, [`Error::Singular`] and [`Error::ChangePoint`] where the
     /// motion cannot be followed, and those of [`Integration::advance`]. Nothing follows after an error.
-    pub fn advance(&mut self) -> Result<Option<Moment<S, T, U, V, N>>, Error> {
-        if self.is_over || self.integration.is_over() {
+    pub fn advance(&mut self) -> Result<Option<Moment<S, T, U, V, N, C>>, Error> {
+        if self.is_over || (self.failure.is_none() && self.integration.is_over()) {
             return Ok(None);
         }
-        let result = self.proceed();
+        let result = self.failure.take().map_or_else(|| self.proceed(), Err);
         self.is_over = result.is_err();
         result
     }
 
-    fn proceed(&mut self) -> Result<Option<Moment<S, T, U, V, N>>, Error> {
+    fn proceed(&mut self) -> Result<Option<Moment<S, T, U, V, N, C>>, Error> {
         loop {
             let is_prepared = core::mem::take(&mut self.is_prepared);
             if self.integration.is_at_boundary() && !is_prepared {
@@ -350,24 +358,82 @@ where
                         return Err(motion.singular(&q));
                     }
                     // The step went over a singularity: again from its start, in coordinates that tell.
-                    let (t, y) = self.from;
-                    self.integration.go_back(t, y);
-                    self.warned = WARNED;
-                    self.leave_inputs()?;
-                    self.is_prepared = true;
+                    self.go_back()?;
                     continue;
                 }
             }
+            let contacts = motion.contacts;
             let closed = motion.closed(step.t, &step.state)?;
-            let state = motion.state(step.t, &closed)?;
-            if step.event.is_none() && closed != step.state {
-                self.integration.correct(closed);
+            let (closed, holds) = motion.reviewed(&contacts, step.t, &closed)?;
+            let mut state = State { event: step.event.filter(|&event| event < K), ..motion.state(step.t, &closed)? };
+            let result = match step.event {
+                Some(event) if event < K => self.happens(event, &mut state, &closed),
+                None if holds => {
+                    if closed != step.state {
+                        self.integration.correct(closed);
+                    }
+                    Ok(())
+                }
+                _ => self.settle(&mut state, &closed),
+            };
+            // Of several events of contacts at one time the first decides for all.
+            if step.event.is_some() && state.event.is_none() && result.is_ok() && state.changes().next().is_none() {
+                continue;
             }
+            self.failure = result.err();
             if step.event.is_some() {
-                self.from = (step.t, *self.integration.state());
+                self.from = (step.t, *self.integration.state(), self.integration.system().contacts);
             }
-            self.state = State { event: step.event, ..state };
+            (self.state, self.contacts) = (state, contacts);
             return Ok(Some(self.state));
+        }
+    }
+
+    /// Takes the step again, in other coordinates than the inputs.
+    fn go_back(&mut self) -> Result<(), Error> {
+        let (t, y, contacts) = self.from;
+        self.integration.system_mut().contacts = contacts;
+        self.integration.go_back(t, y);
+        self.warned = WARNED;
+        self.leave_inputs()?;
+        self.is_prepared = true;
+        Ok(())
+    }
+
+    /// What the user wishes to happen at an event.
+    fn happens(
+        &mut self,
+        event: usize,
+        state: &mut Moment<S, T, U, V, N, C>,
+        closed: &SVector<T, N>,
+    ) -> Result<(), Error> {
+        let motion = self.integration.system_mut();
+        match motion.watch.at_event(event, state)? {
+            Then::GoOn => {}
+            Then::Stop => self.integration.stop(),
+            Then::Restart(rates) => {
+                let y = motion.with_rates(&state.q, &rates.into())?;
+                let (after, changes) = motion.resumed(state.t, closed, &y)?;
+                self.integration.restart(after)?;
+                self.note(state, changes);
+            }
+        }
+        Ok(())
+    }
+
+    /// What happens to the contacts.
+    fn settle(&mut self, state: &mut Moment<S, T, U, V, N, C>, closed: &SVector<T, N>) -> Result<(), Error> {
+        let (after, changes) = self.integration.system_mut().settled(state.t, closed)?;
+        self.integration.restart(after)?;
+        self.note(state, changes);
+        Ok(())
+    }
+
+    /// What the contacts have done, and do from here on.
+    fn note(&self, state: &mut Moment<S, T, U, V, N, C>, changes: [Option<Change>; C]) {
+        let modes = self.integration.system().contacts.modes;
+        for ((touch, mode), change) in state.contacts.iter_mut().zip(modes).zip(changes) {
+            *touch = Touch { mode, change, ..*touch };
         }
     }
 
@@ -375,8 +441,8 @@ where
     fn prepare(&mut self) -> Result<(), Error> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let before = self.from.0;
-        self.from = (t, y);
         let motion = self.integration.system();
+        self.from = (t, y, motion.contacts);
         let mechanism = motion.scene.mechanism();
         let pose = mechanism.pose_at(&S::parts(&y).0);
         let (regularity, _) = weakest(mechanism, &pose);
@@ -395,15 +461,14 @@ where
                 let (_, inputs) = motion.velocity(t, &y)?;
                 self.warned = 0;
                 self.signs = mechanism.block_determinants(&pose);
-                self.take(Road::Inputs, &inputs);
-                Ok(())
+                self.take(Road::Inputs, &inputs)
             }
             Road::Others(independent) | Road::Over(independent, _) => self.stay(independent),
         }
     }
 
     /// The time until the determinant of a group is zero, if it goes on as in the last step.
-    fn rest(&self, last: T, determinants: &Signs<S, T, U, V, N>) -> Option<f64> {
+    fn rest(&self, last: T, determinants: &Signs<S, T, U, V, N, C>) -> Option<f64> {
         let groups = self.signs.as_ref().iter().zip(determinants.as_ref());
         let falling = groups.filter(|(before, now)| now.abs() < before.abs());
         falling
@@ -428,19 +493,19 @@ where
         let rates = independent.of(&unknowns, &inputs);
         let ahead = motion.over(
             &independent,
-            (t, &Motion::<S, W, T, U, V, N>::pack(&q, &rates)),
+            (t, &Motion::<S, W, T, U, V, N, C>::pack(&q, &rates)),
             self.way(),
             self.relative(),
         )?;
         match ahead {
             Ahead::ChangePoint(step) => {
-                self.take(Road::Others(independent), &rates);
+                self.take(Road::Others(independent), &rates)?;
                 self.pass(independent, step);
             }
             Ahead::Near(length) => self.integration.limit_next(to_f64(length)),
             Ahead::Clear if is_next => {
                 self.warned = WARNED;
-                self.take(Road::Others(independent), &rates);
+                self.take(Road::Others(independent), &rates)?;
             }
             Ahead::Clear => {}
         }
@@ -464,7 +529,7 @@ where
 
     /// Whether nothing speaks for staying in other coordinates: a singularity that was met is passed, or seems to be
     /// avoided.
-    fn is_past(&self, signs: &Signs<S, T, U, V, N>) -> bool {
+    fn is_past(&self, signs: &Signs<S, T, U, V, N, C>) -> bool {
         self.warned == 0 || !same_signs(self.signs.as_ref(), signs.as_ref())
     }
 
@@ -475,7 +540,7 @@ where
         let pose = mechanism.pose_at(&S::parts(&y).0);
         let independent = Independent::choose(mechanism, &pose, &motion.scales, &motion.held(t));
         let (unknowns, inputs) = motion.velocity(t, &y)?;
-        self.take(Road::Others(independent), &independent.of(&unknowns, &inputs));
+        self.take(Road::Others(independent), &independent.of(&unknowns, &inputs))?;
         self.look_ahead(independent)
     }
 
@@ -485,7 +550,7 @@ where
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
-        let (q, mut rates) = Motion::<S, W, T, U, V, N>::unpack(&y);
+        let (q, mut rates) = Motion::<S, W, T, U, V, N, C>::unpack(&y);
         let pose = mechanism.pose_at(&q);
         independent.pivots = independent.factors(mechanism, &pose, &motion.scales).pivots();
         let best = Independent::choose(mechanism, &pose, &motion.scales, &motion.held(t));
@@ -494,7 +559,7 @@ where
             (rates, independent) = (best.of(&unknowns, &inputs), best);
             self.passages.exchanges += 1;
         }
-        self.set(Road::Others(independent), &rates);
+        self.set(Road::Others(independent), &rates)?;
         self.look_ahead(independent)
     }
 
@@ -511,24 +576,28 @@ where
         Ok(())
     }
 
-    fn take(&mut self, road: Road<T, U, V, N>, rates: &SVector<T, V>) {
+    fn take(&mut self, road: Road<T, U, V, N>, rates: &SVector<T, V>) -> Result<(), Error> {
         self.passages.exchanges += 1;
-        self.set(road, rates);
+        self.set(road, rates)
     }
 
-    fn set(&mut self, road: Road<T, U, V, N>, rates: &SVector<T, V>) {
+    fn set(&mut self, road: Road<T, U, V, N>, rates: &SVector<T, V>) -> Result<(), Error> {
         let (q, _) = S::parts(self.integration.state());
         self.integration.system_mut().road = road;
-        let y = Motion::<S, W, T, U, V, N>::pack(&q, rates);
+        let y = Motion::<S, W, T, U, V, N, C>::pack(&q, rates);
+        // In other coordinates what is held has kept its rate to rounding only.
+        let motion = self.integration.system();
+        let (y, _) = motion.reviewed(&motion.contacts, self.integration.t(), &y)?;
         let scale = scale_of(self.integration.system(), &q, self.frequency);
         // The same tolerance with other scales, which are positive as those before were.
         if let Ok(tolerance) = Tolerance::new(self.relative, scale) {
             self.integration.set_tolerance(tolerance);
         }
         self.integration.exchange(y);
+        Ok(())
     }
 
-    fn output(&mut self, t: T) -> Result<Option<Moment<S, T, U, V, N>>, Error> {
+    fn output(&mut self, t: T) -> Result<Option<Moment<S, T, U, V, N, C>>, Error> {
         let end = self.integration.end();
         let [earliest, _] = self.integration.reached();
         let is_forward = end >= earliest;
@@ -550,19 +619,24 @@ where
         let y = self.integration.state_within(t)?;
         let motion = self.integration.system();
         let closed = motion.closed(t, &y)?;
-        motion.state(t, &closed).map(Some)
+        let (closed, _) = motion.reviewed(&self.contacts, t, &closed)?;
+        let mut state = motion.state(t, &closed)?;
+        for (touch, mode) in state.contacts.iter_mut().zip(self.contacts.modes) {
+            touch.mode = mode;
+        }
+        Ok(Some(state))
     }
 }
 
-impl<S, T, const U: usize, const V: usize, const N: usize, M, W, const K: usize> Iterator
-    for Simulation<'_, S, T, U, V, N, M, W, K>
+impl<S, T, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize> Iterator
+    for Simulation<'_, S, T, U, V, N, C, M, W, K>
 where
-    S: Scene<T, U, V, N, 0>,
+    S: Scene<T, U, V, N, C>,
     T: Real,
     M: Method,
-    W: Watch<T, Position<S, T, U, V, N>, Rates<S, T, U, V, N>, K>,
+    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
 {
-    type Item = Result<Moment<S, T, U, V, N>, Error>;
+    type Item = Result<Moment<S, T, U, V, N, C>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()
@@ -573,26 +647,38 @@ where
 ///
 /// It ends after the last time, where an event stops the simulation, or with an error; what came before stands. A time
 /// that is not in the part of the interval that lies ahead is an [`Error::OutOfRange`].
-pub struct Outputs<'s, 'a, S, T, I, const U: usize, const V: usize, const N: usize, M, W, const K: usize>
-where
-    S: Scene<T, U, V, N, 0>,
+pub struct Outputs<
+    's,
+    'a,
+    S,
+    T,
+    I,
+    const U: usize,
+    const V: usize,
+    const N: usize,
+    const C: usize,
+    M,
+    W,
+    const K: usize,
+> where
+    S: Scene<T, U, V, N, C>,
     T: Real,
 {
-    simulation: &'s mut Simulation<'a, S, T, U, V, N, M, W, K>,
+    simulation: &'s mut Simulation<'a, S, T, U, V, N, C, M, W, K>,
     times: I,
     failed: bool,
 }
 
-impl<S, T, I, const U: usize, const V: usize, const N: usize, M, W, const K: usize> Iterator
-    for Outputs<'_, '_, S, T, I, U, V, N, M, W, K>
+impl<S, T, I, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize> Iterator
+    for Outputs<'_, '_, S, T, I, U, V, N, C, M, W, K>
 where
-    S: Scene<T, U, V, N, 0>,
+    S: Scene<T, U, V, N, C>,
     T: Real,
     I: Iterator<Item = T>,
     M: Method,
-    W: Watch<T, Position<S, T, U, V, N>, Rates<S, T, U, V, N>, K>,
+    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
 {
-    type Item = Result<Moment<S, T, U, V, N>, Error>;
+    type Item = Result<Moment<S, T, U, V, N, C>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed {

@@ -1,8 +1,11 @@
 //! What a simulation gives.
 
+use crate::Mode;
+use crate::contact::Change;
+
 /// A moment of a motion: `Q` is the type of the coordinates by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State<T, Q> {
+pub struct State<T, Q, const C: usize = 0> {
     /// The time.
     pub t: T,
     /// All coordinates by name: radians, and the unit of the lengths.
@@ -11,4 +14,31 @@ pub struct State<T, Q> {
     pub rate: Q,
     /// The number of the event that happens here, if there is one; the rates are those before it.
     pub event: Option<usize>,
+    /// The frictions and stops as they were declared, in order. Where one has changed the rates are those before that,
+    /// and the modes those from here on.
+    pub contacts: [Touch; C],
+}
+
+/// A friction or a stop at a moment of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Touch {
+    /// Which: `friction on theta3`.
+    pub name: &'static str,
+    /// What it is doing.
+    pub mode: Mode,
+    /// What has happened to it here.
+    pub change: Option<Change>,
+}
+
+impl<T, Q, const C: usize> State<T, Q, C> {
+    /// What the friction or stop of this name is doing, if there is one: `friction on theta3`.
+    #[must_use]
+    pub fn mode(&self, name: &str) -> Option<Mode> {
+        self.contacts.iter().find(|contact| contact.name == name).map(|contact| contact.mode)
+    }
+
+    /// What has happened here, with the names of the frictions and stops.
+    pub fn changes(&self) -> impl Iterator<Item = (&'static str, Change)> {
+        self.contacts.iter().filter_map(|contact| Some((contact.name, contact.change?)))
+    }
 }

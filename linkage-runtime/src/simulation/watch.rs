@@ -16,27 +16,27 @@ pub enum Then<I> {
 }
 
 /// K functions of the state whose zeros are events, and what happens there. `I` is the type of the inputs by name.
-pub trait Watch<T, Q, I, const K: usize> {
+pub trait Watch<T, Q, I, const K: usize, const C: usize = 0> {
     /// The functions.
     ///
     /// # Errors
     /// If they cannot be computed, which ends the simulation.
-    fn values(&mut self, state: &State<T, Q>) -> Result<[T; K], Error>;
+    fn values(&mut self, state: &State<T, Q, C>) -> Result<[T; K], Error>;
     /// Which way they must pass through zero.
     fn crossings(&self) -> [Crossing; K];
     /// What happens at an event.
     ///
     /// # Errors
     /// To end the simulation with an error.
-    fn at_event(&mut self, event: usize, state: &State<T, Q>) -> Result<Then<I>, Error>;
+    fn at_event(&mut self, event: usize, state: &State<T, Q, C>) -> Result<Then<I>, Error>;
 }
 
 /// No events.
 #[derive(Debug, Clone, Copy)]
 pub struct Unwatched;
 
-impl<T: Real, Q, I> Watch<T, Q, I, 0> for Unwatched {
-    fn values(&mut self, _: &State<T, Q>) -> Result<[T; 0], Error> {
+impl<T: Real, Q, I, const C: usize> Watch<T, Q, I, 0, C> for Unwatched {
+    fn values(&mut self, _: &State<T, Q, C>) -> Result<[T; 0], Error> {
         Ok([])
     }
 
@@ -44,7 +44,7 @@ impl<T: Real, Q, I> Watch<T, Q, I, 0> for Unwatched {
         []
     }
 
-    fn at_event(&mut self, _: usize, _: &State<T, Q>) -> Result<Then<I>, Error> {
+    fn at_event(&mut self, _: usize, _: &State<T, Q, C>) -> Result<Then<I>, Error> {
         Ok(Then::GoOn)
     }
 }
@@ -57,12 +57,12 @@ pub struct Watched<F, A, const K: usize> {
     pub(super) action: A,
 }
 
-impl<F, A, T, Q, I, const K: usize> Watch<T, Q, I, K> for Watched<F, A, K>
+impl<F, A, T, Q, I, const K: usize, const C: usize> Watch<T, Q, I, K, C> for Watched<F, A, K>
 where
-    F: FnMut(&State<T, Q>) -> Result<[T; K], Error>,
-    A: FnMut(usize, &State<T, Q>) -> Result<Then<I>, Error>,
+    F: FnMut(&State<T, Q, C>) -> Result<[T; K], Error>,
+    A: FnMut(usize, &State<T, Q, C>) -> Result<Then<I>, Error>,
 {
-    fn values(&mut self, state: &State<T, Q>) -> Result<[T; K], Error> {
+    fn values(&mut self, state: &State<T, Q, C>) -> Result<[T; K], Error> {
         (self.values)(state)
     }
 
@@ -70,7 +70,7 @@ where
         self.crossings
     }
 
-    fn at_event(&mut self, event: usize, state: &State<T, Q>) -> Result<Then<I>, Error> {
+    fn at_event(&mut self, event: usize, state: &State<T, Q, C>) -> Result<Then<I>, Error> {
         (self.action)(event, state)
     }
 }

@@ -1,0 +1,124 @@
+//! Frictions and stops of a scene in motion, by whatever coordinates it is followed.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::motion::{Motion, Road};
+use crate::contact::{Change, Contacts, ReducedContact, ReducedEquations, changes};
+use crate::{Error, Mechanism, Mode, Real, Scene};
+
+impl<S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'_, S, W, T, U, V, N, C>
+where
+    S: Scene<T, U, V, N, C>,
+    T: Real,
+{
+    /// M, Q and the contacts in the coordinates of the motion.
+    ///
+    /// # Errors
+    /// [`Error::ChangePoint`] so near to one that [J A] does not tell how rates depend on each other.
+    fn equations(&self, t: T, y: &SVector<T, N>) -> Result<ReducedEquations<T, V, C>, Error> {
+        match &self.road {
+            Road::Inputs => ReducedEquations::of(self.scene, t, y),
+            Road::Others(independent) | Road::Over(independent, _) => {
+                let (q, _) = S::parts(y);
+                let factors = self.regular(independent, &q).ok_or_else(|| self.change_point(&q))?;
+                self.equations_by(independent, &factors, (t, y)).map(|(equations, _)| equations)
+            }
+        }
+    }
+
+    /// The contacts with their s and s' alone: nothing is told of what would move them.
+    fn contacts_alone(&self, t: T, y: &SVector<T, N>) -> Result<ReducedEquations<T, V, C>, Error> {
+        let (q, rates) = Self::unpack(y);
+        let (unknowns, inputs) = self.velocity(t, y)?;
+        let velocity = Self::joined(&q, (unknowns, inputs));
+        let contacts = self.scene.contacts(t, &q, &velocity)?.map(|contact| ReducedContact {
+            name: contact.name,
+            value: contact.along.value,
+            row: SVector::zeros(),
+            drift: contact.along.unknowns.dot(&unknowns) + contact.along.inputs.dot(&inputs),
+            bias: T::zero(),
+            law: contact.law,
+        });
+        let coordinates = <S::Mechanism as Mechanism<T, U, V>>::INPUTS;
+        let (mass, forces) = (SMatrix::identity(), SVector::zeros());
+        Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts })
+    }
+
+    /// Whether [J A] tells how the rates depend on each other.
+    fn is_regular(&self, y: &SVector<T, N>) -> bool {
+        let Road::Over(independent, _) = &self.road else { return true };
+        self.regular(independent, &S::parts(y).0).is_some()
+    }
+
+    /// How far each contact is from another mode, with the closures closed. While a change point is passed what is held
+    /// is taken to hold; the end of the step shows whether it did.
+    pub(super) fn margins(&self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
+        // A step in the inputs may have gone where nothing closes: it will be taken again.
+        let y = self.closed(t, y).unwrap_or(*y);
+        let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
+        let alone = is_free || !self.is_regular(&y);
+        let equations = if alone { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
+        self.contacts.events(&equations)
+    }
+
+    /// The modes at the start, and y with the rates from there on.
+    pub(super) fn begin(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+        let (q, rates) = Self::unpack(y);
+        let (contacts, rates) = Contacts::begin(t, &rates, |rates| self.equations(t, &Self::pack(&q, rates)))?;
+        self.names = self.contacts_alone(t, y)?.contacts.map(|contact| contact.name);
+        self.contacts = contacts;
+        Ok(Self::pack(&q, &rates))
+    }
+
+    /// What happens at this state: y from here on, and what each contact has done.
+    pub(super) fn settled(&mut self, t: T, y: &SVector<T, N>) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
+        self.decided(t, y, y, false)
+    }
+
+    /// The same where the rates have just become those of `y`, from those of `before`.
+    pub(super) fn resumed(
+        &mut self,
+        t: T,
+        before: &SVector<T, N>,
+        y: &SVector<T, N>,
+    ) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
+        self.decided(t, before, y, true)
+    }
+
+    fn decided(
+        &mut self,
+        t: T,
+        before: &SVector<T, N>,
+        y: &SVector<T, N>,
+        anew: bool,
+    ) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
+        if C == 0 {
+            return Ok((*y, [None; C]));
+        }
+        let (q, rates) = Self::unpack(y);
+        let mut contacts = self.contacts;
+        let at = |rates: &SVector<T, V>| self.equations(t, &Self::pack(&q, rates));
+        let rates = if anew { contacts.resume(t, &rates, at)? } else { contacts.settle(t, &rates, at)? };
+        let after = Self::pack(&q, &rates);
+        let done = changes((&self.contacts, &self.equations(t, before)?), (&contacts, &self.equations(t, &after)?));
+        self.contacts = contacts;
+        Ok((after, done))
+    }
+
+    /// y with the rates of what is held made zero, and whether the modes are still those of this state.
+    pub(super) fn reviewed(
+        &self,
+        contacts: &Contacts<T, C>,
+        t: T,
+        y: &SVector<T, N>,
+    ) -> Result<(SVector<T, N>, bool), Error> {
+        if C == 0 || !self.is_regular(y) {
+            return Ok((*y, true));
+        }
+        if contacts.modes.iter().all(|&mode| mode == Mode::Open) && contacts.review(&self.contacts_alone(t, y)?)?.1 {
+            return Ok((*y, true));
+        }
+        let (rates, holds) = contacts.review(&self.equations(t, y)?)?;
+        Ok((Self::pack(&S::parts(y).0, &rates), holds))
+    }
+}

@@ -1,0 +1,124 @@
+//! Dry friction and stops in simulations, against exact motions.
+
+use linkage::contact::Change;
+use linkage::simulation::{State, simulate};
+use linkage::{Error, Mode, linkage};
+
+include!("../mechanisms/block.rs");
+include!("../mechanisms/belt.rs");
+
+fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected}, off {:e}", found - expected);
+}
+
+fn block(x: f64) -> BlockCoordinates {
+    BlockCoordinates { x, y: x }
+}
+
+/// It stops after v0 / (mu g) at v0^2 / (2 mu g), and stays.
+#[test]
+fn a_sliding_block_stops() {
+    let scene = Sliding::default();
+    let (speed, brake) = (1.7, 0.3 * 9.81);
+    let mut motion = simulate(&scene, (0.0, block(0.25), speed), 5.0, 1e-13).unwrap();
+    assert_eq!(motion.state().mode("friction on x"), Some(Mode::SlipForward));
+    let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|state| state.changes().count() > 0).collect();
+    let [stop] = events[..] else { panic!("{events:?}") };
+    close("time", stop.t, speed / brake, 1e-14);
+    assert_eq!(stop.changes().collect::<Vec<_>>(), [("friction on x", Change::Sticks)]);
+    assert_eq!(stop.mode("friction on x"), Some(Mode::Stick));
+    let end = motion.state();
+    close("place", end.q.x, 0.25 + speed * speed / (2.0 * brake), 1e-14);
+    assert_eq!((end.t, end.q.y, end.rate), (5.0, end.q.x, block(0.0)));
+}
+
+/// A spring against dry friction: each half cycle the amplitude is 2 F / k less, until the spring holds no more.
+#[test]
+fn an_oscillator_comes_to_rest() {
+    let scene = Sprung::default();
+    let less = 2.0 * 0.3 * 2.0 * 9.81 / 50.0;
+    let turns = [less - 1.0, 1.0 - 2.0 * less, 3.0 * less - 1.0, 1.0 - 4.0 * less];
+    let mut motion = simulate(&scene, (0.0, block(1.0), 0.0), 6.0, 1e-13).unwrap();
+    let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|state| state.changes().count() > 0).collect();
+    assert_eq!(events.len(), 4, "{events:?}");
+    for (half, (state, turn)) in events.iter().zip(turns).enumerate() {
+        close("time", state.t, (half + 1) as f64 * std::f64::consts::PI / 5.0, 1e-11);
+        close("turn", state.q.x, turn, 1e-11);
+        let what = if half == 3 { Change::Sticks } else { Change::Slips };
+        assert_eq!(state.changes().collect::<Vec<_>>(), [("friction on x", what)]);
+    }
+    close("rest", motion.state().q.x, turns[3], 1e-11);
+    assert_eq!(motion.state().rate.x, 0.0);
+}
+
+/// A ball on a stop: the times of the impacts are a geometric series, after which it rests.
+#[test]
+fn a_ball_bounces_and_rests() {
+    let scene = Bouncing::default();
+    let fall = (2.0 * 0.75 / 9.81_f64).sqrt();
+    let mut motion = simulate(&scene, (0.0, block(0.25), 0.0), 3.0, 1e-13).unwrap();
+    let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|state| state.changes().count() > 0).collect();
+    assert_eq!(events.len(), 20, "{events:?}");
+    let mut time = fall;
+    for (bounce, state) in events.iter().enumerate() {
+        let rate = 9.81 * fall * 0.4_f64.powi(i32::try_from(bounce).unwrap());
+        close("time", state.t, time, 1e-12 + 1e-15 / rate);
+        close("place", state.q.x, -0.5, 1e-15);
+        close("rate before", state.rate.x, -rate, 1e-12 + 1e-15 / rate);
+        let what = if bounce == 19 { Change::Rests } else { Change::Impact };
+        assert_eq!(state.changes().collect::<Vec<_>>(), [("stop on height", what)]);
+        time += 2.0 * fall * 0.4_f64.powi(i32::try_from(bounce).unwrap() + 1);
+    }
+    close("rest", events[19].t, 7.0 / 3.0 * fall, 1e-7);
+    close("place", motion.state().q.x, -0.5, 1e-15);
+    assert_eq!((motion.state().rate.x, motion.state().mode("stop on height")), (0.0, Some(Mode::AtLower)));
+}
+
+/// It is dragged until it has the speed of the belt, rides until the spring is stronger, and slips back.
+#[test]
+fn a_block_on_a_belt() {
+    let scene = Carried::default();
+    let (reach, omega) = (0.3 * 2.0 * 9.81 / 50.0_f64, 5.0);
+    let q = BeltCoordinates { slip: 0.0, x: 0.0, z: 0.0 };
+    let stuck = (0.5 / (reach * omega)).asin() / omega;
+    let place = reach * (1.0 - (omega * stuck).cos());
+    let free = stuck + (reach - place) / 0.5;
+    let mut motion = simulate(&scene, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), free + 0.4, 1e-13).unwrap();
+    let mut events = Vec::new();
+    motion
+        .finish(|state, _| {
+            events.extend((state.changes().count() > 0).then_some(*state));
+            true
+        })
+        .unwrap();
+    let [sticks, slips] = events[..] else { panic!("{events:?}") };
+    close("stuck", sticks.t, stuck, 1e-12);
+    close("there", sticks.q.x, place, 1e-12);
+    close("free", slips.t, free, 1e-11);
+    assert_eq!((sticks.contacts[0].mode, slips.contacts[0].mode), (Mode::Stick, Mode::SlipBackward));
+    close("end", motion.state().q.x, reach + 0.5 / omega * (omega * 0.4).sin(), 1e-11);
+    close("belt", motion.state().q.z, 0.5 * (free + 0.4), 1e-15);
+    // While it rides its rate is that of the belt, also in between.
+    let mut motion = simulate(&scene, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), free + 0.4, 1e-13).unwrap();
+    let times = (1..200).map(|i| stuck + (free - stuck) * f64::from(i) / 200.0);
+    for state in motion.at(times) {
+        let State { rate, contacts: [touch], .. } = state.unwrap();
+        assert_eq!((rate.slip, rate.x, touch.mode), (0.0, 0.5, Mode::Stick));
+    }
+}
+
+#[test]
+fn what_cannot_begin_or_go_on() {
+    let beyond = Error::BeyondStop { scene: "Bouncing", stop: "stop on height", gap: 0.5 };
+    assert_eq!(simulate(&Bouncing::default(), (0.0, block(0.75), 0.0), 1.0, 1e-9).err(), Some(beyond));
+    // A drive through a stop.
+    let driven = Driven::default();
+    let q = BeltCoordinates { slip: 0.0, x: 0.0, z: 0.0 };
+    let mut motion = simulate(&driven, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), 9.0, 1e-10).unwrap();
+    let named = Error::NoContactForces { scene: "Driven", contact: "stop on z" };
+    let states: Vec<_> = motion.by_ref().collect();
+    let (last, before) = states.split_last().unwrap();
+    assert_eq!(*last, Err(named));
+    assert!(before.iter().all(Result::is_ok) && motion.next().is_none());
+    close("there", motion.t(), 2.0, 1e-12);
+}
