@@ -7,7 +7,7 @@ use linkage::{Error, Mode, linkage};
 include!("../mechanisms/block.rs");
 include!("../mechanisms/belt.rs");
 
-fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
+pub(super) fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected}, off {:e}", found - expected);
 }
 

@@ -3,6 +3,7 @@
 mod andrews;
 mod change_points;
 mod contacts;
+mod contacts_of_linkages;
 mod dead_points;
 mod doors;
 mod failures;

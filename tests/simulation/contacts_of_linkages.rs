@@ -1,0 +1,181 @@
+//! Dry friction and stops of linkages: in two choices of inputs, and against the same motion of clamped or smooth scenes.
+
+use linkage::contact::Change;
+use linkage::simulation::{State, simulate};
+use linkage::{Mode, linkage};
+
+use super::contacts::close;
+
+include!("../mechanisms/five_bar_contacts.rs");
+
+linkage! {
+    /// An engine with friction, that crank or piston may drive.
+    #[derive(Debug, Clone)]
+    mechanism Motor {
+        param r = 0.05, l = 0.18, m2 = 0.8, j2 = 1.2e-2, m3 = 0.6, j3 = 2e-3, m4 = 0.9, g = 9.81, pull = 1.5;
+        param ring = 6, bearing = 0.4, far = 0.2, e = 1;
+        coordinate phi, psi, z;
+        loop r@phi + l@psi = (z, 0);
+        drive Shaft by phi;
+        drive Piston by z;
+        output swing = phi - psi;
+        body crank { mass m2; center (r/4)@phi; inertia j2; angle phi; }
+        body rod { mass m3; inertia j3; center r@phi + (l/3)@psi; angle psi; }
+        body piston { mass m4; center (z, 0); }
+        scene Turned of Shaft {
+            inertia; gravity (0, -g); torque pull * cos(t) on phi;
+            friction ring, 1 on z; friction bearing, 1 on swing;
+        }
+        scene Thrust of Piston {
+            inertia; gravity (0, -g); torque pull * cos(t) on phi;
+            friction ring, 1 on z; friction bearing, 1 on swing;
+        }
+        scene Knocking of Shaft { inertia; gravity (0, -g); stop swing in far..9, restitution e; }
+        scene Knocked of Piston { inertia; gravity (0, -g); stop swing in far..9, restitution e; }
+    }
+}
+
+type Happened = Vec<(f64, &'static str, Change)>;
+
+/// Runs to the end, with all that happens.
+macro_rules! run {
+    ($motion:expr) => {{
+        let mut happened = Happened::new();
+        for state in $motion.by_ref() {
+            let state = state.unwrap();
+            happened.extend(state.changes().map(|(name, change)| (state.t, name, change)));
+        }
+        happened
+    }};
+}
+
+fn agree(some: &Happened, others: &Happened, tolerance: f64) {
+    assert_eq!(some.len(), others.len(), "{some:?} {others:?}");
+    for (a, b) in some.iter().zip(others) {
+        assert_eq!((a.1, a.2), (b.1, b.2));
+        close("time", a.0, b.0, tolerance);
+    }
+}
+
+fn motor(phi: f64) -> MotorCoordinates<f64> {
+    Turned::default().mechanism.solve(&MotorCoordinates { phi, psi: -0.25, z: 0.19 }).unwrap().coordinates
+}
+
+/// The friction of the piston turns round in its dead points, and there it does not drive the crank.
+#[test]
+fn friction_in_the_dead_points() {
+    let (shaft, piston) = (Turned::default(), Thrust::default());
+    for speed in [20.0, -20.0] {
+        let mut one = simulate(&shaft, (0.0, motor(1.2), speed), 3.0, 1e-14).unwrap();
+        let rate = one.state().rate.z;
+        let mut other = simulate(&piston, (0.0, motor(1.2), rate), 3.0, 1e-14).unwrap();
+        let (some, others) = (run!(one), run!(other));
+        agree(&some, &others, 1e-9);
+        let (a, b) = (one.state(), other.state());
+        close("phi", a.q.phi, b.q.phi, 1e-9);
+        close("phi'", a.rate.phi, b.rate.phi, 1e-8);
+        println!("{} {:?} {:?} {:e}", some.len(), other.counts(), other.passages(), a.q.phi - b.q.phi);
+        let dead: Vec<_> = some.iter().filter(|(_, name, _)| *name == "friction on z").collect();
+        assert!(dead.len() > 20 && dead.iter().all(|(.., change)| *change == Change::Slips), "{dead:?}");
+        assert!(other.passages().exchanges > 30 && one.passages().exchanges == 0);
+    }
+}
+
+/// A stop that gives all back turns the motion round: it goes back the way it came, over the dead points too.
+#[test]
+fn a_stop_on_an_output_turns_the_motion_round() {
+    let (shaft, piston) = (Knocking::default(), Knocked::default());
+    let q = motor(4.5);
+    let start = simulate(&shaft, (0.0, q, -14.0), 1.0, 1e-13).unwrap().state().rate;
+    let mut by_shaft = simulate(&shaft, (0.0, q, start.phi), 1.0, 1e-13).unwrap();
+    let mut by_piston = simulate(&piston, (0.0, q, start.z), 1.0, 1e-13).unwrap();
+    let (some, others) = (run!(by_shaft), run!(by_piston));
+    agree(&some, &others, 1e-10);
+    let (t, name, change) = some[0];
+    assert_eq!((name, change), ("stop on swing", Change::Impact));
+    println!("{some:?} {:?} {:?}", by_piston.passages(), by_piston.counts());
+    let mut piston = simulate(&piston, (0.0, q, start.z), 2.0 * t, 1e-13).unwrap();
+    let there: Vec<_> = piston.at([0.25 * t, 0.75 * t, 1.25 * t, 1.75 * t, 2.0 * t]).map(Result::unwrap).collect();
+    for (before, after) in [(there[0], there[3]), (there[1], there[2])] {
+        close("phi", before.q.phi, after.q.phi, 1e-10);
+        close("phi'", before.rate.phi, -after.rate.phi, 1e-9);
+    }
+    close("phi", there[4].q.phi, q.phi, 1e-10);
+    close("z'", there[4].rate.z, -start.z, 1e-9);
+    assert!(piston.passages().exchanges >= 4, "{:?}", piston.passages());
+}
+
+fn pair(theta1: f64, theta4: f64) -> PairCoordinates<f64> {
+    PairCoordinates { theta2: 0.4, theta3: 1.9, theta1, theta4 }
+}
+
+/// One crank is held by its friction while the other slips, turns round and slips back: as if it were clamped.
+#[test]
+fn one_crank_sticks_while_the_other_slips() {
+    let (scene, clamped) = (Braked::default(), Clamped { place: 1.1, ..Clamped::default() });
+    let rates = PairInputs { theta1: 0.0, theta4: 0.4 };
+    let mut motion = simulate(&scene, (0.0, pair(1.1, 1.4), rates), 0.6, 1e-13).unwrap();
+    let happened = run!(motion);
+    let [(turn, "friction on theta4", Change::Slips)] = happened[..] else { panic!("{happened:?}") };
+    let mut forth = simulate(&clamped, (0.0, pair(1.1, 1.4), rates), turn, 1e-13).unwrap();
+    forth.finish(|_, _| true).unwrap();
+    let State { q, rate, .. } = *forth.state();
+    close("turn", rate.theta4, 0.0, 1e-12);
+    let back = Clamped { sign: -1.0, ..clamped.clone() };
+    let mut back = simulate(&back, (turn, q, PairInputs { theta1: 0.0, theta4: rate.theta4 }), 0.6, 1e-13).unwrap();
+    back.finish(|_, _| true).unwrap();
+    let (found, expected) = (motion.state(), back.state());
+    close("theta4", found.q.theta4, expected.q.theta4, 1e-11);
+    close("theta4'", found.rate.theta4, expected.rate.theta4, 1e-11);
+    assert_eq!((found.q.theta1, found.rate.theta1), (1.1, 0.0));
+    assert_eq!(found.mode("friction on theta1"), Some(Mode::Stick));
+}
+
+linkage! {
+    /// A five-bar whose motor turns one crank, by the other crank or by an arm.
+    #[derive(Debug, Clone)]
+    mechanism Chain {
+        param a = 0.7, b = 1.6, c = 1.5, d = 0.8, e = 1.7, hold = 2, near = 0.25, far = 1.3;
+        coordinate theta1, theta2, theta3, theta4;
+        loop a@theta1 + b@theta2 = e@0 + d@theta4 + c@theta3;
+        drive Cranks by theta1, theta4;
+        drive Arm by theta1, theta2;
+        output bend = theta3 - theta2;
+        body arm { mass 2; inertia 0.9; center a@theta1 + (b/2)@theta2; angle theta2; }
+        body forearm { mass 1.7; inertia 0.7; center e@0 + d@theta4 + (c/2)@theta3; angle theta3; }
+        body right { mass 0.9; inertia 0.1; center e@0 + (d/2)@theta4; angle theta4; }
+        scene OnCranks of Cranks {
+            inertia; drive theta1 = 0.3 + 2 * t; friction hold, 1 on theta4; stop bend in near..far, restitution 0.5;
+        }
+        scene OnArm of Arm {
+            inertia; drive theta1 = 0.3 + 2 * t; friction hold, 1 on theta4; stop bend in near..far, restitution 0.5;
+        }
+    }
+}
+
+/// A motor that keeps to its law, with a crank that sticks and slips and arms that hit their stop, through positions in
+/// which one or the other choice of inputs is singular.
+#[test]
+fn a_motor_through_singular_inputs() {
+    let (cranks, arm) = (OnCranks::default(), OnArm::default());
+    let q = ChainCoordinates { theta1: 0.3, theta2: 0.8, theta3: 2.0, theta4: 0.9 };
+    let q = cranks.mechanism.solve(&q).unwrap().coordinates;
+    let rates = CranksInputs { theta1: 2.0, theta4: 0.0 };
+    let mut one = simulate(&cranks, (0.0, q, rates), 6.0, 1e-13).unwrap();
+    let start = one.state().rate;
+    let mut other = simulate(&arm, (0.0, q, ArmInputs { theta1: 2.0, theta2: start.theta2 }), 6.0, 1e-13).unwrap();
+    let (some, others) = (run!(one), run!(other));
+    println!(
+        "{some:?}\n{others:?}\n{:?} {:?} {:?} {:?}",
+        one.passages(),
+        other.passages(),
+        one.counts(),
+        other.counts()
+    );
+    agree(&some, &others, 1e-8);
+    for change in [Change::Sticks, Change::Slips, Change::Impact] {
+        assert!(some.iter().any(|(.., what)| *what == change), "{change:?}");
+    }
+    close("theta4", one.state().q.theta4, other.state().q.theta4, 1e-8);
+    close("law", other.state().q.theta1, 12.3, 1e-14);
+}
