@@ -2,7 +2,7 @@ linkage! {
     /// A block on a table, its place told twice.
     #[derive(Debug, Clone)]
     pub mechanism Block {
-        param m = 2, g = 9.81, mu = 0.3, k = 50, push = 0, lower = -1, upper = 1, e = 0.4;
+        param m = 2, g = 9.81, mu = 0.3, k = 50, push = 0, omega = 20, lower = -1, upper = 1, e = 0.4;
         input x;
         unknown y;
         equation y = x;
@@ -28,6 +28,11 @@ linkage! {
         scene Swelling {
             inertia;
             torque push * t on x;
+            friction mu, m * g on x;
+        }
+        scene Rocked {
+            inertia;
+            torque push * sin(omega * t) on x;
             friction mu, m * g on x;
         }
         scene Bouncing {

@@ -122,3 +122,22 @@ fn what_cannot_begin_or_go_on() {
     assert!(before.iter().all(Result::is_ok) && motion.next().is_none());
     close("there", motion.t(), 2.0, 1e-12);
 }
+
+/// While nothing moves nothing tells how fast the load changes: it is looked at often enough all the same.
+#[test]
+fn a_load_that_swings_frees_the_block_in_time() {
+    for (beyond, frequency) in [(1.001, 20.0), (1.02, 3.0), (1.3, 150.0), (1.0001, 47.0)] {
+        let limit = 0.3 * 2.0 * 9.81;
+        let scene = Rocked { push: beyond * limit, omega: frequency, ..Rocked::default() };
+        let mut motion = simulate(&scene, (0.0, block(0.0), 0.0), 10.0, 1e-10).unwrap();
+        let first = motion.by_ref().map(Result::unwrap).find(|state| state.changes().count() > 0).unwrap();
+        println!("{beyond} {frequency} {} {:?}", first.t * frequency, motion.counts());
+        close("free", first.t * frequency, (1.0 / beyond).asin(), 1e-6);
+        assert_eq!(first.contacts[0].mode, Mode::SlipForward);
+    }
+    let scene = Rocked { push: 0.9999 * 0.3 * 2.0 * 9.81, ..Rocked::default() };
+    let mut motion = simulate(&scene, (0.0, block(0.0), 0.0), 10.0, 1e-10).unwrap();
+    motion.finish(|_, _| true).unwrap();
+    println!("{:?}", motion.counts());
+    assert_eq!((motion.state().q.x, motion.state().mode("friction on x")), (0.0, Some(Mode::Stick)));
+}

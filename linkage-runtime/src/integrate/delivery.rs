@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::System;
-use super::event::{Action, Hit};
+use super::event::{Action, Found};
 use super::run::{Instant, Integration, Place, Step, finite};
 use super::tableau::Method;
 use crate::scalar::to_f64;
@@ -17,13 +17,14 @@ where
 {
     /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
     /// rate, and if that has one on the dense output.
-    pub(super) fn search(&mut self, from: f64) -> Result<Option<Hit<T, N>>, Error> {
+    pub(super) fn search(&mut self, from: f64) -> Result<Found<T, N>, Error> {
         let roundings = self.roundings();
         let sides = self.sides;
         if self.interpolant.is_none() {
             let cubic = self.cubic();
-            if self.sides.search(&mut self.system, &cubic, (from, self.parts), roundings)?.is_none() {
-                return Ok(None);
+            let found = self.sides.search(&mut self.system, &cubic, (from, self.parts), roundings)?;
+            if !matches!(found, Found::Hit(_)) {
+                return Ok(found);
             }
         }
         self.sides = sides;

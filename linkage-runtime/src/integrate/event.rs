@@ -4,8 +4,12 @@ use nalgebra::SVector;
 
 use super::System;
 use super::dense::Interpolant;
+use super::samples::Samples;
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
+
+/// The most parts of a step at which guards are looked at.
+const MOST_PARTS: usize = 64;
 
 /// Which way an event function passes through zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +56,16 @@ struct Side {
 
 /// Of the events and of the guards.
 type Values<const K: usize, const C: usize> = ([f64; K], [f64; C]);
+
+/// What is found in a step.
+pub(super) enum Found<T: Real, const N: usize> {
+    /// No event.
+    Nothing,
+    /// The first events.
+    Hit(Hit<T, N>),
+    /// The guards change too much in it to be followed.
+    Unclear,
+}
 
 /// The first events in the step after some part of it.
 pub(super) struct Hit<T: Real, const N: usize> {
@@ -183,37 +197,82 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         }
     }
 
-    /// The first events within the step after the part `from`, looked for at `parts` equal parts of the step: a
-    /// function that goes through zero twice between two of them is not seen.
+    /// The first events within the step after the part `from`, looked for at `parts` equal parts of what is left of it:
+    /// an event function that goes through zero twice between two of them is not seen. Guards are looked at more often
+    /// where they bend, and where they come near zero and turn.
     pub(super) fn search<T: Real, S: System<T, N, K, C>, const N: usize>(
         &mut self,
         system: &mut S,
         step: &Interpolant<T, N>,
         (from, parts): (f64, usize),
         roundings: f64,
-    ) -> Result<Option<Hit<T, N>>, Error> {
-        let mut before = from;
-        for part in 1..=parts {
-            let s = part as f64 / parts as f64;
-            if s <= from {
-                continue;
-            }
-            let found = values(system, step.time(s), &step.at_fraction(real(s)))?;
-            if self.any(&found) {
-                let at = self.locate(system, step, (before, s), roundings)?;
-                let (t, state) = (step.time(at), step.at_fraction(real(at)));
-                let there = values(system, t, &state)?;
-                for (side, value) in self.with_mut(&there) {
-                    side.waits = side.passed(value) && side.counts();
-                    side.residue = if side.waits { value.abs() } else { -1.0 };
+    ) -> Result<Found<T, N>, Error> {
+        let (sides, mut parts) = (*self, parts);
+        loop {
+            match self.scan(system, step, (from, parts), roundings)? {
+                Found::Unclear if parts < MOST_PARTS => {
+                    *self = sides;
+                    parts *= 2;
                 }
-                self.follow(&there);
-                return Ok(Some(Hit { at, t, state }));
+                found => return Ok(found),
+            }
+        }
+    }
+
+    fn scan<T: Real, S: System<T, N, K, C>, const N: usize>(
+        &mut self,
+        system: &mut S,
+        step: &Interpolant<T, N>,
+        (from, parts): (f64, usize),
+        roundings: f64,
+    ) -> Result<Found<T, N>, Error> {
+        let mut before = from;
+        let mut samples = Samples::new();
+        if C > 0 {
+            samples.push(values(system, step.time(from), &step.at_fraction(real(from)))?.1);
+        }
+        for part in 1..=parts {
+            let share = part as f64 / parts as f64;
+            let s = from + (1.0 - from) * share;
+            let found = values(system, step.time(s), &step.at_fraction(real(s)))?;
+            samples.push(found.1);
+            if samples.are_unclear() {
+                return Ok(Found::Unclear);
+            }
+            if self.any(&found) {
+                return self.hit(system, step, (before, s), roundings).map(Found::Hit);
             }
             self.follow(&found);
+            let width = (1.0 - from) / parts as f64;
+            for turn in samples.turns() {
+                let turn = before + width * turn;
+                if self.any(&values(system, step.time(turn), &step.at_fraction(real(turn)))?) {
+                    let start = if turn > before { before } else { before - width };
+                    return self.hit(system, step, (start, turn), roundings).map(Found::Hit);
+                }
+            }
             before = s;
         }
-        Ok(None)
+        Ok(Found::Nothing)
+    }
+
+    /// The first events between two parts of the step.
+    fn hit<T: Real, S: System<T, N, K, C>, const N: usize>(
+        &mut self,
+        system: &mut S,
+        step: &Interpolant<T, N>,
+        between: (f64, f64),
+        roundings: f64,
+    ) -> Result<Hit<T, N>, Error> {
+        let at = self.locate(system, step, between, roundings)?;
+        let (t, state) = (step.time(at), step.at_fraction(real(at)));
+        let there = values(system, t, &state)?;
+        for (side, value) in self.with_mut(&there) {
+            side.waits = side.passed(value) && side.counts();
+            side.residue = if side.waits { value.abs() } else { -1.0 };
+        }
+        self.follow(&there);
+        Ok(Hit { at, t, state })
     }
 
     /// The least of the functions that may have an event, as they are before it: positive, and then zero or less.

@@ -49,6 +49,7 @@ mod event;
 mod fixed;
 mod outputs;
 mod run;
+mod samples;
 mod step;
 mod system;
 mod tableau;

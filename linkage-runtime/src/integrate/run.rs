@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use super::control::{Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
-use super::event::Sides;
+use super::event::{Found, Sides};
 use super::tableau::{self, Method, SLOPES, Slopes};
 use super::{Outputs, System, step};
 use crate::scalar::to_f64;
@@ -14,6 +14,9 @@ use crate::{Error, Real};
 
 /// The part of the tolerance by which a state may be corrected without another evaluation of the rate.
 const NEGLIGIBLE: f64 = 0.01;
+
+/// A step of this part of the interval is not made shorter for the sake of its guards.
+const SHORTEST: f64 = 1e-6;
 
 /// What an integration has cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -276,23 +279,34 @@ where
         if self.sides.waits() {
             return self.deliver();
         }
-        let from = match self.place {
-            Place::Within(part) => part,
-            _ => {
-                self.step()?;
-                0.0
+        loop {
+            let (from, is_new) = match self.place {
+                Place::Within(part) => (part, false),
+                _ => {
+                    self.step()?;
+                    (0.0, true)
+                }
+            };
+            let found = if K + C > 0 { self.search(from)? } else { Found::Nothing };
+            let length = to_f64(self.to.0 - self.from.0).abs();
+            match found {
+                Found::Hit(hit) => {
+                    (self.t, self.state) = (hit.t, hit.state);
+                    self.place = Place::Within(hit.at);
+                    return self.deliver();
+                }
+                // What jumps stays unclear in any step.
+                Found::Unclear if is_new && length > SHORTEST * to_f64(self.end - self.start).abs() => {
+                    self.go_back(self.from.0, self.from.1);
+                    self.limit_next(length / 16.0);
+                }
+                _ => {
+                    (self.t, self.state) = self.to;
+                    self.place = Place::Boundary;
+                    return Ok(Step { t: self.t, state: self.state, event: None });
+                }
             }
-        };
-        if K + C > 0
-            && let Some(hit) = self.search(from)?
-        {
-            (self.t, self.state) = (hit.t, hit.state);
-            self.place = Place::Within(hit.at);
-            return self.deliver();
         }
-        (self.t, self.state) = self.to;
-        self.place = Place::Boundary;
-        Ok(Step { t: self.t, state: self.state, event: None })
     }
 
     /// The same start, end and settings by another method or with another system.
