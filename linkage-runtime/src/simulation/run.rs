@@ -6,7 +6,7 @@ use super::independent::Independent;
 use super::motion::{Motion, Road, weakest};
 use super::over::Ahead;
 use super::scales::Scales;
-use super::state::{State, Touch};
+use super::state::{Loads, State, Touch};
 use super::watch::{Then, Unwatched, Watch, Watched};
 use crate::contact::{Change, Contacts};
 use crate::integrate::{Counts, Crossing, Dop853, Integration, Interpolant, Method, Tolerance};
@@ -284,6 +284,18 @@ where
     #[must_use]
     pub fn state(&self) -> &Moment<S, T, U, V, N, C> {
         &self.state
+    }
+
+    /// The forces of frictions, stops and drives at the last state that was reached, at an event those after it.
+    ///
+    /// # Errors
+    /// Those of the equations of motion, and [`Error::ChangePoint`] very near to one.
+    pub fn loads(&self) -> Result<Loads<T, Rates<S, T, U, V, N, C>, C>, Error> {
+        let (t, motion) = (self.integration.t(), self.integration.system());
+        let y = motion.closed(t, self.integration.state())?;
+        let (contacts, drives) = motion.loads(t, &y)?;
+        let (_, rates) = motion.velocity(t, &y)?;
+        Ok(Loads { contacts, drives: drives.into(), drive_power: drives.dot(&rates) })
     }
 
     /// How much of the interval is done, from 0 to 1.
