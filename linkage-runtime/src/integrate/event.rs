@@ -197,9 +197,9 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         }
     }
 
-    /// The first events within the step after the part `from`, looked for at `parts` equal parts of what is left of it:
-    /// an event function that goes through zero twice between two of them is not seen. Guards are looked at more often
-    /// where they bend, and where they come near zero and turn.
+    /// The first events within the step after the part `from`, looked for at `parts` equal parts of the step: an event
+    /// function that goes through zero twice between two of them is not seen. Guards are looked at more often where
+    /// they bend, and where they come near zero and turn.
     pub(super) fn search<T: Real, S: System<T, N, K, C>, const N: usize>(
         &mut self,
         system: &mut S,
@@ -226,15 +226,18 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         (from, parts): (f64, usize),
         roundings: f64,
     ) -> Result<Found<T, N>, Error> {
-        let width = (1.0 - from) / parts as f64;
+        let width = (parts as f64).recip();
         let mut samples = Samples::new();
-        if C > 0 {
+        if C > 0 && from == 0.0 {
             samples.push(values(system, step.time(from), &step.at_fraction(real(from)))?.1);
         }
         // Between which parts of the step something has happened first.
         let mut happened = None;
         for part in 1..=parts {
-            let s = if part == parts { 1.0 } else { from + width * part as f64 };
+            let s = part as f64 / parts as f64;
+            if s <= from {
+                continue;
+            }
             let found = values(system, step.time(s), &step.at_fraction(real(s)))?;
             samples.push(found.1);
             if samples.are_unclear() {
