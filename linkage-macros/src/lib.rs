@@ -330,7 +330,7 @@ use proc_macro::TokenStream;
 ///
 /// ## Simulation
 ///
-/// `simulation::simulate` takes a scene with `inertia` (and without frictions and stops) from a start to an end, and
+/// `simulation::simulate` takes a scene with `inertia`, also one with frictions and stops, from a start to an end, and
 /// gives the states with all coordinates and rates by name. It goes through dead points of the input, in other
 /// coordinates, and straight on through change points; what it cannot follow is an error, and what was computed stays.
 ///
@@ -376,7 +376,8 @@ use proc_macro::TokenStream;
 /// others are smooth: a joint sticks or slips, a stop is open or closed. So what a scene says of itself (`forces`,
 /// `acceleration`, `drive_forces`, `reactions`, `equilibrium`, `derivative` of the trait `Scene`) is **without** them;
 /// `contacts` tells where they are, and the module `contact` of the runtime has the law: which modes fit a state, the
-/// accelerations and forces in them, the functions whose zeros are the events, and what happens there.
+/// accelerations and forces in them, the functions whose zeros are the events, and what happens there. A simulation
+/// does all of this: its states tell what each friction and stop is doing, and what has happened to it.
 ///
 /// ```
 /// linkage::linkage! {
@@ -420,6 +421,27 @@ use proc_macro::TokenStream;
 /// let (contacts, rates) = Contacts::begin(0.0, &rates, at)?;
 /// assert_eq!(contacts.modes, [Mode::SlipForward, Mode::SlipBackward, Mode::Open]);
 /// assert!(contacts.motion(&at(&rates)?)?.acceleration[0] > 50.0);
+///
+/// // The ram goes down to its stop, bounces, and rests on it.
+/// use linkage::contact::Change;
+/// use linkage::simulation::simulate;
+///
+/// let mut motion = simulate(&press, (0.0, q, 0.0), 1.0, 1e-10)?;
+/// let (mut impacts, mut last) = (0, None);
+/// for state in motion.by_ref() {
+///     let state = state?;
+///     for (name, change) in state.changes() {
+///         println!("{:.6} s: {name} {change:?}", state.t);
+///         impacts += usize::from(change == Change::Impact);
+///         last = Some((name, change));
+///     }
+/// }
+/// assert_eq!((impacts > 3, last), (true, Some(("stop on z", Change::Rests))));
+/// let end = motion.state();
+/// assert_eq!((end.mode("stop on z"), end.rate.z), (Some(Mode::AtLower), 0.0));
+/// // The stop carries what the motor presses: by the lever dz/dphi less than 5 N m would suggest.
+/// let ratio = press.mechanism.motion(&end.q, 1.0, 0.0)?.velocity.z;
+/// println!("{:.1} N", motion.loads()?.contacts[2] * ratio);
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
@@ -429,7 +451,7 @@ use proc_macro::TokenStream;
 /// - Bouncing ends where the rebound is less than the square root of the scalar's rounding beside the hardest impact of
 ///   the series.
 /// - `power` counts limit |s'| of each friction as dissipated; in scenes with contacts it leaves out the power of drives,
-///   which depends on what sticks.
+///   which depends on what sticks: `loads` of a simulation has it, with the forces of frictions, stops and drives.
 ///
 /// Effects work along what the closures, points and bodies already compute: one kernel holds all that a function
 /// returns, and takes coordinates that close the mechanism, so that an angle beyond a turn is what it is.

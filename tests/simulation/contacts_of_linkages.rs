@@ -177,5 +177,21 @@ fn a_motor_through_singular_inputs() {
         assert!(some.iter().any(|(.., what)| *what == change), "{change:?}");
     }
     close("theta4", one.state().q.theta4, other.state().q.theta4, 1e-8);
+    // What sticks stands, to rounding, also where it is no input; between the ends of steps too.
+    let mut other = simulate(&arm, (0.0, q, ArmInputs { theta1: 2.0, theta2: start.theta2 }), 6.0, 1e-13).unwrap();
+    let mut stuck = 0;
+    for state in other.at((0..6000).map(|i| 0.001 * f64::from(i))).map(Result::unwrap) {
+        if state.contacts[0].mode == Mode::Stick {
+            stuck += 1;
+            assert!(state.rate.theta4.abs() < 4e-15, "{}: {:e}", state.t, state.rate.theta4);
+        }
+    }
+    assert!(stuck > 100);
+    other.finish(|_, _| true).unwrap();
+    let (a, b) = (one.loads().unwrap(), other.loads().unwrap());
+    println!("{a:?} {b:?}");
+    assert!(a.drives.theta1.abs() > 0.1 && a.contacts[0].abs() > 0.1);
+    close("motor", b.drives.theta1, a.drives.theta1, 1e-6);
+    close("power", a.drive_power, 2.0 * a.drives.theta1, 1e-14);
     close("law", other.state().q.theta1, 12.3, 1e-14);
 }

@@ -88,6 +88,21 @@ impl<T: Real, const V: usize, const C: usize> ReducedEquations<T, V, C> {
         t: T,
         state: &SVector<T, N>,
     ) -> Result<(Self, Coordinates<S::Mechanism, T, U, V>), Error> {
+        let (mut reduced, velocity) = Self::unprescribed(scene, t, state)?;
+        for (at, law) in scene.prescribed(t).into_iter().enumerate() {
+            if let Some([_, _, acceleration]) = law {
+                reduced.prescribe(at, acceleration);
+            }
+        }
+        Ok((reduced, velocity))
+    }
+
+    /// The same where no input is prescribed yet.
+    pub(crate) fn unprescribed<S: Scene<T, U, V, N, C>, const U: usize, const N: usize>(
+        scene: &S,
+        t: T,
+        state: &SVector<T, N>,
+    ) -> Result<(Self, Coordinates<S::Mechanism, T, U, V>), Error> {
         let Equations { mass, forces, ratios, bias } = scene.equations(t, state)?;
         let (q, rates) = S::parts(state);
         let rates: SVector<T, V> = rates.into();
@@ -98,13 +113,7 @@ impl<T: Real, const V: usize, const C: usize> ReducedEquations<T, V, C> {
             .contacts(t, &q, &velocity)?
             .map(|contact| ReducedContact::new(&contact, (&ratios, &identity), (&bias, &none)));
         let coordinates = <S::Mechanism as Mechanism<T, U, V>>::INPUTS;
-        let mut reduced = Self { scene: S::NAME, coordinates, mass, forces, rates, contacts };
-        for (at, law) in scene.prescribed(t).into_iter().enumerate() {
-            if let Some([_, _, acceleration]) = law {
-                reduced.prescribe(at, acceleration);
-            }
-        }
-        Ok((reduced, velocity))
+        Ok((Self { scene: S::NAME, coordinates, mass, forces, rates, contacts }, velocity))
     }
 
     /// Gives a coordinate this acceleration: its rate and acceleration act on the others as they do, and no force or

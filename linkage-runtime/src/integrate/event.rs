@@ -197,9 +197,9 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         }
     }
 
-    /// The first events within the step after the part `from`, looked for at `parts` equal parts of what is left of it:
-    /// an event function that goes through zero twice between two of them is not seen. Guards are looked at more often
-    /// where they bend, and where they come near zero and turn.
+    /// The first events within the step after the part `from`, looked for at `parts` equal parts of the step: an event
+    /// function that goes through zero twice between two of them is not seen. Guards are looked at more often where
+    /// they bend, and where they come near zero and turn.
     pub(super) fn search<T: Real, S: System<T, N, K, C>, const N: usize>(
         &mut self,
         system: &mut S,
@@ -226,34 +226,43 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         (from, parts): (f64, usize),
         roundings: f64,
     ) -> Result<Found<T, N>, Error> {
-        let mut before = from;
+        let width = (parts as f64).recip();
         let mut samples = Samples::new();
-        if C > 0 {
+        if C > 0 && from == 0.0 {
             samples.push(values(system, step.time(from), &step.at_fraction(real(from)))?.1);
         }
+        // Between which parts of the step something has happened first.
+        let mut happened = None;
         for part in 1..=parts {
-            let share = part as f64 / parts as f64;
-            let s = from + (1.0 - from) * share;
+            let s = part as f64 / parts as f64;
+            if s <= from {
+                continue;
+            }
             let found = values(system, step.time(s), &step.at_fraction(real(s)))?;
             samples.push(found.1);
             if samples.are_unclear() {
                 return Ok(Found::Unclear);
             }
-            if self.any(&found) {
-                return self.hit(system, step, (before, s), roundings).map(Found::Hit);
-            }
-            self.follow(&found);
-            let width = (1.0 - from) / parts as f64;
-            for turn in samples.turns() {
-                let turn = before + width * turn;
-                if self.any(&values(system, step.time(turn), &step.at_fraction(real(turn)))?) {
-                    let start = if turn > before { before } else { before - width };
-                    return self.hit(system, step, (start, turn), roundings).map(Found::Hit);
+            let before = s - width;
+            if happened.is_none() {
+                if self.any(&found) {
+                    happened = Some((before.max(from), s));
+                } else {
+                    self.follow(&found);
                 }
             }
-            before = s;
+            // In what lies behind, if that was seen well.
+            let until = happened.map_or(s, |(start, _)| start);
+            for turn in samples.turns().map(|turn| before + width * turn).filter(|turn| *turn < until) {
+                if self.any(&values(system, step.time(turn), &step.at_fraction(real(turn)))?) {
+                    happened = Some(((before - width).max(from), turn));
+                }
+            }
+            if happened.is_some() && (C == 0 || samples.are_enough()) {
+                break;
+            }
         }
-        Ok(Found::Nothing)
+        happened.map_or(Ok(Found::Nothing), |between| self.hit(system, step, between, roundings).map(Found::Hit))
     }
 
     /// The first events between two parts of the step.

@@ -298,6 +298,8 @@ where
                 // What jumps stays unclear in any step.
                 Found::Unclear if is_new && length > SHORTEST * to_f64(self.end - self.start).abs() => {
                     self.go_back(self.from.0, self.from.1);
+                    self.counts.accepted -= 1;
+                    self.counts.rejected += 1;
                     self.limit_next(length / 16.0);
                 }
                 _ => {

@@ -4,7 +4,7 @@
 //! more often until four values in a row are near a parabola, and where three of them have their vertex near zero.
 
 /// Part of the greatest of four values up to which they are on a parabola.
-const ON_A_PARABOLA: f64 = 0.25;
+const ON_A_PARABOLA: f64 = 0.05;
 
 /// A vertex is looked at below this part of the values beside it.
 const NEAR_ZERO: f64 = 0.5;
@@ -26,10 +26,15 @@ impl<const C: usize> Samples<C> {
         self.count += 1;
     }
 
+    /// Whether there are as many as it takes to tell whether a guard is seen well.
+    pub(super) fn are_enough(&self) -> bool {
+        self.count > 3
+    }
+
     /// Whether some guard changes too much from one to the next to be followed.
     pub(super) fn are_unclear(&self) -> bool {
         let [a, b, c, d] = &self.values;
-        self.count > 3
+        self.are_enough()
             && (0..C).any(|i| {
                 let size = a[i].abs().max(b[i].abs()).max(c[i].abs()).max(d[i].abs());
                 (a[i] - d[i] - 3.0 * (b[i] - c[i])).abs() > ON_A_PARABOLA * size

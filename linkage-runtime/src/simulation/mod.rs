@@ -33,5 +33,5 @@ mod watch;
 pub use motion::Motion;
 pub use real_time::RealTime;
 pub use run::{AtSingularity, Outputs, Passages, Simulation, simulate};
-pub use state::{State, Touch};
+pub use state::{Loads, State, Touch};
 pub use watch::{Then, Unwatched, Watch, Watched};

@@ -298,6 +298,24 @@ where
         factors: &Factors<T, U, V>,
         (t, y): (T, &SVector<T, N>),
     ) -> Result<(ReducedEquations<T, V, C>, Position<S, T, U, V, N, C>), Error> {
+        let (mut equations, velocity) = self.unprescribed_by(independent, factors, (t, y))?;
+        // What is prescribed moves as its law says, whatever the forces.
+        for (input, law) in self.scene.prescribed(t).iter().enumerate() {
+            let Some([_, _, acceleration]) = *law else { continue };
+            if let Some(at) = independent.free.iter().position(|&free| free == U + input) {
+                equations.prescribe(at, acceleration);
+            }
+        }
+        Ok((equations, velocity))
+    }
+
+    /// The same where no input is prescribed yet.
+    pub(super) fn unprescribed_by(
+        &self,
+        independent: &Independent<T, U, V>,
+        factors: &Factors<T, U, V>,
+        (t, y): (T, &SVector<T, N>),
+    ) -> Result<(ReducedEquations<T, V, C>, Position<S, T, U, V, N, C>), Error> {
         let mechanism = self.scene.mechanism();
         let (q, rates) = Self::unpack(y);
         let basis = factors.basis();
@@ -326,15 +344,7 @@ where
             if column < U { S::Mechanism::UNKNOWNS[column] } else { S::Mechanism::INPUTS[column - U] }
         };
         let coordinates = independent.free.map(name);
-        let mut equations = ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts };
-        // What is prescribed moves as its law says, whatever the forces.
-        for (input, law) in self.scene.prescribed(t).iter().enumerate() {
-            let Some([_, _, acceleration]) = *law else { continue };
-            if let Some(at) = independent.free.iter().position(|&free| free == U + input) {
-                equations.prescribe(at, acceleration);
-            }
-        }
-        Ok((equations, velocity))
+        Ok((ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts }, velocity))
     }
 }
 

@@ -6,7 +6,7 @@ use super::independent::Independent;
 use super::motion::{Motion, Road, weakest};
 use super::over::Ahead;
 use super::scales::Scales;
-use super::state::{State, Touch};
+use super::state::{Loads, State, Touch};
 use super::watch::{Then, Unwatched, Watch, Watched};
 use crate::contact::{Change, Contacts};
 use crate::integrate::{Counts, Crossing, Dop853, Integration, Interpolant, Method, Tolerance};
@@ -93,7 +93,7 @@ pub struct Simulation<
     /// The contacts in the step that led to the state.
     contacts: Contacts<T, C>,
     /// Where the step begins, closed, with the signs of the determinants there.
-    from: (T, SVector<T, N>, Contacts<T, C>),
+    from: (T, SVector<T, N>),
     signs: Signs<S, T, U, V, N, C>,
     passages: Passages,
     /// Steps in other coordinates that are left since one in the inputs went over a singularity.
@@ -152,7 +152,7 @@ where
         at_singularity: AtSingularity::Pass,
         state,
         contacts,
-        from: (t, y, contacts),
+        from: (t, y),
         signs: mechanism.block_determinants(&mechanism.pose_at(&q)),
         passages: Passages::default(),
         warned: 0,
@@ -286,6 +286,18 @@ where
         &self.state
     }
 
+    /// The forces of frictions, stops and drives at the last state that was reached, at an event those after it.
+    ///
+    /// # Errors
+    /// Those of the equations of motion, and [`Error::ChangePoint`] very near to one.
+    pub fn loads(&self) -> Result<Loads<T, Rates<S, T, U, V, N, C>, C>, Error> {
+        let (t, motion) = (self.integration.t(), self.integration.system());
+        let y = motion.closed(t, self.integration.state())?;
+        let (contacts, drives) = motion.loads(t, &y)?;
+        let (_, rates) = motion.velocity(t, &y)?;
+        Ok(Loads { contacts, drives: drives.into(), drive_power: drives.dot(&rates) })
+    }
+
     /// How much of the interval is done, from 0 to 1.
     #[must_use]
     pub fn progress(&self) -> f64 {
@@ -382,7 +394,7 @@ where
             }
             self.failure = result.err();
             if step.event.is_some() {
-                self.from = (step.t, *self.integration.state(), self.integration.system().contacts);
+                self.from = (step.t, *self.integration.state());
             }
             (self.state, self.contacts) = (state, contacts);
             return Ok(Some(self.state));
@@ -391,8 +403,7 @@ where
 
     /// Takes the step again, in other coordinates than the inputs.
     fn go_back(&mut self) -> Result<(), Error> {
-        let (t, y, contacts) = self.from;
-        self.integration.system_mut().contacts = contacts;
+        let (t, y) = self.from;
         self.integration.go_back(t, y);
         self.warned = WARNED;
         self.leave_inputs()?;
@@ -441,8 +452,8 @@ where
     fn prepare(&mut self) -> Result<(), Error> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let before = self.from.0;
+        self.from = (t, y);
         let motion = self.integration.system();
-        self.from = (t, y, motion.contacts);
         let mechanism = motion.scene.mechanism();
         let pose = mechanism.pose_at(&S::parts(&y).0);
         let (regularity, _) = weakest(mechanism, &pose);
@@ -461,7 +472,8 @@ where
                 let (_, inputs) = motion.velocity(t, &y)?;
                 self.warned = 0;
                 self.signs = mechanism.block_determinants(&pose);
-                self.take(Road::Inputs, &inputs)
+                self.take(Road::Inputs, &inputs);
+                Ok(())
             }
             Road::Others(independent) | Road::Over(independent, _) => self.stay(independent),
         }
@@ -499,13 +511,13 @@ where
         )?;
         match ahead {
             Ahead::ChangePoint(step) => {
-                self.take(Road::Others(independent), &rates)?;
+                self.take(Road::Others(independent), &rates);
                 self.pass(independent, step);
             }
             Ahead::Near(length) => self.integration.limit_next(to_f64(length)),
             Ahead::Clear if is_next => {
                 self.warned = WARNED;
-                self.take(Road::Others(independent), &rates)?;
+                self.take(Road::Others(independent), &rates);
             }
             Ahead::Clear => {}
         }
@@ -540,7 +552,7 @@ where
         let pose = mechanism.pose_at(&S::parts(&y).0);
         let independent = Independent::choose(mechanism, &pose, &motion.scales, &motion.held(t));
         let (unknowns, inputs) = motion.velocity(t, &y)?;
-        self.take(Road::Others(independent), &independent.of(&unknowns, &inputs))?;
+        self.take(Road::Others(independent), &independent.of(&unknowns, &inputs));
         self.look_ahead(independent)
     }
 
@@ -559,7 +571,7 @@ where
             (rates, independent) = (best.of(&unknowns, &inputs), best);
             self.passages.exchanges += 1;
         }
-        self.set(Road::Others(independent), &rates)?;
+        self.set(Road::Others(independent), &rates);
         self.look_ahead(independent)
     }
 
@@ -576,25 +588,21 @@ where
         Ok(())
     }
 
-    fn take(&mut self, road: Road<T, U, V, N>, rates: &SVector<T, V>) -> Result<(), Error> {
+    fn take(&mut self, road: Road<T, U, V, N>, rates: &SVector<T, V>) {
         self.passages.exchanges += 1;
         self.set(road, rates)
     }
 
-    fn set(&mut self, road: Road<T, U, V, N>, rates: &SVector<T, V>) -> Result<(), Error> {
+    fn set(&mut self, road: Road<T, U, V, N>, rates: &SVector<T, V>) {
         let (q, _) = S::parts(self.integration.state());
         self.integration.system_mut().road = road;
         let y = Motion::<S, W, T, U, V, N, C>::pack(&q, rates);
-        // In other coordinates what is held has kept its rate to rounding only.
-        let motion = self.integration.system();
-        let (y, _) = motion.reviewed(&motion.contacts, self.integration.t(), &y)?;
         let scale = scale_of(self.integration.system(), &q, self.frequency);
         // The same tolerance with other scales, which are positive as those before were.
         if let Ok(tolerance) = Tolerance::new(self.relative, scale) {
             self.integration.set_tolerance(tolerance);
         }
         self.integration.exchange(y);
-        Ok(())
     }
 
     fn output(&mut self, t: T) -> Result<Option<Moment<S, T, U, V, N, C>>, Error> {

@@ -42,3 +42,16 @@ impl<T, Q, const C: usize> State<T, Q, C> {
         self.contacts.iter().filter_map(|contact| Some((contact.name, contact.change?)))
     }
 }
+
+/// The forces that frictions, stops and drives exert: `I` is the type of the inputs by name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loads<T, I, const C: usize> {
+    /// Of the frictions and stops as they were declared, in order, along what they act on: the work of each is its
+    /// force times the change of that. Where more are held than the motion needs, these are some that hold them.
+    pub contacts: [T; C],
+    /// Of the drives, of angles torques; zero where an input is not driven.
+    pub drives: I,
+    /// The power of the drives: with the power of the scene's other forces and what frictions and dampers dissipate,
+    /// that is how the energy changes.
+    pub drive_power: T,
+}

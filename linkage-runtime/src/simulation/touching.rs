@@ -121,4 +121,32 @@ where
         let (rates, holds) = contacts.review(&self.equations(t, y)?)?;
         Ok((Self::pack(&S::parts(y).0, &rates), holds))
     }
+
+    /// The forces of the contacts, and those of the drives by input, zero where there is none.
+    ///
+    /// A drive of the input `v_i` does the work of its force alone: in any coordinates among which the prescribed inputs
+    /// are it is what is left of M v'' = Q + S' f in its row.
+    pub(super) fn loads(&self, t: T, y: &SVector<T, N>) -> Result<([T; C], SVector<T, V>), Error> {
+        let (q, _) = S::parts(y);
+        let (free, places) = match &self.road {
+            Road::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, core::array::from_fn(Some)),
+            Road::Others(independent) | Road::Over(independent, _) => {
+                let factors = self.regular(independent, &q).ok_or_else(|| self.change_point(&q))?;
+                let place = |input: usize| independent.free.iter().position(|&free| free == U + input);
+                (self.unprescribed_by(independent, &factors, (t, y))?.0, core::array::from_fn(place))
+            }
+        };
+        let motion = self.contacts.motion(&self.equations(t, y)?)?;
+        let mut left = free.mass * motion.acceleration - free.forces;
+        for (contact, &force) in free.contacts.iter().zip(&motion.forces) {
+            left -= contact.row * force;
+        }
+        let places: [Option<usize>; V] = places;
+        let held = self.held(t);
+        let drives = SVector::from_fn(|input, _| match places[input] {
+            Some(place) if held[input] => left[place],
+            _ => T::zero(),
+        });
+        Ok((motion.forces.into(), drives))
+    }
 }
