@@ -238,8 +238,8 @@ use proc_macro::TokenStream;
 ///
 /// A mechanism alone is kinematics. A `scene` adds effects, and is a type of its own: it holds the mechanism and the
 /// parameters of the effects that it names. What it does not name is not in the type, not in the code and costs
-/// nothing. Parameters are declared together; one that no closure, point or output holds belongs to the scenes
-/// that hold it and not to the mechanism.
+/// nothing: `cargo bench --bench effects` prints the operations and the time of each. Parameters are declared together;
+/// one that no closure, point or output holds belongs to the scenes that hold it and not to the mechanism.
 ///
 /// ```
 /// linkage::linkage! {

@@ -13,9 +13,9 @@ use super::equilibrium::Equilibrium;
 use super::reactions::Reactions;
 use super::unreduced::Unreduced;
 use super::{Derivation, Places, Row, along_rates, angles, jacobian};
-use crate::graph::{Function, NodeId, Number, SymbolId};
+use crate::graph::{Function, Node, NodeId, Number, SymbolId};
 use crate::model::{self, Account, Driver, Mechanism, Wish};
-use crate::simplify::simplify;
+use crate::simplify::{gather, simplify};
 
 /// What is derived for one scene, in terms of q, q', W and t.
 #[derive(Debug, Clone)]
@@ -84,6 +84,7 @@ impl Derivation {
 
     fn derive_scene(&mut self, mechanism: &Mechanism, place: usize, scene: &model::Scene) -> Scene {
         let bias = self.bias_names();
+        let motion = self.motion_symbols(&bias);
         let count = self.inputs.len();
         let zero = self.graph.zero();
         let mut mass_matrix = vec![vec![Vec::new(); count]; count];
@@ -96,9 +97,14 @@ impl Derivation {
             let mut added = vec![Vec::new(); count];
             for MovingPart { property, factor, scalars, fields, is_inert } in parts {
                 masses.push((format!("the {property} of {}", body.name.text), factor));
-                let moved: Vec<Along> = scalars.iter().map(|&scalar| self.along(scalar)).collect();
-                let moving = moved.iter().map(|along| if is_inert { self.bias_of(along.rate, &bias) } else { zero });
-                let biases: Vec<NodeId> = moving.collect();
+                let moved: Vec<Along> = scalars.iter().map(|&scalar| self.along(scalar, &motion)).collect();
+                let mut biases = vec![zero; moved.len()];
+                if is_inert {
+                    for (bias_of, along) in biases.iter_mut().zip(&moved) {
+                        let direct = self.bias_of(along.rate, &bias);
+                        *bias_of = gather(&mut self.graph, direct, &motion);
+                    }
+                }
                 for (row, forces) in forces.iter_mut().enumerate() {
                     if is_inert {
                         for (column, entry) in mass_matrix[row].iter_mut().enumerate() {
@@ -107,14 +113,22 @@ impl Derivation {
                             entry.push((Number::ONE, self.graph.multiply(factor, sum)));
                         }
                     }
-                    let mut pairs = Vec::new();
-                    for ((along, &field), &bias) in moved.iter().zip(&fields).zip(&biases) {
-                        pairs.push((along.ratios[row], self.graph.subtract(bias, field)));
+                    let ratios = moved.iter().map(|along| along.ratios[row]);
+                    let inert = self.scalar_product(ratios.clone().zip(biases.iter().copied()).collect());
+                    let sums = if self.is_one_term(inert) {
+                        // About a fixed point it is one term, which the moment of inertia has, too.
+                        let weight = self.scalar_product(ratios.zip(fields.iter().copied()).collect());
+                        vec![inert, self.graph.negate(weight)]
+                    } else {
+                        let net = biases.iter().zip(&fields).map(|(&bias, &field)| self.graph.subtract(bias, field));
+                        let net: Vec<NodeId> = net.collect();
+                        vec![self.scalar_product(ratios.zip(net).collect())]
+                    };
+                    for sum in sums {
+                        let force = self.graph.multiply(factor, sum);
+                        added[row].push((Number::MINUS_ONE, force));
+                        forces.push((Number::MINUS_ONE, force));
                     }
-                    let sum = self.scalar_product(pairs);
-                    let force = self.graph.multiply(factor, sum);
-                    added[row].push((Number::MINUS_ONE, force));
-                    forces.push((Number::MINUS_ONE, force));
                 }
                 if is_inert {
                     let sum = self.scalar_product(moved.iter().map(|s| (s.rate, s.rate)).collect());
@@ -130,7 +144,7 @@ impl Derivation {
         }
         let (mut applied, mut dissipated) = (Vec::new(), Vec::new());
         for law in &scene.laws {
-            let along = self.along(law.along);
+            let along = self.along(law.along, &motion);
             let mut added = Vec::new();
             for (forces, &ratio) in forces.iter_mut().zip(&along.ratios) {
                 added.push(self.graph.multiply(law.law, ratio));
@@ -153,7 +167,10 @@ impl Derivation {
                 masses.extend(given.iter().map(|&factor| (label.clone(), factor)));
             }
         }
-        let mut sum = |terms: Vec<(Number, NodeId)>| self.graph.sum(&terms);
+        let mut sum = |terms: Vec<(Number, NodeId)>| {
+            let sum = self.graph.sum(&terms);
+            gather(&mut self.graph, sum, &motion)
+        };
         let [kinetic, potential, applied, dissipated] = [kinetic, potential, applied, dissipated].map(&mut sum);
         let forces = forces.into_iter().map(&mut sum).collect();
         let mass_matrix = mass_matrix.into_iter().map(|row| row.into_iter().map(&mut sum).collect()).collect();
@@ -214,6 +231,15 @@ impl Derivation {
         self.simplest(sum)
     }
 
+    /// Whether there is no sum in it, nor in its factors.
+    fn is_one_term(&self, node: NodeId) -> bool {
+        let is_sum = |node: NodeId| matches!(self.graph.node(node), Node::Sum { .. });
+        match self.graph.node(node) {
+            Node::Product { factors, .. } => !factors.iter().any(|(base, _)| is_sum(*base)),
+            _ => !is_sum(node),
+        }
+    }
+
     /// The simplest form beside the sines and cosines that the closures take.
     pub(super) fn simplest(&mut self, node: NodeId) -> NodeId {
         let given: BTreeSet<NodeId> = angles(&self.graph, &self.residual);
@@ -226,12 +252,25 @@ impl Derivation {
         jacobian(&mut self.graph, &[scalar], &places).remove(0)
     }
 
-    fn along(&mut self, scalar: NodeId) -> Along {
-        let row = self.row_of(scalar);
+    /// W, q' and u'' at v'' = 0, in which all of the above are polynomials.
+    fn motion_symbols(&mut self, bias: &[SymbolId]) -> BTreeSet<NodeId> {
+        let rates = self.coordinates.iter().map(|coordinate| coordinate.rate);
+        let symbols: Vec<SymbolId> = self.ratios.iter().flatten().chain(bias).copied().chain(rates).collect();
+        symbols.into_iter().map(|symbol| self.graph.variable(symbol)).collect()
+    }
+
+    /// `s_j` is what the rate is at v'j = 1 where the other inputs stand still.
+    fn along(&mut self, scalar: NodeId, motion: &BTreeSet<NodeId>) -> Along {
         let mut ratios = Vec::new();
-        for input in 0..self.inputs.len() {
-            let ratio = self.quantity_ratio(&row, input);
-            ratios.push(self.simplest(ratio));
+        for (input, names) in self.ratios.clone().iter().enumerate() {
+            let graph = &mut self.graph;
+            let unknowns = self.unknowns.iter().zip(names);
+            let mut seeds: BTreeMap<SymbolId, NodeId> =
+                unknowns.map(|(&unknown, &name)| (self.coordinates[unknown].value, graph.variable(name))).collect();
+            seeds.insert(self.coordinates[self.inputs[input]].value, graph.one());
+            let direct = graph.differentiate(&[scalar], &seeds)[0];
+            let gathered = gather(graph, direct, motion);
+            ratios.push(self.simplest(gathered));
         }
         let seeds = along_rates(&mut self.graph, &self.coordinates);
         let rate = self.graph.differentiate(&[scalar], &seeds)[0];

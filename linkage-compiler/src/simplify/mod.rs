@@ -22,7 +22,7 @@ use crate::graph::{Condition, Graph, Node, NodeId, Number};
 use cost::{Cost, cost};
 pub use determinant::{adjugate, cramer, determinant};
 use rational::Polynomial;
-pub use rational::factor;
+pub use rational::{factor, gather};
 
 /// Rounds of rules over one node; each makes it cheaper, and three are the most that have been seen.
 const MOST_ROUNDS: usize = 8;

@@ -1,12 +1,12 @@
 //! Rational identities.
 //!
-//! - common factors: a b + a c = a (b + c)
+//! - common factors: a b + a c = a (b + c), of all terms or of those that have the same symbols of the motion
 //! - products of sums: (a + b) (c + d) = a c + a d + b c + b d
 //! - quotients of sums: (a c + b c) / (a + b) = c, wherever a + b is not zero
 //!
 //! Like terms and equal factors need no rule here: the graph collects them as it is built.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::{Condition, Graph, Node, NodeId, Number};
 
@@ -51,6 +51,26 @@ pub fn factor(graph: &mut Graph, id: NodeId) -> NodeId {
     let mut product: Vec<(NodeId, i32)> = common.into_iter().collect();
     product.push((rest, 1));
     graph.product(&product)
+}
+
+/// Takes out of the terms of a sum that have the same product of `symbols` that product; any other node is returned as
+/// it is.
+pub fn gather(graph: &mut Graph, id: NodeId, symbols: &BTreeSet<NodeId>) -> NodeId {
+    if !matches!(graph.node(id), Node::Sum { .. }) {
+        return id;
+    }
+    let mut groups: BTreeMap<Monomial, Polynomial> = BTreeMap::new();
+    for (coefficient, monomial) in terms(graph, id) {
+        let (product, rest) = monomial.into_iter().partition(|(base, _)| symbols.contains(base));
+        groups.entry(product).or_default().push((coefficient, rest));
+    }
+    let mut gathered = Vec::new();
+    for (product, rest) in groups {
+        let mut factors: Vec<(NodeId, i32)> = product.into_iter().collect();
+        factors.push((collect(graph, &rest), 1));
+        gathered.push((Number::ONE, graph.product(&factors)));
+    }
+    graph.sum(&gathered)
 }
 
 /// The terms of a node, one level deep.

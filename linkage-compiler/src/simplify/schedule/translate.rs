@@ -129,7 +129,11 @@ impl<'a> Builder<'a> {
             }
             Node::Product { coefficient, factors } => self.product(*coefficient, factors, shared),
             Node::Call(function, arguments) => {
-                let arguments = arguments.iter().map(|argument| self.of[*argument]).collect();
+                let mut arguments: Vec<Signed> = arguments.iter().map(|argument| self.of[*argument]).collect();
+                if *function == Function::Hypot {
+                    // It does not see them.
+                    arguments.iter_mut().for_each(|argument| argument.negative = false);
+                }
                 self.positive(Value::Call(*function, arguments))
             }
             Node::External(external, arguments) => {

@@ -1,0 +1,143 @@
+//! Cost per effect: one mechanism, and scenes with nothing but inertia, with one effect more, and with all of them.
+//!
+//! `cargo bench --bench effects`
+//!
+//! Operations: functions, divisions, multiplications and additions of one evaluation, as the emitted functions document
+//! them. Nanoseconds: the median of many rounds, in which the scenes take turns, and what is more than bare. Bytes: of
+//! the scene. Smooth scenes are timed in `derivative`; with frictions and stops an integrator evaluates the equations
+//! before they are solved and the contacts, and solves for the acceleration in their modes: so do these.
+
+#[path = "../tests/source/work.rs"]
+mod work;
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use linkage::contact::{Contacts, ReducedEquations};
+use linkage::nalgebra::SVector;
+use linkage::{Error, Mode, Scene, linkage};
+use linkage_compiler::simplify::schedule::Operations;
+use work::{Work, work};
+
+include!("../tests/mechanisms/four_bar_effects.rs");
+
+/// q, v'.
+type State = SVector<f64, 4>;
+
+type Evaluate = Box<dyn Fn(&[State])>;
+
+const COUNT: usize = 5_000;
+const ROUNDS: usize = 61;
+
+/// A row of the table, with a function that evaluates all states.
+struct Row {
+    title: &'static str,
+    scene: &'static str,
+    functions: &'static [&'static str],
+    bytes: usize,
+    evaluate: Evaluate,
+    times: Vec<f64>,
+}
+
+impl Row {
+    fn new<S: 'static>(
+        title: &'static str,
+        (name, functions): (&'static str, &'static [&'static str]),
+        scene: S,
+        evaluate: impl Fn(&S, &State) -> Result<State, Error> + 'static,
+    ) -> Self {
+        let evaluate = move |states: &[State]| {
+            for state in states {
+                let _ = black_box(evaluate(black_box(&scene), black_box(state)));
+            }
+        };
+        Self { title, scene: name, functions, bytes: size_of::<S>(), evaluate: Box::new(evaluate), times: Vec::new() }
+    }
+
+    fn smooth<S: Scene<f64, 2, 1, 4, 0> + 'static>(title: &'static str, scene: S) -> Self {
+        Self::new(title, (S::NAME, &["rates"]), scene, |scene, y| scene.derivative(0.5, y))
+    }
+
+    /// In these modes.
+    fn in_contact<S: Scene<f64, 2, 1, 4, C> + 'static, const C: usize>(
+        title: &'static str,
+        scene: S,
+        modes: [Mode; C],
+    ) -> Self {
+        let start = State::from([1.2, -1.0, 0.5, 12.0]);
+        let (_, rates) = S::parts(&start);
+        // The accelerations in given modes do not ask how these came about.
+        let rates: SVector<f64, 1> = rates.into();
+        let begun = Contacts::begin(0.0, &rates, |_| ReducedEquations::of(&scene, 0.0, &start));
+        let (mut contacts, _) = begun.expect("modes at the start");
+        contacts.modes = modes;
+        Self::new(title, (S::NAME, &["equations", "contacts"]), scene, move |scene, y| {
+            let equations = ReducedEquations::of(scene, 0.5, y)?;
+            let acceleration = contacts.acceleration(&equations)?;
+            Ok(State::from([0.0, 0.0, equations.rates[0], acceleration[0]]))
+        })
+    }
+
+    fn operations(&self, work: &Work) -> Operations {
+        let of = |function: &&str| work.get(&(self.scene.to_owned(), (*function).to_owned())).copied();
+        self.functions.iter().filter_map(of).fold(Operations::default(), Operations::plus)
+    }
+
+    fn median(&self) -> f64 {
+        let mut times = self.times.clone();
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    }
+}
+
+fn main() {
+    let file: syn::File = syn::parse_str(include_str!("../tests/mechanisms/four_bar_effects.rs")).expect("a mechanism");
+    let [syn::Item::Macro(item)] = file.items.as_slice() else { panic!("one linkage! and nothing else") };
+    let work = work(item.mac.tokens.clone());
+    let mut rows = [
+        Row::smooth("bare: inertia", Bare::default()),
+        Row::smooth("+ gravity", Weighed::default()),
+        Row::smooth("+ spring between points", Sprung::default()),
+        Row::smooth("+ torsional spring", Twisted::default()),
+        Row::smooth("+ damper", Damped::default()),
+        Row::smooth("+ force at a point", Pushed::default()),
+        Row::smooth("+ torque, a law", Turned::default()),
+        Row::smooth("+ gravity, spring, damper", Mounted::default()),
+        Row::smooth("+ all of these", Smooth::default()),
+        Row::smooth("+ drive", Driven::default()),
+        Row::new("  what drives it", ("Driven", &["drive_forces"]), Driven::default(), |scene, y| {
+            let (q, rates) = Driven::parts(y);
+            Ok(State::from([0.0, 0.0, 0.0, scene.drive_forces(0.5, &q, rates)?[0]]))
+        }),
+        Row::in_contact("+ stop, open", Stopped::default(), [Mode::Open]),
+        Row::in_contact("+ friction, slips", Rough::default(), [Mode::SlipForward]),
+        Row::in_contact("+ friction, sticks", Rough::default(), [Mode::Stick]),
+        Row::in_contact("all but the drive", Everything::default(), [Mode::SlipForward, Mode::Open]),
+    ];
+    let mechanism = FourBar::default();
+    let states = (0..COUNT).map(|index| {
+        let theta2 = 0.3 + 1e-4 * index as f64;
+        let branch = FourBarBranch { theta3_theta4: linkage::Elbow::Left };
+        let q = mechanism.assemble(theta2, branch).expect("a position").coordinates();
+        State::from([q.theta3, q.theta4, q.theta2, 12.0])
+    });
+    let states: Vec<State> = states.collect();
+    for _ in 0..ROUNDS {
+        for row in &mut rows {
+            let start = Instant::now();
+            (row.evaluate)(&states);
+            row.times.push(start.elapsed().as_secs_f64() * 1e9 / COUNT as f64);
+        }
+    }
+    let bare = rows[0].median();
+    println!("scene                         f   /   *   +       ns  beside bare  bytes");
+    for row in &rows {
+        let Operations { functions, divisions, multiplications, additions } = row.operations(&work);
+        let (time, title) = (row.median(), row.title);
+        println!(
+            "{title:26} {functions:4}{divisions:4}{multiplications:4}{additions:4} {time:8.1} {:12.1} {:6}",
+            time - bare,
+            row.bytes
+        );
+    }
+}

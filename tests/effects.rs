@@ -1,0 +1,135 @@
+//! Pay only for what is declared: the operations of scenes, and of those of the same mechanism with less beside them.
+
+mod source;
+#[path = "source/work.rs"]
+mod work;
+
+use std::collections::BTreeSet;
+
+use linkage_compiler::simplify::schedule::Operations;
+use work::{Work, work};
+
+const SCENES: [&str; 13] = [
+    "Bare",
+    "Weighed",
+    "Sprung",
+    "Twisted",
+    "Damped",
+    "Pushed",
+    "Turned",
+    "Rough",
+    "Stopped",
+    "Driven",
+    "Mounted",
+    "Smooth",
+    "Everything",
+];
+
+/// `four_bar_effects` with those of its scenes that `keep` accepts, and with the parameters that these need.
+fn with_scenes(keep: impl Fn(&str) -> bool) -> syn::File {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/four_bar_effects.rs");
+    let text = std::fs::read_to_string(path).unwrap();
+    let second = |line: &str| line.split_whitespace().nth(1).unwrap_or_default().to_owned();
+    let kept = |line: &&str| !line.trim().starts_with("scene ") || keep(&second(line));
+    let lines: Vec<&str> = text.lines().filter(kept).collect();
+    let is_parameter = |line: &str| line.trim().starts_with("param ");
+    let others = lines.iter().filter(|line| !is_parameter(line));
+    let words: BTreeSet<&str> = others.flat_map(|line| line.split(|c: char| !c.is_alphanumeric())).collect();
+    let needed = lines.iter().filter(|line| !is_parameter(line) || words.contains(second(line).as_str()));
+    let source: Vec<&str> = needed.copied().collect();
+    syn::parse_str(&source.join("\n")).unwrap()
+}
+
+fn tokens(file: &syn::File) -> proc_macro2::TokenStream {
+    let [syn::Item::Macro(item)] = file.items.as_slice() else { panic!("one linkage! and nothing else") };
+    item.mac.tokens.clone()
+}
+
+fn of<'a>(work: &'a Work, name: &'a str) -> impl Iterator<Item = (&'a str, Operations)> {
+    work.iter()
+        .filter(move |((of, _), _)| of == name)
+        .map(|((_, function), operations)| (function.as_str(), *operations))
+}
+
+/// What a scene and the mechanism under it do is the same to the operation whatever else is declared, of each function.
+#[test]
+fn what_other_scenes_declare_costs_nothing() {
+    let all = work(source::tokens_of("four_bar_effects"));
+    for scene in SCENES {
+        let alone = work(tokens(&with_scenes(|name| name == scene)));
+        for name in [scene, "FourBar"] {
+            let (found, expected): (Vec<_>, Vec<_>) = (of(&all, name).collect(), of(&alone, name).collect());
+            assert!(expected.len() > 1, "{name} of {scene}");
+            assert_eq!(found, expected, "{name} of {scene}");
+        }
+    }
+}
+
+/// The names of the fields of a struct.
+fn fields(source: &syn::File, name: &str) -> Vec<String> {
+    let expansion = linkage_compiler::expand(tokens(source), &"::linkage".parse().unwrap());
+    let file: syn::File = syn::parse2(expansion).unwrap();
+    let found = file.items.iter().find_map(|item| match item {
+        syn::Item::Struct(item) if item.ident == name => Some(item),
+        _ => None,
+    });
+    found.expect(name).fields.iter().map(|field| field.ident.as_ref().unwrap().to_string()).collect()
+}
+
+/// The mechanism, the masses of the bodies, and one field for each number of the effect.
+#[test]
+fn a_scene_holds_the_parameters_of_its_effects_and_no_others() {
+    let all = with_scenes(|_| true);
+    let bare = fields(&all, "Bare");
+    assert_eq!(bare, ["mechanism", "j2", "m3", "j3", "a3", "b3", "m4", "j4", "a4"]);
+    let own: [(&str, &[&str]); 9] = [
+        ("Weighed", &["g"]),
+        ("Sprung", &["k", "s0", "xp", "yp"]),
+        ("Twisted", &["kt", "phi0"]),
+        ("Damped", &["c"]),
+        ("Pushed", &["f"]),
+        ("Turned", &["t0", "kw"]),
+        ("Rough", &["mu", "radius", "load"]),
+        ("Stopped", &["lower", "upper", "e"]),
+        ("Driven", &["omega"]),
+    ];
+    for (scene, own) in own {
+        // That of a drive knows its motion without a mass, and needs them for what drives it.
+        let expected: Vec<&str> = bare.iter().map(String::as_str).chain(own.iter().copied()).collect();
+        assert_eq!(fields(&all, scene), expected, "{scene}");
+    }
+}
+
+/// What an effect adds to a derivative, at most what it takes by hand.
+#[test]
+fn an_effect_costs_what_it_takes_by_hand() {
+    let all = work(source::tokens_of("four_bar_effects"));
+    let rates = |scene: &str| all[&(scene.to_owned(), "rates".to_owned())];
+    let bare = rates("Bare");
+    println!("Bare {bare:?}");
+    assert!(bare.within(Operations { functions: 4, divisions: 2, multiplications: 57, additions: 25 }), "{bare:?}");
+    let limits = [
+        // m3 g inside the coupler's product, and m4 g a4 cos theta4 theta4'.
+        ("Weighed", [0, 0, 4, 2]),
+        // The length, which is a function, k (s - s0) / s, and d . C'.
+        ("Sprung", [1, 1, 6, 9]),
+        ("Twisted", [0, 0, 2, 2]),
+        ("Damped", [0, 0, 2, 1]),
+        // f t C'_y.
+        ("Pushed", [0, 0, 3, 2]),
+        ("Turned", [1, 0, 1, 3]),
+        // The runtime is given theirs beside the derivative.
+        ("Rough", [0, 0, 0, 0]),
+        ("Stopped", [0, 0, 0, 0]),
+    ];
+    for (scene, [functions, divisions, multiplications, additions]) in limits {
+        let found = rates(scene);
+        println!("{scene} {found:?}");
+        let limit = bare.plus(Operations { functions, divisions, multiplications, additions });
+        assert!(found.within(limit), "{scene} {found:?}");
+    }
+    // A motion that is prescribed takes no masses, and its law with two derivatives.
+    let driven = rates("Driven");
+    println!("Driven {driven:?}");
+    assert!(driven.within(Operations { functions: 5, divisions: 1, multiplications: 18, additions: 3 }), "{driven:?}");
+}
