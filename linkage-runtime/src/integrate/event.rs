@@ -8,6 +8,9 @@ use super::samples::Samples;
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
 
+/// How often a guard may be zero at one time: where several are within rounding, each may move the others.
+const MOST_TURNS: u32 = 8;
+
 /// The most parts of a step at which guards are looked at.
 const MOST_PARTS: usize = 64;
 
@@ -47,8 +50,8 @@ struct Side {
     sign: i8,
     /// Its event has happened at the time reached, and is not delivered yet.
     waits: bool,
-    /// It has had an event at the last time of events.
-    has_happened: bool,
+    /// How often it has had an event at the last time of events.
+    happened: u32,
     /// How far from zero rounding has left a function that has just had its event; of the others -1.
     residue: f64,
     crossing: Crossing,
@@ -102,7 +105,7 @@ fn values<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const 
 
 impl Side {
     fn new(crossing: Crossing) -> Self {
-        Self { sign: 0, waits: false, has_happened: false, residue: -1.0, crossing }
+        Self { sign: 0, waits: false, happened: 0, residue: -1.0, crossing }
     }
 
     /// Whether the function has reached zero or passed it.
@@ -153,15 +156,16 @@ impl<const K: usize, const C: usize> Sides<K, C> {
 
     /// Another time of events: none has happened yet.
     pub(super) fn anew(&mut self) {
-        self.each_mut().for_each(|side| side.has_happened = false);
+        self.each_mut().for_each(|side| side.happened = 0);
     }
 
-    /// The next event to be delivered, and whether it has happened at this time already.
+    /// The next event to be delivered, and whether it has happened too often at this time already.
     pub(super) fn deliver(&mut self) -> (usize, bool) {
         let next = self.each_mut().enumerate().find(|(_, side)| side.waits);
         next.map_or((0, false), |(event, side)| {
             side.waits = false;
-            (event, core::mem::replace(&mut side.has_happened, true))
+            side.happened += 1;
+            (event, side.happened > if event < K { 1 } else { MOST_TURNS })
         })
     }
 

@@ -376,16 +376,17 @@ where
             }
             let contacts = motion.contacts;
             let closed = motion.closed(step.t, &step.state)?;
-            let (closed, holds) = motion.reviewed(&contacts, step.t, &closed)?;
-            let mut state = State { event: step.event.filter(|&event| event < K), ..motion.state(step.t, &closed)? };
+            let (kept, holds) = motion.reviewed(&contacts, step.t, &closed)?;
+            let mut state = State { event: step.event.filter(|&event| event < K), ..motion.state(step.t, &kept)? };
             let result = match step.event {
-                Some(event) if event < K => self.happens(event, &mut state, &closed),
+                Some(event) if event < K => self.happens(event, &mut state, &kept),
                 None if holds => {
-                    if closed != step.state {
-                        self.integration.correct(closed);
+                    if kept != step.state {
+                        self.integration.correct(kept);
                     }
                     Ok(())
                 }
+                // At just the state at which the guard was zero.
                 _ => self.settle(&mut state, &closed),
             };
             // Of several events of contacts at one time the first decides for all.
