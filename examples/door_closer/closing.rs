@@ -1,7 +1,7 @@
 //! The door in motion, and where its energy goes.
 
 use linkage::contact::Change;
-use linkage::simulation::{AtSingularity, State, simulate};
+use linkage::simulation::{State, simulate};
 use linkage::{Elbow, Error};
 
 use crate::gauss::nodes;
@@ -42,7 +42,7 @@ impl Run {
             Ok(energy.kinetic + energy.potential)
         };
         // The arms never come into line; if they did that would be an error.
-        let mut motion = simulate(&scene, (0.0, start, 0.0), END, TOLERANCE)?.at_singularity(AtSingularity::Stop);
+        let mut motion = simulate(&scene, (0.0, start, 0.0), END, TOLERANCE)?;
         let mut last = *motion.state();
         let (mut moments, mut impacts, mut oil, mut blows) = (vec![last], Vec::new(), 0.0, 0.0);
         while let Some(state) = motion.advance()? {

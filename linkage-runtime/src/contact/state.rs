@@ -27,6 +27,8 @@ pub struct Contacts<T, const C: usize> {
     pub modes: [Mode; C],
     /// The greatest rate that a stop was hit with since it last rested.
     pub(super) hardest: [T; C],
+    /// The contact whose event function has just fallen to zero.
+    pub(super) reached: Option<usize>,
 }
 
 /// Accelerations, and the forces of the contacts.
@@ -92,7 +94,14 @@ impl<T: Real, const C: usize> Contacts<T, C> {
 
     /// Nothing acts.
     pub(crate) fn open() -> Self {
-        Self { modes: [Mode::Open; C], hardest: [T::zero(); C] }
+        Self { modes: [Mode::Open; C], hardest: [T::zero(); C], reached: None }
+    }
+
+    /// Says whose event function has just fallen to zero, whatever rounding has left of it since: a coordinate that is
+    /// solved for is as near to a stop at zero as the closures are to zero, which its own value does not tell.
+    #[must_use]
+    pub fn reached(self, place: usize) -> Self {
+        Self { reached: Some(place), ..self }
     }
 
     /// The modes that go with other rates v', given by a blow from outside; and the rates from here on, as those of

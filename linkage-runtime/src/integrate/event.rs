@@ -179,8 +179,10 @@ impl<const K: usize, const C: usize> Sides<K, C> {
     ) -> Result<(), Error> {
         let now = values(system, t, state)?;
         let next = values(system, later, after)?;
-        for ((side, now), next) in self.with_mut(&now).zip(next.0.iter().chain(&next.1)) {
-            let on_zero = now == 0.0 || now.abs() <= side.residue;
+        for (place, ((side, now), next)) in self.with_mut(&now).zip(next.0.iter().chain(&next.1)).enumerate() {
+            // A guard that comes back is where it was before its event, also if rounding has moved it since.
+            let comes_back = place >= K && side.happened > 0 && now < 0.0 && *next > now;
+            let on_zero = now == 0.0 || now.abs() <= side.residue || comes_back;
             side.sign = if on_zero { sign(next - now) } else { sign(now) };
         }
         Ok(())

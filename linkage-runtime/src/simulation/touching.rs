@@ -70,8 +70,17 @@ where
         Ok(Self::pack(&q, &rates))
     }
 
-    /// What happens at this state: y from here on, and what each contact has done.
-    pub(super) fn settled(&mut self, t: T, y: &SVector<T, N>) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
+    /// What happens at this state, where the guard of a contact may just have fallen to zero: y from here on, and what
+    /// each contact has done.
+    pub(super) fn settled(
+        &mut self,
+        t: T,
+        y: &SVector<T, N>,
+        guard: Option<usize>,
+    ) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
+        if let Some(guard) = guard {
+            self.contacts = self.contacts.reached(guard);
+        }
         self.decided(t, y, y, false)
     }
 
