@@ -41,7 +41,6 @@ impl Run {
             let energy = scene.energy(q, DoorCloserInputs { door: rate })?;
             Ok(energy.kinetic + energy.potential)
         };
-        // The arms never come into line; if they did that would be an error.
         let mut motion = simulate(&scene, (0.0, start, 0.0), END, TOLERANCE)?;
         let mut last = *motion.state();
         let (mut moments, mut impacts, mut oil, mut blows) = (vec![last], Vec::new(), 0.0, 0.0);
