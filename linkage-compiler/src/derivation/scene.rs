@@ -106,24 +106,29 @@ impl Derivation {
                     }
                 }
                 for (row, forces) in forces.iter_mut().enumerate() {
+                    let mut is_one_term = false;
                     if is_inert {
                         for (column, entry) in mass_matrix[row].iter_mut().enumerate() {
                             let pairs = moved.iter().map(|s| (s.ratios[row], s.ratios[column]));
                             let sum = self.scalar_product(pairs.collect());
                             entry.push((Number::ONE, self.graph.multiply(factor, sum)));
+                            is_one_term |= row == column && self.is_one_term(sum);
                         }
                     }
                     let ratios = moved.iter().map(|along| along.ratios[row]);
-                    let inert = self.scalar_product(ratios.clone().zip(biases.iter().copied()).collect());
-                    let sums = if self.is_one_term(inert) {
-                        // About a fixed point it is one term, which the moment of inertia has, too.
+                    let mut sums = Vec::new();
+                    if is_one_term {
+                        sums.push(self.scalar_product(ratios.clone().zip(biases.iter().copied()).collect()));
+                    }
+                    if sums.first().is_some_and(|&inert| self.is_one_term(inert)) {
+                        // About a fixed point inertia is one term, which the moment of inertia has, too.
                         let weight = self.scalar_product(ratios.zip(fields.iter().copied()).collect());
-                        vec![inert, self.graph.negate(weight)]
+                        sums.push(self.graph.negate(weight));
                     } else {
                         let net = biases.iter().zip(&fields).map(|(&bias, &field)| self.graph.subtract(bias, field));
                         let net: Vec<NodeId> = net.collect();
-                        vec![self.scalar_product(ratios.zip(net).collect())]
-                    };
+                        sums = vec![self.scalar_product(ratios.zip(net).collect())];
+                    }
                     for sum in sums {
                         let force = self.graph.multiply(factor, sum);
                         added[row].push((Number::MINUS_ONE, force));

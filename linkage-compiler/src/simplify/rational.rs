@@ -61,13 +61,23 @@ pub fn gather(graph: &mut Graph, id: NodeId, symbols: &BTreeSet<NodeId>) -> Node
     }
     let mut groups: BTreeMap<Monomial, Polynomial> = BTreeMap::new();
     for (coefficient, monomial) in terms(graph, id) {
-        let (product, rest) = monomial.into_iter().partition(|(base, _)| symbols.contains(base));
-        groups.entry(product).or_default().push((coefficient, rest));
+        let product = monomial.iter().filter(|(base, _)| symbols.contains(base)).map(|(&base, &n)| (base, n)).collect();
+        groups.entry(product).or_default().push((coefficient, monomial));
+    }
+    if groups.iter().all(|(product, terms)| product.is_empty() || terms.len() == 1) {
+        return id;
     }
     let mut gathered = Vec::new();
-    for (product, rest) in groups {
+    for (product, mut terms) in groups {
+        if product.is_empty() || terms.len() == 1 {
+            gathered.push((Number::ONE, collect(graph, &terms)));
+            continue;
+        }
+        for (_, monomial) in &mut terms {
+            monomial.retain(|base, _| !product.contains_key(base));
+        }
         let mut factors: Vec<(NodeId, i32)> = product.into_iter().collect();
-        factors.push((collect(graph, &rest), 1));
+        factors.push((collect(graph, &terms), 1));
         gathered.push((Number::ONE, graph.product(&factors)));
     }
     graph.sum(&gathered)
