@@ -506,7 +506,7 @@ use proc_macro::TokenStream;
 /// derivatives, `derive` of what is unknown or named already, bodies of negative mass or in no scene, scenes in which
 /// nothing with inertia moves with an input, division by zero, constants that are not finite,
 /// and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words and signs, more than
-/// 10 000 expressions, or 20 000 with their derivatives, each entry of a `sensitivity` being one (a chain of
+/// 10 000 expressions, or 16 000 with their derivatives, each entry of a `sensitivity` being one (a chain of
 /// four-bars takes 70 a loop).
 ///
 /// ```compile_fail

@@ -8,7 +8,7 @@ use crate::graph::{External, SymbolId};
 use crate::model::{Call, Driver, ExternalFunction, Mechanism};
 
 /// A derivation of more expressions than this is refused: emitting it takes longer than anybody waits.
-pub const LARGEST: usize = 20_000;
+pub const LARGEST: usize = 16_000;
 
 /// Reports what no choice of numbers can make a mechanism.
 pub fn check(mechanism: &Mechanism, derivations: &[Derivation], diagnostics: &mut Diagnostics) {
