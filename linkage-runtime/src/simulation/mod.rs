@@ -20,10 +20,13 @@
 //!
 //! Prescribed inputs keep to their laws. Reproducible: the same calls give the same bits. Nothing is allocated.
 
+mod advance;
 mod independent;
 mod motion;
+mod outputs;
 mod over;
 mod real_time;
+mod road;
 mod run;
 mod scales;
 mod state;
@@ -31,7 +34,9 @@ mod touching;
 mod watch;
 
 pub use motion::Motion;
+pub use outputs::Outputs;
 pub use real_time::RealTime;
-pub use run::{AtSingularity, Outputs, Passages, Simulation, simulate};
+pub use road::{AtSingularity, Passages};
+pub use run::{Simulation, simulate};
 pub use state::{Loads, State, Touch};
 pub use watch::{Then, Unwatched, Watch, Watched};
