@@ -139,11 +139,11 @@ macro_rules! __mechanism {
             fn jacobian_inputs(&self, pose: &Self::Pose) -> $crate::nalgebra::SMatrix<T, $u, $v> {
                 self.jacobian_inputs(pose)
             }
-            fn jacobian_unknowns_sizes(&self, pose: &Self::Pose) -> $crate::nalgebra::SMatrix<T, $u, $u> {
-                self.jacobian_unknowns_sizes(pose)
-            }
-            fn jacobian_inputs_sizes(&self, pose: &Self::Pose) -> $crate::nalgebra::SMatrix<T, $u, $v> {
-                self.jacobian_inputs_sizes(pose)
+            fn jacobian_sizes(
+                &self,
+                pose: &Self::Pose,
+            ) -> ($crate::nalgebra::SMatrix<T, $u, $u>, $crate::nalgebra::SMatrix<T, $u, $v>) {
+                self.jacobian_sizes(pose)
             }
             fn determinant(&self, pose: &Self::Pose) -> T {
                 self.determinant(pose)

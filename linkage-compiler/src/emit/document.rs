@@ -37,7 +37,7 @@ pub(super) fn constant(
         has_some: false,
     };
 
-    let title = driver.name.to_string();
+    let title = string(&driver.name.to_string());
     let [named_parameters, named_inputs, named_unknowns] =
         [&parameters, &inputs, &unknowns].map(|names| symbols(names));
     let residual = document.numbered("Psi", &derivation.residual);
@@ -378,7 +378,7 @@ impl<'a> Document<'a> {
         let number = (self.derivation.blocks.len() > 1).then_some(number + 1);
         let unknowns = list(&block.unknowns, |out, &place| self.name(out, Name::Plain(self.unknowns[place])));
         let equations = list(&block.equations, |out, &equation| out.append(Literal::usize_unsuffixed(equation)));
-        let group = block.group.words();
+        let group = string(&block.group.words());
         let method = ident(if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
         let determinant =
             block.determinant.map(|determinant| self.equation(Name::Determinant(number), determinant.value));
@@ -432,7 +432,7 @@ impl<'a> Document<'a> {
             for (component, &node) in components.iter().zip(&quantity.value) {
                 self.sides(&mut values, Name::Plain(component), node);
             }
-            let values = values.by_macro("__equations");
+            let (name, values) = (string(name), values.by_macro("__equations"));
             let ratios = self.derivatives(&components, &by_inputs, &formulas.ratios);
             let second = self.derivatives(&components, &by_pairs, &formulas.ratio_derivatives);
             let first = nonzero(self.derivation, &formulas.sensitivities);

@@ -2,10 +2,11 @@
 //! their time on.
 
 use proc_macro2::{Delimiter, Group, Ident, Punct, Spacing, TokenStream, TokenTree};
+use quote::ToTokens;
 
-use super::names::{ident, string};
+use super::names::{comment, ident};
 
-#[derive(Default)]
+#[derive(Default, Clone)]
 pub(super) struct Tokens(Vec<TokenTree>);
 
 impl Tokens {
@@ -19,6 +20,19 @@ impl Tokens {
 
     pub(super) fn word(&mut self, word: &str) {
         self.0.push(TokenTree::Ident(ident(word)));
+    }
+
+    /// `name`
+    pub(super) fn name(name: &Ident) -> Self {
+        Self(vec![TokenTree::Ident(name.clone())])
+    }
+
+    /// `*name`
+    pub(super) fn behind(name: &Ident) -> Self {
+        let mut tokens = Self::default();
+        tokens.punct('*');
+        tokens.ident(name);
+        tokens
     }
 
     /// Signs that stand each for itself.
@@ -61,7 +75,7 @@ impl Tokens {
         let mut doc = Self::default();
         doc.word("doc");
         doc.punct('=');
-        doc.append(string(&text));
+        doc.append(comment(&text));
         self.punct('#');
         self.group(Delimiter::Bracket, doc);
     }
@@ -95,6 +109,18 @@ impl Tokens {
         call.punct('!');
         call.group(Delimiter::Bracket, self);
         call.into()
+    }
+}
+
+impl ToTokens for Tokens {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        tokens.extend(self.0.iter().cloned());
+    }
+}
+
+impl From<TokenStream> for Tokens {
+    fn from(stream: TokenStream) -> Self {
+        Self(stream.into_iter().collect())
     }
 }
 

@@ -170,7 +170,7 @@ impl Graph {
 
     #[must_use]
     pub fn node(&self, id: NodeId) -> &Node {
-        &self.nodes[id.index()]
+        &self.nodes.as_slice()[id.index()]
     }
 
     /// The number of distinct expressions.
@@ -187,7 +187,7 @@ impl Graph {
     /// The value of an expression without symbols.
     #[must_use]
     pub fn constant_value(&self, id: NodeId) -> Option<f64> {
-        self.values[id.index()]
+        self.values.as_slice()[id.index()]
     }
 
     /// The exact value of a node that is a plain constant.
@@ -493,6 +493,12 @@ impl Graph {
 
 /// The value of a key in an ascending list, put there if it is not.
 fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
+    // Most keys come in ascending order.
+    if list.last().is_none_or(|(last, _)| last.0 < key.0) {
+        list.push((key, empty));
+        let last = list.len() - 1;
+        return &mut list[last].1;
+    }
     let index = match list.binary_search_by_key(&key, |(key, _)| *key) {
         Ok(index) => index,
         Err(index) => {

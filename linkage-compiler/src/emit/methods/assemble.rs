@@ -7,6 +7,7 @@ use quote::quote;
 
 use super::super::kernel;
 use super::super::kernel::{Given, Shape, Source};
+use super::super::tokens::Tokens;
 use super::super::{names::ident, types};
 use super::{Body, Kernels, Methods, argument_of, bind, check_finite, lines, pose_members};
 use crate::derivation::{Choice, Chord};
@@ -138,7 +139,12 @@ impl Methods<'_> {
         let named = fields.len();
         fields.extend((named..coordinates.len()).map(|_| (Cow::from(""), SymbolId::NONE)));
         let of = &self.types.coordinates;
-        Source { argument: Some(guess.clone()), from: quote!(*#guess), of: Shape::Fields(quote!(#of)), fields }
+        Source {
+            argument: Some(guess.clone()),
+            from: Tokens::behind(guess),
+            of: Shape::Fields(Tokens::name(of)),
+            fields,
+        }
     }
 
     /// All positions at some inputs.

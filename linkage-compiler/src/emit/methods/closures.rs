@@ -24,9 +24,7 @@ impl Methods<'_> {
         let pose_type = self.types.pose.clone();
         let function = ident(name);
         let code = kernels.zip(matrix).map(|(kernels, (rows, columns))| {
-            let entries: Vec<(usize, usize, NodeId)> = (0..columns)
-                .flat_map(|c| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?))))
-                .collect();
+            let entries = entries(&rows, columns);
             let nodes = entries.iter().map(|(_, _, node)| *node).collect();
             let mut code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
             let values = entries.into_iter().zip(&code.results);
@@ -124,21 +122,25 @@ impl Methods<'_> {
 
     fn jacobian_sizes(&mut self, kernels: Option<&mut Kernels>) {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
+        let pose_type = self.types.pose.clone();
+        let code = kernels.map(|kernels| {
+            let sizes = kernels.derivation.jacobian_sizes();
+            let sizes = [(entries(&sizes[0], u), u), (entries(&sizes[1], v), v)];
+            let nodes = sizes.iter().flat_map(|(entries, _)| entries.iter().map(|(_, _, node)| *node)).collect();
+            let mut code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
+            let mut results = std::mem::take(&mut code.results).into_iter();
+            let [(lines_u, of_u), (lines_v, of_v)] = sizes.map(|(entries, columns)| {
+                let values = entries.into_iter().zip(results.by_ref());
+                let values = values.map(|((row, column, _), value)| (row, column, value));
+                matrix_of(values, u, columns, &mut code.taken)
+            });
+            Body::new(code, quote!(#lines_u #lines_v (#of_u, #of_v)), [])
+        });
+        let pose = argument_of(&self.arguments.pose, code.as_ref());
+        let docs = ["The largest magnitude that each entry of J and of A could have at these lengths.".to_owned()];
         let (nu, nv) = (literal(u), literal(v));
-        let (kernels, sizes) = match kernels {
-            Some(kernels) => {
-                let sizes = kernels.derivation.jacobian_sizes();
-                (Some(&*kernels), sizes.map(Some))
-            }
-            None => (None, [None, None]),
-        };
-        let [unknowns, inputs] = sizes;
-        let docs = ["The largest magnitude that each entry of J could have at these lengths.".to_owned()];
-        let of = quote!(SMatrix<T, #nu, #nu>);
-        self.matrix_function(kernels, "jacobian_unknowns_sizes", &docs, &of, unknowns.map(|rows| (rows, u)));
-        let docs = ["The largest magnitude that each entry of A could have at these lengths.".to_owned()];
-        let of = quote!(SMatrix<T, #nu, #nv>);
-        self.matrix_function(kernels, "jacobian_inputs_sizes", &docs, &of, inputs.map(|rows| (rows, v)));
+        let signature = quote!(#[must_use] pub fn jacobian_sizes(&self, #pose: &#pose_type<T>) -> (SMatrix<T, #nu, #nu>, SMatrix<T, #nu, #nv>));
+        self.function(&docs, signature, code);
     }
 
     fn determinant(&mut self, kernels: Option<&mut Kernels>) {
@@ -200,6 +202,12 @@ impl Methods<'_> {
     }
 }
 
+/// Row, column and node of each entry, column by column.
+fn entries(rows: &[Row], columns: usize) -> Vec<(usize, usize, NodeId)> {
+    let column = |c: usize| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?)));
+    (0..columns).flat_map(column).collect()
+}
+
 /// A matrix larger than this is written entry by entry if most entries are zero.
 const LARGEST_DENSE: usize = 16;
 
@@ -225,7 +233,7 @@ pub(super) fn matrix_of(
         let lines = quote!(let mut #matrix = [[T::zero(); #rows]; #columns]; #(#lines)*);
         return (lines, quote!(SMatrix::from(#matrix)));
     }
-    let mut flat = vec![Operand::Constant(quote!(T::zero())); rows * columns];
+    let mut flat = vec![Operand::Constant(quote!(T::zero()).into()); rows * columns];
     for (row, column, value) in entries {
         flat[column * rows + row] = value;
     }

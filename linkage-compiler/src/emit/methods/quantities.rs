@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::kernel::{Shape, Source};
-use super::super::names::ident;
+use super::super::names::{ident, string};
 use super::super::types::field;
 use super::{Body, Family, Kernels, Methods, argument_of, fenced, in_parts, lines, literal};
 use crate::derivation::{Formulas, Quantity};
@@ -119,7 +119,7 @@ impl Methods<'_> {
                 let (finite, parts): (_, &[usize]) =
                     if family == Family::Points { ("finite_points", &[2]) } else { ("finite_outputs", &[]) };
                 let values = in_parts(&code.results, parts);
-                let function = ident(finite);
+                let (function, name) = (ident(finite), string(&name));
                 Body::new(code, quote!(#function(Self::NAME, #name, [#values])), [finite])
             });
             let mut docs = vec![meaning];
@@ -170,13 +170,14 @@ impl Methods<'_> {
             let ratios = kernels.derivation.ratios.iter().flatten().map(|&ratio| (Cow::from(""), ratio)).collect();
             let ratios = Source {
                 argument: Some(pose.clone()),
-                from: quote!(self.velocity_ratios(#pose)?.data.0),
+                from: quote!(self.velocity_ratios(#pose)?.data.0).into(),
                 of: Shape::Columns(self.driver.unknowns.len()),
                 fields: ratios,
             };
             let mut code = self.on_pose(kernels, vec![ratios], &[Stage::Return(nodes)]);
             let values = in_parts(&code.results, &[v, dimension]);
-            let tail = quote!(finite_matrices(Self::NAME, #word, [#values]));
+            let kind = string(word);
+            let tail = quote!(finite_matrices(Self::NAME, #kind, [#values]));
             // A call costs what the ratios cost, too.
             let ratios = self.kernels.iter().find(|(name, _)| name == "velocity_ratios");
             code.operations = ratios.map_or(code.operations, |(_, ratios)| code.operations.plus(*ratios));

@@ -36,8 +36,12 @@ impl Methods<'_> {
             let mut stages = kernels.derivation.solution(&[(side, symbols.clone())], Form::Factored);
             stages.push(Stage::Return(kernels.variables(&symbols)));
             let fields = sides.iter().map(|&side| (Cow::from(""), side)).collect();
-            let source =
-                Source { argument: Some(right.clone()), from: quote!(#right.data.0), of: Shape::Columns(u), fields };
+            let source = Source {
+                argument: Some(right.clone()),
+                from: quote!(#right.data.0).into(),
+                of: Shape::Columns(u),
+                fields,
+            };
             let mut code = self.on_pose(kernels, vec![source], &stages);
             let (bindings, solution) = bound(kernels, &symbols, &mut code);
             let finite = check_finite(&mut code, "the solution", &solution);
