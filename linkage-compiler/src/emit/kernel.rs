@@ -105,7 +105,10 @@ pub(super) fn write(
     for &symbol in &symbols {
         names.introduce(symbol);
     }
-    let (mut body, mut arguments) = (Tokens::default(), Vec::new());
+    // Most lines name a product or a short sum.
+    const LINE: usize = 12;
+    let mut body = Tokens::with_room_for(LINE * (schedule.lines.len() + given.sources.len()));
+    let mut arguments = Vec::new();
     for source in &given.sources {
         if pattern(&mut body, source, &symbols, &names) {
             arguments.extend(source.argument.clone());

@@ -1,15 +1,26 @@
 //! Tokens that are written one by one: where there are many, quoting is what unoptimised macros spend
 //! their time on.
 
-use proc_macro2::{Delimiter, Group, Ident, Punct, Spacing, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, TokenStream, TokenTree};
 use quote::ToTokens;
 
 use super::names::{comment, ident};
 
-#[derive(Default, Clone)]
+#[derive(Clone)]
 pub(super) struct Tokens(Vec<TokenTree>);
 
+impl Default for Tokens {
+    /// An empty list with room for what most come to hold.
+    fn default() -> Self {
+        Self(Vec::with_capacity(16))
+    }
+}
+
 impl Tokens {
+    pub(super) fn with_room_for(count: usize) -> Self {
+        Self(Vec::with_capacity(count))
+    }
+
     pub(super) fn append(&mut self, token: impl Into<TokenTree>) {
         self.0.push(token.into());
     }
@@ -24,7 +35,9 @@ impl Tokens {
 
     /// `name`
     pub(super) fn name(name: &Ident) -> Self {
-        Self(vec![TokenTree::Ident(name.clone())])
+        let mut tokens = Self::default();
+        tokens.ident(name);
+        tokens
     }
 
     /// `*name`
@@ -33,6 +46,25 @@ impl Tokens {
         tokens.punct('*');
         tokens.ident(name);
         tokens
+    }
+
+    /// `name<first, second>`
+    pub(super) fn of(mut self, arguments: impl IntoIterator<Item = Self>) -> Self {
+        self.punct('<');
+        for (place, argument) in arguments.into_iter().enumerate() {
+            if place > 0 {
+                self.punct(',');
+            }
+            self.join(argument);
+        }
+        self.punct('>');
+        self
+    }
+
+    /// `->`
+    pub(super) fn arrow(&mut self) {
+        self.append(Punct::new('-', Spacing::Joint));
+        self.punct('>');
     }
 
     /// Signs that stand each for itself.
@@ -85,36 +117,17 @@ impl Tokens {
         let mut words = self.0.iter().skip_while(|token| !matches!(token, TokenTree::Ident(word) if word == "fn"));
         words.nth(1).map(ToString::to_string).unwrap_or_default()
     }
-
-    /// `function(…)`
-    pub(super) fn call(&mut self, function: &Ident, write: impl FnOnce(&mut Self)) {
-        let mut inside = Self::default();
-        write(&mut inside);
-        self.ident(function);
-        self.group(Delimiter::Parenthesis, inside);
-    }
-
-    /// `&[…]`
-    pub(super) fn slice(self) -> TokenStream {
-        let mut slice = Self::default();
-        slice.punct('&');
-        slice.group(Delimiter::Bracket, self);
-        slice.into()
-    }
-
-    /// `name![…]`
-    pub(super) fn by_macro(self, name: &str) -> TokenStream {
-        let mut call = Self::default();
-        call.word(name);
-        call.punct('!');
-        call.group(Delimiter::Bracket, self);
-        call.into()
-    }
 }
 
 impl ToTokens for Tokens {
     fn to_tokens(&self, tokens: &mut TokenStream) {
         tokens.extend(self.0.iter().cloned());
+    }
+}
+
+impl From<Literal> for Tokens {
+    fn from(literal: Literal) -> Self {
+        Self(vec![TokenTree::Literal(literal)])
     }
 }
 

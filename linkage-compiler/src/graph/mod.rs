@@ -329,7 +329,7 @@ impl Graph {
     /// The sum of coefficient * item, like terms collected.
     pub fn sum(&mut self, items: &[(Number, NodeId)]) -> NodeId {
         let mut constant = Number::ZERO;
-        let mut terms: Vec<(NodeId, Number)> = Vec::new();
+        let mut terms: Vec<(NodeId, Number)> = Vec::with_capacity(items.len() + 2);
         let mut collect = |coefficient: Number, term: NodeId| {
             let entry = entry(&mut terms, term, Number::ZERO);
             *entry = entry.plus(coefficient);
@@ -396,7 +396,7 @@ impl Graph {
     /// The product of item^exponent, equal bases collected.
     pub fn product(&mut self, items: &[(NodeId, i32)]) -> NodeId {
         let mut coefficient = Number::ONE;
-        let mut factors: Vec<(NodeId, i32)> = Vec::new();
+        let mut factors: Vec<(NodeId, i32)> = Vec::with_capacity(items.len() + 2);
         let mut overflow = false;
         let mut divisors: Vec<NodeId> = Vec::new();
         let mut collect = |base: NodeId, exponent: Option<i32>| {

@@ -36,9 +36,8 @@ impl Graph {
         for root in roots {
             size = size.max(root.index() + 1);
         }
-        let mut seen = vec![false; size];
-        let seen = seen.as_mut_slice();
-        let (mut found, mut lowest) = (Vec::new(), size);
+        let mut seen = vec![false; size].into_boxed_slice();
+        let (mut found, mut lowest) = (Vec::with_capacity(16 + roots.len()), size);
         let mut find = |id: NodeId, found: &mut Vec<NodeId>| {
             let index = id.index();
             if !seen[index] && !done(id) {
@@ -57,7 +56,7 @@ impl Graph {
                 self.each_child(id, |child| find(child, &mut found));
             }
         }
-        in_order(&mut found, seen, lowest);
+        in_order(&mut found, &seen, lowest);
         found
     }
 

@@ -81,9 +81,11 @@ impl Methods<'_> {
                 "# Errors",
                 "`Unbuildable` if a group does not reach, `NotFinite` if a number is not finite.",
             ]);
-            let (v, argument) = (argument_of(&v, body.as_ref()), quote!(impl Into<#inputs<T>>));
-            let signature =
-                quote!(pub fn assemble(&self, #v: #argument, #branch: #branch_type) -> Result<#pose<T>, Error>);
+            let arguments = [
+                self.words.converted(&argument_of(&v, body.as_ref()), inputs),
+                Tokens::from(quote!(#branch: #branch_type)),
+            ];
+            let signature = self.words.fallible("assemble", arguments, self.words.of(pose));
             self.function(&docs, signature, body);
             self.branches(&sides);
             self.is_assembled = true;
@@ -123,7 +125,8 @@ impl Methods<'_> {
         };
         let docs = lines(["The branch that a position belongs to."]);
         let argument = argument_of(&argument, Some(&body));
-        let signature = quote!(#[must_use] pub fn branch_of(&self, #argument: &#pose<T>) -> #branch_type);
+        let signature =
+            self.words.total("branch_of", [self.words.borrowed(&argument, pose)], Tokens::name(branch_type));
         self.function(&docs, signature, Some(body));
     }
 }

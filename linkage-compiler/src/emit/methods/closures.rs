@@ -6,6 +6,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use super::super::kernel::Operand;
 use super::super::names::{Taken, ident};
+use super::super::tokens::Tokens;
 use super::super::types::field;
 use super::{Body, Kernels, Methods, argument_of, columns_of, fenced, literal};
 use crate::derivation::{Derivation, Row};
@@ -18,11 +19,10 @@ impl Methods<'_> {
         kernels: Option<&Kernels>,
         name: &str,
         docs: &[String],
-        of: &TokenStream,
+        of: Tokens,
         matrix: Option<(Vec<Row>, usize)>,
     ) {
         let pose_type = self.types.pose.clone();
-        let function = ident(name);
         let code = kernels.zip(matrix).map(|(kernels, (rows, columns))| {
             let entries = entries(&rows, columns);
             let nodes = entries.iter().map(|(_, _, node)| *node).collect();
@@ -33,7 +33,7 @@ impl Methods<'_> {
             Body::new(code, quote!(#lines #matrix), [])
         });
         let pose = argument_of(&self.arguments.pose, code.as_ref());
-        let signature = quote!(#[must_use] pub fn #function(&self, #pose: &#pose_type<T>) -> #of);
+        let signature = self.words.total(name, [self.words.borrowed(&pose, &pose_type)], of);
         self.function(docs, signature, code);
     }
 
@@ -46,8 +46,6 @@ impl Methods<'_> {
 
     fn jacobians(&mut self, kernels: Option<&Kernels>) {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
-        let (nu, nv) = (literal(u), literal(v));
-        let nq = literal(u + v);
         let column = |nodes: Option<&Vec<NodeId>>| {
             nodes.map(|nodes| (nodes.iter().map(|&node| Row::from([(0, node)])).collect(), 1))
         };
@@ -64,14 +62,14 @@ impl Methods<'_> {
         for closure in &self.mechanism.closures {
             docs.extend(words(&closure.attributes));
         }
-        self.matrix_function(kernels, "residual", &docs, &quote!(SVector<T, #nu>), column(residual));
+        self.matrix_function(kernels, "residual", &docs, self.words.sized("SVector", [u]), column(residual));
         let docs =
             ["The sum of the magnitudes of each closure's terms: what makes a residual small or large.".to_owned()];
         self.matrix_function(
             kernels,
             "closure_sizes",
             &docs,
-            &quote!(SVector<T, #nu>),
+            self.words.sized("SVector", [u]),
             column(derivation.map(|d| &d.sizes)),
         );
 
@@ -94,12 +92,18 @@ impl Methods<'_> {
             kernels,
             "jacobian_unknowns",
             &docs,
-            &quote!(SMatrix<T, #nu, #nu>),
+            self.words.sized("SMatrix", [u, u]),
             j.map(|rows| (rows, u)),
         );
         let mut docs = vec![format!("The constraint Jacobian of the inputs A = `Psi_v`; its columns are {inputs}.")];
         docs.extend(kernels.zip(a.as_ref()).map(|(k, rows)| matrix(k, rows, "A")).unwrap_or_default());
-        self.matrix_function(kernels, "jacobian_inputs", &docs, &quote!(SMatrix<T, #nu, #nv>), a.map(|rows| (rows, v)));
+        self.matrix_function(
+            kernels,
+            "jacobian_inputs",
+            &docs,
+            self.words.sized("SMatrix", [u, v]),
+            a.map(|rows| (rows, v)),
+        );
         let docs = [format!("The whole constraint Jacobian `Psi_q`; its columns are {all}.")];
         let names = |indices: &[usize]| -> Vec<Ident> {
             indices.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect()
@@ -116,7 +120,11 @@ impl Methods<'_> {
         });
         let pose_type = self.types.pose.clone();
         let pose = argument_of(&pose, body.as_ref());
-        let signature = quote!(#[must_use] pub fn jacobian(&self, #pose: &#pose_type<T>) -> SMatrix<T, #nu, #nq>);
+        let signature = self.words.total(
+            "jacobian",
+            [self.words.borrowed(&pose, &pose_type)],
+            self.words.sized("SMatrix", [u, u + v]),
+        );
         self.function(&docs, signature, body);
     }
 
@@ -138,8 +146,10 @@ impl Methods<'_> {
         });
         let pose = argument_of(&self.arguments.pose, code.as_ref());
         let docs = ["The largest magnitude that each entry of J and of A could have at these lengths.".to_owned()];
-        let (nu, nv) = (literal(u), literal(v));
-        let signature = quote!(#[must_use] pub fn jacobian_sizes(&self, #pose: &#pose_type<T>) -> (SMatrix<T, #nu, #nu>, SMatrix<T, #nu, #nv>));
+        let signature = {
+            let [of_u, of_v] = [u, v].map(|columns| self.words.sized("SMatrix", [u, columns]));
+            self.words.total("jacobian_sizes", [self.words.borrowed(&pose, &pose_type)], quote!((#of_u, #of_v)).into())
+        };
         self.function(&docs, signature, code);
     }
 
@@ -193,11 +203,12 @@ impl Methods<'_> {
             parts = Some(Body::new(code, tail, []));
         }
         let own = argument_of(&pose, whole.as_ref());
-        let signature = quote!(#[must_use] pub fn determinant(&self, #own: &#pose_type<T>) -> T);
+        let signature = self.words.total("determinant", [self.words.borrowed(&own, &pose_type)], self.words.scalar());
         self.function(&docs, signature, whole);
         let pose = argument_of(&pose, parts.as_ref());
         let count = literal(count);
-        let signature = quote!(#[must_use] pub fn block_determinants(&self, #pose: &#pose_type<T>) -> [T; #count]);
+        let of = quote!([T; #count]).into();
+        let signature = self.words.total("block_determinants", [self.words.borrowed(&pose, &pose_type)], of);
         self.function(&blocks_docs, signature, parts);
     }
 }

@@ -14,6 +14,7 @@ mod quantities;
 mod ratio_derivatives;
 mod scene;
 mod sensitivity;
+mod signature;
 mod unreduced;
 mod velocity;
 
@@ -37,6 +38,7 @@ use crate::graph::{ExternalId, NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
 pub(in crate::emit) use scene::of_scene;
+use signature::Words;
 
 /// The name of an argument, beside which no name of the user's may stand.
 pub(super) fn argument(mechanism: &Mechanism, wish: &str) -> String {
@@ -53,9 +55,6 @@ pub(super) fn argument(mechanism: &Mechanism, wish: &str) -> String {
 
 /// The arguments that functions have in common.
 struct Arguments {
-    /// `self` and `Self`.
-    own: Ident,
-    own_type: Ident,
     pose: Ident,
     q: Ident,
     rate: Ident,
@@ -72,6 +71,7 @@ struct Methods<'a> {
     driver: &'a Driver,
     types: &'a Types,
     arguments: Arguments,
+    words: Words,
     /// Names that kernels must not give to values of their own.
     scope: Rc<Scope>,
     named: Vec<(NodeId, String)>,
@@ -93,8 +93,6 @@ impl<'a> Methods<'a> {
     fn new(mechanism: &'a Mechanism, driver: &'a Driver, types: &'a Types, field: Option<&Ident>) -> Self {
         let name = |wish: &str| ident(&argument(mechanism, wish));
         let arguments = Arguments {
-            own: ident("self"),
-            own_type: ident("Self"),
             pose: name("pose"),
             q: name("q"),
             rate: name("rate"),
@@ -123,6 +121,7 @@ impl<'a> Methods<'a> {
             driver,
             types,
             arguments,
+            words: Words::new(),
             scope,
             named: mechanism.named.clone(),
             functions: Tokens::default(),
@@ -273,8 +272,8 @@ impl Methods<'_> {
         let fields = self.mechanism.parameters.iter().map(|p| (Cow::from(&p.name.field), p.symbol)).collect();
         Source {
             argument: None,
-            from: Tokens::behind(&self.arguments.own),
-            of: Shape::Fields(Tokens::name(&self.arguments.own_type)),
+            from: Tokens::behind(&self.words.own),
+            of: Shape::Fields(Tokens::name(&self.words.own_type)),
             fields,
         }
     }
@@ -289,7 +288,7 @@ impl Methods<'_> {
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
         Source {
             argument: Some(pose.clone()),
-            from: Tokens::behind(&pose),
+            from: Tokens::behind(pose),
             of: Shape::Fields(Tokens::name(of)),
             fields,
         }
@@ -339,7 +338,7 @@ impl Methods<'_> {
     // Functions.
 
     /// Writes a function; without a body it is a stub that only has the right signature.
-    fn function(&mut self, docs: &[String], signature: TokenStream, body: Option<Body>) {
+    fn function(&mut self, docs: &[String], signature: impl Into<Tokens>, body: Option<Body>) {
         let Body { tokens: body, operations, uses, externals, .. } = body.unwrap_or_else(|| Body {
             tokens: quote!(::core::unreachable!()).into(),
             operations: Operations::default(),
@@ -351,7 +350,7 @@ impl Methods<'_> {
         let work = if works { format!("Operations: {}.", count(operations)) } else { String::new() };
         let mut tokens = Tokens::default();
         tokens.doc(docs, &work);
-        tokens.extend(signature);
+        tokens.join(signature.into());
         if works {
             self.kernels.push((tokens.name_of_function(), operations));
         }

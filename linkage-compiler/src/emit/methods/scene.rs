@@ -166,7 +166,7 @@ impl Methods<'_> {
 
     fn on_state(&self, place: &Setting, kernels: &Kernels, stages: &[Stage]) -> Code {
         let rate = &self.arguments.rate;
-        let inputs = Source { from: Tokens::name(&rate), ..self.inputs(kernels, rate, |c| c.rate) };
+        let inputs = Source { from: Tokens::name(rate), ..self.inputs(kernels, rate, |c| c.rate) };
         self.on(place, kernels, vec![self.coordinates(kernels, &self.arguments.q, |c| c.value), inputs], stages)
     }
 
@@ -189,8 +189,8 @@ impl Methods<'_> {
             },
             Source {
                 argument: None,
-                from: Tokens::behind(&self.arguments.own),
-                of: Shape::Fields(Tokens::name(&self.arguments.own_type)),
+                from: Tokens::behind(&self.words.own),
+                of: Shape::Fields(Tokens::name(&self.words.own_type)),
                 fields,
             },
             Source {

@@ -13,9 +13,9 @@ const DEEPEST_INLINE: usize = 5;
 /// Decides which values get a line, and in what order.
 pub(super) struct Ordering {
     pub(super) values: Vec<Value>,
-    uses: Vec<usize>,
+    uses: Box<[usize]>,
     /// The nesting of a value written inline; zero once it has a name.
-    height: Vec<Option<usize>>,
+    height: Box<[Option<usize>]>,
     pub(super) lines: Vec<Line>,
     /// Sines and cosines that are used, by function and argument.
     circular: FxHashMap<(Function, Signed), ValueId>,
@@ -25,20 +25,18 @@ pub(super) struct Ordering {
 
 impl Ordering {
     pub(super) fn new(graph: &Graph, values: Vec<Value>, roots: &[Signed]) -> Self {
-        let mut uses = vec![0; values.len()];
-        let counts = uses.as_mut_slice();
-        let mut height = vec![None; values.len()];
-        let heights = height.as_mut_slice();
+        let mut uses = vec![0; values.len()].into_boxed_slice();
+        let mut height = vec![None; values.len()].into_boxed_slice();
         let (mut circular, mut externals) = (FxHashMap::default(), FxHashMap::default());
         let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
         while let Some(id) = stack.pop() {
-            counts[id.0] += 1;
-            if counts[id.0] > 1 {
+            uses[id.0] += 1;
+            if uses[id.0] > 1 {
                 continue;
             }
             let value = &values[id.0];
             match value {
-                Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => heights[id.0] = Some(0),
+                Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => height[id.0] = Some(0),
                 Value::Call(function @ (Function::Sin | Function::Cos), angle) => {
                     circular.insert((*function, angle[0]), id);
                 }
@@ -70,9 +68,10 @@ impl Ordering {
 
     /// Emits the lines that `root` stands on; `named` if its own line is about to follow.
     pub(super) fn require(&mut self, root: ValueId, named: bool) {
-        let mut stack = vec![(root, false)];
+        let mut stack = Vec::with_capacity(16);
+        stack.push((root, false));
         while let Some((id, expanded)) = stack.pop() {
-            let (values, heights) = (self.values.as_slice(), self.height.as_slice());
+            let (values, heights) = (self.values.as_slice(), &self.height);
             if heights[id.0].is_some() {
                 continue;
             }

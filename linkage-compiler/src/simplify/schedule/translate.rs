@@ -19,11 +19,11 @@ pub(super) struct Builder<'a> {
 /// What each node became, by its index: every part is looked up again and again. Packed, and 0 for a node that
 /// no root stands on, since a list of zeros costs nothing.
 #[derive(Default)]
-pub(super) struct Translated(Vec<u64>);
+pub(super) struct Translated(Box<[u64]>);
 
 impl Translated {
     pub(super) fn get(&self, node: NodeId) -> Option<Signed> {
-        match self.0.as_slice().get(node.index()) {
+        match self.0.get(node.index()) {
             None | Some(0) => None,
             Some(packed) => Some(Signed { negative: packed & 1 == 1, value: ValueId((packed >> 1) as usize - 1) }),
         }
@@ -50,7 +50,7 @@ impl<'a> Builder<'a> {
     fn build(&mut self, roots: &[NodeId]) {
         let ordered = self.graph.sweep(roots, |_| false, |id| self.is_leaf(id));
         let shared = self.shared_divisors(&ordered);
-        self.of.0 = vec![0; ordered.last().map_or(0, |last| last.index() + 1)];
+        self.of.0 = vec![0; ordered.last().map_or(0, |last| last.index() + 1)].into_boxed_slice();
         for id in ordered {
             let signed = match self.leaf(id) {
                 Some(signed) => signed,
