@@ -86,13 +86,19 @@ pub fn chord<T: Real, S: Side>(
     side: S,
 ) -> Result<T, Error> {
     let [low, high] = factors;
-    let (radicand, epsilon) = (low * high, T::default_epsilon());
-    // Both factors cannot be negative. Where their product is near the ends of its range, of huge and of
-    // tiny lengths, it is that of other units.
-    let tiny = epsilon * epsilon * epsilon * epsilon;
-    let is_plain = radicand > tiny && radicand < T::one() / tiny;
-    let root = if is_plain { radicand.sqrt() } else { guarded(mechanism, group, low, high, size)? };
+    let radicand = low * high;
+    // Both factors cannot be negative.
+    let root = if is_in_range(radicand) { radicand.sqrt() } else { guarded(mechanism, group, low, high, size)? };
     Ok(if side == S::OF_POSITIVE_ROOT { root } else { -root })
+}
+
+/// Whether a product of squares of lengths is far from the ends of its range. That of huge or tiny lengths is taken in
+/// other units.
+#[inline]
+fn is_in_range<T: Real>(product: T) -> bool {
+    let epsilon = T::default_epsilon();
+    let tiny = epsilon * epsilon * epsilon * epsilon;
+    product > tiny && product < T::one() / tiny
 }
 
 /// Where a factor is less than this part of the squares that it is the difference of, they are subtracted
@@ -102,6 +108,11 @@ const CANCELLATION: f64 = 1.0 / 16.0;
 /// The half chord of two links `[p, q]` between joints whose line is `[x, y]`, twice: the root of
 /// ((p + q)^2 - D^2) (D^2 - (p - q)^2), D^2 = x^2 + y^2, with the sign of a side; `factors` are the two
 /// differences, `sizes` are (p + q)^2 and D^2. A length may be negative, and counts by its magnitude.
+///
+/// Besides, whether the triangle is plain: open, and of a size at which no step from here to the directions of the links
+/// can leave the range of the scalar. With s = p + q, then D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16, so that neither link
+/// is shorter than s/32; and since 1 / D^2, s^2 D^2 and 1 / s are in range, so are the links' components, which are
+/// less than 2 s before any rounding or after it.
 ///
 /// Near a dead point a factor is a difference of nearly equal squares. It is then computed from the lengths and
 /// the line themselves as if nothing was rounded before the end, so that the chord is right to a few roundings
@@ -119,12 +130,13 @@ pub fn elbow_chord<T: Real, S: Side>(
     links: [T; 2],
     line: [T; 2],
     side: S,
-) -> Result<T, Error> {
+) -> Result<(T, bool), Error> {
     let ([low, high], [sum, distance], [p, q], [x, y]) = (factors, sizes, links, line);
     let part = real::<T>(CANCELLATION);
-    let (low, high, sum) =
-        if low > part * sum && high > part * distance { (low, high, sum) } else { exactly(p, q, x, y, distance) };
-    chord(mechanism, group, [low, high], sum, side)
+    let is_open = low > part * sum && high > part * distance;
+    let is_plain = is_open && is_in_range(low * high) && distance > T::default_epsilon() * T::default_epsilon();
+    let (low, high, sum) = if is_open { (low, high, sum) } else { exactly(p, q, x, y, distance) };
+    Ok((chord(mechanism, group, [low, high], sum, side)?, is_plain))
 }
 
 /// (p + q)^2 - D^2, D^2 - (p - q)^2 and (p + q)^2 of the lengths and the line as they are. What is less than one rounding of the

@@ -48,7 +48,11 @@ fn assail<M, const N: usize, const U: usize, const V: usize>(
         let mut inputs = linkage::nalgebra::SVector::<f64, V>::from_fn(|_, _| random.random_range(-3.0..3.0));
         for _ in 0..random.random_range(1..=3) {
             let place = random.random_range(0..N + V);
-            let bad = HOSTILE[random.random_range(0..HOSTILE.len())];
+            // Or a number of any size.
+            let bad = match HOSTILE.get(random.random_range(0..2 * HOSTILE.len())) {
+                Some(&bad) => bad,
+                None => random.random_range(-2.0..2.0) * 2_f64.powi(random.random_range(-540..540)),
+            };
             if place < N {
                 parameters[place] = bad;
             } else {
@@ -68,6 +72,30 @@ fn assail<M, const N: usize, const U: usize, const V: usize>(
             }
         }
     }
+}
+
+/// Triangles of all shapes and sizes, in both precisions: what is plain has no verdict of its own.
+#[test]
+fn dyads_of_every_size() {
+    let random = &mut SmallRng::seed_from_u64(5);
+    let mut positions = 0;
+    for _ in 0..200_000 {
+        let most = [3, 30, 70, 300, 540][random.random_range(0..5)];
+        let mut length = || random.random_range(1.0..2.0) * 2_f64.powi(random.random_range(-most..=most));
+        let (ground, crank, p, gap) = (length(), length(), length(), length());
+        // Nearly equal links, so that the line between their joints may be anything.
+        let m = FourBar::new(ground, crank, p, p + gap);
+        for branch in FourBarBranch::all() {
+            let theta2 = random.random_range(-3.0..3.0);
+            let double = m.assemble(theta2, branch).map(|pose| format!("{pose:?}"));
+            let single = m.clone().map(|length| length as f32).assemble(theta2 as f32, branch);
+            for text in [double, single.map(|pose| format!("{pose:?}"))].into_iter().flatten() {
+                positions += 1;
+                assert!(!text.contains("NaN") && !text.contains("inf"), "{m:?} {theta2}: {text}");
+            }
+        }
+    }
+    assert!(positions > 100_000, "{positions} positions");
 }
 
 macro_rules! all {

@@ -33,6 +33,8 @@ pub struct Assembly {
     pub determinants: BTreeMap<usize, NodeId>,
     /// The blocks that have two solutions.
     pub chords: Vec<Chord>,
+    /// The angles of the links of a dyad, and its block.
+    pub of_dyads: BTreeMap<SymbolId, usize>,
     /// What must not be negative for a block with two solutions to be assembled.
     pub bounds: Vec<(usize, Vec<NodeId>)>,
     /// The coordinates that are not found in closed form, and the names of their guesses.
@@ -411,6 +413,7 @@ impl Solver<'_> {
             first = turned(self.graph, first, [cosine, back]);
         }
         self.direction(a, first);
+        self.assembly.of_dyads.extend([(a, self.number), (b, self.number)]);
         Some(cross_product)
     }
 

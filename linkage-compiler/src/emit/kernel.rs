@@ -1,7 +1,7 @@
 //! One kernel: what it is given, its stages, and the Rust that carries them out.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use proc_macro2::{Delimiter, Ident, TokenStream};
@@ -45,6 +45,8 @@ pub(super) struct Given<'a> {
     pub pose: Option<&'a PosePlan>,
     /// The argument that says which solution of a group is meant.
     pub branch: &'a Ident,
+    /// The dyad, if there is one, whose solution has a result in the range of the scalar where its triangle is plain.
+    pub dyads: Vec<Option<usize>>,
 }
 
 /// A value that a kernel returns.
@@ -71,6 +73,8 @@ pub(super) struct Code {
     pub results: Vec<Operand>,
     /// Which of them are finite in any case.
     pub proven: Vec<bool>,
+    /// What says of a dyad whether its triangle is plain, where that is asked for.
+    pub plain: BTreeMap<usize, Ident>,
     pub operations: Operations,
     /// The names that the body has given.
     pub taken: Taken,
@@ -120,21 +124,24 @@ pub(super) fn write(
     if let Some(pose) = given.pose {
         arguments.extend(take_directions(&mut body, &keyword, pose, &schedule, &mut names));
     }
+    let proven = match schedule.lines.last() {
+        Some(Line::Return(values)) => schedule.proven(values),
+        _ => Vec::new(),
+    };
+    let open = given.dyads.iter().zip(&proven).filter(|(_, proven)| !**proven);
+    names.plain.extend(open.filter_map(|(dyad, _)| Some(((*dyad)?, ident("_")))));
     let mut results = Vec::new();
     let writer = Writer { given, derivation, schedule: &schedule, used: &used, keyword };
     for line in &schedule.lines {
         write_line(&writer, &mut body, line, &mut names, &mut results);
     }
-    let proven = match schedule.lines.last() {
-        Some(Line::Return(values)) => schedule.proven(values),
-        _ => Vec::new(),
-    };
     let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
-    let externals = std::mem::take(&mut names.externals);
+    let (externals, plain) = (std::mem::take(&mut names.externals), std::mem::take(&mut names.plain));
     Code {
         body,
         results,
         proven,
+        plain,
         operations: schedule.operations(),
         taken: names.into_taken(),
         arguments,
@@ -348,9 +355,14 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             let side = ident(&derivation.blocks[*block].branch(derivation));
             let name = names.introduce(*symbol).ident.clone();
             let branch = given.branch;
+            if names.plain.contains_key(block) {
+                let plain = ident(&names.unique(&format!("is_plain_{}", block + 1)));
+                names.plain.insert(*block, plain);
+            }
+            let plain = names.plain.get(block).cloned().unwrap_or_else(|| ident("_"));
             body.extend(match triangle {
                 Some(([p, q], [x, y], distance)) => quote!(
-                    let #name = elbow_chord(
+                    let (#name, #plain) = elbow_chord(
                         Self::NAME, #group, [#low, #high], [#size, #distance], [#p, #q], [#x, #y], #branch.#side,
                     )?;
                 ),

@@ -1,7 +1,7 @@
 //! Names of the emitted code: the user's own, and fresh ones beside them.
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -156,6 +156,8 @@ pub(super) struct Names<'a> {
     pub(super) externals: BTreeSet<ExternalId>,
     /// The factorisations, by block.
     pub(super) factors: FxHashMap<usize, String>,
+    /// What says of a dyad whether its triangle is plain.
+    pub(super) plain: BTreeMap<usize, Ident>,
 }
 
 impl<'a> Names<'a> {
@@ -169,6 +171,7 @@ impl<'a> Names<'a> {
             numbers_taken: Cell::new(false),
             externals: BTreeSet::new(),
             factors: FxHashMap::default(),
+            plain: BTreeMap::new(),
         }
     }
 
@@ -182,6 +185,7 @@ impl<'a> Names<'a> {
             numbers_taken: Cell::new(false),
             factors: FxHashMap::default(),
             externals: BTreeSet::new(),
+            plain: BTreeMap::new(),
         }
     }
 

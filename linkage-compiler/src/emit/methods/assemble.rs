@@ -55,7 +55,13 @@ impl Methods<'_> {
             self.guess(kernels, &guess, &assembly.guesses)
         };
         let sources = vec![self.parameters(), position];
-        let given = Given { sources, pose: None, branch: &self.arguments.branch };
+        let dyad_of = |symbol: Option<SymbolId>| symbol.and_then(|symbol| assembly.of_dyads.get(&symbol).copied());
+        let graph = &kernels.derivation.graph;
+        let mut dyads = vec![None; determinants.len()];
+        dyads.extend(kernels.plan.angles().flat_map(|angle| [dyad_of(graph.as_symbol(angle)); 2]));
+        dyads.extend(kernels.plan.values.iter().map(|(_, _, symbol)| dyad_of(Some(*symbol))));
+        dyads.extend(externals.iter().map(|_| None));
+        let given = Given { sources, pose: None, branch: &self.arguments.branch, dyads };
         let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
         let mut wishes: Vec<String> = kernels.plan.determinants.iter().map(|(_, field, _)| field.clone()).collect();
         wishes.extend(
@@ -64,9 +70,19 @@ impl Methods<'_> {
         wishes.extend(kernels.plan.values.iter().map(|(_, field, _)| field.clone()));
         wishes.extend(kernels.plan.externals.iter().map(|(_, field, _)| field.clone()));
         let (bindings, bound) = bind(&code.results, &wishes, &mut code.taken);
-        let unproven = bound.iter().zip(&code.proven).filter(|(_, proven)| !**proven).map(|(value, _)| value.clone());
-        let unproven: Vec<_> = unproven.collect();
-        let finite = check_finite(&mut code, "the position", &unproven);
+        let unproven = bound.iter().zip(&given.dyads).zip(&code.proven).filter(|(_, proven)| !**proven);
+        let (of_dyads, others): (Vec<_>, Vec<_>) =
+            unproven.map(|((value, dyad), _)| (value.clone(), *dyad)).partition(|(_, dyad)| dyad.is_some());
+        let [of_dyads, others] =
+            [of_dyads, others].map(|values| values.into_iter().map(|(value, _)| value).collect::<Vec<_>>());
+        let finite = check_finite(&mut code, "the position", &others);
+        let of_dyads = check_finite(&mut code, "the position", &of_dyads);
+        let plain: Vec<_> = code.plain.values().collect();
+        let finite = match plain.as_slice() {
+            [] => finite,
+            [only] => quote!(#finite if !#only { #of_dyads }),
+            several => quote!(#finite if !(#(#several)&&*) { #of_dyads }),
+        };
         let fields = pose_members(kernels.plan, bound.iter());
         if !circular.is_empty() {
             code.uses.insert("unit");

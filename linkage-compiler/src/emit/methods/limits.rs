@@ -63,7 +63,7 @@ impl Methods<'_> {
         let mut source = self.inputs(kernels, &from, |c| c.value);
         // They are taken apart by reference: the position needs them whole.
         source.from = Tokens::name(&from);
-        let given = Given { sources: vec![self.parameters(), source], pose: None, branch: &branch };
+        let given = Given { sources: vec![self.parameters(), source], pose: None, branch: &branch, dyads: Vec::new() };
         let stages = [Stage::Return(results)];
         let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
         let bounds = bounds.iter().zip(&names).zip(code.results.chunks(3)).map(|((bound, group), coefficients)| {

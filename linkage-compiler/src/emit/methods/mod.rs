@@ -326,7 +326,7 @@ impl Methods<'_> {
     fn on_pose<'k>(&'k self, kernels: &'k Kernels, sources: Vec<Source<'k>>, stages: &[Stage]) -> Code {
         let mut all = vec![self.parameters(), self.pose_source(kernels)];
         all.extend(sources);
-        let given = Given { sources: all, pose: Some(kernels.plan), branch: &self.arguments.branch };
+        let given = Given { sources: all, pose: Some(kernels.plan), branch: &self.arguments.branch, dyads: Vec::new() };
         kernel::write(kernels.derivation, &given, stages, &self.named, &self.scope)
     }
 

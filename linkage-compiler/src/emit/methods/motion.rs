@@ -36,7 +36,7 @@ impl Methods<'_> {
                 self.inputs(kernels, rate, |c| c.rate),
                 self.inputs(kernels, acceleration, |c| c.acceleration),
             ];
-            let given = Given { sources, pose: None, branch: &self.arguments.branch };
+            let given = Given { sources, pose: None, branch: &self.arguments.branch, dyads: Vec::new() };
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
             let fields = self.coordinate_fields();
             let count = fields.len();

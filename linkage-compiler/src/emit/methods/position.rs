@@ -34,7 +34,7 @@ impl Methods<'_> {
             let results = values.iter().chain(&circular).chain(&bare).chain(&externals);
             stages.push(Stage::Return(results.copied().collect()));
             let sources = vec![self.parameters(), self.coordinates(kernels, &q, |c| c.value)];
-            let given = Given { sources, pose: None, branch: &self.arguments.branch };
+            let given = Given { sources, pose: None, branch: &self.arguments.branch, dyads: Vec::new() };
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
             if !circular.is_empty() {
                 code.uses.insert("unit");

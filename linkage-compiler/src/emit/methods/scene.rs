@@ -201,7 +201,7 @@ impl Methods<'_> {
             },
         ];
         sources.splice(2..2, motion);
-        let given = Given { sources, pose: None, branch: &self.arguments.branch };
+        let given = Given { sources, pose: None, branch: &self.arguments.branch, dyads: Vec::new() };
         kernel::write(kernels.derivation, &given, stages, &self.named, &self.scope)
     }
 
