@@ -226,6 +226,8 @@ fn gallery(steps: usize) -> Count {
     let random = &mut SmallRng::seed_from_u64(7);
     let mut count = Count::default();
     count += closed!(Andrews, AndrewsBranch, steps, random);
+    // Lost at times on the return: there the law is what is left of a difference, and has fewer digits than its size
+    // says, which the follower of a closure does not take for rounding.
     count += closed!(CamFollower, CamFollowerBranch, steps, random);
     count += closed!(CamRocker, CamRockerBranch, steps, random);
     count += closed!(Cardan, CardanBranch, steps, random);
