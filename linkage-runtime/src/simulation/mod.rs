@@ -28,7 +28,7 @@ mod over;
 mod real_time;
 mod road;
 mod run;
-mod scales;
+pub(crate) mod scales;
 mod state;
 mod touching;
 mod watch;

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::motion::{Motion, Road};
-use crate::contact::{Change, Contacts, ReducedContact, ReducedEquations, changes};
+use crate::contact::{Change, Contact, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::{Error, Mechanism, Mode, Real, Scene};
 
 impl<S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'_, S, W, T, U, V, N, C>
@@ -61,26 +61,33 @@ where
         self.contacts.events(&equations)
     }
 
+    /// What rounding may leave of each s.
+    fn resolution(&self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
+        let (q, _) = Self::unpack(y);
+        let velocity = Self::joined(&q, self.velocity(t, y)?);
+        let contacts = self.scene.contacts(t, &q, &velocity)?;
+        let mut resolution = [T::zero(); C];
+        for (resolution, Contact { along, .. }) in resolution.iter_mut().zip(&contacts) {
+            *resolution = match self.road {
+                Road::Inputs => self.scales.resolution_by_inputs(self.scene.mechanism(), &q, along)?,
+                Road::Others(_) | Road::Over(..) => self.scales.resolution::<S::Mechanism>(&q, along),
+            };
+        }
+        Ok(resolution)
+    }
+
     /// The modes at the start, and y with the rates from there on.
     pub(super) fn begin(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
         let (q, rates) = Self::unpack(y);
-        let (contacts, rates) = Contacts::begin(t, &rates, |rates| self.equations(t, &Self::pack(&q, rates)))?;
+        let mut contacts = self.contacts.with_resolution(self.resolution(t, y)?);
+        let rates = contacts.start(t, &rates, |rates| self.equations(t, &Self::pack(&q, rates)))?;
         self.names = self.contacts_alone(t, y)?.contacts.map(|contact| contact.name);
         self.contacts = contacts;
         Ok(Self::pack(&q, &rates))
     }
 
-    /// What happens at this state, where the guard of a contact may just have fallen to zero: y from here on, and what
-    /// each contact has done.
-    pub(super) fn settled(
-        &mut self,
-        t: T,
-        y: &SVector<T, N>,
-        guard: Option<usize>,
-    ) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
-        if let Some(guard) = guard {
-            self.contacts = self.contacts.reached(guard);
-        }
+    /// What happens at this state: y from here on, and what each contact has done.
+    pub(super) fn settled(&mut self, t: T, y: &SVector<T, N>) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
         self.decided(t, y, y, false)
     }
 
@@ -105,6 +112,7 @@ where
             return Ok((*y, [None; C]));
         }
         let (q, rates) = Self::unpack(y);
+        self.contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let mut contacts = self.contacts;
         let at = |rates: &SVector<T, V>| self.equations(t, &Self::pack(&q, rates));
         let rates = if anew { contacts.resume(t, &rates, at)? } else { contacts.settle(t, &rates, at)? };
