@@ -4,6 +4,7 @@ mod andrews;
 mod change_points;
 mod contacts;
 mod contacts_of_linkages;
+mod contacts_over_change_points;
 mod dead_points;
 mod doors;
 mod failures;

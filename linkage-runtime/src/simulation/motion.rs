@@ -21,7 +21,7 @@ pub(super) enum Road<T: Real, const U: usize, const V: usize, const N: usize> {
     Inputs,
     /// Others.
     Others(Independent<T, U, V>),
-    /// The polynomial over a change point, in other coordinates than the inputs.
+    /// The polynomial over a change point, in other coordinates than the inputs, also where it goes on after the end.
     Over(Independent<T, U, V>, Interpolant<T, N>),
 }
 

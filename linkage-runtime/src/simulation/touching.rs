@@ -14,20 +14,23 @@ where
     /// M, Q and the contacts in the coordinates of the motion.
     ///
     /// # Errors
-    /// [`Error::ChangePoint`] so near to one that [J A] does not tell how rates depend on each other.
+    /// [`Error::ChangePoint`] so near to one that [J A] does not tell how rates depend on each other, if it is not passed.
     fn equations(&self, t: T, y: &SVector<T, N>) -> Result<ReducedEquations<T, V, C>, Error> {
         match &self.road {
             Road::Inputs => ReducedEquations::of(self.scene, t, y),
             Road::Others(independent) | Road::Over(independent, _) => {
                 let (q, _) = S::parts(y);
-                let factors = self.regular(independent, &q).ok_or_else(|| self.change_point(&q))?;
-                self.equations_by(independent, &factors, (t, y)).map(|(equations, _)| equations)
+                match (self.regular(independent, &q), &self.road) {
+                    (Some(factors), _) => Ok(self.equations_by(independent, &factors, (t, y))?.0),
+                    (None, Road::Over(_, step)) => self.equations_over(independent, step, (t, y)),
+                    (None, _) => Err(self.change_point(&q)),
+                }
             }
         }
     }
 
     /// The contacts with their s and s' alone: nothing is told of what would move them.
-    fn contacts_alone(&self, t: T, y: &SVector<T, N>) -> Result<ReducedEquations<T, V, C>, Error> {
+    pub(super) fn contacts_alone(&self, t: T, y: &SVector<T, N>) -> Result<ReducedEquations<T, V, C>, Error> {
         let (q, rates) = Self::unpack(y);
         let (unknowns, inputs) = self.velocity(t, y)?;
         let velocity = Self::joined(&q, (unknowns, inputs));
@@ -44,20 +47,12 @@ where
         Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts })
     }
 
-    /// Whether [J A] tells how the rates depend on each other.
-    fn is_regular(&self, y: &SVector<T, N>) -> bool {
-        let Road::Over(independent, _) = &self.road else { return true };
-        self.regular(independent, &S::parts(y).0).is_some()
-    }
-
-    /// How far each contact is from another mode, with the closures closed. While a change point is passed what is held
-    /// is taken to hold; the end of the step shows whether it did.
+    /// How far each contact is from another mode, with the closures closed.
     pub(super) fn margins(&self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
         // A step in the inputs may have gone where nothing closes: it will be taken again.
         let y = self.closed(t, y).unwrap_or(*y);
         let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
-        let alone = is_free || !self.is_regular(&y);
-        let equations = if alone { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
+        let equations = if is_free { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
         self.contacts.events(&equations)
     }
 
@@ -129,7 +124,7 @@ where
         t: T,
         y: &SVector<T, N>,
     ) -> Result<(SVector<T, N>, bool), Error> {
-        if C == 0 || !self.is_regular(y) {
+        if C == 0 {
             return Ok((*y, true));
         }
         if contacts.modes.iter().all(|&mode| mode == Mode::Open) && contacts.review(&self.contacts_alone(t, y)?)?.1 {
