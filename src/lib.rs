@@ -65,11 +65,9 @@ macro_rules! linkage {
 #[doc(hidden)]
 pub mod __private {
     pub use linkage_macros::linkage;
-    pub use linkage_runtime::derivation;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
     pub use linkage_runtime::{
-        __coordinates, __equations, __kernels, __mechanism, __parameters, __part_of_coordinates, __quantities,
-        __symbols,
+        __coordinates, __derivation, __mechanism, __parameters, __part_of_coordinates, __quantities, __scene_derivation,
     };
     pub use linkage_runtime::{
         Along, Assembly, Balance, Bound, Contact, ContactLaw, Elbow, Energy, Equations, Error, Factorization, Group,

@@ -38,7 +38,7 @@ impl Hash {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Places {
     /// The high half of a hash and the place, counted from one.
-    slots: Vec<(u32, u32)>,
+    slots: Box<[(u32, u32)]>,
     count: usize,
 }
 
@@ -67,8 +67,8 @@ impl Places {
         const FEWEST: usize = 64;
         // At most two thirds are full, so that a search ends soon.
         if self.slots.len() < FEWEST || 3 * self.count >= 2 * self.slots.len() {
-            let larger = vec![(0, 0); FEWEST.max(2 * self.slots.len())];
-            for (high, place) in std::mem::replace(&mut self.slots, larger) {
+            let larger = vec![(0, 0); FEWEST.max(2 * self.slots.len())].into_boxed_slice();
+            for &(high, place) in &std::mem::replace(&mut self.slots, larger) {
                 if place != 0 {
                     self.put(high, place);
                 }

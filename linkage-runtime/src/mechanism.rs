@@ -60,10 +60,8 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     fn jacobian_unknowns(&self, pose: &Self::Pose) -> SMatrix<T, U, U>;
     /// A, the derivative of Psi by v.
     fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, U, V>;
-    /// The largest magnitude that each entry of J could have at these lengths.
-    fn jacobian_unknowns_sizes(&self, pose: &Self::Pose) -> SMatrix<T, U, U>;
-    /// The largest magnitude that each entry of A could have at these lengths.
-    fn jacobian_inputs_sizes(&self, pose: &Self::Pose) -> SMatrix<T, U, V>;
+    /// The largest magnitude that each entry of J and of A could have at these lengths.
+    fn jacobian_sizes(&self, pose: &Self::Pose) -> (SMatrix<T, U, U>, SMatrix<T, U, V>);
     /// det J.
     fn determinant(&self, pose: &Self::Pose) -> T;
     /// The determinant of each block of J: of each group.

@@ -146,8 +146,7 @@ impl<T: Real, const U: usize, const V: usize> Equilibrated<T, U, V> {
     fn of<M: Mechanism<T, U, V>>(mechanism: &M, pose: &M::Pose) -> Result<Self, Error> {
         let (mut unknowns, mut inputs) = (mechanism.jacobian_unknowns(pose), mechanism.jacobian_inputs(pose));
         let sizes = mechanism.closure_sizes(pose);
-        let mut unknown_sizes = mechanism.jacobian_unknowns_sizes(pose);
-        let mut input_sizes = mechanism.jacobian_inputs_sizes(pose);
+        let (mut unknown_sizes, mut input_sizes) = mechanism.jacobian_sizes(pose);
         for row in 0..U {
             let size = positive(sizes[row]);
             unknowns.row_mut(row).unscale_mut(size);
@@ -294,7 +293,7 @@ fn measure<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
     let determinant = mechanism.block_determinants(pose).as_ref().get(group).copied().unwrap_or(zero);
     // The block in the corner of a diagonal that is larger than any singular value of it; its columns equilibrated
     // by what they could be in these rows alone.
-    let sizes = mechanism.jacobian_unknowns_sizes(pose);
+    let (sizes, _) = mechanism.jacobian_sizes(pose);
     let count = real::<T>(u32::try_from(U).map_or(f64::MAX, f64::from));
     let mut matrix = SMatrix::<T, U, U>::from_diagonal_element(count);
     for (column, &unknown) in block.unknowns.iter().enumerate() {

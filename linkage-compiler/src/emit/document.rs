@@ -1,10 +1,10 @@
 //! `DERIVATION`: the derivation as data, every formula by its source.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 
-use super::names::{ident, string};
+use super::names::string;
 use super::tokens::Tokens;
 use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
 use crate::graph::{Condition, Name, NodeId, Printer, SymbolId};
@@ -28,81 +28,60 @@ pub(super) fn constant(
     let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
     let parameters: Vec<&str> = mechanism.parameters.iter().map(|parameter| parameter.name.text.as_str()).collect();
     let mut document = Document {
-        words: Words::new(),
         printer: Printer::new(graph, &shown),
         derivation,
         parameters: &parameters,
         inputs: &inputs,
         unknowns: &unknowns,
-        has_some: false,
     };
 
-    let title = driver.name.to_string();
-    let [named_parameters, named_inputs, named_unknowns] =
-        [&parameters, &inputs, &unknowns].map(|names| symbols(names));
-    let residual = document.numbered("Psi", &derivation.residual);
+    let mut sections = Sections::of([&driver.name], [driver.name.to_string()]);
+    for (name, symbols) in [("parameters", &parameters), ("inputs", &inputs), ("unknowns", &unknowns)] {
+        sections.write(name, Some(symbols_of(symbols)));
+    }
+    sections.write("residual", Some(document.numbered("Psi", &derivation.residual)));
     let j = document.matrix(Name::Plain("J"), None, &derivation.jacobian_unknowns(), unknowns.len());
+    sections.write("jacobian_unknowns", Some(j));
     let a = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
-    let blocks: Vec<_> = formulas.inverses.iter().enumerate().collect();
-    let blocks = list(&blocks, |out, (number, inverse)| out.extend(document.block(*number, inverse.as_ref())));
+    sections.write("jacobian_inputs", Some(a));
+    let mut blocks = Tokens::default();
+    for (number, inverse) in formulas.inverses.iter().enumerate() {
+        blocks.group(Delimiter::Bracket, document.block(number, inverse.as_ref()));
+    }
+    sections.write("blocks", Some(blocks));
     let determinant = formulas.determinant.map(|node| document.equation(Name::Determinant(None), node));
-    let determinant = document.optional(determinant);
+    sections.write("determinant", determinant);
     let (by_inputs, by_pairs, by_parameters) = (document.by_inputs(), document.by_pairs(), document.by_parameters());
-    let ratios = document.derivatives(&unknowns, &by_inputs, &formulas.ratios);
-    let gamma = document.numbered("gamma", &derivation.gamma);
-    let jerk = derivation.eta.as_ref().map(|eta| document.numbered("eta", eta));
-    let jerk = document.optional(jerk);
+    sections.write("ratios", Some(document.derivatives(&unknowns, &by_inputs, &formulas.ratios)));
     let asked = derivation.ratio_derivatives.is_some();
     let second = asked.then(|| document.derivatives(&unknowns, &by_pairs, &formulas.ratio_derivatives));
-    let second = document.optional(second);
+    sections.write("ratio_derivatives", second);
+    sections.write("gamma", Some(document.numbered("gamma", &derivation.gamma)));
+    let jerk = derivation.eta.as_ref().map(|eta| document.numbered("eta", eta));
+    sections.write("jerk", jerk);
     let sensitivity = derivation.sensitivity.as_ref().map(|first| {
-        let jacobian = document.matrix(Name::Plain("Psi_p"), None, &first.jacobian, parameters.len());
         let formulas = nonzero(derivation, &formulas.sensitivities);
-        let formulas = document.derivatives(&unknowns, &by_parameters, &formulas);
-        quote!(derivation::Sensitivity { jacobian: #jacobian, formulas: #formulas })
+        let mut both = Tokens::default();
+        let jacobian = document.matrix(Name::Plain("Psi_p"), None, &first.jacobian, parameters.len());
+        both.group(Delimiter::Bracket, jacobian);
+        both.group(Delimiter::Bracket, document.derivatives(&unknowns, &by_parameters, &formulas));
+        both
     });
-    let sensitivity = document.optional(sensitivity);
+    sections.write("sensitivity", sensitivity);
     let points: Vec<&str> = mechanism.points.iter().map(|point| point.name.text.as_str()).collect();
     let points = document.quantities(&points, &["x_", "y_"], &derivation.points, &formulas.points);
+    sections.write("points", Some(points));
     let outputs: Vec<&str> = mechanism.outputs.iter().map(|output| output.name.text.as_str()).collect();
     let outputs = document.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs);
-    let conditions: Vec<Condition> = formulas.conditions.iter().copied().collect();
-    let conditions = list(&conditions, |out, condition| document.condition(out, *condition));
-    let kernels = works(kernels);
-    let driver = &driver.name;
-    // J stands without a factor before it; a determinant may have no formula.
-    let options = if document.has_some { quote!({None, Some}) } else { quote!(None) };
-    quote! {
-        const _: () = {
-            use ::core::option::Option::#options;
-            use #private::derivation::{self, entry, formula};
-            use #private::{__equations, __kernels, __symbols};
-            impl #driver {
-                /// The derivation as data: every formula, to be written as text, `LaTeX` or `MathML`, the order of
-                /// solution and the work of each function. It costs nothing where it is not used.
-                pub const DERIVATION: &'static derivation::Derivation = &derivation::Derivation {
-                    mechanism: #title,
-                    parameters: #named_parameters,
-                    inputs: #named_inputs,
-                    unknowns: #named_unknowns,
-                    residual: #residual,
-                    jacobian_unknowns: #j,
-                    jacobian_inputs: #a,
-                    blocks: #blocks,
-                    determinant: #determinant,
-                    ratios: #ratios,
-                    ratio_derivatives: #second,
-                    gamma: #gamma,
-                    jerk: #jerk,
-                    sensitivity: #sensitivity,
-                    points: #points,
-                    outputs: #outputs,
-                    conditions: #conditions,
-                    kernels: #kernels
-                };
-            }
-        };
+    sections.write("outputs", Some(outputs));
+    let mut conditions = Tokens::default();
+    for condition in &formulas.conditions {
+        document.condition(&mut conditions, *condition);
     }
+    sections.write("conditions", Some(conditions));
+    sections.write("kernels", Some(works(kernels)));
+    let sections = sections.0;
+    quote!(#private::__derivation! { #sections })
 }
 
 /// The equations of motion of a scene, in a scope of its own likewise.
@@ -125,13 +104,11 @@ pub(super) fn of_scene(
     let own = scene.parameters.iter().map(|&place| mechanism.scene_parameters[place].name.text.as_str());
     let own: Vec<&str> = own.collect();
     let mut document = Document {
-        words: Words::new(),
         printer: Printer::new(graph, &shown),
         derivation,
         parameters: &own,
         inputs: &inputs,
         unknowns: &unknowns,
-        has_some: false,
     };
     let mut mass_matrix = Tokens::default();
     for (row, entries) in derived.mass_matrix.iter().flatten().enumerate() {
@@ -140,48 +117,29 @@ pub(super) fn of_scene(
             document.sides(&mut mass_matrix, Name::Plain(&name), entry);
         }
     }
-    let mass_matrix = mass_matrix.by_macro("__equations");
-    let effects: Vec<TokenStream> = derived
-        .parts
-        .iter()
-        .filter(|(_, forces)| forces.iter().any(|&force| !graph.is_zero(force)))
-        .map(|(label, forces)| {
-            let mut sides = Tokens::default();
-            for (index, &force) in forces.iter().enumerate().filter(|(_, force)| !graph.is_zero(**force)) {
-                let name = if forces.len() == 1 { "Q".to_owned() } else { format!("Q{}", index + 1) };
-                document.sides(&mut sides, Name::Plain(&name), force);
-            }
-            let (label, sides) = (string(label), sides.by_macro("__equations"));
-            quote!(derivation::Effect { name: #label, forces: #sides })
-        })
-        .collect();
-    let potential = (!graph.is_zero(derived.potential)).then(|| {
-        let equation = document.equation(Name::Plain("V"), derived.potential);
-        quote!(Some(#equation))
-    });
-    let options = if potential.is_some() { quote!(Some) } else { quote!(None) };
-    let potential = potential.unwrap_or_else(|| quote!(None));
-    let (parameters, kernels) = (symbols(&own), works(kernels));
-    let (name, title, of) = (&scene.name, scene.name.to_string(), driver.name.to_string());
-    quote! {
-        const _: () = {
-            use ::core::option::Option::#options;
-            use #private::{__equations, __kernels, __symbols, derivation};
-            impl #name {
-                /// The equations of motion as data: every formula, to be written as text, `LaTeX` or `MathML`, and
-                /// the work of each function. It costs nothing where it is not used.
-                pub const DERIVATION: &'static derivation::Scene = &derivation::Scene {
-                    scene: #title,
-                    mechanism: #of,
-                    parameters: #parameters,
-                    mass_matrix: #mass_matrix,
-                    forces: &[#(#effects),*],
-                    potential: #potential,
-                    kernels: #kernels
-                };
-            }
-        };
+    let mut effects = Tokens::default();
+    for (label, forces) in &derived.parts {
+        if forces.iter().all(|&force| graph.is_zero(force)) {
+            continue;
+        }
+        let mut sides = Tokens::default();
+        for (index, &force) in forces.iter().enumerate().filter(|(_, force)| !graph.is_zero(**force)) {
+            let name = if forces.len() == 1 { "Q".to_owned() } else { format!("Q{}", index + 1) };
+            document.sides(&mut sides, Name::Plain(&name), force);
+        }
+        effects.append(string(label));
+        effects.group(Delimiter::Bracket, sides);
     }
+    let potential = !graph.is_zero(derived.potential);
+    let potential = potential.then(|| document.equation(Name::Plain("V"), derived.potential));
+    let mut sections = Sections::of([&scene.name], [scene.name.to_string(), driver.name.to_string()]);
+    sections.write("parameters", Some(symbols_of(&own)));
+    sections.write("mass_matrix", Some(mass_matrix));
+    sections.write("forces", Some(effects));
+    sections.write("potential", potential);
+    sections.write("kernels", Some(works(kernels)));
+    let sections = sections.0;
+    quote!(#private::__scene_derivation! { #sections })
 }
 
 /// What each symbol is called.
@@ -224,27 +182,17 @@ fn nonzero<F: Copy + Into<Option<NodeId>>>(derivation: &Derivation, formulas: &[
     formulas.iter().map(|of_one| of_one.iter().map(formula).collect()).collect()
 }
 
-/// `&[…]`
-fn list<V>(items: &[V], mut write: impl FnMut(&mut Tokens, &V)) -> TokenStream {
-    let mut inside = Tokens::default();
-    for item in items {
-        write(&mut inside, item);
-        inside.punct(',');
-    }
-    inside.slice()
-}
-
 /// The list of these symbols.
-fn symbols(names: &[&str]) -> TokenStream {
+fn symbols_of(names: &[&str]) -> Tokens {
     let mut inside = Tokens::default();
     for name in names {
         inside.append(string(name));
     }
-    inside.by_macro("__symbols")
+    inside
 }
 
 /// The list of what each function does.
-fn works(kernels: &[(String, Operations)]) -> TokenStream {
+fn works(kernels: &[(String, Operations)]) -> Tokens {
     let mut inside = Tokens::default();
     for (function, operations) in kernels {
         let Operations { functions, divisions, multiplications, additions } = *operations;
@@ -253,32 +201,41 @@ fn works(kernels: &[(String, Operations)]) -> TokenStream {
             inside.append(Literal::usize_unsuffixed(count));
         }
     }
-    inside.by_macro("__kernels")
+    inside
 }
 
-/// The functions that formulas are handed to, made once.
-struct Words {
-    formula: Ident,
-    entry: Ident,
-}
+/// What a macro of the runtime is given: a type with its names, then lists by what they are called.
+struct Sections(Tokens);
 
-impl Words {
-    fn new() -> Self {
-        let [formula, entry] = ["formula", "entry"].map(ident);
-        Self { formula, entry }
+impl Sections {
+    fn of<const N: usize, const M: usize>(types: [&Ident; N], names: [String; M]) -> Self {
+        let mut tokens = Tokens::default();
+        for name in types {
+            tokens.ident(name);
+        }
+        for name in names {
+            tokens.append(string(&name));
+        }
+        tokens.punct(',');
+        Self(tokens)
+    }
+
+    /// `name [list]`, or the name alone.
+    fn write(&mut self, name: &str, list: Option<Tokens>) {
+        self.0.word(name);
+        if let Some(list) = list {
+            self.0.group(Delimiter::Bracket, list);
+        }
     }
 }
 
 /// Writes formulas.
 struct Document<'a> {
-    words: Words,
     printer: Printer<'a>,
     derivation: &'a Derivation,
     parameters: &'a [&'a str],
     inputs: &'a [&'a str],
     unknowns: &'a [&'a str],
-    /// Whether anything optional is there.
-    has_some: bool,
 }
 
 /// What something is derived by.
@@ -298,12 +255,6 @@ impl By<'_> {
 }
 
 impl<'a> Document<'a> {
-    fn optional(&mut self, value: Option<TokenStream>) -> TokenStream {
-        let Some(value) = value else { return quote!(None) };
-        self.has_some = true;
-        quote!(Some(#value))
-    }
-
     fn by_inputs(&self) -> Vec<By<'a>> {
         self.inputs.iter().map(|&by| By::One(by)).collect()
     }
@@ -317,84 +268,73 @@ impl<'a> Document<'a> {
         self.parameters.iter().map(|&by| By::One(by)).collect()
     }
 
-    fn name(&self, out: &mut Tokens, name: Name) {
-        out.call(&self.words.formula, |inside| inside.append(string(&name.source())));
-    }
-
-    fn formula(&mut self, node: NodeId) -> TokenStream {
-        let mut out = Tokens::default();
-        out.call(&self.words.formula, |inside| inside.append(string(self.printer.source(node))));
-        out.into()
-    }
-
     /// Both sides of an equation, as lists hold them.
     fn sides(&mut self, out: &mut Tokens, left: Name, right: NodeId) {
         out.append(string(&left.source()));
         out.append(string(self.printer.source(right)));
     }
 
-    fn equation(&mut self, left: Name, right: NodeId) -> TokenStream {
-        let (left, right) = (string(&left.source()), string(self.printer.source(right)));
-        quote!(derivation::equation(#left, #right))
+    fn equation(&mut self, left: Name, right: NodeId) -> Tokens {
+        let mut out = Tokens::default();
+        self.sides(&mut out, left, right);
+        out
     }
 
     /// name_1 = …, name_2 = …
-    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> TokenStream {
+    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> Tokens {
         let mut out = Tokens::default();
         for (index, &node) in nodes.iter().enumerate() {
             self.sides(&mut out, Name::Plain(&format!("{name}{}", index + 1)), node);
         }
-        out.by_macro("__equations")
+        out
     }
 
-    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> TokenStream {
-        let mut named = Tokens::default();
-        self.name(&mut named, name);
-        let name = TokenStream::from(named);
-        let factor = factor.map(|node| self.formula(node));
-        let factor = self.optional(factor);
+    /// `name * factor rows columns [row column entry …]`
+    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> Tokens {
+        let mut out = Tokens::default();
+        out.append(string(&name.source()));
+        if let Some(factor) = factor {
+            out.punct('*');
+            out.append(string(self.printer.source(factor)));
+        }
+        out.append(Literal::usize_unsuffixed(rows.len()));
+        out.append(Literal::usize_unsuffixed(columns));
         let mut entries = Tokens::default();
         for (index, row) in rows.iter().enumerate() {
             for (&column, &node) in row {
-                entries.call(&self.words.entry, |inside| {
-                    for place in [index, column] {
-                        inside.append(Literal::usize_unsuffixed(place));
-                        inside.punct(',');
-                    }
-                    inside.append(string(self.printer.source(node)));
-                });
-                entries.punct(',');
+                entries.append(Literal::usize_unsuffixed(index));
+                entries.append(Literal::usize_unsuffixed(column));
+                entries.append(string(self.printer.source(node)));
             }
         }
-        let (rows, columns) = (Literal::usize_unsuffixed(rows.len()), Literal::usize_unsuffixed(columns));
-        let entries = entries.slice();
-        quote! {
-            derivation::Matrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: #entries }
-        }
+        out.group(Delimiter::Bracket, entries);
+        out
     }
 
-    fn block(&mut self, number: usize, inverse: Option<&Inverse>) -> TokenStream {
+    /// `unknowns; equations; "group" Method; [determinant]; [inverse]`
+    fn block(&mut self, number: usize, inverse: Option<&Inverse>) -> Tokens {
         let block = &self.derivation.blocks[number];
         let number = (self.derivation.blocks.len() > 1).then_some(number + 1);
-        let unknowns = list(&block.unknowns, |out, &place| self.name(out, Name::Plain(self.unknowns[place])));
-        let equations = list(&block.equations, |out, &equation| out.append(Literal::usize_unsuffixed(equation)));
-        let group = block.group.words();
-        let method = ident(if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
-        let determinant =
-            block.determinant.map(|determinant| self.equation(Name::Determinant(number), determinant.value));
-        let determinant = self.optional(determinant);
-        let inverse = inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len()));
-        let inverse = self.optional(inverse);
-        quote! {
-            derivation::Block {
-                unknowns: #unknowns,
-                equations: #equations,
-                group: #group,
-                method: derivation::Method::#method,
-                determinant: #determinant,
-                inverse: #inverse
-            }
+        let mut out = Tokens::default();
+        for &place in &block.unknowns {
+            out.append(string(&Name::Plain(self.unknowns[place]).source()));
         }
+        out.punct(';');
+        for &equation in &block.equations {
+            out.append(Literal::usize_unsuffixed(equation));
+        }
+        out.punct(';');
+        out.append(string(&block.group.words()));
+        out.word(if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
+        out.punct(';');
+        if let Some(determinant) = block.determinant {
+            out.group(Delimiter::Bracket, self.equation(Name::Determinant(number), determinant.value));
+        }
+        out.punct(';');
+        if let Some((factor, rows)) = inverse {
+            out.group(Delimiter::Bracket, self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len()));
+        }
+        out
     }
 
     /// The derivatives of what is called so, by what it is derived by and then by name, where there is a
@@ -404,7 +344,7 @@ impl<'a> Document<'a> {
         of: &[N],
         by: &[By<'_>],
         formulas: &[Vec<F>],
-    ) -> TokenStream {
+    ) -> Tokens {
         let mut out = Tokens::default();
         for (by, formulas) in by.iter().zip(formulas) {
             for (of, &formula) in of.iter().zip(formulas) {
@@ -413,7 +353,7 @@ impl<'a> Document<'a> {
                 }
             }
         }
-        out.by_macro("__equations")
+        out
     }
 
     /// Points and outputs, each component called by its prefix and the name.
@@ -423,30 +363,27 @@ impl<'a> Document<'a> {
         prefixes: &[&str],
         quantities: &[Quantity],
         formulas: &[QuantityFormulas],
-    ) -> TokenStream {
+    ) -> Tokens {
         let (by_inputs, by_pairs, by_parameters) = (self.by_inputs(), self.by_pairs(), self.by_parameters());
-        let all: Vec<_> = names.iter().zip(quantities).zip(formulas).collect();
-        list(&all, |out, ((name, quantity), formulas)| {
+        let mut out = Tokens::default();
+        for ((name, quantity), formulas) in names.iter().zip(quantities).zip(formulas) {
             let components: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{name}")).collect();
             let mut values = Tokens::default();
             for (component, &node) in components.iter().zip(&quantity.value) {
                 self.sides(&mut values, Name::Plain(component), node);
             }
-            let values = values.by_macro("__equations");
-            let ratios = self.derivatives(&components, &by_inputs, &formulas.ratios);
-            let second = self.derivatives(&components, &by_pairs, &formulas.ratio_derivatives);
             let first = nonzero(self.derivation, &formulas.sensitivities);
-            let first = self.derivatives(&components, &by_parameters, &first);
-            out.extend(quote! {
-                derivation::Quantity {
-                    name: #name,
-                    value: #values,
-                    ratios: #ratios,
-                    ratio_derivatives: #second,
-                    sensitivities: #first
-                }
-            });
-        })
+            out.append(string(name));
+            for list in [
+                values,
+                self.derivatives(&components, &by_inputs, &formulas.ratios),
+                self.derivatives(&components, &by_pairs, &formulas.ratio_derivatives),
+                self.derivatives(&components, &by_parameters, &first),
+            ] {
+                out.group(Delimiter::Bracket, list);
+            }
+        }
+        out
     }
 
     /// What was taken for granted: x ≠ 0, or that an expression has a value.
@@ -455,7 +392,6 @@ impl<'a> Document<'a> {
             Condition::NonZero(node) => (node, "!= 0"),
             Condition::Defined(node) => (node, "exists"),
         };
-        let text = format!("{} {relation}", self.printer.source(node));
-        out.call(&self.words.formula, |inside| inside.append(string(&text)));
+        out.append(string(&format!("{} {relation}", self.printer.source(node))));
     }
 }

@@ -19,10 +19,10 @@ enum Binding {
 }
 
 /// A value, by its name if it has one.
-pub(super) fn signed(names: &Names, schedule: &Schedule, value: Signed) -> TokenStream {
+pub(super) fn signed(names: &Names, schedule: &Schedule, value: Signed) -> Tokens {
     let mut tokens = Tokens::default();
     write(&mut tokens, names, schedule, value);
-    tokens.into()
+    tokens
 }
 
 /// Writes a value, by its name if it has one.

@@ -8,7 +8,7 @@ use proc_macro2::{Delimiter, Ident, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::expression::{define, direction_name, signed};
-use super::names::{Names, Scope, Taken, call_of, ident};
+use super::names::{Names, Scope, Taken, call_of, ident, string};
 use super::pose::PosePlan;
 use super::tokens::Tokens;
 use crate::derivation::Derivation;
@@ -21,7 +21,7 @@ pub(super) struct Source<'a> {
     /// The argument of the function, but for `self`.
     pub argument: Option<Ident>,
     /// The expression taken apart, such as `*rate`.
-    pub from: TokenStream,
+    pub from: Tokens,
     /// What holds them.
     pub of: Shape,
     /// The fields, and the symbols they are known by.
@@ -31,7 +31,7 @@ pub(super) struct Source<'a> {
 /// What is taken apart.
 pub(super) enum Shape {
     /// The named fields of a type.
-    Fields(TokenStream),
+    Fields(Tokens),
     /// The columns of a matrix with as many rows.
     Columns(usize),
     /// Nothing: the argument is the symbol itself.
@@ -52,8 +52,8 @@ pub(super) struct Given<'a> {
 pub(super) enum Operand {
     Name(Ident),
     /// Nought or one.
-    Constant(TokenStream),
-    Formula(TokenStream),
+    Constant(Tokens),
+    Formula(Tokens),
 }
 
 impl ToTokens for Operand {
@@ -67,7 +67,7 @@ impl ToTokens for Operand {
 
 /// The lines of a kernel, the names of what it returns and the number of operations.
 pub(super) struct Code {
-    pub body: TokenStream,
+    pub body: Tokens,
     pub results: Vec<Operand>,
     pub operations: Operations,
     /// The names that the body has given.
@@ -88,8 +88,9 @@ pub(super) fn write(
     named: &[(NodeId, String)],
     scope: &Rc<Scope>,
 ) -> Code {
-    let at_hand = given.pose.map(PosePlan::given).unwrap_or_default();
-    let schedule = schedule::schedule(&derivation.graph, stages, &at_hand, named);
+    let nothing = schedule::Given::default();
+    let at_hand = given.pose.map_or(&nothing, |plan| &plan.given);
+    let schedule = schedule::schedule(&derivation.graph, stages, at_hand, named);
     let mut used = Vec::new();
     for &id in schedule.used() {
         if let Value::Symbol(symbol) = schedule.value(id) {
@@ -104,7 +105,10 @@ pub(super) fn write(
     for &symbol in &symbols {
         names.introduce(symbol);
     }
-    let (mut body, mut arguments) = (Tokens::default(), Vec::new());
+    // Most lines name a product or a short sum.
+    const LINE: usize = 12;
+    let mut body = Tokens::with_room_for(LINE * (schedule.lines.len() + given.sources.len()));
+    let mut arguments = Vec::new();
     for source in &given.sources {
         if pattern(&mut body, source, &symbols, &names) {
             arguments.extend(source.argument.clone());
@@ -119,7 +123,6 @@ pub(super) fn write(
         write_line(&writer, &mut body, line, &mut names, &mut results);
     }
     let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
-    let body = body.into();
     let externals = std::mem::take(&mut names.externals);
     Code { body, results, operations: schedule.operations(), taken: names.into_taken(), arguments, uses, externals }
 }
@@ -173,10 +176,10 @@ fn pattern(body: &mut Tokens, source: &Source, used: &[SymbolId], names: &Names)
         fields.extend(quote!(..));
     }
     body.word("let");
-    body.extend(of.clone());
+    body.join(of.clone());
     body.group(Delimiter::Brace, fields);
     body.punct('=');
-    body.extend(from.clone());
+    body.join(from.clone());
     body.punct(';');
     true
 }
@@ -249,7 +252,8 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
         }
         Line::SineCosine { sine, cosine, angle } => {
             let argument = signed(names, schedule, *angle);
-            let argument = if names.get(schedule, angle.value).is_some() { argument } else { quote!((#argument)) };
+            let argument =
+                if names.get(schedule, angle.value).is_some() { argument.into() } else { quote!((#argument)) };
             let (sine, cosine) = (names.invent(schedule, *sine), names.invent(schedule, *cosine));
             body.extend(quote!(let (#sine, #cosine) = #argument.sine_cosine();));
         }
@@ -279,14 +283,14 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             let fresh = !value.negative && !number && names.get(schedule, value.value).is_none();
             let definition = signed(names, schedule, *value);
             let name = names.introduce(*symbol);
-            assign(body, keyword, &name.ident, |body| body.extend(definition));
+            assign(body, keyword, &name.ident, |body| body.join(definition));
             if fresh {
                 names.set(value.value, name);
             }
         }
         Line::Guard { block, determinant, size } => {
             let (determinant, size) = (signed(names, schedule, *determinant), signed(names, schedule, *size));
-            let group = derivation.blocks[*block].names(derivation);
+            let group = string(&derivation.blocks[*block].names(derivation));
             body.extend(quote!(regular(Self::NAME, #group, #determinant, #size)?;));
         }
         Line::Factor { block, matrix, sizes } => {
@@ -295,7 +299,7 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             let factors = names.unique("factors");
             let ident = ident(&factors);
             names.factors.insert(*block, factors);
-            let group = derivation.blocks[*block].names(derivation);
+            let group = string(&derivation.blocks[*block].names(derivation));
             // Where nothing is solved for, the verdict is still wanted.
             let solves = |line: &Line| matches!(line, Line::Solve { block: other, .. } if other == block);
             let named = schedule.lines.iter().any(solves).then(|| quote!(let #ident =));
@@ -318,7 +322,7 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             let triangle = triangle.map(|Triangle { links, line, distance }| {
                 (links.map(&mut written), line.map(&mut written), written(distance))
             });
-            let group = derivation.blocks[*block].names(derivation);
+            let group = string(&derivation.blocks[*block].names(derivation));
             let side = ident(&derivation.blocks[*block].branch(derivation));
             let name = names.introduce(*symbol).ident.clone();
             let branch = given.branch;
@@ -338,7 +342,7 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
         }
         Line::Newton { block, targets, start, system, .. } => {
             let start: Vec<_> = start.iter().map(|value| signed(names, schedule, *value)).collect();
-            let group = derivation.blocks[*block].names(derivation);
+            let group = string(&derivation.blocks[*block].names(derivation));
             let (unknowns, evaluation) = evaluation(writer, targets, system, names);
             let targets: Vec<_> = targets.iter().map(|&target| names.introduce(target).ident.clone()).collect();
             body.extend(quote!(

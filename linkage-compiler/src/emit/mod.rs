@@ -29,10 +29,12 @@ struct Types {
     outputs: Ident,
     motion: Ident,
     branch: Ident,
+    /// The traits of plain data, as an attribute.
+    derives: TokenStream,
 }
 
 impl Types {
-    fn new(mechanism: &Mechanism, driver: &Driver) -> Self {
+    fn new(mechanism: &Mechanism, driver: &Driver, derives: &TokenStream) -> Self {
         // Types keep their place in the user's source but resolve where the macro is called.
         let named = |stem: &Ident, suffix: &str| {
             let mut ident = format_ident!("{stem}{suffix}");
@@ -50,6 +52,7 @@ impl Types {
             outputs: named(shared, "Outputs"),
             motion: named(own, "Motion"),
             branch: named(own, "Branch"),
+            derives: derives.clone(),
         }
     }
 }
@@ -66,11 +69,12 @@ pub struct Emitted {
 #[must_use]
 pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, root: &TokenStream) -> Emitted {
     let private = quote!(#root::__private);
-    let mut tokens = types::shared(mechanism, &private);
+    let derives = types::derives();
+    let mut tokens = types::shared(mechanism, &derives, &private);
     let mut operations = Operations::default();
     let mut derivations = derivations.map(|derivations| derivations.iter_mut());
     for driver in &mechanism.drivers {
-        let names = Types::new(mechanism, driver);
+        let names = Types::new(mechanism, driver, &derives);
         let mut derivation = derivations.as_mut().and_then(Iterator::next);
         let plan = derivation
             .as_deref_mut()
@@ -81,7 +85,7 @@ pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, 
         operations = operations.plus(emitted.operations);
         let scenes = mechanism.scenes.iter().filter(|scene| mechanism.drivers[scene.driver].name == driver.name);
         for (number, scene) in scenes.enumerate() {
-            let names = Types { driver: scene.name.clone(), ..Types::new(mechanism, driver) };
+            let names = Types { driver: scene.name.clone(), ..Types::new(mechanism, driver, &derives) };
             tokens.extend(scene::types(mechanism, driver, scene, &private));
             let emitted = methods::of_scene(
                 mechanism,

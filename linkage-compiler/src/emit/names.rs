@@ -119,7 +119,8 @@ impl Taken {
         let mut words = self.scope.words.borrow_mut();
         let word = words.find(name);
         if self.words.len() <= word {
-            self.words.resize(words.names.len(), false);
+            // More names follow.
+            self.words.resize(2 * words.names.len(), false);
         }
         if word < self.scope.reserved || std::mem::replace(&mut self.words[word], true) {
             return None;
@@ -349,7 +350,8 @@ impl<'a> Names<'a> {
 
 fn put(names: &mut Vec<Option<Rc<Name>>>, index: usize, name: Rc<Name>) {
     if names.len() <= index {
-        names.resize(index + 1, None);
+        // More follow, mostly in this order.
+        names.resize_with(2 * index + 1, || None);
     }
     names[index] = Some(name);
 }
@@ -399,11 +401,26 @@ pub(super) fn ident(name: &str) -> Ident {
 /// A text as a string literal, as people write it: raw where it holds what would need an escape.
 pub(super) fn quoted(text: &str) -> String {
     match (text.contains('"'), text.contains('\\')) {
-        (false, false) => format!("\"{text}\""),
-        (false, true) => format!("r\"{text}\""),
+        (false, false) => between("\"", text, "\""),
+        (false, true) => between("r\"", text, "\""),
         (true, _) if text.contains("\"#") => format!("{text:?}"),
-        (true, _) => format!("r#\"{text}\"#"),
+        (true, _) => between("r#\"", text, "\"#"),
     }
+}
+
+fn between(before: &str, text: &str, after: &str) -> String {
+    let mut all = String::with_capacity(before.len() + text.len() + after.len());
+    for part in [before, text, after] {
+        all.push_str(part);
+    }
+    all
+}
+
+/// The text of a doc comment as a literal: raw, as the compiler itself writes what stands behind `///`.
+pub(super) fn comment(text: &str) -> Literal {
+    let plain = !text.contains('"');
+    let raw = plain.then(|| between("r\"", text, "\"").parse().ok()).flatten();
+    raw.unwrap_or_else(|| string(text))
 }
 
 /// A string literal. It is read rather than built, which spares unoptimised macros the escaping of

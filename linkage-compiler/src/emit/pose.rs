@@ -21,6 +21,8 @@ pub(super) struct PosePlan {
     pub determinants: Vec<(usize, String, SymbolId)>,
     /// Values of the user's functions: expression, field, symbol.
     pub externals: Vec<(NodeId, String, SymbolId)>,
+    /// What a kernel on a pose need not compute.
+    pub given: Given,
 }
 
 impl PosePlan {
@@ -74,25 +76,21 @@ impl PosePlan {
                 values.push((index, unique(coordinate.name.clone()), coordinate.value));
             }
         }
-        let mut given = Vec::new();
+        let mut of_functions = Vec::new();
         for id in externals {
             let Node::External(external, _) = graph.node(id) else { continue };
             let name = graph.external_name(external).unwrap_or_default().to_owned();
             let field = unique(name);
-            given.push((id, field.clone(), graph.symbol(field)));
+            of_functions.push((id, field.clone(), graph.symbol(field)));
         }
-        Self { argument, directions, values, determinants, externals: given }
+        let by_name = of_functions.iter().map(|(node, _, symbol)| (*node, *symbol)).collect();
+        let given = Given { directions: angles, values: by_name };
+        Self { argument, directions, values, determinants, externals: of_functions, given }
     }
 
     /// The angles whose directions a pose holds.
     pub(super) fn angles(&self) -> impl Iterator<Item = NodeId> {
         self.directions.keys().copied()
-    }
-
-    /// What a kernel on a pose need not compute.
-    pub(super) fn given(&self) -> Given {
-        let values = self.externals.iter().map(|(node, _, symbol)| (*node, *symbol)).collect();
-        Given { directions: self.angles().collect(), values }
     }
 
     pub(super) fn direction(&self, angle: NodeId) -> &str {

@@ -1,14 +1,26 @@
 //! Tokens that are written one by one: where there are many, quoting is what unoptimised macros spend
 //! their time on.
 
-use proc_macro2::{Delimiter, Group, Ident, Punct, Spacing, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, TokenStream, TokenTree};
+use quote::ToTokens;
 
-use super::names::{ident, string};
+use super::names::{comment, ident};
 
-#[derive(Default)]
+#[derive(Clone)]
 pub(super) struct Tokens(Vec<TokenTree>);
 
+impl Default for Tokens {
+    /// An empty list with room for what most come to hold.
+    fn default() -> Self {
+        Self(Vec::with_capacity(16))
+    }
+}
+
 impl Tokens {
+    pub(super) fn with_room_for(count: usize) -> Self {
+        Self(Vec::with_capacity(count))
+    }
+
     pub(super) fn append(&mut self, token: impl Into<TokenTree>) {
         self.0.push(token.into());
     }
@@ -19,6 +31,40 @@ impl Tokens {
 
     pub(super) fn word(&mut self, word: &str) {
         self.0.push(TokenTree::Ident(ident(word)));
+    }
+
+    /// `name`
+    pub(super) fn name(name: &Ident) -> Self {
+        let mut tokens = Self::default();
+        tokens.ident(name);
+        tokens
+    }
+
+    /// `*name`
+    pub(super) fn behind(name: &Ident) -> Self {
+        let mut tokens = Self::default();
+        tokens.punct('*');
+        tokens.ident(name);
+        tokens
+    }
+
+    /// `name<first, second>`
+    pub(super) fn of(mut self, arguments: impl IntoIterator<Item = Self>) -> Self {
+        self.punct('<');
+        for (place, argument) in arguments.into_iter().enumerate() {
+            if place > 0 {
+                self.punct(',');
+            }
+            self.join(argument);
+        }
+        self.punct('>');
+        self
+    }
+
+    /// `->`
+    pub(super) fn arrow(&mut self) {
+        self.append(Punct::new('-', Spacing::Joint));
+        self.punct('>');
     }
 
     /// Signs that stand each for itself.
@@ -61,7 +107,7 @@ impl Tokens {
         let mut doc = Self::default();
         doc.word("doc");
         doc.punct('=');
-        doc.append(string(&text));
+        doc.append(comment(&text));
         self.punct('#');
         self.group(Delimiter::Bracket, doc);
     }
@@ -71,30 +117,23 @@ impl Tokens {
         let mut words = self.0.iter().skip_while(|token| !matches!(token, TokenTree::Ident(word) if word == "fn"));
         words.nth(1).map(ToString::to_string).unwrap_or_default()
     }
+}
 
-    /// `function(…)`
-    pub(super) fn call(&mut self, function: &Ident, write: impl FnOnce(&mut Self)) {
-        let mut inside = Self::default();
-        write(&mut inside);
-        self.ident(function);
-        self.group(Delimiter::Parenthesis, inside);
+impl ToTokens for Tokens {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        tokens.extend(self.0.iter().cloned());
     }
+}
 
-    /// `&[…]`
-    pub(super) fn slice(self) -> TokenStream {
-        let mut slice = Self::default();
-        slice.punct('&');
-        slice.group(Delimiter::Bracket, self);
-        slice.into()
+impl From<Literal> for Tokens {
+    fn from(literal: Literal) -> Self {
+        Self(vec![TokenTree::Literal(literal)])
     }
+}
 
-    /// `name![…]`
-    pub(super) fn by_macro(self, name: &str) -> TokenStream {
-        let mut call = Self::default();
-        call.word(name);
-        call.punct('!');
-        call.group(Delimiter::Bracket, self);
-        call.into()
+impl From<TokenStream> for Tokens {
+    fn from(stream: TokenStream) -> Self {
+        Self(stream.into_iter().collect())
     }
 }
 

@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Attribute;
 
-use super::names::{ident, string};
+use super::names::{comment, ident, string};
 use super::pose::PosePlan;
 use super::tokens::Tokens;
 use super::{Types, expression};
@@ -21,7 +21,7 @@ pub(super) fn field(name: &Name) -> Ident {
 pub(super) fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
     let own: Vec<&Attribute> = attributes.iter().filter(|attribute| attribute.path().is_ident("doc")).collect();
     if own.is_empty() {
-        let text = format!(" {text}");
+        let text = comment(&format!(" {text}"));
         quote!(#[doc = #text])
     } else {
         quote!(#(#own)*)
@@ -42,14 +42,13 @@ fn mark(is_empty: bool) -> Option<Ident> {
     is_empty.then(|| ident("scalar"))
 }
 
-fn derives() -> TokenStream {
+pub(super) fn derives() -> TokenStream {
     quote!(#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)])
 }
 
 /// The types that all drivers of a mechanism share.
-pub(super) fn shared(mechanism: &Mechanism, private: &TokenStream) -> TokenStream {
+pub(super) fn shared(mechanism: &Mechanism, derives: &TokenStream, private: &TokenStream) -> TokenStream {
     let visibility = &mechanism.visibility;
-    let derives = derives();
     let name = &mechanism.name;
     let mut tokens = TokenStream::new();
     if mechanism.is_driven_by_choice() {
@@ -73,8 +72,8 @@ pub(super) fn shared(mechanism: &Mechanism, private: &TokenStream) -> TokenStrea
     let coordinates = format_ident!("{name}Coordinates", span = proc_macro2::Span::call_site());
     let order = mechanism.drivers.first().map(|driver| mechanism.coordinate_order(driver)).unwrap_or_default();
     let members: Vec<&Coordinate> = order.iter().map(|&index| &mechanism.coordinates[index]).collect();
-    let title = format!(" The coordinates q of [`{name}`] by name; their rates and accelerations as well.");
-    tokens.extend(coordinate_struct(mechanism, &coordinates, &title, &members, &derives));
+    let title = comment(&format!(" The coordinates q of [`{name}`] by name; their rates and accelerations as well."));
+    tokens.extend(coordinate_struct(mechanism, &coordinates, &title, &members, derives));
     let (named_members, scalar) = (named(members.iter().map(|member| &member.name)), mark(members.is_empty()));
     tokens.extend(quote!(#private::__coordinates!(#coordinates #named_members #scalar);));
     for (suffix, what, names) in [
@@ -90,7 +89,7 @@ pub(super) fn shared(mechanism: &Mechanism, private: &TokenStream) -> TokenStrea
             let (docs, field) = (docs(attributes, &format!("The {kind} `{}`.", name.text)), field(name));
             quote!(#docs pub #field: Q)
         });
-        let title = format!(" One quantity for each of the {what} of [`{name}`].");
+        let title = comment(&format!(" One quantity for each of the {what} of [`{name}`]."));
         let named = named(names.iter().map(|(name, _)| *name));
         tokens.extend(quote! {
             #[doc = #title]
@@ -111,9 +110,8 @@ pub(super) fn of_driver(
     derivation: Option<&Derivation>,
     private: &TokenStream,
 ) -> TokenStream {
-    let Types { driver: name, inputs, unknowns, pose, coordinates, points, outputs, motion, .. } = types;
+    let Types { driver: name, inputs, unknowns, pose, coordinates, points, outputs, motion, derives, .. } = types;
     let visibility = &mechanism.visibility;
-    let derives = derives();
     let attributes: Vec<Attribute> = if mechanism.is_driven_by_choice() {
         let forwarded = mechanism.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
         driver.attributes.iter().chain(forwarded).cloned().collect()
@@ -125,8 +123,8 @@ pub(super) fn of_driver(
         [(inputs, "independent coordinates v", &driver.inputs), (unknowns, "dependent coordinates u", &driver.unknowns)]
     {
         let members: Vec<&Coordinate> = indices.iter().map(|&index| &mechanism.coordinates[index]).collect();
-        let title = format!(" The {what} of [`{name}`] by name; their rates and accelerations as well.");
-        tokens.extend(coordinate_struct(mechanism, ident, &title, &members, &derives));
+        let title = comment(&format!(" The {what} of [`{name}`] by name; their rates and accelerations as well."));
+        tokens.extend(coordinate_struct(mechanism, ident, &title, &members, derives));
         let (named, scalar) = (named(members.iter().map(|member| &member.name)), mark(members.is_empty()));
         tokens.extend(quote!(#private::__part_of_coordinates!(#ident #named #coordinates #scalar);));
     }
@@ -142,9 +140,9 @@ pub(super) fn of_driver(
     }
     let members = plan
         .map_or_else(|| quote!(scalar: ::core::marker::PhantomData<T>), |plan| pose_fields(plan, derivation, private));
-    let title = format!(
+    let title = comment(&format!(
         " A position of [`{name}`] ready for use: each angle as its direction (cos, sin), so that whatever follows needs no trigonometry."
-    );
+    ));
     tokens.extend(quote! {
         #[doc = #title]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
@@ -159,7 +157,7 @@ pub(super) fn of_driver(
         rest.extend(quote!(/// Value, rate and acceleration of the outputs.
  pub outputs: #outputs<#private::OutputMotion<T>>,));
     }
-    let title = format!(" A position of [`{name}`] with its velocity and acceleration.");
+    let title = comment(&format!(" A position of [`{name}`] with its velocity and acceleration."));
     tokens.extend(quote! {
         #[doc = #title]
         #derives
@@ -185,17 +183,17 @@ fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &Token
     let mut texts = Texts::default();
     for (angle, name) in &plan.directions {
         let ident = ident(name);
-        let text = format!(" The direction of `{}`.", texts.of(&derivation.graph, *angle));
+        let text = comment(&format!(" The direction of `{}`.", texts.of(&derivation.graph, *angle)));
         members.extend(quote!(#[doc = #text] pub #ident: #private::UnitComplex<T>,));
     }
     for (index, name, _) in &plan.values {
         let ident = ident(name);
-        let text = format!(" `{}` itself.", derivation.coordinates[*index].name);
+        let text = comment(&format!(" `{}` itself.", derivation.coordinates[*index].name));
         members.extend(quote!(#[doc = #text] pub #ident: T,));
     }
     for (node, name, _) in &plan.externals {
         let ident = ident(name);
-        let text = format!(" `{}`.", texts.of(&derivation.graph, *node));
+        let text = comment(&format!(" `{}`.", texts.of(&derivation.graph, *node)));
         members.extend(quote!(#[doc = #text] pub #ident: T,));
     }
     for (block, name, _) in &plan.determinants {
@@ -208,7 +206,10 @@ fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &Token
                 derivation.blocks[*block].names(derivation).replace(", ", "`, `")
             )
         };
-        let text = format!(" {of} = `{}`, from the angles themselves.", derivation.graph.text(determinant.value));
+        let text = comment(&format!(
+            " {of} = `{}`, from the angles themselves.",
+            texts.of(&derivation.graph, determinant.value)
+        ));
         let ident = ident(name);
         members.extend(quote!(#[doc = #text] pub #ident: T,));
     }
@@ -230,7 +231,7 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
     });
     let own_docs = attributes.iter().any(|attribute| attribute.path().is_ident("doc"));
     let title = (!own_docs).then(|| {
-        let text = format!(" The parameters of the mechanism `{name}`.");
+        let text = comment(&format!(" The parameters of the mechanism `{name}`."));
         quote!(#[doc = #text])
     });
     let (named, mark) = (named(mechanism.parameters.iter().map(|parameter| &parameter.name)), mark(fields.is_empty()));
@@ -278,7 +279,7 @@ pub(super) fn default_of(mechanism: &Mechanism, parameter: &Parameter) -> Option
 fn coordinate_struct(
     mechanism: &Mechanism,
     name: &Ident,
-    title: &str,
+    title: &Literal,
     coordinates: &[&Coordinate],
     derives: &TokenStream,
 ) -> TokenStream {
@@ -320,12 +321,13 @@ pub(super) fn branch(
     sides: &[(Ident, Choice)],
     private: &TokenStream,
 ) -> TokenStream {
-    let (visibility, derives) = (&mechanism.visibility, derives());
-    let (driver, branch) = (&types.driver, &types.branch);
-    let title = format!(" Which solution is meant of each group of [`{driver}`] that has two.");
+    let visibility = &mechanism.visibility;
+    let Types { driver, branch, derives, .. } = types;
+    let title = comment(&format!(" Which solution is meant of each group of [`{driver}`] that has two."));
     let members = sides.iter().map(|(side, choice)| {
         let [first, second] = choice.words().map(str::to_lowercase);
-        let (docs, choice) = (format!(" Of the group of `{side}`: {first} or {second}."), ident(choice.name()));
+        let docs = comment(&format!(" Of the group of `{side}`: {first} or {second}."));
+        let choice = ident(choice.name());
         quote!(#[doc = #docs] pub #side: #private::#choice)
     });
     let bits = (0..sides.len()).map(|place| match place {

@@ -170,7 +170,7 @@ impl Graph {
 
     #[must_use]
     pub fn node(&self, id: NodeId) -> &Node {
-        &self.nodes[id.index()]
+        &self.nodes.as_slice()[id.index()]
     }
 
     /// The number of distinct expressions.
@@ -187,7 +187,7 @@ impl Graph {
     /// The value of an expression without symbols.
     #[must_use]
     pub fn constant_value(&self, id: NodeId) -> Option<f64> {
-        self.values[id.index()]
+        self.values.as_slice()[id.index()]
     }
 
     /// The exact value of a node that is a plain constant.
@@ -329,7 +329,7 @@ impl Graph {
     /// The sum of coefficient * item, like terms collected.
     pub fn sum(&mut self, items: &[(Number, NodeId)]) -> NodeId {
         let mut constant = Number::ZERO;
-        let mut terms: Vec<(NodeId, Number)> = Vec::new();
+        let mut terms: Vec<(NodeId, Number)> = Vec::with_capacity(items.len() + 2);
         let mut collect = |coefficient: Number, term: NodeId| {
             let entry = entry(&mut terms, term, Number::ZERO);
             *entry = entry.plus(coefficient);
@@ -396,7 +396,7 @@ impl Graph {
     /// The product of item^exponent, equal bases collected.
     pub fn product(&mut self, items: &[(NodeId, i32)]) -> NodeId {
         let mut coefficient = Number::ONE;
-        let mut factors: Vec<(NodeId, i32)> = Vec::new();
+        let mut factors: Vec<(NodeId, i32)> = Vec::with_capacity(items.len() + 2);
         let mut overflow = false;
         let mut divisors: Vec<NodeId> = Vec::new();
         let mut collect = |base: NodeId, exponent: Option<i32>| {
@@ -493,6 +493,12 @@ impl Graph {
 
 /// The value of a key in an ascending list, put there if it is not.
 fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
+    // Most keys come in ascending order.
+    if list.last().is_none_or(|(last, _)| last.0 < key.0) {
+        list.push((key, empty));
+        let last = list.len() - 1;
+        return &mut list[last].1;
+    }
     let index = match list.binary_search_by_key(&key, |(key, _)| *key) {
         Ok(index) => index,
         Err(index) => {

@@ -32,12 +32,17 @@ impl Graph {
         leaf: impl Fn(NodeId) -> bool,
     ) -> Vec<NodeId> {
         // Children have smaller ids than their parents.
-        let size = roots.iter().max().map_or(0, |root| root.index() + 1);
-        let mut seen = vec![false; size];
-        let mut found = Vec::new();
+        let mut size = 0;
+        for root in roots {
+            size = size.max(root.index() + 1);
+        }
+        let mut seen = vec![false; size].into_boxed_slice();
+        let (mut found, mut lowest) = (Vec::with_capacity(16 + roots.len()), size);
         let mut find = |id: NodeId, found: &mut Vec<NodeId>| {
-            if !seen[id.index()] && !done(id) {
-                seen[id.index()] = true;
+            let index = id.index();
+            if !seen[index] && !done(id) {
+                seen[index] = true;
+                lowest = lowest.min(index);
                 found.push(id);
             }
         };
@@ -45,14 +50,14 @@ impl Graph {
             find(root, &mut found);
         }
         let mut next = 0;
-        while next < found.len() {
-            let id = found[next];
+        while let Some(&id) = found.get(next) {
             next += 1;
             if !leaf(id) {
                 self.each_child(id, |child| find(child, &mut found));
             }
         }
-        in_order(found, &seen)
+        in_order(&mut found, &seen, lowest);
+        found
     }
 
     fn each_child(&self, id: NodeId, mut visit: impl FnMut(NodeId)) {
@@ -77,16 +82,15 @@ impl Graph {
     }
 }
 
-/// The nodes that were found, which are those `seen`, in ascending order.
-fn in_order(mut found: Vec<NodeId>, seen: &[bool]) -> Vec<NodeId> {
+/// Puts the nodes that were found, which are those `seen`, in ascending order.
+fn in_order(found: &mut [NodeId], seen: &[bool], lowest: usize) {
     /// So many looks cost as much as it takes to sort one node.
     const LOOKS: usize = 16;
-    let Some(first) = found.iter().min().map(|id| id.index()) else { return found };
-    if seen.len() - first > LOOKS * found.len() {
+    if seen.len() - lowest > LOOKS * found.len() {
         found.sort_unstable();
-        return found;
+        return;
     }
-    let (mut index, mut next) = (first, 0);
+    let (mut index, mut next) = (lowest, 0);
     while next < found.len() {
         if seen[index] {
             found[next] = NodeId::new(index);
@@ -94,5 +98,4 @@ fn in_order(mut found: Vec<NodeId>, seen: &[bool]) -> Vec<NodeId> {
         }
         index += 1;
     }
-    found
 }

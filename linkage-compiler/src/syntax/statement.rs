@@ -187,9 +187,10 @@ fn kind(
 }
 
 pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
+    let is_free = stream.peek(syn::Ident);
     let name = stream.call(Ident::parse_any).map_err(|error| syn::Error::new(error.span(), "expected a name"))?;
     let text = name.to_string();
-    if syn::parse_str::<Ident>(&text).is_err() || text.starts_with("r#") {
+    if !is_free || text.starts_with("r#") {
         return Err(syn::Error::new(name.span(), format!("`{text}` is a word of Rust; choose another name")));
     }
     Ok(name)

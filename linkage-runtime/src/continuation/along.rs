@@ -104,12 +104,9 @@ where
         self.mechanism.jacobian_inputs(&at.pose) * at.slope
     }
 
-    fn jacobian_unknowns_sizes(&self, at: &Self::Pose) -> SMatrix<T, U, U> {
-        self.mechanism.jacobian_unknowns_sizes(&at.pose)
-    }
-
-    fn jacobian_inputs_sizes(&self, at: &Self::Pose) -> SMatrix<T, U, 1> {
-        self.mechanism.jacobian_inputs_sizes(&at.pose) * at.slope.abs()
+    fn jacobian_sizes(&self, at: &Self::Pose) -> (SMatrix<T, U, U>, SMatrix<T, U, 1>) {
+        let (unknowns, inputs) = self.mechanism.jacobian_sizes(&at.pose);
+        (unknowns, inputs * at.slope.abs())
     }
 
     fn determinant(&self, at: &Self::Pose) -> T {

@@ -399,7 +399,7 @@ where
     M: Mechanism<T, U, V>,
     T: Real,
 {
-    let sizes = mechanism.jacobian_unknowns_sizes(pose);
+    let (sizes, _) = mechanism.jacobian_sizes(pose);
     let determinants = mechanism.block_determinants(pose);
     let mut least = (T::one(), "");
     for (determinant, group) in determinants.as_ref().iter().zip(M::GROUPS) {

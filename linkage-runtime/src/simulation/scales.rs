@@ -16,8 +16,7 @@ pub(crate) struct Scales<T, const U: usize, const V: usize> {
 impl<T: Real, const U: usize, const V: usize> Scales<T, U, V> {
     pub(crate) fn of<M: Mechanism<T, U, V>>(mechanism: &M, q: &M::Coordinates) -> Self {
         let pose = mechanism.pose_at(q);
-        let by_unknowns = mechanism.jacobian_unknowns_sizes(&pose);
-        let by_inputs = mechanism.jacobian_inputs_sizes(&pose);
+        let (by_unknowns, by_inputs) = mechanism.jacobian_sizes(&pose);
         // A closure is as large as an angle can make it.
         let terms = mechanism.closure_sizes(&pose);
         let closures = SVector::from_fn(|row, _| {

@@ -2,14 +2,13 @@
 
 use quote::quote;
 
-use super::{Body, Kernels, Methods, argument_of, check_finite, fenced, lines, literal};
+use super::{Body, Kernels, Methods, argument_of, check_finite, fenced, lines};
 use crate::derivation::Form;
 use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
     pub(super) fn acceleration(&mut self, kernels: Option<&mut Kernels>) {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
-        let nu = literal(u);
         let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
         let (rate, acceleration) = (self.arguments.rate.clone(), self.arguments.acceleration.clone());
         let (inputs, coordinates) = (self.types.inputs.clone(), self.types.coordinates.clone());
@@ -41,7 +40,11 @@ impl Methods<'_> {
             code = Some(Body::new(written, tail, []));
         }
         let [own, own_rate] = [&pose, &rate].map(|argument| argument_of(argument, gamma.as_ref()));
-        let signature = quote!(#[must_use] pub fn gamma(&self, #own: &#pose_type<T>, #own_rate: &#coordinates<T>) -> SVector<T, #nu>);
+        let signature = self.words.total(
+            "gamma",
+            [self.words.borrowed(&own, &pose_type), self.words.borrowed(&own_rate, &coordinates)],
+            self.words.sized("SVector", [u]),
+        );
         self.function(&docs, signature, gamma);
         let docs = lines([
             "The acceleration q'' at the velocity q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
@@ -51,7 +54,15 @@ impl Methods<'_> {
         ]);
         let [pose, rate, acceleration] =
             [&pose, &rate, &acceleration].map(|argument| argument_of(argument, code.as_ref()));
-        let signature = quote!(pub fn acceleration(&self, #pose: &#pose_type<T>, #rate: &#coordinates<T>, #acceleration: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
+        let signature = self.words.fallible(
+            "acceleration",
+            [
+                self.words.borrowed(&pose, &pose_type),
+                self.words.borrowed(&rate, &coordinates),
+                self.words.converted(&acceleration, &inputs),
+            ],
+            self.words.of(&coordinates),
+        );
         self.function(&docs, signature, code);
     }
 }

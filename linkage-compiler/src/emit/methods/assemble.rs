@@ -7,6 +7,7 @@ use quote::quote;
 
 use super::super::kernel;
 use super::super::kernel::{Given, Shape, Source};
+use super::super::tokens::Tokens;
 use super::super::{names::ident, types};
 use super::{Body, Kernels, Methods, argument_of, bind, check_finite, lines, pose_members};
 use crate::derivation::{Choice, Chord};
@@ -80,9 +81,11 @@ impl Methods<'_> {
                 "# Errors",
                 "`Unbuildable` if a group does not reach, `NotFinite` if a number is not finite.",
             ]);
-            let (v, argument) = (argument_of(&v, body.as_ref()), quote!(impl Into<#inputs<T>>));
-            let signature =
-                quote!(pub fn assemble(&self, #v: #argument, #branch: #branch_type) -> Result<#pose<T>, Error>);
+            let arguments = [
+                self.words.converted(&argument_of(&v, body.as_ref()), inputs),
+                Tokens::from(quote!(#branch: #branch_type)),
+            ];
+            let signature = self.words.fallible("assemble", arguments, self.words.of(pose));
             self.function(&docs, signature, body);
             self.branches(&sides);
             self.is_assembled = true;
@@ -122,7 +125,8 @@ impl Methods<'_> {
         };
         let docs = lines(["The branch that a position belongs to."]);
         let argument = argument_of(&argument, Some(&body));
-        let signature = quote!(#[must_use] pub fn branch_of(&self, #argument: &#pose<T>) -> #branch_type);
+        let signature =
+            self.words.total("branch_of", [self.words.borrowed(&argument, pose)], Tokens::name(branch_type));
         self.function(&docs, signature, Some(body));
     }
 }
@@ -138,7 +142,12 @@ impl Methods<'_> {
         let named = fields.len();
         fields.extend((named..coordinates.len()).map(|_| (Cow::from(""), SymbolId::NONE)));
         let of = &self.types.coordinates;
-        Source { argument: Some(guess.clone()), from: quote!(*#guess), of: Shape::Fields(quote!(#of)), fields }
+        Source {
+            argument: Some(guess.clone()),
+            from: Tokens::behind(guess),
+            of: Shape::Fields(Tokens::name(of)),
+            fields,
+        }
     }
 
     /// All positions at some inputs.

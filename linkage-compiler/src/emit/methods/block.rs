@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Delimiter, Group, TokenStream};
 use quote::quote;
 
 use super::super::Types;
@@ -17,10 +17,15 @@ use crate::model::Kind;
 
 impl Methods<'_> {
     /// The `impl` blocks, in a scope of their own for the names that they use.
-    pub(super) fn block(&self, kernels: Option<&Kernels>, private: &TokenStream) -> TokenStream {
+    pub(super) fn block(&mut self, kernels: Option<&Kernels>, private: &TokenStream) -> TokenStream {
         let driver = &self.types.driver;
-        let text = driver.to_string();
-        let functions = &self.functions;
+        let text = string(&driver.to_string());
+        let mut members = Tokens::from(quote! {
+            /// The name of the mechanism, as errors give it.
+            pub const NAME: &'static str = #text;
+        });
+        members.join(std::mem::take(&mut self.functions));
+        let members = Group::new(Delimiter::Brace, members.into());
         let iterator = self.uses.contains("existing").then(|| {
             quote!(
                 use ::core::iter::Iterator;
@@ -35,11 +40,7 @@ impl Methods<'_> {
                 #iterator
                 use ::core::result::Result::{self, Ok};
                 use #private::{#(#imports),*};
-                impl<T: Real> #driver<T> {
-                    /// The name of the mechanism, as errors give it.
-                    pub const NAME: &'static str = #text;
-                    #functions
-                }
+                impl<T: Real> #driver<T> #members
                 #pose_coordinates
                 #mechanism
             };
@@ -110,7 +111,7 @@ impl Methods<'_> {
 /// The groups: the name of each, its equations and its unknowns.
 fn groups(derivation: &Derivation) -> Vec<TokenStream> {
     let group = |block: &Block| {
-        let name = block.names(derivation);
+        let name = string(&block.names(derivation));
         let [equations, unknowns] = [&block.equations, &block.unknowns].map(|places| {
             let places = places.iter().map(|&place| literal(place));
             quote!([#(#places),*])

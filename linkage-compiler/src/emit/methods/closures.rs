@@ -6,6 +6,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use super::super::kernel::Operand;
 use super::super::names::{Taken, ident};
+use super::super::tokens::Tokens;
 use super::super::types::field;
 use super::{Body, Kernels, Methods, argument_of, columns_of, fenced, literal};
 use crate::derivation::{Derivation, Row};
@@ -18,15 +19,12 @@ impl Methods<'_> {
         kernels: Option<&Kernels>,
         name: &str,
         docs: &[String],
-        of: &TokenStream,
+        of: Tokens,
         matrix: Option<(Vec<Row>, usize)>,
     ) {
         let pose_type = self.types.pose.clone();
-        let function = ident(name);
         let code = kernels.zip(matrix).map(|(kernels, (rows, columns))| {
-            let entries: Vec<(usize, usize, NodeId)> = (0..columns)
-                .flat_map(|c| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?))))
-                .collect();
+            let entries = entries(&rows, columns);
             let nodes = entries.iter().map(|(_, _, node)| *node).collect();
             let mut code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
             let values = entries.into_iter().zip(&code.results);
@@ -35,7 +33,7 @@ impl Methods<'_> {
             Body::new(code, quote!(#lines #matrix), [])
         });
         let pose = argument_of(&self.arguments.pose, code.as_ref());
-        let signature = quote!(#[must_use] pub fn #function(&self, #pose: &#pose_type<T>) -> #of);
+        let signature = self.words.total(name, [self.words.borrowed(&pose, &pose_type)], of);
         self.function(docs, signature, code);
     }
 
@@ -48,8 +46,6 @@ impl Methods<'_> {
 
     fn jacobians(&mut self, kernels: Option<&Kernels>) {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
-        let (nu, nv) = (literal(u), literal(v));
-        let nq = literal(u + v);
         let column = |nodes: Option<&Vec<NodeId>>| {
             nodes.map(|nodes| (nodes.iter().map(|&node| Row::from([(0, node)])).collect(), 1))
         };
@@ -66,14 +62,14 @@ impl Methods<'_> {
         for closure in &self.mechanism.closures {
             docs.extend(words(&closure.attributes));
         }
-        self.matrix_function(kernels, "residual", &docs, &quote!(SVector<T, #nu>), column(residual));
+        self.matrix_function(kernels, "residual", &docs, self.words.sized("SVector", [u]), column(residual));
         let docs =
             ["The sum of the magnitudes of each closure's terms: what makes a residual small or large.".to_owned()];
         self.matrix_function(
             kernels,
             "closure_sizes",
             &docs,
-            &quote!(SVector<T, #nu>),
+            self.words.sized("SVector", [u]),
             column(derivation.map(|d| &d.sizes)),
         );
 
@@ -96,12 +92,18 @@ impl Methods<'_> {
             kernels,
             "jacobian_unknowns",
             &docs,
-            &quote!(SMatrix<T, #nu, #nu>),
+            self.words.sized("SMatrix", [u, u]),
             j.map(|rows| (rows, u)),
         );
         let mut docs = vec![format!("The constraint Jacobian of the inputs A = `Psi_v`; its columns are {inputs}.")];
         docs.extend(kernels.zip(a.as_ref()).map(|(k, rows)| matrix(k, rows, "A")).unwrap_or_default());
-        self.matrix_function(kernels, "jacobian_inputs", &docs, &quote!(SMatrix<T, #nu, #nv>), a.map(|rows| (rows, v)));
+        self.matrix_function(
+            kernels,
+            "jacobian_inputs",
+            &docs,
+            self.words.sized("SMatrix", [u, v]),
+            a.map(|rows| (rows, v)),
+        );
         let docs = [format!("The whole constraint Jacobian `Psi_q`; its columns are {all}.")];
         let names = |indices: &[usize]| -> Vec<Ident> {
             indices.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect()
@@ -118,27 +120,37 @@ impl Methods<'_> {
         });
         let pose_type = self.types.pose.clone();
         let pose = argument_of(&pose, body.as_ref());
-        let signature = quote!(#[must_use] pub fn jacobian(&self, #pose: &#pose_type<T>) -> SMatrix<T, #nu, #nq>);
+        let signature = self.words.total(
+            "jacobian",
+            [self.words.borrowed(&pose, &pose_type)],
+            self.words.sized("SMatrix", [u, u + v]),
+        );
         self.function(&docs, signature, body);
     }
 
     fn jacobian_sizes(&mut self, kernels: Option<&mut Kernels>) {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
-        let (nu, nv) = (literal(u), literal(v));
-        let (kernels, sizes) = match kernels {
-            Some(kernels) => {
-                let sizes = kernels.derivation.jacobian_sizes();
-                (Some(&*kernels), sizes.map(Some))
-            }
-            None => (None, [None, None]),
+        let pose_type = self.types.pose.clone();
+        let code = kernels.map(|kernels| {
+            let sizes = kernels.derivation.jacobian_sizes();
+            let sizes = [(entries(&sizes[0], u), u), (entries(&sizes[1], v), v)];
+            let nodes = sizes.iter().flat_map(|(entries, _)| entries.iter().map(|(_, _, node)| *node)).collect();
+            let mut code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
+            let mut results = std::mem::take(&mut code.results).into_iter();
+            let [(lines_u, of_u), (lines_v, of_v)] = sizes.map(|(entries, columns)| {
+                let values = entries.into_iter().zip(results.by_ref());
+                let values = values.map(|((row, column, _), value)| (row, column, value));
+                matrix_of(values, u, columns, &mut code.taken)
+            });
+            Body::new(code, quote!(#lines_u #lines_v (#of_u, #of_v)), [])
+        });
+        let pose = argument_of(&self.arguments.pose, code.as_ref());
+        let docs = ["The largest magnitude that each entry of J and of A could have at these lengths.".to_owned()];
+        let signature = {
+            let [of_u, of_v] = [u, v].map(|columns| self.words.sized("SMatrix", [u, columns]));
+            self.words.total("jacobian_sizes", [self.words.borrowed(&pose, &pose_type)], quote!((#of_u, #of_v)).into())
         };
-        let [unknowns, inputs] = sizes;
-        let docs = ["The largest magnitude that each entry of J could have at these lengths.".to_owned()];
-        let of = quote!(SMatrix<T, #nu, #nu>);
-        self.matrix_function(kernels, "jacobian_unknowns_sizes", &docs, &of, unknowns.map(|rows| (rows, u)));
-        let docs = ["The largest magnitude that each entry of A could have at these lengths.".to_owned()];
-        let of = quote!(SMatrix<T, #nu, #nv>);
-        self.matrix_function(kernels, "jacobian_inputs_sizes", &docs, &of, inputs.map(|rows| (rows, v)));
+        self.function(&docs, signature, code);
     }
 
     fn determinant(&mut self, kernels: Option<&mut Kernels>) {
@@ -191,13 +203,20 @@ impl Methods<'_> {
             parts = Some(Body::new(code, tail, []));
         }
         let own = argument_of(&pose, whole.as_ref());
-        let signature = quote!(#[must_use] pub fn determinant(&self, #own: &#pose_type<T>) -> T);
+        let signature = self.words.total("determinant", [self.words.borrowed(&own, &pose_type)], self.words.scalar());
         self.function(&docs, signature, whole);
         let pose = argument_of(&pose, parts.as_ref());
         let count = literal(count);
-        let signature = quote!(#[must_use] pub fn block_determinants(&self, #pose: &#pose_type<T>) -> [T; #count]);
+        let of = quote!([T; #count]).into();
+        let signature = self.words.total("block_determinants", [self.words.borrowed(&pose, &pose_type)], of);
         self.function(&blocks_docs, signature, parts);
     }
+}
+
+/// Row, column and node of each entry, column by column.
+fn entries(rows: &[Row], columns: usize) -> Vec<(usize, usize, NodeId)> {
+    let column = |c: usize| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?)));
+    (0..columns).flat_map(column).collect()
 }
 
 /// A matrix larger than this is written entry by entry if most entries are zero.
@@ -225,7 +244,7 @@ pub(super) fn matrix_of(
         let lines = quote!(let mut #matrix = [[T::zero(); #rows]; #columns]; #(#lines)*);
         return (lines, quote!(SMatrix::from(#matrix)));
     }
-    let mut flat = vec![Operand::Constant(quote!(T::zero())); rows * columns];
+    let mut flat = vec![Operand::Constant(quote!(T::zero()).into()); rows * columns];
     for (row, column, value) in entries {
         flat[column * rows + row] = value;
     }

@@ -5,6 +5,7 @@ use quote::quote;
 
 use super::super::kernel::{Operand, Source};
 use super::super::names::{ident, string};
+use super::super::tokens::Tokens;
 use super::scene::{Parts, Setting};
 use super::{Body, Methods, argument_of, bind, columns_of, fenced, lines, literal};
 use crate::derivation::ContactFormula;
@@ -48,7 +49,7 @@ impl Methods<'_> {
             }
             let sources = vec![
                 self.coordinates(kernels, &q, |c| c.value),
-                Source { from: quote!(*#rate), ..self.coordinates(kernels, &rate, |c| c.rate) },
+                Source { from: Tokens::behind(&rate), ..self.coordinates(kernels, &rate, |c| c.rate) },
             ];
             let code = self.on(place, kernels, sources, &[Stage::Return(returned)]);
             let mut results = code.results.iter();

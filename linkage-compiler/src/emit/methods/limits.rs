@@ -3,6 +3,7 @@
 use quote::{format_ident, quote};
 
 use super::super::kernel::{self, Given};
+use super::super::tokens::Tokens;
 use super::super::types::field;
 use super::{Body, Kernels, Methods, argument_of, lines};
 use crate::derivation::Assembly;
@@ -61,7 +62,7 @@ impl Methods<'_> {
         let name = field(&coordinate.name);
         let mut source = self.inputs(kernels, &from, |c| c.value);
         // They are taken apart by reference: the position needs them whole.
-        source.from = quote!(#from);
+        source.from = Tokens::name(&from);
         let given = Given { sources: vec![self.parameters(), source], pose: None, branch: &branch };
         let stages = [Stage::Return(results)];
         let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);

@@ -14,6 +14,7 @@ mod quantities;
 mod ratio_derivatives;
 mod scene;
 mod sensitivity;
+mod signature;
 mod unreduced;
 mod velocity;
 
@@ -22,12 +23,12 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use proc_macro2::{Delimiter, Group, Ident, Literal, TokenStream};
+use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 use rustc_hash::FxHashSet;
 
 use super::kernel::{self, Code, Given, Operand, Shape, Source};
-use super::names::{Scope, Taken, ident};
+use super::names::{Scope, Taken, ident, string};
 use super::pose::PosePlan;
 use super::tokens::Tokens;
 use super::types::{self, field};
@@ -37,6 +38,7 @@ use crate::graph::{ExternalId, NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
 pub(in crate::emit) use scene::of_scene;
+use signature::Words;
 
 /// The name of an argument, beside which no name of the user's may stand.
 pub(super) fn argument(mechanism: &Mechanism, wish: &str) -> String {
@@ -69,10 +71,11 @@ struct Methods<'a> {
     driver: &'a Driver,
     types: &'a Types,
     arguments: Arguments,
+    words: Words,
     /// Names that kernels must not give to values of their own.
     scope: Rc<Scope>,
     named: Vec<(NodeId, String)>,
-    functions: TokenStream,
+    functions: Tokens,
     /// The groups with two solutions, where position has a closed form.
     branches: Option<Vec<(Ident, Choice)>>,
     /// Whether every group has one.
@@ -118,9 +121,10 @@ impl<'a> Methods<'a> {
             driver,
             types,
             arguments,
+            words: Words::new(),
             scope,
             named: mechanism.named.clone(),
-            functions: TokenStream::new(),
+            functions: Tokens::default(),
             branches: None,
             is_assembled: false,
             kernels: Vec::new(),
@@ -266,7 +270,12 @@ impl Methods<'_> {
 
     fn parameters(&self) -> Source<'_> {
         let fields = self.mechanism.parameters.iter().map(|p| (Cow::from(&p.name.field), p.symbol)).collect();
-        Source { argument: None, from: quote!(*self), of: Shape::Fields(quote!(Self)), fields }
+        Source {
+            argument: None,
+            from: Tokens::behind(&self.words.own),
+            of: Shape::Fields(Tokens::name(&self.words.own_type)),
+            fields,
+        }
     }
 
     fn pose_source<'k>(&self, kernels: &'k Kernels) -> Source<'k> {
@@ -277,7 +286,12 @@ impl Methods<'_> {
         // Directions are fields as well, so that the pattern is never complete.
         fields.extend(kernels.plan.directions.values().map(|field| (Cow::from(field), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
-        Source { argument: Some(pose.clone()), from: quote!(*#pose), of: Shape::Fields(quote!(#of)), fields }
+        Source {
+            argument: Some(pose.clone()),
+            from: Tokens::behind(pose),
+            of: Shape::Fields(Tokens::name(of)),
+            fields,
+        }
     }
 
     fn coordinates<'k>(
@@ -288,7 +302,7 @@ impl Methods<'_> {
     ) -> Source<'k> {
         let fields = kernels.derivation.coordinates.iter().map(|c| (Cow::from(&c.name), symbol(c))).collect();
         let of = &self.types.coordinates;
-        Source { argument: Some(from.clone()), from: quote!(*#from), of: Shape::Fields(quote!(#of)), fields }
+        Source { argument: Some(from.clone()), from: Tokens::behind(from), of: Shape::Fields(Tokens::name(of)), fields }
     }
 
     fn inputs<'k>(
@@ -305,7 +319,12 @@ impl Methods<'_> {
             .map(|c| (Cow::from(&c.name), symbol(c)))
             .collect();
         let of = &self.types.inputs;
-        Source { argument: Some(from.clone()), from: quote!(#from.into()), of: Shape::Fields(quote!(#of)), fields }
+        Source {
+            argument: Some(from.clone()),
+            from: quote!(#from.into()).into(),
+            of: Shape::Fields(Tokens::name(of)),
+            fields,
+        }
     }
 
     /// A kernel on a pose and what else it is given.
@@ -319,9 +338,9 @@ impl Methods<'_> {
     // Functions.
 
     /// Writes a function; without a body it is a stub that only has the right signature.
-    fn function(&mut self, docs: &[String], signature: TokenStream, body: Option<Body>) {
+    fn function(&mut self, docs: &[String], signature: impl Into<Tokens>, body: Option<Body>) {
         let Body { tokens: body, operations, uses, externals, .. } = body.unwrap_or_else(|| Body {
-            tokens: quote!(::core::unreachable!()),
+            tokens: quote!(::core::unreachable!()).into(),
             operations: Operations::default(),
             arguments: Vec::new(),
             uses: BTreeSet::new(),
@@ -331,15 +350,15 @@ impl Methods<'_> {
         let work = if works { format!("Operations: {}.", count(operations)) } else { String::new() };
         let mut tokens = Tokens::default();
         tokens.doc(docs, &work);
-        tokens.extend(signature);
+        tokens.join(signature.into());
         if works {
             self.kernels.push((tokens.name_of_function(), operations));
         }
         self.uses.extend(uses);
         self.externals.extend(externals);
         // A body in its braces is one token, however long.
-        tokens.append(Group::new(Delimiter::Brace, body));
-        self.functions.extend(TokenStream::from(tokens));
+        tokens.group(Delimiter::Brace, body);
+        self.functions.join(tokens);
     }
 
     fn coordinate_fields(&self) -> Vec<Ident> {
@@ -350,7 +369,7 @@ impl Methods<'_> {
 
 /// The body of a function.
 struct Body {
-    tokens: TokenStream,
+    tokens: Tokens,
     operations: Operations,
     /// The arguments that it uses.
     arguments: Vec<Ident>,
@@ -377,7 +396,7 @@ impl Body {
     ) -> Self {
         let arguments = arguments.into_iter().cloned().collect();
         let (operations, externals) = (Operations::default(), BTreeSet::new());
-        Self { tokens, operations, arguments, uses: BTreeSet::from(uses), externals }
+        Self { tokens: tokens.into(), operations, arguments, uses: BTreeSet::from(uses), externals }
     }
 }
 
@@ -452,12 +471,16 @@ fn count(operations: Operations) -> String {
         (multiplications, "multiplication", "multiplications"),
         (additions, "addition", "additions"),
     ];
-    let parts: Vec<String> = parts
-        .into_iter()
-        .filter(|(count, ..)| *count > 0)
-        .map(|(count, one, many)| format!("{count} {}", if count == 1 { one } else { many }))
-        .collect();
-    parts.join(", ")
+    let mut text = String::new();
+    for (count, one, many) in parts {
+        if count > 0 {
+            text.push_str(if text.is_empty() { "" } else { ", " });
+            text.push_str(&count.to_string());
+            text.push(' ');
+            text.push_str(if count == 1 { one } else { many });
+        }
+    }
+    text
 }
 
 /// A matrix from its entries, column by column.
@@ -487,7 +510,7 @@ fn write_parts(tokens: &mut Tokens, values: &[Operand], sizes: &[usize]) {
         }
         match &values[0] {
             Operand::Name(name) => tokens.ident(name),
-            Operand::Constant(value) | Operand::Formula(value) => tokens.extend(value.clone()),
+            Operand::Constant(value) | Operand::Formula(value) => tokens.join(value.clone()),
         }
     }
 }
@@ -507,6 +530,7 @@ fn check_finite(code: &mut Code, what: &str, values: &[Operand]) -> TokenStream 
         return TokenStream::new();
     }
     code.uses.insert("finite");
+    let what = string(what);
     quote!(finite(Self::NAME, #what, [#(#values),*])?;)
 }
 
@@ -521,7 +545,7 @@ fn bind(results: &[Operand], wishes: &[String], taken: &mut Taken) -> (TokenStre
                 bindings.word("let");
                 bindings.ident(&name);
                 bindings.punct('=');
-                bindings.extend(formula.clone());
+                bindings.join(formula.clone());
                 bindings.punct(';');
                 Operand::Name(name)
             }

@@ -81,7 +81,15 @@ impl Methods<'_> {
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
         ]);
         let [q, rate, acceleration] = [q, rate, acceleration].map(|argument| argument_of(argument, code.as_ref()));
-        let signature = quote!(pub fn motion(&self, #q: &#coordinates<T>, #rate: impl Into<#inputs<T>>, #acceleration: impl Into<#inputs<T>>) -> Result<#motion<T>, Error>);
+        let signature = self.words.fallible(
+            "motion",
+            [
+                self.words.borrowed(&q, coordinates),
+                self.words.converted(&rate, inputs),
+                self.words.converted(&acceleration, inputs),
+            ],
+            self.words.of(motion),
+        );
         self.function(&docs, signature, code);
     }
 }

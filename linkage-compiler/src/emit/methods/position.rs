@@ -46,7 +46,7 @@ impl Methods<'_> {
         let docs =
             [format!("The position at these coordinates, ready for use: one sine and cosine for each angle{calls}.")];
         let q = argument_of(&q, body.as_ref());
-        let signature = quote!(#[must_use] pub fn pose_at(&self, #q: &#coordinates<T>) -> #pose<T>);
+        let signature = self.words.total("pose_at", [self.words.borrowed(&q, coordinates)], self.words.of(pose));
         self.function(&docs, signature, body);
 
         // The name of a function is never that of a `let`, so the trait's can be called beside it.

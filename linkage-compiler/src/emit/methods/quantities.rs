@@ -2,13 +2,14 @@
 
 use std::borrow::Cow;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::Ident;
 use quote::quote;
 
 use super::super::kernel::{Shape, Source};
-use super::super::names::ident;
+use super::super::names::{ident, string};
+use super::super::tokens::Tokens;
 use super::super::types::field;
-use super::{Body, Family, Kernels, Methods, argument_of, fenced, in_parts, lines, literal};
+use super::{Body, Family, Kernels, Methods, argument_of, fenced, in_parts, lines};
 use crate::derivation::{Formulas, Quantity};
 use crate::graph::NodeId;
 use crate::model::Request;
@@ -24,7 +25,7 @@ pub(super) struct Members {
     /// 2 of a point, 1 of an output.
     pub dimension: usize,
     /// The type of one.
-    pub item: TokenStream,
+    pub item: Tokens,
 }
 
 impl Members {
@@ -58,14 +59,14 @@ impl Methods<'_> {
                 group: self.types.points.clone(),
                 word: "point",
                 dimension: 2,
-                item: quote!(Vector2<T>),
+                item: self.words.of(&ident("Vector2")),
             },
             Family::Outputs => Members {
                 names: self.mechanism.outputs.iter().map(|o| field(&o.name)).collect(),
                 group: self.types.outputs.clone(),
                 word: "output",
                 dimension: 1,
-                item: quote!(T),
+                item: self.words.scalar(),
             },
         };
         (!members.names.is_empty()).then_some(members)
@@ -80,8 +81,6 @@ impl Methods<'_> {
         let jerk = self.arguments.jerk.clone();
         let coordinates = self.types.coordinates.clone();
         let v = self.driver.inputs.len();
-        let nv = literal(v);
-        let rows = literal(dimension);
         let what = if family == Family::Points { "positions of the points" } else { "values of the outputs" };
         type Part = fn(&Quantity) -> &Vec<NodeId>;
         let mut kinds: Vec<(String, String, usize, Part)> = vec![
@@ -119,7 +118,7 @@ impl Methods<'_> {
                 let (finite, parts): (_, &[usize]) =
                     if family == Family::Points { ("finite_points", &[2]) } else { ("finite_outputs", &[]) };
                 let values = in_parts(&code.results, parts);
-                let function = ident(finite);
+                let (function, name) = (ident(finite), string(&name));
                 Body::new(code, quote!(#function(Self::NAME, #name, [#values])), [finite])
             });
             let mut docs = vec![meaning];
@@ -133,15 +132,12 @@ impl Methods<'_> {
                 docs.extend(fenced(formulas.map(|(name, node)| format!("{name} = {}", kernels.text(node)))));
             }
             docs.extend(lines(["", "# Errors", "`NotFinite` where a formula has no finite value."]));
-            let function = ident(&name);
-            let pose = argument_of(&pose, code.as_ref());
             let motion = [&rate, &acceleration, &jerk];
-            let more = motion[..order].iter().map(|argument| {
-                let argument = argument_of(argument, code.as_ref());
-                quote!(, #argument: &#coordinates<T>)
-            });
-            let signature =
-                quote!(pub fn #function(&self, #pose: &#pose_type<T> #(#more)*) -> Result<#group<#item>, Error>);
+            let more = motion[..order].iter().map(|argument| (*argument, &coordinates));
+            let arguments = [(&pose, &pose_type)].into_iter().chain(more);
+            let arguments =
+                arguments.map(|(argument, of)| self.words.borrowed(&argument_of(argument, code.as_ref()), of));
+            let signature = self.words.fallible(&name, arguments, Tokens::name(group).of([item.clone()]));
             self.function(&docs, signature, code);
         }
         let laws = kernels.as_deref().zip(formulas).map(|(kernels, formulas)| {
@@ -170,19 +166,19 @@ impl Methods<'_> {
             let ratios = kernels.derivation.ratios.iter().flatten().map(|&ratio| (Cow::from(""), ratio)).collect();
             let ratios = Source {
                 argument: Some(pose.clone()),
-                from: quote!(self.velocity_ratios(#pose)?.data.0),
+                from: quote!(self.velocity_ratios(#pose)?.data.0).into(),
                 of: Shape::Columns(self.driver.unknowns.len()),
                 fields: ratios,
             };
             let mut code = self.on_pose(kernels, vec![ratios], &[Stage::Return(nodes)]);
             let values = in_parts(&code.results, &[v, dimension]);
-            let tail = quote!(finite_matrices(Self::NAME, #word, [#values]));
+            let kind = string(word);
+            let tail = quote!(finite_matrices(Self::NAME, #kind, [#values]));
             // A call costs what the ratios cost, too.
             let ratios = self.kernels.iter().find(|(name, _)| name == "velocity_ratios");
             code.operations = ratios.map_or(code.operations, |(_, ratios)| code.operations.plus(*ratios));
             Body::new(code, tail, ["finite_matrices"])
         });
-        let name = ident(&format!("{word}_ratios"));
         let mut docs = vec![format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'.")];
         docs.extend(laws);
         docs.extend(lines([
@@ -191,8 +187,11 @@ impl Methods<'_> {
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
         ]));
         let pose = argument_of(&pose, code.as_ref());
-        let signature =
-            quote!(pub fn #name(&self, #pose: &#pose_type<T>) -> Result<#group<SMatrix<T, #rows, #nv>>, Error>);
+        let signature = self.words.fallible(
+            &format!("{word}_ratios"),
+            [self.words.borrowed(&pose, &pose_type)],
+            Tokens::name(group).of([self.words.sized("SMatrix", [dimension, v])]),
+        );
         self.function(&docs, signature, code);
     }
 }

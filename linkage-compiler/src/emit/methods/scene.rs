@@ -10,6 +10,7 @@ use super::super::kernel::{self, Code, Given, Operand, Shape, Source};
 use super::super::names::{ident, string};
 use super::super::pose::PosePlan;
 use super::super::scene::mechanism_field;
+use super::super::tokens::Tokens;
 use super::super::types::field;
 use super::super::{Emitted, Types, document};
 use super::{Body, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines, literal};
@@ -165,7 +166,7 @@ impl Methods<'_> {
 
     fn on_state(&self, place: &Setting, kernels: &Kernels, stages: &[Stage]) -> Code {
         let rate = &self.arguments.rate;
-        let inputs = Source { from: quote!(#rate), ..self.inputs(kernels, rate, |c| c.rate) };
+        let inputs = Source { from: Tokens::name(rate), ..self.inputs(kernels, rate, |c| c.rate) };
         self.on(place, kernels, vec![self.coordinates(kernels, &self.arguments.q, |c| c.value), inputs], stages)
     }
 
@@ -182,14 +183,19 @@ impl Methods<'_> {
         let mut sources = vec![
             Source {
                 argument: None,
-                from: quote!(self.#inner),
-                of: Shape::Fields(quote!(#driver)),
+                from: quote!(self.#inner).into(),
+                of: Shape::Fields(Tokens::name(driver)),
                 fields: mechanism.parameters.iter().map(of).collect(),
             },
-            Source { argument: None, from: quote!(*self), of: Shape::Fields(quote!(Self)), fields },
+            Source {
+                argument: None,
+                from: Tokens::behind(&self.words.own),
+                of: Shape::Fields(Tokens::name(&self.words.own_type)),
+                fields,
+            },
             Source {
                 argument: Some(place.time.clone()),
-                from: TokenStream::new(),
+                from: Tokens::default(),
                 of: Shape::Argument,
                 fields: mechanism.time.map(|time| (Cow::from(""), time)).into_iter().collect(),
             },
@@ -229,7 +235,7 @@ impl Methods<'_> {
         let rate = &self.arguments.rate;
         if body.arguments.contains(rate) {
             let (inputs, tokens) = (&self.types.inputs, body.tokens);
-            body.tokens = quote!(let #rate: #inputs<T> = #rate.into(); #tokens);
+            body.tokens = quote!(let #rate: #inputs<T> = #rate.into(); #tokens).into();
         }
         body
     }
@@ -458,7 +464,7 @@ impl Methods<'_> {
                 let row = coupling.iter().skip(row * free.len()).zip(&names);
                 let terms = row.map(|(entry, acceleration)| quote!(+ (#entry) * #acceleration));
                 let formula = quote!(#force #(#terms)*);
-                if names.is_empty() { force.clone() } else { Operand::Formula(formula) }
+                if names.is_empty() { force.clone() } else { Operand::Formula(formula.into()) }
             });
             code.operations.multiplications += coupling.len();
             code.operations.additions += coupling.len();
@@ -522,8 +528,8 @@ impl Methods<'_> {
             let driven = names.iter().zip(speeds).map(|(force, speed)| quote!(#force * #speed));
             let applied = match (&values[0], names.is_empty()) {
                 (value, true) => value.clone(),
-                (Operand::Constant(_), false) => Operand::Formula(quote!(#(#driven)+*)),
-                (value, false) => Operand::Formula(quote!(#value #(+ #driven)*)),
+                (Operand::Constant(_), false) => Operand::Formula(quote!(#(#driven)+*).into()),
+                (value, false) => Operand::Formula(quote!(#value #(+ #driven)*).into()),
             };
             let wishes = ["applied", "dissipated"].map(str::to_owned);
             let (bindings, values) = bind(&[applied, values[1].clone()], &wishes, &mut code.taken);
@@ -564,8 +570,11 @@ impl Methods<'_> {
             let stages = kernels.with_determinants(stages);
             let sources = vec![
                 self.coordinates(kernels, &q, |c| c.value),
-                Source { from: quote!(#rate), ..self.coordinates(kernels, &rate, |c| c.rate) },
-                Source { from: quote!(#acceleration), ..self.coordinates(kernels, &acceleration, |c| c.acceleration) },
+                Source { from: Tokens::name(&rate), ..self.coordinates(kernels, &rate, |c| c.rate) },
+                Source {
+                    from: Tokens::name(&acceleration),
+                    ..self.coordinates(kernels, &acceleration, |c| c.acceleration)
+                },
             ];
             let mut code = self.on(place, kernels, sources, &stages);
             let lambda = code.results.clone();
@@ -595,7 +604,7 @@ impl Methods<'_> {
             Body {
                 tokens: {
                     let tokens = &body.tokens;
-                    quote!(#motion #tokens)
+                    quote!(#motion #tokens).into()
                 },
                 ..body
             }

@@ -120,7 +120,7 @@ impl Methods<'_> {
                 .collect();
             let source = Source {
                 argument: Some(pose.clone()),
-                from: quote!(self.sensitivity(#pose)?.data.0),
+                from: quote!(self.sensitivity(#pose)?.data.0).into(),
                 of: Shape::Columns(self.driver.unknowns.len()),
                 fields,
             };

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use quote::quote;
 
 use super::super::kernel::{Operand, Source};
+use super::super::tokens::Tokens;
 use super::closures::matrix_of;
 use super::scene::{Parts, Setting};
 use super::{Body, Methods, argument_of, bind, check_finite, lines, literal};
@@ -21,7 +22,7 @@ impl Methods<'_> {
             nodes.extend(&unreduced.forces);
             let sources = vec![
                 self.coordinates(kernels, &q, |c| c.value),
-                Source { from: quote!(*#rate), ..self.coordinates(kernels, &rate, |c| c.rate) },
+                Source { from: Tokens::behind(&rate), ..self.coordinates(kernels, &rate, |c| c.rate) },
             ];
             let mut code = self.on(place, kernels, sources, &[Stage::Return(nodes)]);
             let derivation = &*kernels.derivation;

@@ -6,7 +6,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::kernel::{Code, Operand, Shape, Source};
-use super::{Body, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines, literal};
+use super::super::tokens::Tokens;
+use super::{Body, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines};
 use crate::derivation::{Form, Formulas};
 use crate::graph::SymbolId;
 use crate::simplify::schedule::Stage;
@@ -14,7 +15,6 @@ use crate::simplify::schedule::Stage;
 impl Methods<'_> {
     pub(super) fn velocity(&mut self, mut kernels: Option<&mut Kernels>, formulas: Option<&Formulas>) {
         let (u, v) = (self.driver.unknowns.len(), self.driver.inputs.len());
-        let (nu, nv) = (literal(u), literal(v));
         let (pose, pose_type) = (self.arguments.pose.clone(), self.types.pose.clone());
         let (rate, right) = (self.arguments.rate.clone(), self.arguments.right.clone());
         let (inputs, coordinates) = (self.types.inputs.clone(), self.types.coordinates.clone());
@@ -36,8 +36,12 @@ impl Methods<'_> {
             let mut stages = kernels.derivation.solution(&[(side, symbols.clone())], Form::Factored);
             stages.push(Stage::Return(kernels.variables(&symbols)));
             let fields = sides.iter().map(|&side| (Cow::from(""), side)).collect();
-            let source =
-                Source { argument: Some(right.clone()), from: quote!(#right.data.0), of: Shape::Columns(u), fields };
+            let source = Source {
+                argument: Some(right.clone()),
+                from: quote!(#right.data.0).into(),
+                of: Shape::Columns(u),
+                fields,
+            };
             let mut code = self.on_pose(kernels, vec![source], &stages);
             let (bindings, solution) = bound(kernels, &symbols, &mut code);
             let finite = check_finite(&mut code, "the solution", &solution);
@@ -50,7 +54,11 @@ impl Methods<'_> {
             "`Singular` where J has no inverse, `NotFinite` if the solution is not finite.",
         ]);
         let [own, right] = [&pose, &right].map(|argument| argument_of(argument, code.as_ref()));
-        let signature = quote!(pub fn solve_jacobian(&self, #own: &#pose_type<T>, #right: &SVector<T, #nu>) -> Result<SVector<T, #nu>, Error>);
+        let signature = {
+            let vector = self.words.sized("SVector", [u]);
+            let arguments = [self.words.borrowed(&own, &pose_type), Tokens::from(quote!(#right: &#vector))];
+            self.words.fallible("solve_jacobian", arguments, vector)
+        };
         self.function(&docs, signature, code);
 
         let code = kernels.as_deref_mut().map(|kernels| {
@@ -85,8 +93,11 @@ impl Methods<'_> {
             "`Singular` where J has no inverse, `NotFinite` if a ratio is not finite.",
         ]));
         let own = argument_of(&pose, code.as_ref());
-        let signature =
-            quote!(pub fn velocity_ratios(&self, #own: &#pose_type<T>) -> Result<SMatrix<T, #nu, #nv>, Error>);
+        let signature = self.words.fallible(
+            "velocity_ratios",
+            [self.words.borrowed(&own, &pose_type)],
+            self.words.sized("SMatrix", [u, v]),
+        );
         self.function(&docs, signature, code);
 
         let code = kernels.map(|kernels| {
@@ -109,7 +120,11 @@ impl Methods<'_> {
             "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
         ]);
         let [pose, rate] = [&pose, &rate].map(|argument| argument_of(argument, code.as_ref()));
-        let signature = quote!(pub fn velocity(&self, #pose: &#pose_type<T>, #rate: impl Into<#inputs<T>>) -> Result<#coordinates<T>, Error>);
+        let signature = self.words.fallible(
+            "velocity",
+            [self.words.borrowed(&pose, &pose_type), self.words.converted(&rate, &inputs)],
+            self.words.of(&coordinates),
+        );
         self.function(&docs, signature, code);
     }
 }

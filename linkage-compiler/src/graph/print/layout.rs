@@ -90,7 +90,7 @@ impl Layout<'_, '_> {
     }
 
     fn hides(&self, id: NodeId) -> bool {
-        self.pieces.get(&id).is_some_and(|piece| piece.hidden)
+        self.pieces.get(id).is_some_and(|piece| piece.hidden)
     }
 
     /// A function of the user's, or a derivative of it: in mathematics by the name of its value with primes.
@@ -111,7 +111,7 @@ impl Layout<'_, '_> {
             if index > 0 {
                 out.push_str(", ");
             }
-            if let Some(piece) = self.pieces.get(argument) {
+            if let Some(piece) = self.pieces.get(*argument) {
                 out.push_str(&piece.body);
             }
         }
@@ -181,7 +181,7 @@ impl Layout<'_, '_> {
             if index > 0 || number.is_some() {
                 out.push('*');
             }
-            let Some(piece) = self.pieces.get(&base) else { continue };
+            let Some(piece) = self.pieces.get(base) else { continue };
             let at_least = if exponent == 1 { at_least } else { Binding::Atom };
             if piece.binding < at_least {
                 out.push('(');

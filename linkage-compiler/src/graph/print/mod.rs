@@ -6,8 +6,6 @@ mod name;
 #[cfg(test)]
 mod tests;
 
-use rustc_hash::FxHashMap;
-
 pub use name::Name;
 
 use super::{Graph, NodeId, SymbolId};
@@ -29,7 +27,18 @@ struct Piece {
     hidden: bool,
 }
 
-type Pieces = FxHashMap<NodeId, Piece>;
+/// The parts by the index of their node.
+#[derive(Debug, Default)]
+struct Pieces(Vec<Option<Piece>>);
+
+impl Pieces {
+    fn get(&self, id: NodeId) -> Option<&Piece> {
+        match self.0.as_slice().get(id.index()) {
+            Some(Some(piece)) => Some(piece),
+            _ => None,
+        }
+    }
+}
 
 /// Writes the sources of formulas of one graph; parts that they share are written once.
 pub struct Printer<'a> {
@@ -78,7 +87,11 @@ fn write<'a, 'p>(
     root: NodeId,
     longest: usize,
 ) -> &'p str {
-    for id in graph.sweep(&[root], |id| pieces.contains_key(&id), |_| false) {
+    // Parts have smaller numbers than what is made of them.
+    if pieces.0.len() <= root.index() {
+        pieces.0.resize_with(root.index() + 1, || None);
+    }
+    for id in graph.sweep(&[root], |id| pieces.get(id).is_some(), |_| false) {
         let mut body = String::new();
         let binding = Layout { graph, names, pieces }.write(&mut body, id);
         let fits = body.len() <= longest;
@@ -87,9 +100,9 @@ fn write<'a, 'p>(
         } else {
             Piece { body: "…".to_owned(), binding: Binding::Atom, hidden: true }
         };
-        pieces.insert(id, piece);
+        pieces.0[id.index()] = Some(piece);
     }
-    pieces.get(&root).map_or("", |piece| &piece.body)
+    pieces.get(root).map_or("", |piece| &piece.body)
 }
 
 impl Graph {

@@ -210,27 +210,27 @@ pub struct Given {
 #[must_use]
 pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId, String)]) -> Schedule {
     let roots: Vec<NodeId> = stages.iter().flat_map(Stage::nodes).collect();
-    let (mut values, of) = Builder::translate_all(graph, given, &roots);
-    sharing::share(&mut values, &roots.iter().map(|root| of[*root].value).collect::<Vec<_>>());
+    let (mut values, translated) = Builder::translate_all(graph, given, &roots);
+    sharing::share(&mut values, &roots.iter().map(|root| translated.of(*root).value).collect::<Vec<_>>());
     let mut names: Vec<(ValueId, String)> = Vec::new();
     for (node, name) in named {
-        if let Some(Signed { negative: false, value }) = of.get(*node) {
+        if let Some(Signed { negative: false, value }) = translated.get(*node) {
             names.push((value, name.clone()));
         }
     }
     names.sort_by_key(|(value, _)| *value);
-    let mut ordering = Ordering::new(graph, values, &roots.iter().map(|root| of[*root]).collect::<Vec<_>>());
+    let mut ordering = Ordering::new(graph, values, &roots.iter().map(|root| translated.of(*root)).collect::<Vec<_>>());
     let introduced: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
     ordering.gather_sines(&introduced);
-    let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| of[*node]).collect() };
+    let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| translated.of(*node)).collect() };
     for stage in stages {
         for node in stage.nodes() {
-            ordering.require(of[node].value, matches!(stage, Stage::Let { .. }));
+            ordering.require(translated.of(node).value, matches!(stage, Stage::Let { .. }));
         }
         ordering.lines.push(match stage {
-            Stage::Let { symbol, node } => Line::Name { symbol: *symbol, value: of[*node] },
+            Stage::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated.of(*node) },
             Stage::Guard { block, determinant, size } => {
-                Line::Guard { block: *block, determinant: of[*determinant], size: of[*size] }
+                Line::Guard { block: *block, determinant: translated.of(*determinant), size: translated.of(*size) }
             }
             Stage::Factor { block, matrix, sizes } => {
                 let matrix = matrix.iter().map(|row| signed(row)).collect();
@@ -242,9 +242,9 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
             Stage::Chord { block, symbol, factors, size, triangle } => Line::Chord {
                 block: *block,
                 symbol: *symbol,
-                factors: factors.map(|node| of[node]),
-                size: of[*size],
-                triangle: triangle.map(|triangle| triangle.map(|node| of[node])),
+                factors: factors.map(|node| translated.of(node)),
+                size: translated.of(*size),
+                triangle: triangle.map(|triangle| triangle.map(|node| translated.of(node))),
             },
             Stage::Pivots { symbol, matrix } => {
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
@@ -292,16 +292,12 @@ impl Value {
             _ => 2,
         }
     }
-
-    fn is_leaf(&self) -> bool {
-        matches!(self, Self::Symbol(_) | Self::Direction(..) | Self::Constant(_))
-    }
 }
 
 impl Schedule {
     #[must_use]
     pub fn value(&self, id: ValueId) -> &Value {
-        &self.values[id.0]
+        &self.values.as_slice()[id.0]
     }
 
     /// The name that the user gave to a value.

@@ -13,9 +13,9 @@ const DEEPEST_INLINE: usize = 5;
 /// Decides which values get a line, and in what order.
 pub(super) struct Ordering {
     pub(super) values: Vec<Value>,
-    uses: Vec<usize>,
+    uses: Box<[usize]>,
     /// The nesting of a value written inline; zero once it has a name.
-    height: Vec<Option<usize>>,
+    height: Box<[Option<usize>]>,
     pub(super) lines: Vec<Line>,
     /// Sines and cosines that are used, by function and argument.
     circular: FxHashMap<(Function, Signed), ValueId>,
@@ -25,32 +25,34 @@ pub(super) struct Ordering {
 
 impl Ordering {
     pub(super) fn new(graph: &Graph, values: Vec<Value>, roots: &[Signed]) -> Self {
-        let mut uses = vec![0; values.len()];
+        let mut uses = vec![0; values.len()].into_boxed_slice();
+        let mut height = vec![None; values.len()].into_boxed_slice();
+        let (mut circular, mut externals) = (FxHashMap::default(), FxHashMap::default());
         let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
         while let Some(id) = stack.pop() {
             uses[id.0] += 1;
-            if uses[id.0] == 1 {
-                values[id.0].each_part(|part| stack.push(part));
+            if uses[id.0] > 1 {
+                continue;
             }
-        }
-        let mut circular = FxHashMap::default();
-        for (index, value) in values.iter().enumerate() {
-            if let Value::Call(function @ (Function::Sin | Function::Cos), angle) = value
-                && uses[index] > 0
-            {
-                circular.insert((*function, angle[0]), ValueId(index));
+            let value = &values[id.0];
+            match value {
+                Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => height[id.0] = Some(0),
+                Value::Call(function @ (Function::Sin | Function::Cos), angle) => {
+                    circular.insert((*function, angle[0]), id);
+                }
+                Value::External(external, arguments) => {
+                    let given = graph.external_names(external.function).len();
+                    let call = (external.function, arguments.clone());
+                    let call = externals.entry(call).or_insert_with(|| vec![None; given]);
+                    if let Some(place) = external.order().and_then(|order| call.get_mut(order)) {
+                        *place = Some(id);
+                    }
+                }
+                _ => {}
             }
+            value.each_part(|part| stack.push(part));
         }
-        let mut externals = FxHashMap::default();
-        for (index, value) in values.iter().enumerate().filter(|(index, _)| uses[*index] > 0) {
-            let Value::External(external, arguments) = value else { continue };
-            let given = graph.external_names(external.function).len();
-            let call = externals.entry((external.function, arguments.clone())).or_insert_with(|| vec![None; given]);
-            if let Some(place) = external.order().and_then(|order| call.get_mut(order)) {
-                *place = Some(ValueId(index));
-            }
-        }
-        Self { height: vec![None; values.len()], values, uses, lines: Vec::new(), circular, externals }
+        Self { height, values, uses, lines: Vec::new(), circular, externals }
     }
 
     /// Every value that the roots stand on, ascending.
@@ -66,19 +68,22 @@ impl Ordering {
 
     /// Emits the lines that `root` stands on; `named` if its own line is about to follow.
     pub(super) fn require(&mut self, root: ValueId, named: bool) {
-        let mut stack = vec![(root, false)];
+        let mut stack = Vec::with_capacity(16);
+        stack.push((root, false));
         while let Some((id, expanded)) = stack.pop() {
-            if self.height[id.0].is_some() {
+            let (values, heights) = (self.values.as_slice(), &self.height);
+            if heights[id.0].is_some() {
                 continue;
             }
-            if self.values[id.0].is_leaf() {
-                self.height[id.0] = Some(0);
-                continue;
-            }
+            let value = &values[id.0];
             if !expanded {
                 stack.push((id, true));
                 let mut low = stack.len();
-                self.values[id.0].each_part(|part| stack.push((part, false)));
+                value.each_part(|part| {
+                    if heights[part.0].is_none() {
+                        stack.push((part, false));
+                    }
+                });
                 // The first part is to come out first.
                 let mut high = stack.len();
                 while low + 1 < high {
@@ -88,12 +93,18 @@ impl Ordering {
                 }
                 continue;
             }
-            if named && id == root && !matches!(self.values[id.0], Value::External(..)) {
+            if named && id == root && !matches!(value, Value::External(..)) {
                 self.height[id.0] = Some(0);
                 continue;
             }
             let mut height = 0;
-            self.values[id.0].each_part(|part| height = height.max(self.height[part.0].map_or(0, |inside| inside + 1)));
+            value.each_part(|part| {
+                if let Some(inside) = heights[part.0]
+                    && inside >= height
+                {
+                    height = inside + 1;
+                }
+            });
             let deserves = self.uses[id.0] > 1 || height > DEEPEST_INLINE;
             self.height[id.0] = Some(if self.pair(id) || self.call(id) {
                 0

@@ -52,7 +52,7 @@ struct List {
 
 /// Rewrites the sums and products that `roots` stand on until no two of them share a pair.
 pub(super) fn share(values: &mut Vec<Value>, roots: &[ValueId]) {
-    let mut seen = vec![false; values.len()];
+    let mut seen = vec![false; values.len()].into_boxed_slice();
     let mut stack = roots.to_vec();
     while let Some(id) = stack.pop() {
         if !std::mem::replace(&mut seen[id.0], true) {
@@ -61,8 +61,11 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[ValueId]) {
     }
     for kind in [Kind::Sums, Kind::Products] {
         let mut lists = Vec::new();
-        for (index, value) in values.iter().enumerate().take(seen.len()) {
-            let parts = match (kind, value) {
+        let (all, mut next) = (values.as_slice(), 0);
+        while next < seen.len() {
+            let index = next;
+            next += 1;
+            let parts = match (kind, &all[index]) {
                 (Kind::Sums, Value::Sum(terms)) if seen[index] => terms.clone(),
                 (Kind::Products, Value::Product(factors)) if seen[index] => {
                     factors.iter().map(|&value| Signed { negative: false, value }).collect()
@@ -82,7 +85,7 @@ struct Sharing {
     lists: Vec<List>,
     /// Which parts stand in several lists, or may come to, being lists themselves: a pair with any
     /// other part is held once at most.
-    frequent: Vec<bool>,
+    frequent: Box<[bool]>,
     /// The places of the lists that hold a pair.
     holders: Vec<(Pair, Holders)>,
     places: Places,
@@ -128,7 +131,7 @@ impl Holders {
 
 impl Sharing {
     fn new(kind: Kind, lists: Vec<List>, values: usize) -> Self {
-        let (mut met, mut frequent) = (vec![false; values], vec![false; values]);
+        let [mut met, mut frequent] = [(); 2].map(|()| vec![false; values].into_boxed_slice());
         for list in &lists {
             frequent[list.value.0] = true;
             for part in &list.parts {

@@ -16,24 +16,26 @@ pub(super) struct Builder<'a> {
     of: Translated,
 }
 
-/// What each node became, by its index: every part is looked up again and again.
+/// What each node became, by its index: every part is looked up again and again. Packed, and 0 for a node that
+/// no root stands on, since a list of zeros costs nothing.
 #[derive(Default)]
-pub(super) struct Translated(Vec<Signed>);
-
-/// Of a node that no root stands on.
-const NONE: Signed = Signed { negative: false, value: ValueId(usize::MAX) };
+pub(super) struct Translated(Box<[u64]>);
 
 impl Translated {
     pub(super) fn get(&self, node: NodeId) -> Option<Signed> {
-        self.0.get(node.index()).copied().filter(|signed| *signed != NONE)
+        match self.0.get(node.index()) {
+            None | Some(0) => None,
+            Some(packed) => Some(Signed { negative: packed & 1 == 1, value: ValueId((packed >> 1) as usize - 1) }),
+        }
     }
-}
 
-impl std::ops::Index<NodeId> for Translated {
-    type Output = Signed;
+    /// What a node became that a root stands on.
+    pub(super) fn of(&self, node: NodeId) -> Signed {
+        self.get(node).unwrap_or(Signed { negative: false, value: ValueId(usize::MAX) })
+    }
 
-    fn index(&self, node: NodeId) -> &Signed {
-        &self.0[node.index()]
+    fn set(&mut self, node: NodeId, Signed { negative, value }: Signed) {
+        self.0[node.index()] = ((value.0 as u64 + 1) << 1) | u64::from(negative);
     }
 }
 
@@ -48,13 +50,13 @@ impl<'a> Builder<'a> {
     fn build(&mut self, roots: &[NodeId]) {
         let ordered = self.graph.sweep(roots, |_| false, |id| self.is_leaf(id));
         let shared = self.shared_divisors(&ordered);
-        self.of.0.resize(ordered.last().map_or(0, |last| last.index() + 1), NONE);
+        self.of.0 = vec![0; ordered.last().map_or(0, |last| last.index() + 1)].into_boxed_slice();
         for id in ordered {
             let signed = match self.leaf(id) {
                 Some(signed) => signed,
                 None => self.translate(id, &shared),
             };
-            self.of.0[id.index()] = signed;
+            self.of.set(id, signed);
         }
     }
 
@@ -118,7 +120,7 @@ impl<'a> Builder<'a> {
             Node::Sum { constant, terms } => {
                 let mut signed = Vec::new();
                 for &(coefficient, term) in terms {
-                    let term = self.of[term];
+                    let term = self.of.of(term);
                     let value = self.scaled(coefficient.absolute(), term.value);
                     signed.push(Signed { negative: term.negative != coefficient.is_negative(), value });
                 }
@@ -129,7 +131,7 @@ impl<'a> Builder<'a> {
             }
             Node::Product { coefficient, factors } => self.product(*coefficient, factors, shared),
             Node::Call(function, arguments) => {
-                let mut arguments: Vec<Signed> = arguments.iter().map(|argument| self.of[*argument]).collect();
+                let mut arguments: Vec<Signed> = arguments.iter().map(|argument| self.of.of(*argument)).collect();
                 if *function == Function::Hypot {
                     // It does not see them.
                     arguments.iter_mut().for_each(|argument| argument.negative = false);
@@ -137,7 +139,7 @@ impl<'a> Builder<'a> {
                 self.positive(Value::Call(*function, arguments))
             }
             Node::External(external, arguments) => {
-                let arguments = arguments.iter().map(|argument| self.of[*argument]).collect();
+                let arguments = arguments.iter().map(|argument| self.of.of(*argument)).collect();
                 self.positive(Value::External(external.clone(), arguments))
             }
             Node::Constant(_) | Node::Pi | Node::Symbol(_) => self.constant(Number::ZERO),
@@ -170,7 +172,7 @@ impl<'a> Builder<'a> {
                 constant = constant.multiply(Number::Float(value.powi(exponent)));
                 continue;
             }
-            let signed = self.of[base];
+            let signed = self.of.of(base);
             negative ^= signed.negative && exponent % 2 != 0;
             let factors = if exponent > 0 { &mut above } else { &mut below };
             self.power(signed.value, exponent.unsigned_abs(), factors);
