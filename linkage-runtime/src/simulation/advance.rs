@@ -2,9 +2,9 @@
 
 use nalgebra::SVector;
 
-use super::motion::Road;
+use super::motion::{Position, Road};
 use super::road::{AtSingularity, WARNED};
-use super::run::{Moment, Position, Rates, Simulation};
+use super::run::{Moment, Rates, Simulation};
 use super::state::{State, Touch};
 use super::watch::{Then, Watch};
 use crate::contact::Change;

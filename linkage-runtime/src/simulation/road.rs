@@ -3,9 +3,10 @@
 use nalgebra::SVector;
 
 use super::independent::Independent;
-use super::motion::{Motion, Road, weakest};
+use super::motion::{Motion, Position, Road};
 use super::over::Ahead;
-use super::run::{Position, Rates, Signs, Simulation};
+use super::run::{Rates, Signs, Simulation};
+use super::verdict::weakest;
 use super::watch::Watch;
 use crate::integrate::{Interpolant, Method, Tolerance};
 use crate::scalar::to_f64;

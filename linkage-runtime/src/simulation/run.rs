@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::motion::Motion;
+use super::motion::{Motion, Position};
 use super::outputs::Outputs;
 use super::road::{AtSingularity, Passages, scale_of};
 use super::scales::Scales;
@@ -18,8 +18,6 @@ use crate::{Error, Mechanism, Real, Scene, real};
 /// 0.9 has every third step rejected.
 const SAFETY: f64 = 0.8;
 
-pub(super) type Position<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
-    Coordinates<<S as Scene<T, U, V, N, C>>::Mechanism, T, U, V>;
 pub(super) type Moment<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
     State<T, Position<S, T, U, V, N, C>, C>;
 pub(super) type Rates<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
