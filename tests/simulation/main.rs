@@ -9,4 +9,5 @@ mod dead_points;
 mod doors;
 mod failures;
 mod long_runs;
+mod rig;
 mod windows;

@@ -11,7 +11,7 @@ use super::watch::{Then, Unwatched, Watch, Watched};
 use crate::contact::Contacts;
 use crate::integrate::{Counts, Crossing, Dop853, Integration, Method, Tolerance};
 use crate::scalar::to_f64;
-use crate::scene::{Coordinates, Inputs};
+use crate::scene::Inputs;
 use crate::{Error, Mechanism, Real, Scene, real};
 
 /// What of the change of a step's length is dared. A mechanism is now slow and now fast within one turn, and the usual
@@ -141,7 +141,7 @@ where
     ///
     /// # Errors
     /// None that [`simulate`] has not found.
-    #[allow(clippy::type_complexity)] // A shorter name would hide which closure takes what.
+    #[expect(clippy::type_complexity, reason = "a shorter name would hide which closure takes what")]
     pub fn events<F, A, const K2: usize>(
         self,
         crossings: [Crossing; K2],
@@ -155,7 +155,7 @@ where
         self.with(|motion| motion.watched(Watched { crossings, values, action }))
     }
 
-    #[allow(clippy::type_complexity)] // As above.
+    #[expect(clippy::type_complexity, reason = "as above")]
     fn with<M2, W2, const K2: usize>(
         self,
         motion: impl FnOnce(Motion<'a, S, W, T, U, V, N, C>) -> Motion<'a, S, W2, T, U, V, N, C>,
