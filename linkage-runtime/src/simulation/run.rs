@@ -141,7 +141,6 @@ where
     ///
     /// # Errors
     /// None that [`simulate`] has not found.
-    #[expect(clippy::type_complexity, reason = "a shorter name would hide which closure takes what")]
     pub fn events<F, A, const K2: usize>(
         self,
         crossings: [Crossing; K2],
@@ -155,7 +154,6 @@ where
         self.with(|motion| motion.watched(Watched { crossings, values, action }))
     }
 
-    #[expect(clippy::type_complexity, reason = "as above")]
     fn with<M2, W2, const K2: usize>(
         self,
         motion: impl FnOnce(Motion<'a, S, W, T, U, V, N, C>) -> Motion<'a, S, W2, T, U, V, N, C>,
