@@ -311,8 +311,29 @@ fn nonsense_is_an_error_and_never_a_number() {
         assert!(found.is_err(), "{m:?}: {found:?}");
     }
     assert!(FourBar::default().assemble(f64::NAN, branch).is_err());
-    // A negative length is a link that points the other way.
-    let (m, turned) = (FourBar::default(), FourBar::new(80.0, 20.0, -50.0, 70.0));
-    let (pose, other) = (m.assemble(0.35, branch).unwrap(), turned.assemble(0.35, branch).unwrap());
-    assert!((m.points(&pose).unwrap().c - turned.points(&other).unwrap().c).amax() <= 1e-13);
+}
+
+/// A negative length is a link that points the other way, whatever the unit of length and however flat the triangle.
+#[test]
+fn a_negative_length_points_the_other_way() {
+    for scale in [-200, -60, 0, 60, 200].map(|exponent| 2_f64.powi(exponent)) {
+        // The second is flat at 0.
+        for (m, theta2) in [(FourBar::default(), 0.35), (FourBar::new(140.0, 20.0, 50.0, 70.0), 0.0)] {
+            let m = m.map(|length| length * scale);
+            for (elbow, signs) in [Elbow::Left, Elbow::Right]
+                .into_iter()
+                .flat_map(|elbow| [[-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|signs| (elbow, signs)))
+            {
+                let turned = FourBar { l3: signs[0] * m.l3, l4: signs[1] * m.l4, ..m.clone() };
+                let [pose, other] = [&m, &turned].map(|m| m.assemble(theta2, branch(elbow)).unwrap());
+                let off = [(pose.theta3, other.theta3), (pose.theta4, other.theta4)]
+                    .into_iter()
+                    .zip(signs)
+                    .map(|((one, other), sign)| (one.into_inner() - other.into_inner() * sign).norm());
+                assert!(off.fold(0.0, f64::max) <= 4.0 * f64::EPSILON, "{turned:?}: {pose:?} {other:?}");
+                assert_eq!(turned.branch_of(&other), branch(elbow));
+                assert!((pose.determinant - other.determinant).abs() <= 4.0 * f64::EPSILON * m.l3 * m.l4);
+            }
+        }
+    }
 }

@@ -89,7 +89,8 @@ pub fn chord<T: Real, S: Side>(
     let (radicand, epsilon) = (low * high, T::default_epsilon());
     // Both factors cannot be negative. Where their product is near the ends of its range, of huge and of
     // tiny lengths, it is that of other units.
-    let is_plain = radicand > epsilon * epsilon * epsilon * epsilon && radicand.is_finite();
+    let tiny = epsilon * epsilon * epsilon * epsilon;
+    let is_plain = radicand > tiny && radicand < T::one() / tiny;
     let root = if is_plain { radicand.sqrt() } else { guarded(mechanism, group, low, high, size)? };
     Ok(if side == S::OF_POSITIVE_ROOT { root } else { -root })
 }
@@ -100,7 +101,7 @@ const CANCELLATION: f64 = 1.0 / 16.0;
 
 /// The half chord of two links `[p, q]` between joints whose line is `[x, y]`, twice: the root of
 /// ((p + q)^2 - D^2) (D^2 - (p - q)^2), D^2 = x^2 + y^2, with the sign of a side; `factors` are the two
-/// differences, `sizes` are (p + q)^2 and D^2.
+/// differences, `sizes` are (p + q)^2 and D^2. A length may be negative, and counts by its magnitude.
 ///
 /// Near a dead point a factor is a difference of nearly equal squares. It is then computed from the lengths and
 /// the line themselves as if nothing was rounded before the end, so that the chord is right to a few roundings
@@ -121,12 +122,12 @@ pub fn elbow_chord<T: Real, S: Side>(
 ) -> Result<T, Error> {
     let ([low, high], [sum, distance], [p, q], [x, y]) = (factors, sizes, links, line);
     let part = real::<T>(CANCELLATION);
-    let (low, high) =
-        if low > part * sum && high > part * distance { (low, high) } else { exactly(p, q, x, y, sum, distance) };
+    let (low, high, sum) =
+        if low > part * sum && high > part * distance { (low, high, sum) } else { exactly(p, q, x, y, distance) };
     chord(mechanism, group, [low, high], sum, side)
 }
 
-/// (p + q)^2 - D^2 and D^2 - (p - q)^2 of the lengths and the line as they are. What is less than one rounding of the
+/// (p + q)^2 - D^2, D^2 - (p - q)^2 and (p + q)^2 of the lengths and the line as they are. What is less than one rounding of the
 /// squares is zero: lengths such as 33.3 and 66.7 are no nearer to what was meant.
 ///
 /// In a scalar without fused multiplication, such as double-double, the squares' own roundings stay.
@@ -134,10 +135,12 @@ pub fn elbow_chord<T: Real, S: Side>(
 /// Scalars come and go in registers: arrays would be stored on the road that does not call this, too.
 #[cold]
 #[inline(never)]
-fn exactly<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
+fn exactly<T: Real>(p: T, q: T, x: T, y: T, distance: T) -> (T, T, T) {
+    let (p, q) = (p.abs(), q.abs());
+    let sum = (p + q) * (p + q);
     let (low, high) = (beyond(two_sum(p, q), [x, y]), -beyond(two_sum(p, -q), [x, y]));
     let touching = |factor: T, size: T| if factor.abs() <= T::default_epsilon() * size { T::zero() } else { factor };
-    (touching(low, sum), touching(high, distance))
+    (touching(low, sum), touching(high, distance), sum)
 }
 
 /// (a + b)^2 - x^2 - y^2 for a sum a and its rounding error b.

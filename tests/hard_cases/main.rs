@@ -7,6 +7,7 @@ mod dead_centre;
 mod equal_link_slider_crank;
 mod freudenstein_half_angle;
 mod freudenstein_roth;
+mod hostile_numbers;
 mod locked_second_group;
 mod many_turns;
 mod near_change_point;

@@ -156,6 +156,22 @@ fn length(g: &mut Graph, [x, y]: Vector) -> NodeId {
     simplify(g, &[modulus], &BTreeSet::new())[0]
 }
 
+/// A length up to its sign: of |l| it is l.
+fn unsigned(g: &mut Graph, length: NodeId) -> NodeId {
+    let inside = |g: &Graph, id: NodeId| match g.node(id) {
+        Node::Call(Function::Abs, arguments) => arguments[0],
+        _ => id,
+    };
+    match g.node(length).clone() {
+        Node::Product { coefficient, factors } => {
+            let mut product = vec![(g.number(coefficient), 1)];
+            product.extend(factors.into_iter().map(|(base, exponent)| (inside(g, base), exponent)));
+            g.product(&product)
+        }
+        _ => inside(g, length),
+    }
+}
+
 /// The square of a length: of |l| it is l^2.
 fn square_of(g: &mut Graph, length: NodeId) -> NodeId {
     let square = g.power(length, 2);
@@ -354,7 +370,11 @@ impl Solver<'_> {
             slope == [self.graph.scale(Number::integer(-k), v[1]), self.graph.scale(Number::integer(k), v[0])]
         })?;
         let (at_v, at_w) = (self.at_zero(v, &[a, b]), self.at_zero(w, &[b]));
-        let (p, q) = (length(self.graph, at_v), length(self.graph, at_w));
+        // The product of both factors of the chord is the same whatever the signs of p and q.
+        let [p, q] = [at_v, at_w].map(|at_zero| {
+            let length = length(self.graph, at_zero);
+            unsigned(self.graph, length)
+        });
         let g = &mut *self.graph;
         let distance = dot(g, d, d);
         let distance = self.fresh(&format!("distance_{}", self.number + 1), distance);

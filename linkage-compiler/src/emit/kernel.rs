@@ -69,6 +69,8 @@ impl ToTokens for Operand {
 pub(super) struct Code {
     pub body: Tokens,
     pub results: Vec<Operand>,
+    /// Which of them are finite in any case.
+    pub proven: Vec<bool>,
     pub operations: Operations,
     /// The names that the body has given.
     pub taken: Taken,
@@ -122,9 +124,22 @@ pub(super) fn write(
     for line in &schedule.lines {
         write_line(&writer, &mut body, line, &mut names, &mut results);
     }
+    let proven = match schedule.lines.last() {
+        Some(Line::Return(values)) => schedule.proven(values),
+        _ => Vec::new(),
+    };
     let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
     let externals = std::mem::take(&mut names.externals);
-    Code { body, results, operations: schedule.operations(), taken: names.into_taken(), arguments, uses, externals }
+    Code {
+        body,
+        results,
+        proven,
+        operations: schedule.operations(),
+        taken: names.into_taken(),
+        arguments,
+        uses,
+        externals,
+    }
 }
 
 /// What a line uses of the runtime.

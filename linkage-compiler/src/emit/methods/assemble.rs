@@ -64,7 +64,9 @@ impl Methods<'_> {
         wishes.extend(kernels.plan.values.iter().map(|(_, field, _)| field.clone()));
         wishes.extend(kernels.plan.externals.iter().map(|(_, field, _)| field.clone()));
         let (bindings, bound) = bind(&code.results, &wishes, &mut code.taken);
-        let finite = check_finite(&mut code, "the position", &bound);
+        let unproven = bound.iter().zip(&code.proven).filter(|(_, proven)| !**proven).map(|(value, _)| value.clone());
+        let unproven: Vec<_> = unproven.collect();
+        let finite = check_finite(&mut code, "the position", &unproven);
         let fields = pose_members(kernels.plan, bound.iter());
         if !circular.is_empty() {
             code.uses.insert("unit");

@@ -286,12 +286,7 @@ impl Methods<'_> {
         // Directions are fields as well, so that the pattern is never complete.
         fields.extend(kernels.plan.directions.values().map(|field| (Cow::from(field), SymbolId::NONE)));
         let (pose, of) = (&self.arguments.pose, &self.types.pose);
-        Source {
-            argument: Some(pose.clone()),
-            from: Tokens::behind(pose),
-            of: Shape::Fields(Tokens::name(of)),
-            fields,
-        }
+        Source { argument: Some(pose.clone()), from: Tokens::behind(pose), of: Shape::Fields(Tokens::name(of)), fields }
     }
 
     fn coordinates<'k>(

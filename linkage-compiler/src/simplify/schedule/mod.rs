@@ -4,6 +4,7 @@
 mod needed;
 mod operations;
 mod order;
+mod proven;
 mod sharing;
 mod translate;
 

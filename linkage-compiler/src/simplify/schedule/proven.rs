@@ -1,0 +1,105 @@
+//! What needs no verdict of its own: values that are finite wherever the chords before them exist.
+
+use rustc_hash::FxHashMap;
+
+use super::{Line, Schedule, Signed, Value, ValueId};
+use crate::graph::{Function, SymbolId};
+
+impl Schedule {
+    /// Which of the results are finite where all chords exist and the other results are finite.
+    ///
+    /// A chord is accepted only if both its factors are finite. A sum, product or square is finite only if its parts
+    /// are, and so are a root, a magnitude, a sine and a cosine (IEEE 754): so what the factors are made of is
+    /// finite too.
+    #[must_use]
+    pub fn proven(&self, results: &[Signed]) -> Vec<bool> {
+        let is_chord = |line: &Line| matches!(line, Line::Chord { .. });
+        if !self.lines.iter().any(is_chord) {
+            return vec![false; results.len()];
+        }
+        let mut proven = Proven {
+            schedule: self,
+            named: FxHashMap::default(),
+            finite: vec![false; self.values.len()],
+            judged: vec![false; self.values.len()],
+        };
+        let (mut chords, mut factors_of_all) = (Vec::new(), Vec::new());
+        for line in &self.lines {
+            match line {
+                Line::Name { symbol, value } => drop(proven.named.insert(*symbol, value.value)),
+                Line::Chord { symbol, factors, .. } => {
+                    chords.push(*symbol);
+                    factors_of_all.extend(factors.map(|factor| factor.value));
+                }
+                _ => {}
+            }
+        }
+        proven.follow(factors_of_all);
+        for &id in self.used() {
+            if matches!(self.value(id), Value::Symbol(symbol) if chords.contains(symbol)) {
+                proven.finite[id.0] = true;
+            }
+        }
+        for result in results {
+            let id = proven.itself(result.value);
+            proven.judged[id.0] = true;
+        }
+        results.iter().map(|result| proven.is_finite(proven.itself(result.value))).collect()
+    }
+}
+
+struct Proven<'a> {
+    schedule: &'a Schedule,
+    /// What is called by a symbol.
+    named: FxHashMap<SymbolId, ValueId>,
+    finite: Vec<bool>,
+    /// The results.
+    judged: Vec<bool>,
+}
+
+impl Proven<'_> {
+    /// What these values are made of is finite.
+    fn follow(&mut self, mut stack: Vec<ValueId>) {
+        while let Some(id) = stack.pop() {
+            let id = self.itself(id);
+            if std::mem::replace(&mut self.finite[id.0], true) {
+                continue;
+            }
+            match self.schedule.value(id) {
+                Value::Quotient(above, _) => stack.push(*above),
+                value @ (Value::Call(Function::Abs | Function::Sqrt | Function::Sin | Function::Cos, _)
+                | Value::Sum(_)
+                | Value::Product(_)
+                | Value::Square(_)) => value.each_part(|part| stack.push(part)),
+                _ => {}
+            }
+        }
+    }
+
+    fn is_finite(&self, id: ValueId) -> bool {
+        let value = |id: ValueId| self.schedule.value(id);
+        let is_small = |id: ValueId| matches!(value(id), Value::Constant(number) if number.to_f64() <= 1.0);
+        self.finite[id.0]
+            || match value(id) {
+                Value::Call(Function::Sin | Function::Cos, angle) => self.finite[self.itself(angle[0].value).0],
+                // Its arguments have no verdict but that of their own.
+                Value::Call(Function::Atan2, parts) => parts.iter().all(|part| self.judged[self.itself(part.value).0]),
+                // Half a chord, for instance.
+                Value::Product(factors) => {
+                    matches!(*factors.as_slice(), [number, other] if is_small(number) && self.finite[self.itself(other).0])
+                }
+                _ => false,
+            }
+    }
+
+    /// What a value is without its names.
+    fn itself(&self, id: ValueId) -> ValueId {
+        let mut id = id;
+        while let Value::Symbol(symbol) = self.schedule.value(id)
+            && let Some(value) = self.named.get(symbol)
+        {
+            id = *value;
+        }
+        id
+    }
+}

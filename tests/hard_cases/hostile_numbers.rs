@@ -1,0 +1,118 @@
+//! Lengths and inputs that no mechanism has: infinite, not numbers, zero, negative, at the ends of the range. A
+//! position is refused, or every number of it is finite.
+
+use std::fmt::Debug;
+
+use linkage::{Assembly, Error};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+
+use super::random_steps::*;
+
+const HOSTILE: [f64; 13] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    0.0,
+    -0.0,
+    f64::MAX,
+    f64::MIN_POSITIVE,
+    5e-324,
+    1e-160,
+    1e155,
+    1e300,
+    -1.0,
+    -1e308,
+];
+
+/// How many positions there were, and how many were refused.
+#[derive(Default)]
+struct Found {
+    positions: usize,
+    refused: usize,
+}
+
+/// Assembles a mechanism whose parameters and inputs are partly hostile.
+fn assail<M, const N: usize, const U: usize, const V: usize>(
+    branches: &[M::Branch],
+    random: &mut SmallRng,
+    found: &mut Found,
+) where
+    M: Assembly<f64, U, V> + Default + From<[f64; N]>,
+    [f64; N]: From<M>,
+    M::Pose: Debug,
+    M::Inputs: From<linkage::nalgebra::SVector<f64, V>>,
+{
+    for _ in 0..2000 {
+        let mut parameters: [f64; N] = M::default().into();
+        let mut inputs = linkage::nalgebra::SVector::<f64, V>::from_fn(|_, _| random.random_range(-3.0..3.0));
+        for _ in 0..random.random_range(1..=3) {
+            let place = random.random_range(0..N + V);
+            let bad = HOSTILE[random.random_range(0..HOSTILE.len())];
+            if place < N {
+                parameters[place] = bad;
+            } else {
+                inputs[place - N] = bad;
+            }
+        }
+        let m = M::from(parameters);
+        for &branch in branches {
+            match m.assemble(inputs.into(), branch) {
+                Ok(pose) => {
+                    found.positions += 1;
+                    let text = format!("{pose:?}");
+                    assert!(!text.contains("NaN") && !text.contains("inf"), "{parameters:?} {inputs:?}: {text}");
+                }
+                Err(Error::NotFinite { .. } | Error::Unbuildable { .. }) => found.refused += 1,
+                Err(error) => panic!("{parameters:?} {inputs:?}: {error}"),
+            }
+        }
+    }
+}
+
+macro_rules! all {
+    ($random:ident, $found:ident: $($M:ident $Branch:ident)*) => {
+        $(assail::<$M, _, _, _>(&$Branch::all().collect::<Vec<_>>(), $random, $found);)*
+    };
+}
+
+#[test]
+fn a_position_is_refused_or_finite() {
+    let (random, found) = (&mut SmallRng::seed_from_u64(3), &mut Found::default());
+    all! { random, found:
+        Andrews AndrewsBranch
+        CamFollower CamFollowerBranch
+        CamRocker CamRockerBranch
+        Cardan CardanBranch
+        ChebyshevCoupler ChebyshevCouplerBranch
+        CoupledWheels CoupledWheelsBranch
+        CrankShaper CrankShaperBranch
+        EllipticTrammel EllipticTrammelBranch
+        FiveBar FiveBarBranch
+        FourBar FourBarBranch
+        GearedFiveBar GearedFiveBarBranch
+        Geneva GenevaBranch
+        Hart HartBranch
+        Hoecken HoeckenBranch
+        InvertedSliderCrank InvertedSliderCrankBranch
+        Jansen JansenBranch
+        Klann KlannBranch
+        OffsetSliderCrank OffsetSliderCrankBranch
+        Pantograph PantographBranch
+        Peaucellier PeaucellierBranch
+        Roberts RobertsBranch
+        ScotchYoke ScotchYokeBranch
+        SixBar SixBarBranch
+        StephensonI StephensonIBranch
+        StephensonIII StephensonIIIBranch
+        VTwin VTwinBranch
+        WattI WattIBranch
+        WattII WattIIBranch
+        WattLine WattLineBranch
+        Whitworth WhitworthBranch
+        Wiper WiperBranch
+    }
+    let Found { positions, refused } = found;
+    println!("{positions} positions, {refused} refused");
+    assert!(*positions > 30_000 && *refused > 150_000, "{positions} positions, {refused} refused");
+}
