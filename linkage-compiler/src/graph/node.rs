@@ -3,11 +3,11 @@
 use super::{External, Function, Number};
 use crate::places::Hash;
 
-/// An expression of a [`Graph`].
+/// An expression of a [`Graph`](super::Graph).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(super) u32);
 
-/// A name of a [`Graph`]: parameter, coordinate, rate, or a quantity solved for.
+/// A name of a [`Graph`](super::Graph): parameter, coordinate, rate, or a quantity solved for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SymbolId(pub(super) u32);
 

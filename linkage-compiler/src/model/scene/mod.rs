@@ -36,7 +36,7 @@ pub struct Scene {
     pub contacts: Vec<Contact>,
     pub drives: Vec<Drive>,
     pub wishes: BTreeSet<Wish>,
-    /// Places among [`Mechanism::scene_parameters`].
+    /// Places among [`Mechanism::scene_parameters`](super::Mechanism::scene_parameters).
     pub parameters: Vec<usize>,
 }
 
@@ -79,7 +79,7 @@ pub enum Account {
 
 /// The motion of an input is given.
 pub struct Drive {
-    /// An index into [`Mechanism::coordinates`].
+    /// An index into [`Mechanism::coordinates`](super::Mechanism::coordinates).
     pub input: usize,
     /// In terms of parameters and time.
     pub law: NodeId,
