@@ -31,12 +31,13 @@ fn at(theta: f64) -> CranksCoordinates<f64> {
 /// The inertia of all that turns.
 const INERTIA: f64 = 2.0 * 5.0 + 1.2;
 
-/// Slowed evenly it stops after the angle that its energy lasts for, behind 1, 2 and 3 change points.
+/// Slowed evenly it stops after the angle that its energy lasts for, behind 1, 2 and 3 change points or beside one.
 #[test]
 fn friction_takes_all_the_energy() {
-    let scene = Rubbed::default();
-    for speed in [0.8, 1.1, 1.4, 1.5, 1.6] {
-        let start = 0.5;
+    let (scene, start) = (Rubbed::default(), 0.5);
+    let beside = [-0.3, -0.1, -0.03, -0.01, 0.01, 0.03, 0.1, 0.3].map(|beyond| PI + beyond);
+    for end in [2.9, 5.0, 7.8, 8.9, 10.1].into_iter().chain(beside) {
+        let speed = (2.0 * scene.mu / INERTIA * (end - start)).sqrt();
         let mut motion = simulate(&scene, (0.0, at(start), speed), 40.0, 1e-12).unwrap();
         let mut stuck = None;
         let mut last = 0.0;
@@ -60,6 +61,7 @@ fn friction_takes_all_the_energy() {
         }
         close("sticks", stuck.unwrap(), INERTIA * speed / scene.mu, 1e-8);
         assert_eq!(motion.state().mode("friction on psi"), Some(Mode::Stick));
+        close("end", motion.state().q.psi, end, 1e-8);
     }
 }
 

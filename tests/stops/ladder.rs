@@ -27,15 +27,15 @@ linkage! {
     }
 }
 
-/// Where it is, the time, the rate and what has happened there.
+/// The time, the height over the stop, its rate, what has happened then, and the mode from there on.
 type Moment = (f64, f64, f64, Option<Change>, Mode);
 
-/// Falls from `height` onto a stop, with the rate that it is hit with at first, whatever else moves.
+/// A ball that falls from this height over its stop.
 struct Fall {
     height: f64,
     g: f64,
     e: f64,
-    /// The size of what its place is told by.
+    /// What is large for its place.
     size: f64,
 }
 
@@ -65,10 +65,8 @@ impl Fall {
                     close("time", t, time, 1e-11 * first + late);
                     close("rate", -rate, before, 1e-11 * speed + late * self.g);
                     impacts += 1;
-                    let is_last = self.e * before < 1e-6 * speed.max((self.size * self.g).sqrt());
-                    if change == Some(Change::Rests) {
-                        assert!(is_last, "rests after {impacts} at {before:e}");
-                    }
+                    let is_slow = self.e * before < 1e-6 * speed.max((self.size * self.g).sqrt());
+                    assert!(change == Some(Change::Impact) || is_slow, "rests after {impacts} at {before:e}");
                 }
                 Some(other) => panic!("{other:?} at {t}"),
                 None if mode != Mode::Open => {
@@ -90,7 +88,7 @@ impl Fall {
     }
 }
 
-/// The scene from this angle over the stop: heights by `height`, from positions or from rates.
+/// A scene whose stop is above or below, at this part of the length, from this angle off the slot.
 macro_rules! falls {
     ($scene:ident, $sign:expr, $rest:expr, $l:expr, $e:expr, $lift:expr) => {{
         let mut scene = $scene::<f64>::default();
