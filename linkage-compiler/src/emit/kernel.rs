@@ -111,16 +111,17 @@ pub(super) fn write(
     const LINE: usize = 12;
     let mut body = Tokens::with_room_for(LINE * (schedule.lines.len() + given.sources.len()));
     let mut arguments = Vec::new();
+    let keyword = ident("let");
     for source in &given.sources {
-        if pattern(&mut body, source, &symbols, &names) {
+        if pattern(&mut body, &keyword, source, &symbols, &names) {
             arguments.extend(source.argument.clone());
         }
     }
     if let Some(pose) = given.pose {
-        arguments.extend(take_directions(&mut body, pose, &schedule, &mut names));
+        arguments.extend(take_directions(&mut body, &keyword, pose, &schedule, &mut names));
     }
     let mut results = Vec::new();
-    let writer = Writer { given, derivation, schedule: &schedule, used: &used, keyword: ident("let") };
+    let writer = Writer { given, derivation, schedule: &schedule, used: &used, keyword };
     for line in &schedule.lines {
         write_line(&writer, &mut body, line, &mut names, &mut results);
     }
@@ -156,7 +157,7 @@ fn used_by(line: &Line) -> Option<&'static str> {
 }
 
 /// `let Type { field, other: name, .. } = *value;` with the fields that are used; nothing if none is.
-fn pattern(body: &mut Tokens, source: &Source, used: &[SymbolId], names: &Names) -> bool {
+fn pattern(body: &mut Tokens, keyword: &Ident, source: &Source, used: &[SymbolId], names: &Names) -> bool {
     let is_used = |symbol: SymbolId| used.binary_search(&symbol).is_ok();
     let from = &source.from;
     let of = match &source.of {
@@ -190,7 +191,7 @@ fn pattern(body: &mut Tokens, source: &Source, used: &[SymbolId], names: &Names)
     if count < source.fields.len() {
         fields.extend(quote!(..));
     }
-    body.word("let");
+    body.ident(keyword);
     body.join(of.clone());
     body.group(Delimiter::Brace, fields);
     body.punct('=');
@@ -201,7 +202,13 @@ fn pattern(body: &mut Tokens, source: &Source, used: &[SymbolId], names: &Names)
 
 /// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used;
 /// gives the argument if any is.
-fn take_directions(body: &mut Tokens, pose: &PosePlan, schedule: &Schedule, names: &mut Names) -> Option<Ident> {
+fn take_directions(
+    body: &mut Tokens,
+    keyword: &Ident,
+    pose: &PosePlan,
+    schedule: &Schedule,
+    names: &mut Names,
+) -> Option<Ident> {
     let mut used: Vec<(NodeId, Function, ValueId)> = Vec::new();
     for &id in schedule.used() {
         if let Value::Direction(function, angle) = schedule.value(id) {
@@ -213,7 +220,7 @@ fn take_directions(body: &mut Tokens, pose: &PosePlan, schedule: &Schedule, name
     }
     used.sort_unstable();
     let argument = ident(&pose.argument);
-    let (keyword, sine, cosine) = (ident("let"), ident("im"), ident("re"));
+    let (sine, cosine) = (ident("im"), ident("re"));
     for parts in used.chunk_by(|one, other| one.0 == other.0) {
         let field = pose.direction(parts[0].0);
         let field_ident = ident(field);
@@ -230,7 +237,7 @@ fn take_directions(body: &mut Tokens, pose: &PosePlan, schedule: &Schedule, name
             right.punct('.');
             right.ident(if function == Function::Sin { &sine } else { &cosine });
         }
-        body.ident(&keyword);
+        body.ident(keyword);
         if parts.len() == 1 {
             body.join(left);
             body.punct('=');

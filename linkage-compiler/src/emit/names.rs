@@ -120,7 +120,9 @@ impl Taken {
         let word = words.find(name);
         if self.words.len() <= word {
             // More names follow.
-            self.words.resize(2 * words.names.len(), false);
+            let mut larger = vec![false; 2 * words.names.len()];
+            larger[..self.words.len()].copy_from_slice(&self.words);
+            self.words = larger;
         }
         if word < self.scope.reserved || std::mem::replace(&mut self.words[word], true) {
             return None;
@@ -401,25 +403,17 @@ pub(super) fn ident(name: &str) -> Ident {
 /// A text as a string literal, as people write it: raw where it holds what would need an escape.
 pub(super) fn quoted(text: &str) -> String {
     match (text.contains('"'), text.contains('\\')) {
-        (false, false) => between("\"", text, "\""),
-        (false, true) => between("r\"", text, "\""),
+        (false, false) => format!("\"{text}\""),
+        (false, true) => format!("r\"{text}\""),
         (true, _) if text.contains("\"#") => format!("{text:?}"),
-        (true, _) => between("r#\"", text, "\"#"),
+        (true, _) => format!("r#\"{text}\"#"),
     }
-}
-
-fn between(before: &str, text: &str, after: &str) -> String {
-    let mut all = String::with_capacity(before.len() + text.len() + after.len());
-    for part in [before, text, after] {
-        all.push_str(part);
-    }
-    all
 }
 
 /// The text of a doc comment as a literal: raw, as the compiler itself writes what stands behind `///`.
 pub(super) fn comment(text: &str) -> Literal {
     let plain = !text.contains('"');
-    let raw = plain.then(|| between("r\"", text, "\"").parse().ok()).flatten();
+    let raw = plain.then(|| format!("r\"{text}\"").parse().ok()).flatten();
     raw.unwrap_or_else(|| string(text))
 }
 
