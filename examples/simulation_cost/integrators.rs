@@ -29,14 +29,14 @@ where
     S: Scene<f64, U, V, N, 0> + 'static,
 {
     let methods: [(usize, Run<S, U, V, N>); 8] = [
-        (SIMULATE_8, simulated::<Dop853, S, U, V, N>),
-        (SIMULATE_5, simulated::<Dopri5, S, U, V, N>),
-        (INTEGRATE_8, integrated::<Dop853, S, U, V, N>),
-        (INTEGRATE_5, integrated::<Dopri5, S, U, V, N>),
-        (ODE_SOLVERS_8, by_ode_solvers::<true, S, U, V, N>),
-        (ODE_SOLVERS_5, by_ode_solvers::<false, S, U, V, N>),
-        (DIFFERENTIAL_EQUATIONS_8, by_differential_equations::<true, S, U, V, N>),
-        (DIFFERENTIAL_EQUATIONS_5, by_differential_equations::<false, S, U, V, N>),
+        (SIMULATE_8, Problem::simulated::<Dop853>),
+        (SIMULATE_5, Problem::simulated::<Dopri5>),
+        (INTEGRATE_8, Problem::integrated::<Dop853>),
+        (INTEGRATE_5, Problem::integrated::<Dopri5>),
+        (ODE_SOLVERS_8, Problem::by_ode_solvers::<true>),
+        (ODE_SOLVERS_5, Problem::by_ode_solvers::<false>),
+        (DIFFERENTIAL_EQUATIONS_8, Problem::by_differential_equations::<true>),
+        (DIFFERENTIAL_EQUATIONS_5, Problem::by_differential_equations::<false>),
     ];
     methods.into_iter().flat_map(|(method, end)| by_tolerance(problem, method, end)).collect()
 }
@@ -63,52 +63,67 @@ where
     })
 }
 
-fn simulated<M, S, const U: usize, const V: usize, const N: usize>(
-    problem: &Problem<S, U, V, N>,
-    tolerance: f64,
-) -> End<N>
-where
-    M: Method,
-    S: Scene<f64, U, V, N, 0>,
-{
-    let end = || {
-        let (q, rates) = S::parts(&problem.start);
-        let mut motion = simulate(&problem.scene, (0.0, q, rates), problem.end, tolerance)?.method::<M>()?;
-        motion.finish(|_, _| true)?;
-        Ok((S::state(&motion.state().q, &rates), motion.counts().evaluations))
-    };
-    end().map_err(|error: linkage::Error| error.to_string())
-}
+impl<S: Scene<f64, U, V, N, 0>, const U: usize, const V: usize, const N: usize> Problem<S, U, V, N> {
+    fn simulated<M: Method>(&self, tolerance: f64) -> End<N> {
+        let end = || {
+            let (q, rates) = S::parts(&self.start);
+            let mut motion = simulate(&self.scene, (0.0, q, rates), self.end, tolerance)?.method::<M>()?;
+            motion.finish(|_, _| true)?;
+            Ok((S::state(&motion.state().q, &rates), motion.counts().evaluations))
+        };
+        end().map_err(|error: linkage::Error| error.to_string())
+    }
 
-fn integrated<M, S, const U: usize, const V: usize, const N: usize>(
-    problem: &Problem<S, U, V, N>,
-    tolerance: f64,
-) -> End<N>
-where
-    M: Method,
-    S: Scene<f64, U, V, N, 0>,
-{
-    let end = || {
-        let rate = |t: f64, y: &SVector<f64, N>| problem.scene.derivative(t, y);
-        let tolerance = Tolerance::new(tolerance, [1.0; N])?;
-        let mut motion = Integration::<M, _, f64, N, 0>::new(rate, (0.0, problem.start), problem.end, tolerance)?;
-        motion.finish(|_, _| true)?;
-        Ok((*motion.state(), motion.counts().evaluations))
-    };
-    end().map_err(|error: linkage::Error| error.to_string())
-}
+    fn integrated<M: Method>(&self, tolerance: f64) -> End<N> {
+        let end = || {
+            let rate = |t: f64, y: &SVector<f64, N>| self.scene.derivative(t, y);
+            let tolerance = Tolerance::new(tolerance, [1.0; N])?;
+            let mut motion = Integration::<M, _, f64, N, 0>::new(rate, (0.0, self.start), self.end, tolerance)?;
+            motion.finish(|_, _| true)?;
+            Ok((*motion.state(), motion.counts().evaluations))
+        };
+        end().map_err(|error: linkage::Error| error.to_string())
+    }
 
-/// y', or what is not a number where there is none, for integrators that know no failure.
-#[inline]
-pub fn rate<S, const U: usize, const V: usize, const N: usize>(
-    problem: &Problem<S, U, V, N>,
-    t: f64,
-    y: &SVector<f64, N>,
-) -> SVector<f64, N>
-where
-    S: Scene<f64, U, V, N, 0>,
-{
-    problem.scene.derivative(t, y).unwrap_or_else(|_| SVector::repeat(f64::NAN))
+    /// y', or what is not a number where there is none, for integrators that know no failure.
+    #[inline]
+    pub fn rate(&self, t: f64, y: &SVector<f64, N>) -> SVector<f64, N> {
+        self.scene.derivative(t, y).unwrap_or_else(|_| SVector::repeat(f64::NAN))
+    }
+
+    fn by_ode_solvers<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<N> {
+        let calls = Cell::new(0);
+        let start = ode_solvers::SVector::<f64, N>::from(<[f64; N]>::from(self.start));
+        let called = Called(self, &calls);
+        let sparse = ode_solvers::dop_shared::OutputType::Sparse;
+        let last = if IS_EIGHT {
+            let mut stepper = ode_solvers::Dop853::new(called, 0.0, self.end, self.end, start, tolerance, tolerance);
+            stepper.set_output(sparse);
+            stepper.integrate().map(|_| stepper.y_out().last().copied())
+        } else {
+            let mut stepper = ode_solvers::Dopri5::new(called, 0.0, self.end, self.end, start, tolerance, tolerance);
+            stepper.set_output(sparse);
+            stepper.integrate().map(|_| stepper.y_out().last().copied())
+        };
+        let last = last.map_err(|error| error.to_string())?.ok_or("no state")?;
+        Ok((<[f64; N]>::from(last).into(), calls.get()))
+    }
+
+    fn by_differential_equations<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<N> {
+        let calls = Cell::new(0);
+        let system = |t: f64, y: &SVector<f64, N>, slope: &mut SVector<f64, N>| {
+            calls.set(calls.get() + 1);
+            *slope = self.rate(t, y);
+        };
+        let motion = IVP::ode_from_fn(system, 0.0, self.end, self.start);
+        let solution = if IS_EIGHT {
+            motion.method(ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
+        } else {
+            motion.method(ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
+        };
+        let solution = solution.map_err(|error| format!("{error:?}"))?;
+        Ok((*solution.y.last().ok_or("no state")?, calls.get()))
+    }
 }
 
 /// The right-hand side and how often it is called.
@@ -122,52 +137,6 @@ where
     #[inline]
     fn system(&self, t: f64, y: &ode_solvers::SVector<f64, N>, slope: &mut ode_solvers::SVector<f64, N>) {
         self.1.set(self.1.get() + 1);
-        *slope = <[f64; N]>::from(rate(self.0, t, &<[f64; N]>::from(*y).into())).into();
+        *slope = <[f64; N]>::from(self.0.rate(t, &<[f64; N]>::from(*y).into())).into();
     }
-}
-
-fn by_ode_solvers<const IS_EIGHT: bool, S, const U: usize, const V: usize, const N: usize>(
-    problem: &Problem<S, U, V, N>,
-    tolerance: f64,
-) -> End<N>
-where
-    S: Scene<f64, U, V, N, 0>,
-{
-    let calls = Cell::new(0);
-    let start = ode_solvers::SVector::<f64, N>::from(<[f64; N]>::from(problem.start));
-    let called = Called(problem, &calls);
-    let sparse = ode_solvers::dop_shared::OutputType::Sparse;
-    let last = if IS_EIGHT {
-        let mut stepper = ode_solvers::Dop853::new(called, 0.0, problem.end, problem.end, start, tolerance, tolerance);
-        stepper.set_output(sparse);
-        stepper.integrate().map(|_| stepper.y_out().last().copied())
-    } else {
-        let mut stepper = ode_solvers::Dopri5::new(called, 0.0, problem.end, problem.end, start, tolerance, tolerance);
-        stepper.set_output(sparse);
-        stepper.integrate().map(|_| stepper.y_out().last().copied())
-    };
-    let last = last.map_err(|error| error.to_string())?.ok_or("no state")?;
-    Ok((<[f64; N]>::from(last).into(), calls.get()))
-}
-
-fn by_differential_equations<const IS_EIGHT: bool, S, const U: usize, const V: usize, const N: usize>(
-    problem: &Problem<S, U, V, N>,
-    tolerance: f64,
-) -> End<N>
-where
-    S: Scene<f64, U, V, N, 0>,
-{
-    let calls = Cell::new(0);
-    let system = |t: f64, y: &SVector<f64, N>, slope: &mut SVector<f64, N>| {
-        calls.set(calls.get() + 1);
-        *slope = rate(problem, t, y);
-    };
-    let motion = IVP::ode_from_fn(system, 0.0, problem.end, problem.start);
-    let solution = if IS_EIGHT {
-        motion.method(ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
-    } else {
-        motion.method(ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
-    };
-    let solution = solution.map_err(|error| format!("{error:?}"))?;
-    Ok((*solution.y.last().ok_or("no state")?, calls.get()))
 }

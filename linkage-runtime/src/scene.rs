@@ -4,6 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::contact::within;
 use crate::scalar::to_f64;
+use crate::simulation::scales::Scales;
 use crate::{Contact, ContactLaw, Equations, Error, Mechanism, Real, newton};
 
 /// A mechanism of `U` dependent and `V` independent coordinates with inertia and forces, as a differential
@@ -114,9 +115,11 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C
             let (q, _) = Self::parts(&state);
             let rest = <Self::Mechanism as Mechanism<T, U, V>>::with_unknowns(&q, SVector::zeros());
             let rest = <Self::Mechanism as Mechanism<T, U, V>>::with_inputs(&rest, SVector::zeros());
+            let scales = Scales::of(self.mechanism(), &q);
             for Contact { name, along, law } in self.contacts(t, &q, &rest)? {
                 if let ContactLaw::Stop { lower, upper, .. } = law {
-                    within(Self::NAME, name, along.value, [lower, upper])?;
+                    let resolution = scales.resolution_by_inputs(self.mechanism(), &q, &along)?;
+                    within(Self::NAME, name, (along.value, resolution), [lower, upper])?;
                 }
             }
         }

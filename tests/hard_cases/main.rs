@@ -27,9 +27,8 @@ mod wrong_side;
 #[path = "../source/cam_laws.rs"]
 mod cam_laws;
 
-// `forty_digits` uses what is not used here: it evaluates whole graphs.
 #[path = "../oracle/precise.rs"]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "`forty_digits` uses what is not used here: it evaluates whole graphs")]
 mod precise;
 
 use precise::{Big, Scalar, big};

@@ -3,24 +3,7 @@
 use linkage::simulation::simulate;
 use linkage::{Error, linkage};
 
-linkage! {
-    #[derive(Debug, Clone)]
-    mechanism Lever {
-        param a = 0.3, b = 0.9, c = 0.6, d = 1, m = 1, g = 9.81;
-        input theta;
-        unknown phi, psi;
-        loop a@theta + b@phi = d@0 + c@psi;
-        body crank { mass m; inertia m * a^2 / 12; center (a/2)@theta; angle theta; }
-        body rocker { mass m; inertia m * c^2 / 12; center d@0 + (c/2)@psi; angle psi; }
-        scene Fading { inertia; gravity (0, -g); torque sqrt(1 - t) on theta; }
-        scene Weighing { inertia; gravity (0, -g); }
-        scene Given { inertia; drive theta = 2 * t; }
-    }
-}
-
-fn start() -> LeverCoordinates<f64> {
-    Lever::default().solve(&LeverCoordinates { theta: 0.0, phi: 0.8, psi: 1.9 }).unwrap().coordinates
-}
+use super::rig::{Fading, Given, Idling, start};
 
 #[test]
 fn a_law_that_ends() {
@@ -44,8 +27,8 @@ fn a_law_that_ends() {
 
 #[test]
 fn starts_that_make_no_sense() {
-    let mut scene = Weighing::default();
-    let error = |scene: &Weighing<f64>, tolerance: f64, rate: f64, end: f64| {
+    let mut scene = Idling::default();
+    let error = |scene: &Idling<f64>, tolerance: f64, rate: f64, end: f64| {
         simulate(scene, (0.0, start(), rate), end, tolerance).err()
     };
     assert!(error(&scene, 1e-9, 1.0, 1.0).is_none());

@@ -7,7 +7,7 @@ use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
 use linkage::Scene;
 use linkage::nalgebra::SVector;
 
-use crate::integrators::{End, MOST_STEPS, by_tolerance, rate};
+use crate::integrators::{End, MOST_STEPS, by_tolerance};
 use crate::list::{METHODS, Work};
 use crate::problem::Problem;
 
@@ -26,7 +26,7 @@ where
     let calls = Cell::new(0);
     let rhs = |y: &[f64], _: &[f64], t: f64, slope: &mut [f64]| {
         calls.set(calls.get() + 1);
-        slope.copy_from_slice(rate(problem, t, &SVector::from_column_slice(y)).as_slice());
+        slope.copy_from_slice(problem.rate(t, &SVector::from_column_slice(y)).as_slice());
     };
     let init = |_: &[f64], _: f64, y: &mut [f64]| y.copy_from_slice(problem.start.as_slice());
     let motion = OdeBuilder::<NalgebraMat<f64>>::new().rtol(tolerance).atol([tolerance]).rhs(rhs).init(init, N).build();

@@ -1,7 +1,7 @@
 //! What a contact has done at an event.
 
 use super::reduced::ReducedEquations;
-use super::state::{Contacts, nearer, touches};
+use super::state::Contacts;
 use super::{ContactLaw, Mode};
 use crate::Real;
 
@@ -29,12 +29,11 @@ pub(crate) fn changes<T: Real, const V: usize, const C: usize>(
         (Mode::Open, Mode::Open) => {
             let contact = &of_before.contacts[place];
             let ContactLaw::Stop { lower, upper, .. } = contact.law else { return None };
-            let (side, gap) = nearer(contact, lower, upper);
-            let bound = if side == Mode::AtLower { lower } else { upper };
+            let (side, gap, rounding) = before.nearest(place, contact, [lower, upper]);
             let inward = side.inward::<T>();
             let (towards, away) =
                 (contact.rate(&of_before.rates).0 * inward, of_after.contacts[place].rate(&of_after.rates).0 * inward);
-            let is_hit = touches(gap, contact.value, bound) && towards < T::zero() && away > towards;
+            let is_hit = gap <= rounding && towards < T::zero() && away > towards;
             is_hit.then_some(Change::Impact)
         }
         (before, after) if before == after => None,

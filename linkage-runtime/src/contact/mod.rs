@@ -28,8 +28,8 @@ use nalgebra::SVector;
 pub use change::Change;
 pub(crate) use change::changes;
 pub use reduced::{ReducedContact, ReducedEquations};
-pub(crate) use state::within;
 pub use state::{ContactMotion, Contacts};
+pub(crate) use state::{rounding_of, within};
 pub use verdict::{sound, stops};
 
 /// Where a friction or a stop acts: along a scalar s(q), a coordinate or an output.

@@ -6,7 +6,7 @@ use super::bounded::bounded;
 use super::held::{Held, Response, nothing, slipping};
 use super::impact::{Struck, impact};
 use super::reduced::ReducedEquations;
-use super::state::{Contacts, is_nothing, nearer, slip_or_stick, touches};
+use super::state::{Contacts, is_nothing, slip_or_stick};
 use super::{ContactLaw, Mode};
 use crate::{Error, Real, real};
 
@@ -32,7 +32,6 @@ impl<T: Real, const C: usize> Contacts<T, C> {
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
         }
         self.choose(&equations, &at_rest)?;
-        self.reached = None;
         // What slips on keeps its rate, however small: where s turns at a dead centre the mechanism does not stand.
         if self.modes.iter().any(|mode| mode.is_held()) {
             return Ok(Held::new(&equations, &self.modes)?.rates(&equations));
@@ -49,10 +48,8 @@ impl<T: Real, const C: usize> Contacts<T, C> {
             (Mode::SlipForward, _) => (rate <= T::zero() || is_nothing((rate, size))).then_some(Mode::Stick),
             (Mode::SlipBackward, _) => (rate >= T::zero() || is_nothing((rate, size))).then_some(Mode::Stick),
             (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
-                let (side, gap) = nearer(contact, lower, upper);
-                let bound = if side == Mode::AtLower { lower } else { upper };
-                let is_there = self.reached == Some(place) || touches(gap, contact.value, bound);
-                (is_there && is_nothing((rate, size))).then_some(side)
+                let (side, gap, rounding) = self.nearest(place, contact, [lower, upper]);
+                (gap <= rounding && is_nothing((rate, size))).then_some(side)
             }
             (Mode::Open, ContactLaw::Friction { .. }) => None,
         }
@@ -71,11 +68,9 @@ impl<T: Real, const C: usize> Contacts<T, C> {
             if let Some(side) = at_rest[place] {
                 return Some(Struck { inward: side.inward(), restitution: T::zero() });
             }
-            let (side, gap) = nearer(contact, lower, upper);
-            let bound = if side == Mode::AtLower { lower } else { upper };
+            let (side, gap, rounding) = self.nearest(place, contact, [lower, upper]);
             let approaches = contact.rate(&equations.rates).0 * side.inward() < T::zero();
-            let is_there = self.reached == Some(place) || touches(gap, contact.value, bound);
-            (is_there && approaches).then(|| {
+            (gap <= rounding && approaches).then(|| {
                 hit = true;
                 Struck { inward: side.inward(), restitution }
             })
@@ -103,20 +98,15 @@ impl<T: Real, const C: usize> Contacts<T, C> {
         }
         let (rates, _) = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
-        // A rebound that is over within the rounding of the time is none, nor one that is no higher than what rounding
-        // left of the gap.
+        // A rebound that is over within the rounding of the time is none, nor one that is lost in that of the place.
         let free = Response::new(&after, &[T::zero(); C], |place| struck[place].is_some())?;
         let shortest = real::<T>(SHORTEST) * T::default_epsilon() * t.abs();
         let mut again = false;
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
-            let gap = match equations.contacts[place].law {
-                ContactLaw::Stop { lower, upper, .. } => nearer(&equations.contacts[place], lower, upper).1.abs(),
-                ContactLaw::Friction { .. } => T::zero(),
-            };
-            let is_over =
-                real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0 * SHORTEST) * gap * back;
+            let is_over = real::<T>(2.0) * rate <= shortest * back
+                || rate * rate <= real::<T>(2.0) * self.resolution[place] * back;
             if !restitution.is_zero() && back > T::zero() && is_over {
                 *restitution = T::zero();
                 again = true;

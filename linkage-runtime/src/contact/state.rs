@@ -20,15 +20,16 @@ const ROUNDINGS: f64 = 16.0;
 ///
 /// **The end of bouncing.** A stop comes to rest where what its rebound would have left is less than the square root
 /// of the scalar's rounding of the greatest rate that it was hit with since it last rested, or where the rebound would
-/// be over within the rounding of the time.
+/// be over within the rounding of the time, or no higher than what rounding leaves of the place
+/// ([`with_resolution`](Self::with_resolution); simulations do it).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contacts<T, const C: usize> {
     /// By contact, in the order of the scene.
     pub modes: [Mode; C],
     /// The greatest rate that a stop was hit with since it last rested.
     pub(super) hardest: [T; C],
-    /// The contact whose event function has just fallen to zero.
-    pub(super) reached: Option<usize>,
+    /// How exactly the places of stops are known, beside roundings of their values.
+    pub(super) resolution: [T; C],
 }
 
 /// Accelerations, and the forces of the contacts.
@@ -60,13 +61,18 @@ pub(super) fn nearer<T: Real, const V: usize>(contact: &ReducedContact<T, V>, lo
     if below <= above { (Mode::AtLower, below) } else { (Mode::AtUpper, above) }
 }
 
-/// Whether rounding could have made this gap.
-pub(super) fn touches<T: Real>(gap: T, value: T, bound: T) -> bool {
-    gap <= real::<T>(ROUNDINGS) * T::default_epsilon() * (value.abs() + bound.abs())
+/// What rounding may leave of the gap between values of this size.
+fn rounding<T: Real>(value: T, bound: T) -> T {
+    rounding_of(value.abs() + bound.abs())
+}
+
+/// What rounding may leave of terms of this size.
+pub(crate) fn rounding_of<T: Real>(size: T) -> T {
+    real::<T>(ROUNDINGS) * T::default_epsilon() * size
 }
 
 pub(super) fn is_nothing<T: Real>((sum, size): (T, T)) -> bool {
-    sum.abs() <= real::<T>(ROUNDINGS) * T::default_epsilon() * size
+    sum.abs() <= rounding_of(size)
 }
 
 impl<T: Real, const C: usize> Contacts<T, C> {
@@ -80,28 +86,51 @@ impl<T: Real, const C: usize> Contacts<T, C> {
         rates: &SVector<T, V>,
         evaluate: impl FnMut(&SVector<T, V>) -> Result<ReducedEquations<T, V, C>, Error>,
     ) -> Result<(Self, SVector<T, V>), Error> {
+        let mut contacts = Self::open();
+        let rates = contacts.start(t, rates, evaluate)?;
+        Ok((contacts, rates))
+    }
+
+    /// The same with the resolution that these have; the rates.
+    pub(crate) fn start<const V: usize>(
+        &mut self,
+        t: T,
+        rates: &SVector<T, V>,
+        evaluate: impl FnMut(&SVector<T, V>) -> Result<ReducedEquations<T, V, C>, Error>,
+    ) -> Result<SVector<T, V>, Error> {
         let mut evaluate = evaluate;
         let equations = evaluate(rates)?;
-        for contact in &equations.contacts {
+        for (contact, &resolution) in equations.contacts.iter().zip(&self.resolution) {
             if let ContactLaw::Stop { lower, upper, .. } = contact.law {
-                within(equations.scene, contact.name, contact.value, [lower, upper])?;
+                within(equations.scene, contact.name, (contact.value, resolution), [lower, upper])?;
             }
         }
-        let mut contacts = Self::open();
-        let rates = contacts.resume(t, rates, evaluate)?;
-        Ok((contacts, rates))
+        self.resume(t, rates, evaluate)
     }
 
     /// Nothing acts.
     pub(crate) fn open() -> Self {
-        Self { modes: [Mode::Open; C], hardest: [T::zero(); C], reached: None }
+        Self { modes: [Mode::Open; C], hardest: [T::zero(); C], resolution: [T::zero(); C] }
     }
 
-    /// Says whose event function has just fallen to zero, whatever rounding has left of it since: a coordinate that is
-    /// solved for is as near to a stop at zero as the closures are to zero, which its own value does not tell.
+    /// With what rounding may leave of each s where that is more than its value tells: a coordinate that is solved for
+    /// is as near to a stop at zero as the closures are to zero. Nearer than this it touches, and a rebound that is no
+    /// higher is none.
     #[must_use]
-    pub fn reached(self, place: usize) -> Self {
-        Self { reached: Some(place), ..self }
+    pub fn with_resolution(self, resolution: [T; C]) -> Self {
+        Self { resolution, ..self }
+    }
+
+    /// On which side a stop is nearer, and what rounding may leave of the gap.
+    pub(super) fn nearest<const V: usize>(
+        &self,
+        place: usize,
+        contact: &ReducedContact<T, V>,
+        [lower, upper]: [T; 2],
+    ) -> (Mode, T, T) {
+        let (side, gap) = nearer(contact, lower, upper);
+        let bound = if side == Mode::AtLower { lower } else { upper };
+        (side, gap, self.resolution[place].max(rounding(contact.value, bound)))
     }
 
     /// The modes that go with other rates v', given by a blow from outside; and the rates from here on, as those of
@@ -204,16 +233,15 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     ) -> Result<(SVector<T, V>, bool), Error> {
         let values = self.events(equations)?;
         let mut holds = true;
-        for ((&value, mode), contact) in values.iter().zip(self.modes).zip(&equations.contacts) {
-            holds &= match (mode, contact.law) {
+        for (place, (&value, contact)) in values.iter().zip(&equations.contacts).enumerate() {
+            holds &= match (self.modes[place], contact.law) {
                 (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
-                    let (side, gap) = nearer(contact, lower, upper);
-                    let bound = if side == Mode::AtLower { lower } else { upper };
+                    let (side, gap, rounding) = self.nearest(place, contact, [lower, upper]);
                     let (rate, _) = contact.rate(&equations.rates);
-                    gap >= T::zero() || touches(-gap, contact.value, bound) || rate * side.inward() > T::zero()
+                    -gap <= rounding || rate * side.inward() > T::zero()
                 }
                 // It has just begun, and rounding has left it on the other side.
-                (Mode::SlipForward | Mode::SlipBackward, _) if value < T::zero() => {
+                (mode @ (Mode::SlipForward | Mode::SlipBackward), _) if value < T::zero() => {
                     let acceleration = contact.row.dot(&self.acceleration(equations)?) + contact.bias;
                     acceleration * (if mode == Mode::SlipForward { T::one() } else { -T::one() }) > T::zero()
                 }
@@ -257,15 +285,15 @@ pub(super) fn slip_or_stick<T: Real>((rate, size): (T, T)) -> Mode {
     }
 }
 
-/// Refuses a scalar beyond its stops by more than rounding.
+/// Refuses a scalar, of this resolution, beyond its stops by more than rounding.
 pub(crate) fn within<T: Real>(
     scene: &'static str,
     stop: &'static str,
-    value: T,
+    (value, resolution): (T, T),
     [lower, upper]: [T; 2],
 ) -> Result<(), Error> {
     for (gap, bound) in [(lower - value, lower), (value - upper, upper)] {
-        if gap > T::zero() && !touches(gap, value, bound) {
+        if gap > resolution.max(rounding(value, bound)) {
             return Err(Error::BeyondStop { scene, stop, gap: to_f64(gap) });
         }
     }

@@ -3,8 +3,7 @@
 //! Coefficients: Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993), sections
 //! II.5 and II.6, in the decimals of their code DOP853 (version of 1996), whose step control this is as well.
 
-// The published decimals stay, so that they can be compared.
-#![allow(clippy::excessive_precision)]
+#![expect(clippy::excessive_precision, reason = "the published decimals stay, so that they can be compared")]
 
 use super::tableau::{Control, Method, Stage, Tableau, Weights};
 

@@ -170,7 +170,8 @@ impl<const K: usize, const C: usize> Sides<K, C> {
     }
 
     /// The sides at the start of a motion. A function that is zero, or that its event has left within rounding of
-    /// zero, is on the side that it leaves for: `after` is a little later.
+    /// zero, is on the side that it leaves for: `after` is a little later. A guard that has had its event is positive
+    /// again, whatever rounding says: if it does not become so its event happens once more.
     pub(super) fn begin<T: Real, S: System<T, N, K, C>, const N: usize>(
         &mut self,
         system: &mut S,
@@ -180,10 +181,9 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         let now = values(system, t, state)?;
         let next = values(system, later, after)?;
         for (place, ((side, now), next)) in self.with_mut(&now).zip(next.0.iter().chain(&next.1)).enumerate() {
-            // A guard that comes back is where it was before its event, also if rounding has moved it since.
-            let comes_back = place >= K && side.happened > 0 && now < 0.0 && *next > now;
-            let on_zero = now == 0.0 || now.abs() <= side.residue || comes_back;
-            side.sign = if on_zero { sign(next - now) } else { sign(now) };
+            let on_zero = now == 0.0 || now.abs() <= side.residue;
+            let is_mended = place >= K && side.happened > 0;
+            side.sign = if is_mended { 1 } else { sign(if on_zero { next - now } else { now }) };
         }
         Ok(())
     }

@@ -2,9 +2,9 @@
 
 use nalgebra::SVector;
 
-use super::motion::Road;
+use super::motion::{Position, Road};
 use super::road::{AtSingularity, WARNED};
-use super::run::{Moment, Position, Rates, Simulation};
+use super::run::{Moment, Rates, Simulation};
 use super::state::{State, Touch};
 use super::watch::{Then, Watch};
 use crate::contact::Change;
@@ -53,7 +53,7 @@ where
                     Ok(())
                 }
                 // At just the state at which the guard was zero.
-                guard => self.settle(&mut state, &closed, guard.map(|event| event - K)),
+                _ => self.settle(&mut state, &closed),
             };
             // Of several events of contacts at one time the first decides for all.
             if step.event.is_some() && state.event.is_none() && result.is_ok() && state.changes().next().is_none() {
@@ -100,13 +100,8 @@ where
     }
 
     /// What happens to the contacts.
-    fn settle(
-        &mut self,
-        state: &mut Moment<S, T, U, V, N, C>,
-        closed: &SVector<T, N>,
-        guard: Option<usize>,
-    ) -> Result<(), Error> {
-        let (after, changes) = self.integration.system_mut().settled(state.t, closed, guard)?;
+    fn settle(&mut self, state: &mut Moment<S, T, U, V, N, C>, closed: &SVector<T, N>) -> Result<(), Error> {
+        let (after, changes) = self.integration.system_mut().settled(state.t, closed)?;
         self.integration.restart(after)?;
         self.note(state, changes);
         Ok(())

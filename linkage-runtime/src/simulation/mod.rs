@@ -21,6 +21,7 @@
 //! Prescribed inputs keep to their laws. Reproducible: the same calls give the same bits. Nothing is allocated.
 
 mod advance;
+mod equations;
 mod independent;
 mod motion;
 mod outputs;
@@ -28,9 +29,10 @@ mod over;
 mod real_time;
 mod road;
 mod run;
-mod scales;
+pub(crate) mod scales;
 mod state;
 mod touching;
+mod verdict;
 mod watch;
 
 pub use motion::Motion;

@@ -1,6 +1,7 @@
 //! The states of a simulation at given times.
 
-use super::run::{Moment, Position, Rates, Simulation};
+use super::motion::Position;
+use super::run::{Moment, Rates, Simulation};
 use super::watch::Watch;
 use crate::integrate::Method;
 use crate::scalar::to_f64;

@@ -9,10 +9,11 @@
 //! that the branch beyond is the one whose tangent continues, and if they hold in the gap to rounding, so that there
 //! is a crossing and not two branches that only come near each other.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::independent::Independent;
 use super::motion::Motion;
+use crate::contact::ReducedEquations;
 use crate::integrate::Interpolant;
 use crate::{Error, Mechanism, Real, Scene, real};
 
@@ -179,6 +180,41 @@ where
             last = Some(change);
         }
         None
+    }
+
+    /// M, Q and the contacts within the step, where [J A] does not tell: along it they are as smooth as the motion, and
+    /// their polynomial through the nodes is taken, with time and rates as they are.
+    pub(super) fn equations_over(
+        &self,
+        independent: &Independent<T, U, V>,
+        step: &Interpolant<T, N>,
+        (t, y): (T, &SVector<T, N>),
+    ) -> Result<ReducedEquations<T, V, C>, Error> {
+        let (_, rates) = Self::unpack(y);
+        let (start, end) = step.interval();
+        let at = (t - start) / (end - start);
+        let mut equations = self.contacts_alone(t, y)?;
+        equations.mass = SMatrix::zeros();
+        for contact in &mut equations.contacts {
+            contact.drift = T::zero();
+        }
+        for node in NODES {
+            let others = NODES.iter().filter(|&&other| other != node);
+            // Lagrange's polynomial that is 1 at this node.
+            let weight = others.fold(T::one(), |weight, &other| weight * (at - real(other)) / real(node - other));
+            let (guess, _) = Self::unpack(&step.at_fraction(real(node)));
+            let q = self.closed_by(independent, &guess)?;
+            let factors = self.factors(independent, &q);
+            let (there, _) = self.equations_by(independent, &factors, (t, &Self::pack(&q, &rates)))?;
+            equations.mass += there.mass * weight;
+            equations.forces += there.forces * weight;
+            for (contact, there) in equations.contacts.iter_mut().zip(&there.contacts) {
+                contact.row += there.row * weight;
+                contact.drift += there.drift * weight;
+                contact.bias += there.bias * weight;
+            }
+        }
+        Ok(equations)
     }
 
     /// The part of the step at which a pivot is zero, by the secant method.

@@ -3,9 +3,10 @@
 use nalgebra::SVector;
 
 use super::independent::Independent;
-use super::motion::{Motion, Road, weakest};
+use super::motion::{Motion, Position, Road};
 use super::over::Ahead;
-use super::run::{Position, Rates, Signs, Simulation};
+use super::run::{Rates, Signs, Simulation};
+use super::verdict::weakest;
 use super::watch::Watch;
 use crate::integrate::{Interpolant, Method, Tolerance};
 use crate::scalar::to_f64;
@@ -144,9 +145,8 @@ where
     }
 
     fn pass(&mut self, independent: Independent<T, U, V>, step: Interpolant<T, N>) {
-        let step = step.up_to(self.integration.end()).unwrap_or(step);
         self.integration.system_mut().road = Road::Over(independent, step);
-        self.integration.pass(step);
+        self.integration.pass(step.up_to(self.integration.end()).unwrap_or(step));
         self.passages.change_points += 1;
     }
 
@@ -175,10 +175,11 @@ where
         let mechanism = motion.scene.mechanism();
         let (q, mut rates) = Motion::<S, W, T, U, V, N, C>::unpack(&y);
         let pose = mechanism.pose_at(&q);
-        independent.pivots = independent.factors(mechanism, &pose, &motion.scales).pivots();
+        let factors = independent.factors(mechanism, &pose, &motion.scales);
+        independent.pivots = factors.pivots();
         let best = Independent::choose(mechanism, &pose, &motion.scales, &motion.held(t));
         if best.regularity() > independent.regularity() * real(BETTER) {
-            let (unknowns, inputs) = motion.velocity(t, &y)?;
+            let (unknowns, inputs) = independent.apart(&(factors.basis() * rates), &rates);
             (rates, independent) = (best.of(&unknowns, &inputs), best);
             self.passages.exchanges += 1;
         }

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::motion::Motion;
+use super::motion::{Motion, Position};
 use super::outputs::Outputs;
 use super::road::{AtSingularity, Passages, scale_of};
 use super::scales::Scales;
@@ -11,15 +11,13 @@ use super::watch::{Then, Unwatched, Watch, Watched};
 use crate::contact::Contacts;
 use crate::integrate::{Counts, Crossing, Dop853, Integration, Method, Tolerance};
 use crate::scalar::to_f64;
-use crate::scene::{Coordinates, Inputs};
+use crate::scene::Inputs;
 use crate::{Error, Mechanism, Real, Scene, real};
 
 /// What of the change of a step's length is dared. A mechanism is now slow and now fast within one turn, and the usual
 /// 0.9 has every third step rejected.
 const SAFETY: f64 = 0.8;
 
-pub(super) type Position<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
-    Coordinates<<S as Scene<T, U, V, N, C>>::Mechanism, T, U, V>;
 pub(super) type Moment<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
     State<T, Position<S, T, U, V, N, C>, C>;
 pub(super) type Rates<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
@@ -143,7 +141,6 @@ where
     ///
     /// # Errors
     /// None that [`simulate`] has not found.
-    #[allow(clippy::type_complexity)] // A shorter name would hide which closure takes what.
     pub fn events<F, A, const K2: usize>(
         self,
         crossings: [Crossing; K2],
@@ -157,7 +154,6 @@ where
         self.with(|motion| motion.watched(Watched { crossings, values, action }))
     }
 
-    #[allow(clippy::type_complexity)] // As above.
     fn with<M2, W2, const K2: usize>(
         self,
         motion: impl FnOnce(Motion<'a, S, W, T, U, V, N, C>) -> Motion<'a, S, W2, T, U, V, N, C>,

@@ -2,18 +2,19 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Mechanism, Real};
+use crate::contact::rounding_of;
+use crate::{Along, Error, Mechanism, Real};
 
 /// What size of a coordinate and of a closure matters: of an angle 1, of a length that of the loops it is in.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scales<T, const U: usize, const V: usize> {
+pub(crate) struct Scales<T, const U: usize, const V: usize> {
     pub(super) closures: SVector<T, U>,
     pub(super) unknowns: SVector<T, U>,
     pub(super) inputs: SVector<T, V>,
 }
 
 impl<T: Real, const U: usize, const V: usize> Scales<T, U, V> {
-    pub(super) fn of<M: Mechanism<T, U, V>>(mechanism: &M, q: &M::Coordinates) -> Self {
+    pub(crate) fn of<M: Mechanism<T, U, V>>(mechanism: &M, q: &M::Coordinates) -> Self {
         let pose = mechanism.pose_at(q);
         let (by_unknowns, by_inputs) = mechanism.jacobian_sizes(&pose);
         // A closure is as large as an angle can make it.
@@ -33,6 +34,33 @@ impl<T: Real, const U: usize, const V: usize> Scales<T, U, V> {
     /// That of a coordinate by its column in [J A].
     pub(super) fn coordinate(&self, column: usize) -> T {
         if column < U { self.unknowns[column] } else { self.inputs[column - U] }
+    }
+
+    /// What rounding may leave of a scalar: a coordinate is known to roundings of its size, or of its value.
+    pub(crate) fn resolution<M: Mechanism<T, U, V>>(&self, q: &M::Coordinates, along: &Along<T, U, V>) -> T {
+        let unknowns = M::unknowns(q).abs().sup(&self.unknowns);
+        let inputs = M::inputs(q).abs().sup(&self.inputs);
+        rounding_of(along.unknowns.abs().dot(&unknowns) + along.inputs.abs().dot(&inputs))
+    }
+
+    /// The same where the inputs are given and the unknowns follow from them: by s' of each input alone.
+    ///
+    /// # Errors
+    /// Those of [`Mechanism::solve_jacobian`].
+    pub(crate) fn resolution_by_inputs<M: Mechanism<T, U, V>>(
+        &self,
+        mechanism: &M,
+        q: &M::Coordinates,
+        along: &Along<T, U, V>,
+    ) -> Result<T, Error> {
+        let pose = mechanism.pose_at(q);
+        let (by_inputs, inputs) = (mechanism.jacobian_inputs(&pose), M::inputs(q).abs().sup(&self.inputs));
+        let mut size = T::zero();
+        for input in 0..V {
+            let unknowns = mechanism.solve_jacobian(&pose, &by_inputs.column(input).into_owned())?;
+            size += (along.inputs[input] - along.unknowns.dot(&unknowns)).abs() * inputs[input];
+        }
+        Ok(self.resolution::<M>(q, along) + rounding_of(size))
     }
 
     /// The size of rates beside the sizes of their coordinates: an angular frequency.

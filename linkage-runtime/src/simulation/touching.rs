@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::motion::{Motion, Road};
-use crate::contact::{Change, Contacts, ReducedContact, ReducedEquations, changes};
+use crate::contact::{Change, Contact, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::{Error, Mechanism, Mode, Real, Scene};
 
 impl<S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'_, S, W, T, U, V, N, C>
@@ -14,20 +14,23 @@ where
     /// M, Q and the contacts in the coordinates of the motion.
     ///
     /// # Errors
-    /// [`Error::ChangePoint`] so near to one that [J A] does not tell how rates depend on each other.
+    /// [`Error::ChangePoint`] so near to one that [J A] does not tell how rates depend on each other, if it is not passed.
     fn equations(&self, t: T, y: &SVector<T, N>) -> Result<ReducedEquations<T, V, C>, Error> {
         match &self.road {
             Road::Inputs => ReducedEquations::of(self.scene, t, y),
             Road::Others(independent) | Road::Over(independent, _) => {
                 let (q, _) = S::parts(y);
-                let factors = self.regular(independent, &q).ok_or_else(|| self.change_point(&q))?;
-                self.equations_by(independent, &factors, (t, y)).map(|(equations, _)| equations)
+                match (self.regular(independent, &q), &self.road) {
+                    (Some(factors), _) => Ok(self.equations_by(independent, &factors, (t, y))?.0),
+                    (None, Road::Over(_, step)) => self.equations_over(independent, step, (t, y)),
+                    (None, _) => Err(self.change_point(&q)),
+                }
             }
         }
     }
 
     /// The contacts with their s and s' alone: nothing is told of what would move them.
-    fn contacts_alone(&self, t: T, y: &SVector<T, N>) -> Result<ReducedEquations<T, V, C>, Error> {
+    pub(super) fn contacts_alone(&self, t: T, y: &SVector<T, N>) -> Result<ReducedEquations<T, V, C>, Error> {
         let (q, rates) = Self::unpack(y);
         let (unknowns, inputs) = self.velocity(t, y)?;
         let velocity = Self::joined(&q, (unknowns, inputs));
@@ -44,43 +47,42 @@ where
         Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts })
     }
 
-    /// Whether [J A] tells how the rates depend on each other.
-    fn is_regular(&self, y: &SVector<T, N>) -> bool {
-        let Road::Over(independent, _) = &self.road else { return true };
-        self.regular(independent, &S::parts(y).0).is_some()
-    }
-
-    /// How far each contact is from another mode, with the closures closed. While a change point is passed what is held
-    /// is taken to hold; the end of the step shows whether it did.
+    /// How far each contact is from another mode, with the closures closed.
     pub(super) fn margins(&self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
         // A step in the inputs may have gone where nothing closes: it will be taken again.
         let y = self.closed(t, y).unwrap_or(*y);
         let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
-        let alone = is_free || !self.is_regular(&y);
-        let equations = if alone { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
+        let equations = if is_free { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
         self.contacts.events(&equations)
+    }
+
+    /// What rounding may leave of each s.
+    fn resolution(&self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
+        let (q, _) = Self::unpack(y);
+        let velocity = Self::joined(&q, self.velocity(t, y)?);
+        let contacts = self.scene.contacts(t, &q, &velocity)?;
+        let mut resolution = [T::zero(); C];
+        for (resolution, Contact { along, .. }) in resolution.iter_mut().zip(&contacts) {
+            *resolution = match self.road {
+                Road::Inputs => self.scales.resolution_by_inputs(self.scene.mechanism(), &q, along)?,
+                Road::Others(_) | Road::Over(..) => self.scales.resolution::<S::Mechanism>(&q, along),
+            };
+        }
+        Ok(resolution)
     }
 
     /// The modes at the start, and y with the rates from there on.
     pub(super) fn begin(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
         let (q, rates) = Self::unpack(y);
-        let (contacts, rates) = Contacts::begin(t, &rates, |rates| self.equations(t, &Self::pack(&q, rates)))?;
+        let mut contacts = self.contacts.with_resolution(self.resolution(t, y)?);
+        let rates = contacts.start(t, &rates, |rates| self.equations(t, &Self::pack(&q, rates)))?;
         self.names = self.contacts_alone(t, y)?.contacts.map(|contact| contact.name);
         self.contacts = contacts;
         Ok(Self::pack(&q, &rates))
     }
 
-    /// What happens at this state, where the guard of a contact may just have fallen to zero: y from here on, and what
-    /// each contact has done.
-    pub(super) fn settled(
-        &mut self,
-        t: T,
-        y: &SVector<T, N>,
-        guard: Option<usize>,
-    ) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
-        if let Some(guard) = guard {
-            self.contacts = self.contacts.reached(guard);
-        }
+    /// What happens at this state: y from here on, and what each contact has done.
+    pub(super) fn settled(&mut self, t: T, y: &SVector<T, N>) -> Result<(SVector<T, N>, [Option<Change>; C]), Error> {
         self.decided(t, y, y, false)
     }
 
@@ -105,6 +107,7 @@ where
             return Ok((*y, [None; C]));
         }
         let (q, rates) = Self::unpack(y);
+        self.contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let mut contacts = self.contacts;
         let at = |rates: &SVector<T, V>| self.equations(t, &Self::pack(&q, rates));
         let rates = if anew { contacts.resume(t, &rates, at)? } else { contacts.settle(t, &rates, at)? };
@@ -121,7 +124,7 @@ where
         t: T,
         y: &SVector<T, N>,
     ) -> Result<(SVector<T, N>, bool), Error> {
-        if C == 0 || !self.is_regular(y) {
+        if C == 0 {
             return Ok((*y, true));
         }
         if contacts.modes.iter().all(|&mode| mode == Mode::Open) && contacts.review(&self.contacts_alone(t, y)?)?.1 {

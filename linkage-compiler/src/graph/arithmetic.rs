@@ -1,0 +1,201 @@
+//! Sums and products: like terms collected, constants folded, signs where they belong.
+
+use super::{Condition, Fault, Graph, Node, NodeId, Number};
+
+/// A sum of more terms than this stays one term of a sum that it is put into: otherwise a chain in
+/// which each member adds to the one before would grow with the square of its length.
+const LONGEST_MERGED: usize = 64;
+
+/// A product has no more factors than this; longer ones are products of products. The derivative of a
+/// product has as many terms as factors, each as long as the product.
+const LONGEST_PRODUCT: usize = 16;
+
+impl Graph {
+    pub fn add(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.sum(&[(Number::ONE, a), (Number::ONE, b)])
+    }
+
+    pub fn subtract(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.sum(&[(Number::ONE, a), (Number::MINUS_ONE, b)])
+    }
+
+    pub fn negate(&mut self, a: NodeId) -> NodeId {
+        self.scale(Number::MINUS_ONE, a)
+    }
+
+    pub fn scale(&mut self, factor: Number, a: NodeId) -> NodeId {
+        if factor.is_one() {
+            return a;
+        }
+        let factor = self.number(factor);
+        self.multiply(factor, a)
+    }
+
+    pub fn multiply(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.product(&[(a, 1), (b, 1)])
+    }
+
+    pub fn divide(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.product(&[(a, 1), (b, -1)])
+    }
+
+    pub fn power(&mut self, base: NodeId, exponent: i32) -> NodeId {
+        self.product(&[(base, exponent)])
+    }
+
+    /// The sum of coefficient * item, like terms collected.
+    pub fn sum(&mut self, items: &[(Number, NodeId)]) -> NodeId {
+        let mut constant = Number::ZERO;
+        let mut terms: Vec<(NodeId, Number)> = Vec::with_capacity(items.len() + 2);
+        let mut collect = |coefficient: Number, term: NodeId| {
+            let entry = entry(&mut terms, term, Number::ZERO);
+            *entry = entry.plus(coefficient);
+        };
+        for &(coefficient, item) in items {
+            match &self.nodes[item.index()] {
+                Node::Constant(value) => constant = constant.plus(coefficient.multiply(*value)),
+                Node::Sum { constant: inner, terms } if terms.len() <= LONGEST_MERGED => {
+                    constant = constant.plus(coefficient.multiply(*inner));
+                    for (factor, term) in terms {
+                        collect(coefficient.multiply(*factor), *term);
+                    }
+                }
+                Node::Product { coefficient: inner, factors } if !inner.is_one() => {
+                    let total = coefficient.multiply(*inner);
+                    let monic = self.monic(factors.clone());
+                    // 2 * (a + b) is a product with a coefficient whose monic part is a sum.
+                    match &self.nodes[monic.index()] {
+                        Node::Sum { constant: k, terms } if terms.len() <= LONGEST_MERGED => {
+                            constant = constant.plus(total.multiply(*k));
+                            for (factor, term) in terms {
+                                collect(total.multiply(*factor), *term);
+                            }
+                        }
+                        _ => collect(total, monic),
+                    }
+                }
+                _ => collect(coefficient, item),
+            }
+        }
+        for (term, coefficient) in &terms {
+            if coefficient.is_zero() {
+                self.drop_term(*term);
+            }
+        }
+        terms.retain(|(_, coefficient)| !coefficient.is_zero());
+        let terms: Vec<_> = terms.into_iter().map(|(term, coefficient)| (coefficient, term)).collect();
+        match terms.as_slice() {
+            [] => self.number(constant),
+            &[(coefficient, term)] if constant.is_zero() => self.scale(coefficient, term),
+            _ => self.intern(Node::Sum { constant, terms }),
+        }
+    }
+
+    /// Products of products, none longer than [`LONGEST_PRODUCT`]; the same factors give the same tree.
+    fn grouped(&mut self, mut factors: Vec<(NodeId, i32)>) -> Vec<(NodeId, i32)> {
+        while factors.len() > LONGEST_PRODUCT {
+            let mut groups: Vec<(NodeId, i32)> =
+                factors.chunks(LONGEST_PRODUCT).map(|group| (self.monic(group.to_vec()), 1)).collect();
+            groups.sort_unstable();
+            factors = groups;
+        }
+        factors
+    }
+
+    fn monic(&mut self, factors: Vec<(NodeId, i32)>) -> NodeId {
+        match factors.as_slice() {
+            [] => self.one(),
+            &[(base, 1)] => base,
+            _ => self.intern(Node::Product { coefficient: Number::ONE, factors }),
+        }
+    }
+
+    /// The product of item^exponent, equal bases collected.
+    pub fn product(&mut self, items: &[(NodeId, i32)]) -> NodeId {
+        let mut coefficient = Number::ONE;
+        let mut factors: Vec<(NodeId, i32)> = Vec::with_capacity(items.len() + 2);
+        let mut overflow = false;
+        let mut divisors: Vec<NodeId> = Vec::new();
+        let mut collect = |base: NodeId, exponent: Option<i32>| {
+            let entry = entry(&mut factors, base, 0);
+            match exponent.and_then(|exponent| entry.checked_add(exponent)) {
+                Some(total) => *entry = total,
+                None => overflow = true,
+            }
+        };
+        for &(item, exponent) in items {
+            match &self.nodes[item.index()] {
+                Node::Constant(value) => {
+                    if value.is_zero() && exponent <= 0 {
+                        self.fault.get_or_insert(Fault::DivisionByZero);
+                    }
+                    coefficient = coefficient.multiply(value.power(exponent));
+                }
+                Node::Product { coefficient: inner, factors } => {
+                    coefficient = coefficient.multiply(inner.power(exponent));
+                    for &(base, inner) in factors {
+                        collect(base, inner.checked_mul(exponent));
+                        // 1/(1/x) is x for an x other than zero.
+                        if inner < 0 || exponent < 0 {
+                            divisors.push(base);
+                        }
+                    }
+                }
+                _ => {
+                    collect(item, Some(exponent));
+                    if exponent < 0 {
+                        divisors.push(item);
+                    }
+                }
+            }
+        }
+        if overflow {
+            self.fault.get_or_insert(Fault::ExponentOverflow);
+        }
+        for divisor in divisors {
+            let cancelled = *entry(&mut factors, divisor, 0) >= 0 || coefficient.is_zero();
+            if cancelled && self.values[divisor.index()].is_none() {
+                self.conditions.insert(Condition::NonZero(divisor));
+            }
+        }
+        for (base, exponent) in &factors {
+            if *exponent == 0 || coefficient.is_zero() {
+                self.drop_term(*base);
+            }
+        }
+        factors.retain(|(_, exponent)| *exponent != 0);
+        let factors = self.grouped(factors);
+        if coefficient.is_zero() || factors.is_empty() {
+            return self.number(coefficient);
+        }
+        if coefficient.is_one() {
+            return self.monic(factors);
+        }
+        // A sign belongs inside a sum, so that -(a - b) and b - a are one node.
+        if let (true, &[(base, 1)]) = (coefficient == Number::MINUS_ONE, factors.as_slice())
+            && let Node::Sum { constant, terms } = self.node(base).clone()
+        {
+            let terms = terms.into_iter().map(|(factor, term)| (factor.negate(), term)).collect();
+            return self.intern(Node::Sum { constant: constant.negate(), terms });
+        }
+        self.intern(Node::Product { coefficient, factors })
+    }
+}
+
+/// The value of a key in an ascending list, put there if it is not.
+fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
+    // Most keys come in ascending order.
+    if list.last().is_none_or(|(last, _)| last.0 < key.0) {
+        list.push((key, empty));
+        let last = list.len() - 1;
+        return &mut list[last].1;
+    }
+    let index = match list.binary_search_by_key(&key, |(key, _)| *key) {
+        Ok(index) => index,
+        Err(index) => {
+            list.insert(index, (key, empty));
+            index
+        }
+    };
+    &mut list[index].1
+}

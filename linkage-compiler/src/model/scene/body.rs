@@ -1,0 +1,89 @@
+//! Bodies, as they are written.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Body;
+use crate::graph::{NodeId, SymbolId};
+use crate::model::Mechanism;
+use crate::model::expression::Lowering;
+use crate::model::name::Name;
+use crate::syntax::{self, ExpressionId};
+
+impl Lowering<'_> {
+    /// Time and the rates of the coordinates, which the laws of scenes may hold.
+    pub(in crate::model) fn declare_motion(&mut self, result: &mut Mechanism) {
+        let mut name = "t".to_owned();
+        let fields =
+            result.parameters.iter().map(|p| &p.name.field).chain(result.coordinates.iter().map(|c| &c.name.field));
+        let fields: BTreeSet<&String> = fields.collect();
+        while fields.contains(&name) {
+            name.push('_');
+        }
+        result.time = Some(self.graph.symbol(name));
+        for coordinate in &mut result.coordinates {
+            let rate = self.graph.symbol(format!("{}_rate", coordinate.name.field));
+            coordinate.rate = Some(rate);
+            self.rates.insert(coordinate.symbol, self.graph.variable(rate));
+        }
+        self.time = result.time.map(|time| self.graph.variable(time));
+    }
+
+    pub(in crate::model) fn body(&mut self, tree: &syntax::Body, result: &mut Mechanism) {
+        let mut given: BTreeMap<String, ExpressionId> = BTreeMap::new();
+        for (word, value) in &tree.properties {
+            if given.insert(word.to_string(), *value).is_some() {
+                self.diagnostics.error(word.span(), format_args!("`{word}` of `{}` is given twice", tree.name));
+            }
+        }
+        // In the order in which they were written.
+        let (mut scalars, mut center) = (BTreeMap::new(), None);
+        for (word, value) in &tree.properties {
+            if word == "center" {
+                center = self.vector(*value);
+            } else if let Some(node) = self.scalar(*value) {
+                scalars.insert(word.to_string(), node);
+            }
+        }
+        for word in ["mass", "inertia"] {
+            if let (Some(&value), Some(&node)) = (given.get(word), scalars.get(word)) {
+                self.positive(value, node, &format!("the {word} of `{}`", tree.name));
+            }
+        }
+        let mut missing = |given_word: &str, needed: &str, example: &str| {
+            if given.contains_key(given_word) && !given.contains_key(needed) {
+                let message = format!("`{}` has {given_word}, but no {needed}: add `{example}`", tree.name);
+                self.diagnostics.error(tree.name.span(), message);
+            }
+        };
+        missing("mass", "center", "center G;");
+        missing("inertia", "angle", "angle phi;");
+        missing("center", "mass", "mass m;");
+        missing("angle", "inertia", "inertia j;");
+        if result.bodies.iter().any(|body| tree.name == body.name.text) {
+            self.diagnostics.error(tree.name.span(), format_args!("a body is called `{}` already", tree.name));
+        }
+        result.bodies.push(Body {
+            name: Name::new(&tree.name),
+            mass: scalars.get("mass").copied().zip(center.map(|(x, y)| [x, y])),
+            inertia: scalars.get("inertia").copied().zip(scalars.get("angle").copied()),
+        });
+    }
+
+    /// Refuses what moves, and a constant less than zero.
+    pub(super) fn positive(&mut self, id: ExpressionId, node: NodeId, what: &str) {
+        self.still(id, node, what);
+        if self.graph.constant_value(node).is_some_and(|value| value < 0.0) {
+            self.diagnostics.error(self.expressions.region(id), format_args!("{what} is negative"));
+        }
+    }
+
+    /// Refuses what is made of anything but parameters.
+    pub(super) fn still(&mut self, id: ExpressionId, node: NodeId, what: &str) {
+        let motion = self.rates.values().chain(&self.time).filter_map(|&node| self.graph.as_symbol(node));
+        let motion: BTreeSet<SymbolId> = motion.chain(self.rates.keys().copied()).collect();
+        if self.graph.symbols_of(&[node]).iter().any(|symbol| motion.contains(symbol)) {
+            let message = format!("{what} must not move: it is made of parameters");
+            self.diagnostics.error(self.expressions.region(id), message);
+        }
+    }
+}

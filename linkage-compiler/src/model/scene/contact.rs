@@ -1,0 +1,58 @@
+//! Frictions and stops, as they are written.
+
+use super::{Contact, ContactLaw};
+use crate::graph::NodeId;
+use crate::model::expression::Lowering;
+use crate::syntax::{EffectKind, ExpressionId};
+
+impl Lowering<'_> {
+    /// A friction or a stop. Every expression is read, whatever is wrong with the others.
+    pub(super) fn contact(&mut self, kind: &EffectKind) -> Option<Contact> {
+        match kind {
+            EffectKind::Friction { factors, on } => {
+                let mut nodes = Vec::new();
+                for &factor in factors {
+                    let node = self.law(factor);
+                    if node.and_then(|node| self.graph.constant_value(node)).is_some_and(|value| value < 0.0) {
+                        let message = "the limit of a friction is negative: it would drive the mechanism";
+                        self.diagnostics.error(self.expressions.region(factor), message);
+                    }
+                    nodes.push(node);
+                }
+                let along = self.moving(*on);
+                let label = format!("friction on {}", self.text(*on)?);
+                Some(Contact {
+                    label,
+                    along: along?,
+                    law: ContactLaw::Friction(nodes.into_iter().collect::<Option<_>>()?),
+                })
+            }
+            EffectKind::Stop { on, range, restitution } => {
+                let along = self.moving(*on);
+                let mut still = |id: ExpressionId, what: &str| {
+                    let node = self.scalar(id)?;
+                    self.still(id, node, what);
+                    Some(node)
+                };
+                let ends = range.map(|end| still(end, "the end of a stop"));
+                let given = still(*restitution, "the restitution of a stop");
+                let label = format!("stop on {}", self.text(*on)?);
+                let (range, restitution_node) = ([ends[0]?, ends[1]?], given?);
+                let value = |node: NodeId| self.graph.constant_value(node);
+                if let [Some(lower), Some(upper)] = range.map(value)
+                    && lower >= upper
+                {
+                    let region = self.expressions.region(*on);
+                    self.diagnostics.error(region, format_args!("nothing is left between {lower} and {upper}"));
+                }
+                if value(restitution_node).is_some_and(|value| !(0.0..=1.0).contains(&value)) {
+                    let message = "a restitution is between 0 and 1: the part of the rate that an impact gives back";
+                    self.diagnostics.error(self.expressions.region(*restitution), message);
+                }
+                let law = ContactLaw::Stop { range, restitution: restitution_node };
+                Some(Contact { label, along: along?, law })
+            }
+            _ => None,
+        }
+    }
+}

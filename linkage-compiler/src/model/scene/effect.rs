@@ -1,0 +1,186 @@
+//! Scenes and their effects, as they are written.
+
+use std::collections::BTreeSet;
+
+use syn::Attribute;
+
+use super::{Account, Law, Names, Reading, Scene, Wish};
+use crate::graph::{Function, NodeId, Number, SymbolId};
+use crate::model::expression::Lowering;
+use crate::model::scope::Value;
+use crate::syntax::{self, EffectKind, ExpressionId, Place};
+
+impl Lowering<'_> {
+    pub(in crate::model) fn scene(&mut self, tree: &syntax::Scene, attributes: &[Attribute], reading: &mut Reading) {
+        let mut scene = Scene {
+            name: tree.name.clone(),
+            attributes: attributes.to_vec(),
+            driver: 0,
+            inertia: None,
+            weights: Vec::new(),
+            laws: Vec::new(),
+            contacts: Vec::new(),
+            drives: Vec::new(),
+            wishes: BTreeSet::new(),
+            parameters: Vec::new(),
+        };
+        let mut names = Names { inertia: None, contact: None, gravity: Vec::new(), drives: Vec::new() };
+        for effect in &tree.effects {
+            self.effect(effect, &mut scene, &mut names);
+        }
+        reading.scenes.push((scene, tree.of.clone(), names));
+    }
+
+    pub(super) fn effect(&mut self, effect: &syntax::Effect, scene: &mut Scene, names: &mut Names) {
+        let keyword = &effect.keyword;
+        match &effect.kind {
+            EffectKind::Inertia(bodies) => {
+                if names.inertia.replace((keyword.span(), bodies.clone())).is_some() {
+                    let message = "`inertia` is said twice; name all bodies at once, or none for all";
+                    self.diagnostics.error(keyword.span(), message);
+                }
+            }
+            EffectKind::Gravity { field, bodies } => {
+                let Some((x, y)) = self.vector(*field) else { return };
+                for part in [x, y] {
+                    self.still(*field, part, "the field of gravity");
+                }
+                names.gravity.push(([x, y], bodies.clone()));
+            }
+            EffectKind::Spring { stiffness, free, place } => {
+                let k = self.scalar(*stiffness);
+                let free_length = free.map(|free| self.scalar(free));
+                let Some((along, words)) = self.place(place) else { return };
+                let (Some(k), false) = (k, free_length == Some(None)) else { return };
+                self.still(*stiffness, k, "the stiffness of a spring");
+                let mut stretch = along;
+                if let (Some(free), Some(Some(node))) = (free, free_length) {
+                    self.still(*free, node, "the free length of a spring");
+                    stretch = self.graph.subtract(along, node);
+                }
+                // F = -k (s - s0), V = k (s - s0)^2 / 2
+                let pull = self.graph.multiply(k, stretch);
+                let energy = self.graph.product(&[(k, 1), (stretch, 2)]);
+                let account = Account::Stored(self.graph.scale(Number::ratio(1, 2), energy));
+                scene.laws.push(Law { label: format!("spring{words}"), law: self.graph.negate(pull), along, account });
+            }
+            EffectKind::Damper { constant, place } => {
+                let c = self.law(*constant);
+                let Some((along, words)) = self.place(place) else { return };
+                let Some(c) = c else { return };
+                if self.graph.constant_value(c).is_some_and(|value| value < 0.0) {
+                    let message = "the constant of a damper is negative: it would drive the mechanism";
+                    self.diagnostics.error(self.expressions.region(*constant), message);
+                }
+                let rate = self.rate_of(along);
+                let force = self.graph.multiply(c, rate);
+                let law = self.graph.negate(force);
+                scene.laws.push(Law { label: format!("damper{words}"), law, along, account: Account::Dissipated });
+            }
+            EffectKind::Torque { law, on } => {
+                let (law, along) = (self.law(*law), self.scalar(*on));
+                let (Some(law), Some(along), Some(words)) = (law, along, self.text(*on)) else { return };
+                scene.laws.push(Law { label: format!("torque on {words}"), law, along, account: Account::Applied });
+            }
+            EffectKind::Force { law, at } => {
+                self.is_law = true;
+                let force = self.vector(*law);
+                self.is_law = false;
+                let (Some((fx, fy)), Some((x, y)), Some(words)) = (force, self.vector(*at), self.text(*at)) else {
+                    return;
+                };
+                for (law, along) in [(fx, x), (fy, y)] {
+                    scene.laws.push(Law { label: format!("force at {words}"), law, along, account: Account::Applied });
+                }
+            }
+            EffectKind::Potential(value) => {
+                if let Some(node) = self.scalar(*value) {
+                    // F = -dV, by V itself
+                    let label = format!("potential {}", self.text(*value).unwrap_or_default());
+                    let law = self.graph.number(Number::MINUS_ONE);
+                    scene.laws.push(Law { label, law, along: node, account: Account::Stored(node) });
+                }
+            }
+            EffectKind::Friction { .. } | EffectKind::Stop { .. } => {
+                names.contact.get_or_insert_with(|| (keyword.span(), keyword.to_string()));
+                scene.contacts.extend(self.contact(&effect.kind));
+            }
+            EffectKind::Drive { input, law } => {
+                let Some(node) = self.law(*law) else { return };
+                let rates: Vec<_> = self.rates.values().filter_map(|&rate| self.graph.as_symbol(rate)).collect();
+                let moves = |symbol: &SymbolId| self.rates.contains_key(symbol) || rates.contains(symbol);
+                if self.graph.symbols_of(&[node]).iter().any(moves) {
+                    let region = self.expressions.region(*law);
+                    self.diagnostics.error(region, "a drive is a law of `t` and parameters alone");
+                }
+                names.drives.push((input.clone(), node));
+            }
+            EffectKind::Wish => {
+                let wish = match keyword.to_string().as_str() {
+                    "energy" => Wish::Energy,
+                    "power" => Wish::Power,
+                    "equilibrium" => Wish::Equilibrium,
+                    _ => Wish::Reactions,
+                };
+                if !scene.wishes.insert(wish) {
+                    self.diagnostics.error(keyword.span(), format_args!("`{keyword}` is asked for twice"));
+                }
+            }
+        }
+    }
+
+    /// Where a spring or a damper acts, as the scalar it acts along, and its words.
+    pub(super) fn place(&mut self, place: &Place) -> Option<(NodeId, String)> {
+        match *place {
+            Place::On(on) => Some((self.scalar(on)?, format!(" on {}", self.text(on)?))),
+            Place::Between(from, to) => {
+                let (from_vector, to_vector) = (self.vector(from), self.vector(to));
+                let ((ax, ay), (bx, by)) = (from_vector?, to_vector?);
+                let (x, y) = (self.graph.subtract(bx, ax), self.graph.subtract(by, ay));
+                let length = self.graph.call(Function::Hypot, &[x, y]);
+                let words = self.text(from).zip(self.text(to));
+                Some((length, words.map_or_else(String::new, |(from, to)| format!(" between {from} and {to}"))))
+            }
+        }
+    }
+
+    /// An expression by its name, or as a formula that somebody would read.
+    pub(super) fn text(&self, id: ExpressionId) -> Option<String> {
+        const LONGEST: usize = 24;
+        if let Some(name) = self.expressions.as_name(id) {
+            return Some(name.to_string());
+        }
+        match self.values.get(id.index()) {
+            Some(Value::Scalar(node)) => {
+                let text = self.graph.text(*node);
+                Some(if text.len() <= LONGEST { text } else { "an expression".to_owned() })
+            }
+            _ => Some("a point".to_owned()),
+        }
+    }
+
+    /// An expression that may hold `t` and `rate(…)`.
+    pub(super) fn law(&mut self, id: ExpressionId) -> Option<NodeId> {
+        self.is_law = true;
+        let law = self.scalar(id);
+        self.is_law = false;
+        law
+    }
+
+    /// A scalar that the mechanism moves.
+    pub(super) fn moving(&mut self, id: ExpressionId) -> Option<NodeId> {
+        let node = self.scalar(id)?;
+        if !self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol)) {
+            let message =
+                "nothing moves this: a friction or a stop acts on a coordinate, an output or what is made of them";
+            self.diagnostics.error(self.expressions.region(id), message);
+            return None;
+        }
+        Some(node)
+    }
+
+    /// The rate of an expression, by the rates of the coordinates.
+    pub(in crate::model) fn rate_of(&mut self, node: NodeId) -> NodeId {
+        self.graph.differentiate(&[node], &self.rates)[0]
+    }
+}

@@ -1,0 +1,132 @@
+//! What is known of scenes once all statements are read.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::Ident;
+
+use super::{Drive, Reading, Scene};
+use crate::diagnostics::suggestion;
+use crate::graph::SymbolId;
+use crate::model::expression::Lowering;
+use crate::model::{Driver, Mechanism};
+
+impl Lowering<'_> {
+    /// What is known of the scenes once all statements are read: their bodies, drivers and parameters.
+    pub(in crate::model) fn finish_scenes(&mut self, reading: Reading, result: &mut Mechanism) {
+        let mut used = BTreeSet::new();
+        for (mut scene, of, names) in reading.scenes {
+            let Some(driver) = self.driver_of(&scene, of.as_ref(), result) else { continue };
+            scene.driver = driver;
+            if let Some((span, bodies)) = &names.inertia {
+                let all = self.bodies(bodies, result);
+                if all.is_empty() {
+                    self.diagnostics.error(*span, "there is no `body` whose inertia could count");
+                }
+                used.extend(all.iter().copied());
+                scene.inertia = Some(all);
+            }
+            if let (Some((span, word)), None) = (&names.contact, &names.inertia) {
+                let message = format!("a `{word}` acts on what moves: add `inertia;` to `{}`", scene.name);
+                self.diagnostics.error(*span, message);
+            }
+            for ([x, y], bodies) in &names.gravity {
+                let all = self.bodies(bodies, result);
+                used.extend(all.iter().copied());
+                let heavy = all.into_iter().filter(|&index| result.bodies[index].mass.is_some());
+                scene.weights.extend(heavy.map(|index| (index, [*x, *y])));
+            }
+            let Driver { inputs, name, .. } = &result.drivers[driver];
+            for (input, law) in names.drives {
+                let text = input.to_string();
+                let place = inputs.iter().copied().find(|&index| result.coordinates[index].name.text == text);
+                let Some(place) = place else {
+                    let of = inputs.iter().map(|&index| result.coordinates[index].name.text.as_str());
+                    let hint = suggestion(&text, of);
+                    self.diagnostics.error(input.span(), format_args!("`{text}` is no input of `{name}`{hint}"));
+                    continue;
+                };
+                if scene.drives.iter().any(|drive| drive.input == place) {
+                    self.diagnostics.error(input.span(), format_args!("`{text}` is driven twice"));
+                }
+                scene.drives.push(Drive { input: place, law });
+            }
+            let taken = result.drivers.iter().map(|driver| &driver.name).chain([&result.name]);
+            if taken.chain(result.scenes.iter().map(|scene| &scene.name)).any(|name| *name == scene.name) {
+                let message = format!("the type `{}` is declared twice", scene.name);
+                self.diagnostics.error(scene.name.span(), message);
+                continue;
+            }
+            result.scenes.push(scene);
+        }
+        // A scene that was not understood would be missed.
+        let is_complete = self.diagnostics.is_empty();
+        for (index, body) in result.bodies.iter().enumerate().filter(|_| is_complete) {
+            if !used.contains(&index) && !body.name.text.starts_with('_') {
+                let message = format!("no scene counts the inertia or the weight of `{}`; remove it", body.name.text);
+                self.diagnostics.error(body.name.span, message);
+            }
+        }
+        self.part_parameters(result);
+    }
+
+    pub(super) fn driver_of(&mut self, scene: &Scene, of: Option<&Ident>, result: &Mechanism) -> Option<usize> {
+        let place = match of {
+            Some(name) => result.drivers.iter().position(|driver| driver.name == *name),
+            None => (result.drivers.len() == 1).then_some(0),
+        };
+        if place.is_none() {
+            let names: Vec<String> = result.drivers.iter().map(|driver| driver.name.to_string()).collect();
+            let (span, message) = match of {
+                Some(name) => {
+                    let hint = suggestion(&name.to_string(), names.iter().map(String::as_str));
+                    (name.span(), format!("no driver is called `{name}`{hint}"))
+                }
+                None => {
+                    let first = names.first().map_or("", String::as_str);
+                    (scene.name.span(), format!("which driver? write `scene {} of {first} {{ … }}`", scene.name))
+                }
+            };
+            self.diagnostics.error(span, message);
+        }
+        place
+    }
+
+    /// Bodies by their names; all of them if none is named.
+    pub(super) fn bodies(&mut self, names: &[Ident], result: &Mechanism) -> Vec<usize> {
+        if names.is_empty() {
+            return (0..result.bodies.len()).collect();
+        }
+        let mut found = Vec::new();
+        for name in names {
+            let text = name.to_string();
+            match result.bodies.iter().position(|body| body.name.text == text) {
+                Some(index) if found.contains(&index) => {
+                    self.diagnostics.error(name.span(), format_args!("`{text}` is named twice"));
+                }
+                Some(index) => found.push(index),
+                None => {
+                    let hint = suggestion(&text, result.bodies.iter().map(|body| body.name.text.as_str()));
+                    self.diagnostics.error(name.span(), format_args!("no body is called `{text}`{hint}"));
+                }
+            }
+        }
+        found
+    }
+
+    /// A parameter that no closure, point or output holds, but a scene, belongs to the scenes that hold it.
+    pub(super) fn part_parameters(&self, result: &mut Mechanism) {
+        let kinematic: BTreeSet<SymbolId> = self.graph.symbols_of(&result.kinematic_formulas()).into_iter().collect();
+        let held: Vec<BTreeSet<SymbolId>> = result
+            .scenes
+            .iter()
+            .map(|scene| self.graph.symbols_of(&scene.formulas(&result.bodies)).into_iter().collect())
+            .collect();
+        let belongs = |symbol: &SymbolId| !kinematic.contains(symbol) && held.iter().any(|held| held.contains(symbol));
+        let parameters = std::mem::take(&mut result.parameters);
+        (result.scene_parameters, result.parameters) = parameters.into_iter().partition(|p| belongs(&p.symbol));
+        for (scene, held) in result.scenes.iter_mut().zip(held) {
+            let own = result.scene_parameters.iter().enumerate().filter(|(_, p)| held.contains(&p.symbol));
+            scene.parameters = own.map(|(place, _)| place).collect();
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Bodies and scenes: every effect as a potential, or as a law that acts along a scalar.
+
+mod body;
+mod contact;
+mod effect;
+mod finish;
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, Span};
+use syn::Attribute;
+
+use super::name::Name;
+use crate::graph::NodeId;
+
+/// A rigid body.
+pub struct Body {
+    pub name: Name,
+    /// m and its centre.
+    pub mass: Option<(NodeId, [NodeId; 2])>,
+    /// The moment of inertia about the centre, and the angle that the body turns by.
+    pub inertia: Option<(NodeId, NodeId)>,
+}
+
+/// A mechanism with the effects that somebody called for.
+pub struct Scene {
+    pub name: Ident,
+    pub attributes: Vec<Attribute>,
+    /// The place of its driver among those of the mechanism.
+    pub driver: usize,
+    /// The bodies whose inertia counts; nothing accelerates in a scene without.
+    pub inertia: Option<Vec<usize>>,
+    /// A body and the field that its mass is in.
+    pub weights: Vec<(usize, [NodeId; 2])>,
+    pub laws: Vec<Law>,
+    pub contacts: Vec<Contact>,
+    pub drives: Vec<Drive>,
+    pub wishes: BTreeSet<Wish>,
+    /// Places among [`Mechanism::scene_parameters`](super::Mechanism::scene_parameters).
+    pub parameters: Vec<usize>,
+}
+
+/// A force along a scalar: its work is `law` times the change of `along`.
+pub struct Law {
+    /// What errors call it.
+    pub label: String,
+    /// In terms of parameters, coordinates, rates and time.
+    pub law: NodeId,
+    pub along: NodeId,
+    pub account: Account,
+}
+
+/// A dry friction or a stop.
+pub struct Contact {
+    /// What errors call it.
+    pub label: String,
+    pub along: NodeId,
+    pub law: ContactLaw,
+}
+
+/// What a contact does.
+pub enum ContactLaw {
+    /// The greatest force is the product of these, in terms of parameters, coordinates, rates and time.
+    Friction(Vec<NodeId>),
+    /// In terms of parameters.
+    Stop { range: [NodeId; 2], restitution: NodeId },
+}
+
+/// Where the work of a law goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Account {
+    /// From a potential energy.
+    Stored(NodeId),
+    /// Out of the mechanism.
+    Dissipated,
+    /// Into the mechanism.
+    Applied,
+}
+
+/// The motion of an input is given.
+pub struct Drive {
+    /// An index into [`Mechanism::coordinates`](super::Mechanism::coordinates).
+    pub input: usize,
+    /// In terms of parameters and time.
+    pub law: NodeId,
+}
+
+/// Functions that a scene has only if they are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Wish {
+    Energy,
+    Power,
+    Reactions,
+    Equilibrium,
+}
+
+/// What the scenes of a mechanism share while they are read.
+#[derive(Default)]
+pub(super) struct Reading {
+    scenes: Vec<(Scene, Option<Ident>, Names)>,
+}
+
+/// What a scene names before all bodies and drivers are known.
+struct Names {
+    inertia: Option<(Span, Vec<Ident>)>,
+    /// Where the first contact is named.
+    contact: Option<(Span, String)>,
+    gravity: Vec<([NodeId; 2], Vec<Ident>)>,
+    drives: Vec<(Ident, NodeId)>,
+}
+
+impl Scene {
+    /// Everything that it is made of.
+    fn formulas(&self, bodies: &[Body]) -> Vec<NodeId> {
+        let mut formulas: Vec<NodeId> = self.laws.iter().flat_map(|law| [law.law, law.along]).collect();
+        for (index, field) in &self.weights {
+            formulas.extend(field);
+            formulas.extend(bodies[*index].mass.iter().flat_map(|(mass, center)| [*mass, center[0], center[1]]));
+        }
+        for contact in &self.contacts {
+            formulas.push(contact.along);
+            match &contact.law {
+                ContactLaw::Friction(factors) => formulas.extend(factors),
+                ContactLaw::Stop { range, restitution } => formulas.extend(range.iter().chain([restitution])),
+            }
+        }
+        formulas.extend(self.drives.iter().map(|drive| drive.law));
+        for &index in self.inertia.iter().flatten() {
+            let Body { mass, inertia, .. } = &bodies[index];
+            formulas.extend(mass.iter().flat_map(|(mass, center)| [*mass, center[0], center[1]]));
+            formulas.extend(inertia.iter().flat_map(|(inertia, angle)| [*inertia, *angle]));
+        }
+        formulas
+    }
+}

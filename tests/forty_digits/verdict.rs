@@ -1,0 +1,122 @@
+//! How far the emitted code is from that: in rounding, and in another unit of length.
+
+use rand::SeedableRng;
+use rand::rngs::SmallRng;
+
+use super::judge::{Data, Judge, Motion};
+use super::precise::{Big, Scalar, big};
+
+/// The promise: ulp times condition number.
+pub(super) const ULPS: f64 = 8.0;
+
+/// Poses of each mechanism; the full size is asked for in the environment.
+fn poses() -> usize {
+    std::env::var("POSES").ok().and_then(|count| count.parse().ok()).unwrap_or(40)
+}
+
+/// The largest error in ulp times condition number, and where.
+#[derive(Default, Clone)]
+pub(super) struct Worst {
+    pub(super) error: f64,
+    pub(super) place: String,
+}
+
+impl Worst {
+    fn note(&mut self, found: &[f64], expected: &[Big], conditions: &[f64], place: impl Fn(usize) -> String) {
+        for (index, ((&found, expected), condition)) in found.iter().zip(expected).zip(conditions).enumerate() {
+            assert!(found.is_finite(), "{}", place(index));
+            let size = condition.max(expected.double().abs());
+            let error = (big(found) - expected).double().abs();
+            let error = if error == 0.0 { 0.0 } else { error / (f64::EPSILON * size) };
+            if error > self.error {
+                *self = Self { error, place: place(index) };
+            }
+        }
+    }
+}
+
+pub(super) fn judge(file: &str, branches: usize, run: impl Fn(&Data) -> Option<Motion>) -> [Worst; 3] {
+    let judge = Judge::new(file);
+    let mut random = SmallRng::seed_from_u64(20_091_121);
+    let mut worst: [Worst; 3] = Default::default();
+    let (mut count, mut missed) = (0, 0);
+    let (unknowns, place_of) = (&judge.derivation.unknowns, &judge.derivation.coordinates);
+    while count < poses() {
+        let data = judge.data(&mut random, branches);
+        let Some(motion) = run(&data) else {
+            missed += 1;
+            assert!(missed < 50 * poses(), "{file}: hardly anything can be assembled");
+            continue;
+        };
+        let found: Vec<f64> = motion.coordinates.iter().flat_map(|q| unknowns.iter().map(|&place| q[place])).collect();
+        let Some(y) = judge.solve(&data, &found, &vec![0.0; found.len()]) else {
+            panic!("{file}: nothing near {:?} closes {:?} at {:?}", motion.coordinates, data.parameters, data.inputs)
+        };
+        count += 1;
+        let n = unknowns.len();
+        let rounded: Vec<f64> = y.iter().map(Scalar::double).collect();
+        let (of_unknowns, of_points) = judge.conditions(&data, &rounded);
+        let points = judge.evaluate(&judge.points, &data, &y);
+        let third = points.len() / 3;
+        for (order, worst) in worst.iter_mut().enumerate() {
+            let at =
+                |what: String| format!("{what} at {:?}, branch {}, of {:?}", data.inputs, data.branch, data.parameters);
+            let part = order * n..(order + 1) * n;
+            worst.note(&found[part.clone()], &y[part.clone()], &of_unknowns[part], |index| {
+                at(place_of[unknowns[index]].name.clone())
+            });
+            let part = order * third..(order + 1) * third;
+            let (expected, conditions) = (&points[part.clone()], &of_points[part.clone()]);
+            let of_point = |index| at(format!("point {}", index / 2 + 1));
+            let mut off = Worst::default();
+            off.note(&motion.points[order], expected, conditions, of_point);
+            if off.error > ULPS {
+                println!("{file}: {:.2} ulp x condition as differentiated, {}", off.error, off.place);
+                let measured = judge.measured_conditions(&data, &y, &found).expect("positions a rounding away");
+                off = Worst::default();
+                off.note(&motion.points[order], expected, &measured[part], of_point);
+                println!("{file}: {:.2} ulp x condition as measured, {}", off.error, off.place);
+            }
+            if off.error > worst.error {
+                *worst = off;
+            }
+        }
+    }
+    for (order, worst) in ["position", "velocity", "acceleration"].iter().zip(&worst) {
+        println!("{file:22} {order:13} {:6.2} ulp x condition: {}", worst.error, worst.place);
+    }
+    worst
+}
+
+/// Everything at lengths 2^k times as long has the same bits but for its exponent; angles have the same.
+pub(super) fn unit_of_length(file: &str, branches: usize, run: impl Fn(&Data) -> Option<Motion>) {
+    let judge = Judge::new(file);
+    let is_length = judge.lengths();
+    let mut random = SmallRng::seed_from_u64(5);
+    let mut found = 0;
+    for _ in 0..200 {
+        let data = judge.data(&mut random, branches);
+        let Some(plain) = run(&data) else { continue };
+        found += 1;
+        for k in [-300, -37, -1, 2, 101, 300] {
+            let scale = 2_f64.powi(k);
+            let scaled = judge.scaled(&data, &is_length, scale);
+            let other = run(&scaled).unwrap_or_else(|| panic!("{file} at 2^{k}: no position at {:?}", data.inputs));
+            let of_coordinates = &is_length[judge.mechanism.parameters.len()..];
+            for order in 0..3 {
+                let pairs = plain.coordinates[order].iter().zip(&other.coordinates[order]).zip(of_coordinates);
+                for ((&one, &other), &is_length) in pairs {
+                    assert_eq!(if is_length { one * scale } else { one }, other, "{file} at 2^{k}, order {order}");
+                }
+                // The pen of the five-bar stands where numbers say, whatever the unit.
+                if file == "five_bar" {
+                    continue;
+                }
+                for (&one, &other) in plain.points[order].iter().zip(&other.points[order]) {
+                    assert_eq!(one * scale, other, "{file} at 2^{k}: a point, order {order}");
+                }
+            }
+        }
+    }
+    assert!(found > 10, "{file}: {found}");
+}

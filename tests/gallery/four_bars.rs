@@ -1,0 +1,67 @@
+//! One loop of four links, and two of them in a row.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use linkage::linkage;
+
+use super::course::{degrees, turn};
+use super::exactness::{close, exact};
+
+include!("../mechanisms/four_bar.rs");
+include!("../mechanisms/wiper.rs");
+
+#[test]
+fn four_bar_on_both_branches() {
+    let m = FourBar::default();
+    for (theta3, theta4, side) in [(70.0, -50.0, 1.0), (-83.0, 38.0, -1.0)] {
+        let start = FourBarCoordinates { theta2: degrees(20.0), theta3: degrees(theta3), theta4: degrees(theta4) };
+        let course = turn(&m, start, |q| &mut q.theta2);
+        closed_form!(m, course, theta2);
+        rigid!(course, b - c = m.l3, b - g3 = m.l3 / 2.0, c - g4 = m.l4 / 2.0);
+        // On one branch C is always above the line from B to D, on the other below it.
+        assert!(course.positions.iter().all(|q| side * m.outputs(&m.pose_at(q)).unwrap().mu.sin() > 0.0));
+        for q in &course.positions {
+            let points = m.points(&m.pose_at(q)).unwrap();
+            exact((points.c - nalgebra::vector![m.l1, 0.0]).norm(), m.l4, m.l1 + m.l2 + m.l3 + m.l4);
+        }
+    }
+}
+
+#[test]
+fn wiper_sweeps() {
+    let m = Wiper::default();
+    let start = WiperCoordinates {
+        theta: FRAC_PI_2,
+        phi: degrees(3.8),
+        first: degrees(93.8),
+        rod: degrees(10.0),
+        second: degrees(93.8),
+    };
+    let course = turn(&m, start, |q| &mut q.theta);
+    closed_form!(m, course, theta);
+    rigid!(
+        course,
+        motor - first = m.base,
+        motor - pin = m.crank,
+        pin - first_pin = m.link,
+        first - first_pin = m.arm,
+        first - second = m.span,
+        first_pin - second_pin = m.span,
+        second - second_pin = m.arm,
+        first - first_tip = m.blade,
+        second - second_tip = m.blade,
+    );
+    let sweep = 2.0 * (m.crank / m.arm).asin();
+    for of in [|q: &WiperCoordinates| q.first, |q: &WiperCoordinates| q.second] {
+        let [least, largest] = course.range(of);
+        close(largest - least, sweep, 1e-13);
+    }
+    // Both strokes take half a turn.
+    let [first, second] = course.roots(|q| m.velocity(&m.pose_at(q), 1.0).unwrap().first)[..] else {
+        panic!("two dead centres")
+    };
+    close(second - first, PI, 1e-13);
+    for q in &course.positions {
+        close(q.rod, m.tilt, 1e-14);
+    }
+}

@@ -1,0 +1,57 @@
+//! Links that stay parallel.
+
+use std::f64::consts::TAU;
+
+use linkage::linkage;
+
+use super::course::{STEPS, degrees, follow};
+use super::exactness::{ROUNDINGS, close, exact};
+
+include!("../mechanisms/coupled_wheels.rs");
+include!("../mechanisms/pantograph.rs");
+
+/// The pen draws what the tracer draws, `ratio` times as large.
+#[test]
+fn pantograph_copies() {
+    let m = Pantograph::default();
+    let size = (m.a + m.b) * m.ratio;
+    let mut q = PantographCoordinates { x: 5.0, y: 0.0, alpha: 0.9, beta: -0.6, gamma: 0.9, delta: -0.6 };
+    for step in 0..=STEPS {
+        let angle = degrees(f64::from(step));
+        (q.x, q.y) = (4.0 + angle.cos(), 1.0 + 2.0 * angle.sin());
+        let solution = m.solve(&q).unwrap();
+        assert!(solution.same_branch);
+        q = solution.coordinates;
+        let points = m.points(&m.pose_at(&q)).unwrap();
+        for axis in 0..2 {
+            exact(points.pen[axis], m.ratio * points.tracer[axis], size);
+        }
+        // Velocity and acceleration too are `ratio` times as large, whatever the tracer does.
+        let motion = m.motion(&q, PantographInputs { x: 0.3, y: -0.7 }, PantographInputs { x: -0.2, y: 0.4 }).unwrap();
+        exact(motion.points.pen.velocity.x, m.ratio * 0.3, size);
+        exact(motion.points.pen.velocity.y, m.ratio * -0.7, size);
+        exact(motion.points.pen.acceleration.x, m.ratio * -0.2, size);
+        exact(motion.points.pen.acceleration.y, m.ratio * 0.4, size);
+    }
+}
+
+/// The parallelogram is followed through both change points, between the steps at half degrees.
+#[test]
+fn coupled_wheels_stay_parallel() {
+    let m = CoupledWheels::default();
+    let half = degrees(0.5);
+    let start = CoupledWheelsCoordinates { theta: half, rod: 0.0, follower: half };
+    let course = follow(&m, start, |q| &mut q.theta, TAU);
+    closed_form!(m, course, theta);
+    rigid!(course, a - b = m.crank, a - d = m.base, b - c = m.base, c - d = m.crank);
+    for q in &course.positions {
+        // The Jacobian is singular with the sine of the crank's angle.
+        let sine = q.theta.sin().abs();
+        let error = ROUNDINGS * f64::EPSILON / sine;
+        close(q.rod, 0.0, error);
+        close(q.follower, q.theta, TAU * error);
+        let ratios = m.velocity_ratios(&m.pose_at(q)).unwrap();
+        close(ratios[0], 0.0, error / sine);
+        close(ratios[1], 1.0, error / sine);
+    }
+}

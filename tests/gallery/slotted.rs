@@ -1,0 +1,96 @@
+//! Slots in links that turn: slotted cranks and levers, quick returns, and the wheel of Geneva.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use linkage::linkage;
+
+use super::course::{STEPS, degrees, follow, turn};
+use super::exactness::{close, exact};
+
+include!("../mechanisms/crank_shaper.rs");
+include!("../mechanisms/geneva.rs");
+include!("../mechanisms/inverted_slider_crank.rs");
+include!("../mechanisms/whitworth.rs");
+
+#[test]
+fn inverted_slider_crank() {
+    let m = InvertedSliderCrank::default();
+    let start = InvertedSliderCrankCoordinates { theta2: 0.0, theta4: degrees(109.5), b: 56.6 };
+    let course = turn(&m, start, |q| &mut q.theta2);
+    closed_form!(m, course, theta2);
+    rigid!(course, o - a = m.a, d - b = m.c);
+    for q in &course.positions {
+        let points = m.points(&m.pose_at(q)).unwrap();
+        // The slide stands at gamma, here a right angle, to its foot.
+        exact((points.a - points.d).norm(), q.b.hypot(m.c), m.a + m.d + q.b);
+    }
+    let [least, largest] = course.range(|q| q.b);
+    exact(least, ((m.d - m.a).powi(2) - m.c * m.c).sqrt(), m.d + m.a);
+    exact(largest, ((m.d + m.a).powi(2) - m.c * m.c).sqrt(), m.d + m.a);
+}
+
+/// The ram turns back where the slotted arm lies on its line: there the crank's pin is `offset` below the
+/// crank's pivot.
+#[test]
+fn whitworth_returns_faster() {
+    let m = Whitworth::default();
+    let start = WhitworthCoordinates { theta: FRAC_PI_2, psi: FRAC_PI_2, s: 80.0, phi: degrees(17.5), x: 191.0 };
+    let course = turn(&m, start, |q| &mut q.theta);
+    closed_form!(m, course, theta);
+    rigid!(course, o - c = m.offset, o - pin = m.crank, c - e = m.arm, e - ram = m.rod);
+    let dip = (m.offset / m.crank).asin();
+    let velocity = |q: &WhitworthCoordinates| m.velocity(&m.pose_at(q), 1.0).unwrap().x;
+    let [first, second] = course.roots(velocity)[..] else { panic!("two dead centres") };
+    close(first, PI + dip, 1e-13);
+    close(second, TAU - dip, 1e-13);
+    let back = second - first;
+    close((TAU - back) / back, (PI + 2.0 * dip) / (PI - 2.0 * dip), 1e-12);
+    let [least, largest] = course.range(|q| q.x);
+    exact(largest - least, 2.0 * m.arm, m.arm + m.rod);
+    // The slotted arm turns all the way round.
+    close(course.positions[STEPS as usize].psi - course.positions[0].psi, TAU, 1e-13);
+}
+
+/// The ram turns back with the lever, where the crank stands square to it.
+#[test]
+fn crank_shaper_returns_faster() {
+    let m = CrankShaper::default();
+    let start = CrankShaperCoordinates { theta: FRAC_PI_2, psi: FRAC_PI_2, s: 170.0, phi: degrees(-8.0), x: 99.0 };
+    let course = turn(&m, start, |q| &mut q.theta);
+    closed_form!(m, course, theta);
+    rigid!(course, o - c = m.offset, o - pin = m.crank, c - e = m.lever, e - ram = m.rod);
+    let swing = (m.crank / m.offset).asin();
+    let velocity = |q: &CrankShaperCoordinates| m.velocity(&m.pose_at(q), 1.0).unwrap().x;
+    let [first, second] = course.roots(velocity)[..] else { panic!("two dead centres") };
+    close(first, PI + swing, 1e-13);
+    close(second, TAU - swing, 1e-13);
+    let back = second - first;
+    close((TAU - back) / back, (PI + 2.0 * swing) / (PI - 2.0 * swing), 1e-12);
+    let [least, largest] = course.range(|q| q.x);
+    exact(largest - least, 2.0 * m.lever * m.crank / m.offset, m.lever + m.rod);
+    let [least, largest] = course.range(|q| q.psi);
+    close((largest - least) / 2.0, swing, 1e-14);
+}
+
+/// The wheel starts and stops without a jolt, and turns by one slot.
+#[test]
+fn geneva_turns_one_slot() {
+    let m = Geneva::default();
+    let engaged = FRAC_PI_2 - PI / m.slots;
+    let start = GenevaCoordinates { theta: -engaged, psi: PI / m.slots, s: m.crank };
+    let course = follow(&m, start, |q| &mut q.theta, 2.0 * engaged);
+    closed_form!(m, course, theta);
+    rigid!(course, o - pin = m.crank, o - wheel = m.crank / (PI / m.slots).sin());
+    let [first, middle, last] = [0, 180, 360].map(|step: usize| &course.positions[step]);
+    close(last.psi - first.psi, -TAU / m.slots, 1e-15);
+    for end in [first, last] {
+        let motion = m.motion(end, 1.0, 0.0).unwrap();
+        close(motion.velocity.psi, 0.0, 1e-15);
+        exact(motion.outputs.depth.value, 0.0, m.crank);
+        // Not without a jerk: omega^2 tan(pi / slots).
+        close(motion.acceleration.psi.abs(), (PI / m.slots).tan(), 1e-14);
+    }
+    // Fastest in the middle: omega sin / (1 - sin) of half a slot.
+    let half = (PI / m.slots).sin();
+    close(m.velocity(&m.pose_at(middle), 1.0).unwrap().psi, -half / (1.0 - half), 1e-14);
+}
