@@ -242,5 +242,5 @@ fn separated(value: f64) -> TokenStream {
 
 /// The name of the sine or cosine of a direction.
 pub(super) fn direction_name(function: Function, angle: &str) -> String {
-    format!("{}_{angle}", function.operation().name)
+    [function.operation().name, "_", angle].concat()
 }

@@ -255,7 +255,7 @@ impl<'a> Names<'a> {
 
     /// Names a value after what it is made of.
     pub(super) fn invent(&mut self, schedule: &Schedule, value: ValueId) -> Ident {
-        let mut wish = String::new();
+        let mut wish = String::with_capacity(LONGEST);
         match schedule.name(value) {
             Some(name) => wish.push_str(name),
             None if self.describe(&mut wish, schedule, value).is_some() => {}

@@ -27,8 +27,8 @@ impl Methods<'_> {
             let entries = entries(&rows, columns);
             let nodes = entries.iter().map(|(_, _, node)| *node).collect();
             let mut code = self.on_pose(kernels, Vec::new(), &[Stage::Return(nodes)]);
-            let values = entries.into_iter().zip(&code.results);
-            let values = values.map(|((row, column, _), value)| (row, column, value.clone()));
+            let values = entries.into_iter().zip(std::mem::take(&mut code.results));
+            let values = values.map(|((row, column, _), value)| (row, column, value));
             let (lines, matrix) = matrix_of(values, rows.len(), columns, &mut code.taken);
             Body::new(code, quote!(#lines #matrix), [])
         });

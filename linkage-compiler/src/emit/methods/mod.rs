@@ -485,27 +485,28 @@ fn columns_of(entries: &[impl ToTokens], rows: usize) -> TokenStream {
 }
 
 /// Values separated by commas, in lists of lists of so many each, the outer ones first.
-fn in_parts(values: &[Operand], sizes: &[usize]) -> TokenStream {
+fn in_parts(values: Vec<Operand>, sizes: &[usize]) -> Tokens {
     let mut tokens = Tokens::default();
-    write_parts(&mut tokens, values, sizes);
-    tokens.into()
+    let count = values.len() / sizes.iter().product::<usize>().max(1);
+    write_parts(&mut tokens, &mut values.into_iter(), count, sizes);
+    tokens
 }
 
-fn write_parts(tokens: &mut Tokens, values: &[Operand], sizes: &[usize]) {
-    let part = sizes.iter().product::<usize>().max(1);
-    for (index, values) in values.chunks(part).enumerate() {
+fn write_parts(tokens: &mut Tokens, values: &mut std::vec::IntoIter<Operand>, count: usize, sizes: &[usize]) {
+    for index in 0..count {
         if index > 0 {
             tokens.punct(',');
         }
-        if let Some((_, inner)) = sizes.split_first() {
+        if let Some((&size, inner)) = sizes.split_first() {
             let mut list = Tokens::default();
-            write_parts(&mut list, values, inner);
+            write_parts(&mut list, values, size, inner);
             tokens.group(Delimiter::Bracket, list);
             continue;
         }
-        match &values[0] {
-            Operand::Name(name) => tokens.ident(name),
-            Operand::Constant(value) | Operand::Formula(value) => tokens.join(value.clone()),
+        match values.next() {
+            Some(Operand::Name(name)) => tokens.append(name),
+            Some(Operand::Constant(value) | Operand::Formula(value)) => tokens.join(value),
+            None => {}
         }
     }
 }

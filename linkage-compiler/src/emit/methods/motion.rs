@@ -40,10 +40,10 @@ impl Methods<'_> {
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
             let fields = self.coordinate_fields();
             let count = fields.len();
-            let results = std::mem::take(&mut code.results);
-            let (rates, rest) = results.split_at(count);
-            let (accelerations, rest) = rest.split_at(count);
-            let (point_parts, output_parts) = rest.split_at(6 * self.mechanism.points.len());
+            let mut results = std::mem::take(&mut code.results).into_iter();
+            let mut take = |many: usize| results.by_ref().take(many).collect::<Vec<Operand>>();
+            let (rates, accelerations) = (take(count), take(count));
+            let (point_parts, output_parts) = (take(6 * self.mechanism.points.len()), take(usize::MAX));
             let mut members = TokenStream::new();
             if !point_parts.is_empty() {
                 let values = in_parts(point_parts, &[3, 2]);

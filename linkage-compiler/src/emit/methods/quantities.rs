@@ -114,10 +114,10 @@ impl Methods<'_> {
                 if order > 2 {
                     sources.push(self.coordinates(kernels, &jerk, |c| c.jerk));
                 }
-                let code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
+                let mut code = self.on_pose(kernels, sources, &[Stage::Return(nodes)]);
                 let (finite, parts): (_, &[usize]) =
                     if family == Family::Points { ("finite_points", &[2]) } else { ("finite_outputs", &[]) };
-                let values = in_parts(&code.results, parts);
+                let values = in_parts(std::mem::take(&mut code.results), parts);
                 let (function, name) = (ident(finite), string(&name));
                 Body::new(code, quote!(#function(Self::NAME, #name, [#values])), [finite])
             });
@@ -171,7 +171,7 @@ impl Methods<'_> {
                 fields: ratios,
             };
             let mut code = self.on_pose(kernels, vec![ratios], &[Stage::Return(nodes)]);
-            let values = in_parts(&code.results, &[v, dimension]);
+            let values = in_parts(std::mem::take(&mut code.results), &[v, dimension]);
             let kind = string(word);
             let tail = quote!(finite_matrices(Self::NAME, #kind, [#values]));
             // A call costs what the ratios cost, too.

@@ -166,7 +166,8 @@ impl<'a> Builder<'a> {
     ) -> Signed {
         let mut constant = coefficient;
         let mut negative = false;
-        let (mut above, mut below) = (Vec::new(), Vec::new());
+        // With room for the number before them.
+        let (mut above, mut below) = (Vec::with_capacity(factors.len() + 1), Vec::new());
         for &(base, exponent) in factors {
             if let Some(value) = self.graph.constant_value(base) {
                 constant = constant.multiply(Number::Float(value.powi(exponent)));
