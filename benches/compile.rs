@@ -28,14 +28,14 @@ struct Measured {
     bytes: usize,
 }
 
-/// The median of a few expansions of one source.
+/// The median of expansions of one source: of nine, or of as many as a second has room for.
 fn measure(source: &str) -> Measured {
-    const RUNS: usize = 9;
+    const FEWEST: usize = 9;
     let root: TokenStream = "::linkage".parse().expect("a path");
     let tokens: TokenStream = source.parse().expect("tokens");
     let mut times: Vec<Duration> = Vec::new();
     let mut bytes = 0;
-    for _ in 0..RUNS {
+    while times.len() < FEWEST || times.iter().sum::<Duration>() < Duration::from_secs(1) {
         let input = tokens.clone();
         let start = Instant::now();
         let output = linkage_compiler::expand(input, &root);
@@ -46,7 +46,7 @@ fn measure(source: &str) -> Measured {
     let mechanism = linkage_compiler::read(tokens).expect("a mechanism").remove(0);
     let Expansion { nodes, operations, .. } = linkage_compiler::compile(&mechanism, &root);
     let operations = operations.functions + operations.divisions + operations.multiplications + operations.additions;
-    Measured { time: times[RUNS / 2], nodes, operations, bytes }
+    Measured { time: times[times.len() / 2], nodes, operations, bytes }
 }
 
 fn table(title: &str, source: fn(usize) -> String, sizes: &[usize]) {
