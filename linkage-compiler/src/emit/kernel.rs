@@ -104,8 +104,16 @@ pub(super) fn write(
         }
     }
     used.sort_unstable();
-    let own: Vec<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
-    let symbols: Vec<SymbolId> = used.iter().copied().filter(|symbol| !own.contains(symbol)).collect();
+    let mut own = Vec::new();
+    for stage in stages {
+        own.append(&mut stage.introduced());
+    }
+    let mut symbols = Vec::new();
+    for &symbol in &used {
+        if !own.contains(&symbol) {
+            symbols.push(symbol);
+        }
+    }
     let mut names = Names::new(&derivation.graph, scope);
     // In the order of their making: the user's own names come first and stay as they are.
     for &symbol in &symbols {
@@ -135,7 +143,11 @@ pub(super) fn write(
     for line in &schedule.lines {
         write_line(&writer, &mut body, line, &mut names, &mut results);
     }
-    let uses = schedule.lines.iter().filter_map(used_by).chain(names.takes_numbers().then_some("real")).collect();
+    let mut uses = BTreeSet::new();
+    for line in &schedule.lines {
+        uses.extend(used_by(line));
+    }
+    uses.extend(names.takes_numbers().then_some("real"));
     let (externals, plain) = (std::mem::take(&mut names.externals), std::mem::take(&mut names.plain));
     Code {
         body,

@@ -77,13 +77,15 @@ impl Graph {
                 _ => collect(coefficient, item),
             }
         }
-        for (term, coefficient) in &terms {
+        let collected = terms;
+        let mut terms = Vec::with_capacity(collected.len());
+        for &(term, coefficient) in &collected {
             if coefficient.is_zero() {
-                self.drop_term(*term);
+                self.drop_term(term);
+            } else {
+                terms.push((coefficient, term));
             }
         }
-        terms.retain(|(_, coefficient)| !coefficient.is_zero());
-        let terms: Vec<_> = terms.into_iter().map(|(term, coefficient)| (coefficient, term)).collect();
         match terms.as_slice() {
             [] => self.number(constant),
             &[(coefficient, term)] if constant.is_zero() => self.scale(coefficient, term),
@@ -158,12 +160,16 @@ impl Graph {
                 self.conditions.insert(Condition::NonZero(divisor));
             }
         }
-        for (base, exponent) in &factors {
-            if *exponent == 0 || coefficient.is_zero() {
-                self.drop_term(*base);
+        let mut cancels = false;
+        for &(base, exponent) in &factors {
+            cancels |= exponent == 0;
+            if exponent == 0 || coefficient.is_zero() {
+                self.drop_term(base);
             }
         }
-        factors.retain(|(_, exponent)| *exponent != 0);
+        if cancels {
+            factors.retain(|(_, exponent)| *exponent != 0);
+        }
         let factors = self.grouped(factors);
         if coefficient.is_zero() || factors.is_empty() {
             return self.number(coefficient);
@@ -190,12 +196,18 @@ fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
         let last = list.len() - 1;
         return &mut list[last].1;
     }
-    let index = match list.binary_search_by_key(&key, |(key, _)| *key) {
-        Ok(index) => index,
-        Err(index) => {
-            list.insert(index, (key, empty));
-            index
+    let (mut index, mut end) = (0, list.len());
+    let keys = list.as_slice();
+    while index < end {
+        let middle = index.midpoint(end);
+        if keys[middle].0 < key {
+            index = middle + 1;
+        } else {
+            end = middle;
         }
-    };
+    }
+    if keys[index].0 != key {
+        list.insert(index, (key, empty));
+    }
     &mut list[index].1
 }

@@ -29,25 +29,23 @@ impl Graph {
                     }
                     if derived.is_empty() { zero } else { self.sum(&derived) }
                 }
-                Node::Product { factors, .. } if factors.iter().all(|(base, _)| derivatives[base.index()] == zero) => {
-                    zero
-                }
                 // (k prod f^n)' = sum n k f^(n-1) f' * the other factors
                 Node::Product { coefficient, factors } => {
-                    let (coefficient, factors) = (*coefficient, factors.clone());
-                    let mut terms = Vec::new();
+                    let (coefficient, mut parts) = (*coefficient, Vec::new());
                     for (index, &(base, exponent)) in factors.iter().enumerate() {
                         let inner = derivatives[base.index()];
-                        if inner == zero {
-                            continue;
+                        if inner != zero {
+                            let mut rest = factors.clone();
+                            rest[index].1 = exponent.saturating_sub(1);
+                            rest.push((inner, 1));
+                            parts.push((coefficient.multiply(Number::integer(exponent.into())), rest));
                         }
-                        let mut rest = factors.clone();
-                        rest[index].1 = exponent.saturating_sub(1);
-                        rest.push((inner, 1));
-                        let term = self.product(&rest);
-                        terms.push((coefficient.multiply(Number::integer(exponent.into())), term));
                     }
-                    self.sum(&terms)
+                    let mut terms = Vec::with_capacity(parts.len());
+                    for (coefficient, rest) in parts {
+                        terms.push((coefficient, self.product(&rest)));
+                    }
+                    if terms.is_empty() { zero } else { self.sum(&terms) }
                 }
                 // f(a, b)' = f_a a' + f_b b'
                 Node::Call(function, arguments) => {

@@ -42,11 +42,19 @@ pub(super) fn node_value(
         Node::Pi => Some(std::f64::consts::PI),
         Node::Symbol(symbol) => bind(*symbol),
         Node::Sum { constant, terms } => {
-            terms.iter().try_fold(constant.to_f64(), |sum, (factor, term)| Some(sum + factor.to_f64() * child(*term)?))
+            let mut sum = constant.to_f64();
+            for (factor, term) in terms {
+                sum += factor.to_f64() * child(*term)?;
+            }
+            Some(sum)
         }
-        Node::Product { coefficient, factors } => factors
-            .iter()
-            .try_fold(coefficient.to_f64(), |product, (base, exponent)| Some(product * child(*base)?.powi(*exponent))),
+        Node::Product { coefficient, factors } => {
+            let mut product = coefficient.to_f64();
+            for (base, exponent) in factors {
+                product *= child(*base)?.powi(*exponent);
+            }
+            Some(product)
+        }
         Node::Call(function, arguments) => {
             let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
             arguments.map(|arguments| (function.operation().value)(&arguments))

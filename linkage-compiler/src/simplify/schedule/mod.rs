@@ -210,9 +210,17 @@ pub struct Given {
 /// Orders the stages of a kernel.
 #[must_use]
 pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId, String)]) -> Schedule {
-    let roots: Vec<NodeId> = stages.iter().flat_map(Stage::nodes).collect();
-    let (mut values, translated) = Builder::translate_all(graph, given, &roots);
-    sharing::share(&mut values, &roots.iter().map(|root| translated.of(*root).value).collect::<Vec<_>>());
+    let (mut nodes, mut introduced) = (Vec::new(), BTreeSet::new());
+    for stage in stages {
+        nodes.append(&mut stage.nodes());
+        introduced.extend(stage.introduced());
+    }
+    let (mut values, translated) = Builder::translate_all(graph, given, &nodes);
+    let mut roots = Vec::with_capacity(nodes.len());
+    for &node in &nodes {
+        roots.push(translated.of(node));
+    }
+    sharing::share(&mut values, &roots);
     let mut names: Vec<(ValueId, String)> = Vec::new();
     for (node, name) in named {
         if let Some(Signed { negative: false, value }) = translated.get(*node) {
@@ -220,8 +228,7 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
         }
     }
     names.sort_by_key(|(value, _)| *value);
-    let mut ordering = Ordering::new(graph, values, &roots.iter().map(|root| translated.of(*root)).collect::<Vec<_>>());
-    let introduced: BTreeSet<SymbolId> = stages.iter().flat_map(Stage::introduced).collect();
+    let mut ordering = Ordering::new(graph, values, &roots);
     ordering.gather_sines(&introduced);
     let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| translated.of(*node)).collect() };
     for stage in stages {

@@ -28,7 +28,10 @@ impl Ordering {
         let mut uses = vec![0; values.len()].into_boxed_slice();
         let mut height = vec![None; values.len()].into_boxed_slice();
         let (mut circular, mut externals) = (FxHashMap::default(), FxHashMap::default());
-        let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
+        let mut stack = Vec::with_capacity(2 * roots.len());
+        for root in roots {
+            stack.push(root.value);
+        }
         while let Some(id) = stack.pop() {
             uses[id.0] += 1;
             if uses[id.0] > 1 {

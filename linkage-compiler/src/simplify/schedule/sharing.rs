@@ -51,9 +51,12 @@ struct List {
 }
 
 /// Rewrites the sums and products that `roots` stand on until no two of them share a pair.
-pub(super) fn share(values: &mut Vec<Value>, roots: &[ValueId]) {
+pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed]) {
     let mut seen = vec![false; values.len()].into_boxed_slice();
-    let mut stack = roots.to_vec();
+    let mut stack = Vec::with_capacity(2 * roots.len());
+    for root in roots {
+        stack.push(root.value);
+    }
     while let Some(id) = stack.pop() {
         if !std::mem::replace(&mut seen[id.0], true) {
             values[id.0].each_part(|part| stack.push(part));
