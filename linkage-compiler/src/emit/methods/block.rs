@@ -1,8 +1,8 @@
 //! The `impl` blocks that hold the functions.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::{Delimiter, Group, TokenStream};
+use proc_macro2::{Delimiter, Group, Ident, TokenStream};
 use quote::quote;
 
 use super::super::Types;
@@ -10,10 +10,10 @@ use super::super::names::{ident, string};
 use super::super::pose::PosePlan;
 use super::super::tokens::Tokens;
 use super::super::types::field;
-use super::{Kernels, Methods, imports, literal};
+use super::{Kernels, Methods, literal};
 use crate::derivation::{Block, Derivation};
 use crate::graph::SymbolId;
-use crate::model::Kind;
+use crate::model::{Kind, Mechanism};
 
 impl Methods<'_> {
     /// The `impl` blocks, in a scope of their own for the names that they use.
@@ -119,4 +119,17 @@ fn groups(derivation: &Derivation) -> Vec<TokenStream> {
         quote!(#name #equations #unknowns)
     };
     derivation.blocks.iter().map(group).collect()
+}
+
+/// What the functions use of the runtime, in the order in which rustfmt sorts it.
+fn imports(mechanism: &Mechanism, used: &BTreeSet<&'static str>) -> Vec<Ident> {
+    let mut types = vec!["Error", "Real", "SMatrix", "SVector", "Solution"];
+    if !mechanism.points.is_empty() {
+        types.push("Vector2");
+    }
+    let (others, functions): (Vec<&str>, Vec<&str>) =
+        used.iter().partition(|name| name.starts_with(char::is_uppercase));
+    types.extend(others);
+    types.sort_unstable();
+    types.into_iter().chain(functions).map(ident).collect()
 }

@@ -3,6 +3,7 @@
 mod acceleration;
 mod assemble;
 mod block;
+mod body;
 mod closures;
 mod contacts;
 mod external;
@@ -17,18 +18,18 @@ mod sensitivity;
 mod signature;
 mod unreduced;
 mod velocity;
+mod words;
 
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
-use quote::{ToTokens, quote};
-use rustc_hash::FxHashSet;
+use proc_macro2::{Delimiter, Ident, TokenStream};
+use quote::quote;
 
-use super::kernel::{self, Code, Given, Operand, Shape, Source};
-use super::names::{Scope, Taken, ident, string};
+use super::kernel::{self, Code, Given, Shape, Source};
+use super::names::{Scope, ident};
 use super::pose::PosePlan;
 use super::tokens::Tokens;
 use super::types::{self, field};
@@ -37,8 +38,10 @@ use crate::derivation::{Choice, Derivation, Form, Formulas, QuantityFormulas};
 use crate::graph::{ExternalId, NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
+use body::{Body, argument_of, bind, check_finite, columns_of, in_parts, literal, member, pose_members};
 pub(in crate::emit) use scene::of_scene;
 use signature::Words;
+use words::{count, fenced, lines};
 
 /// The name of an argument, beside which no name of the user's may stand.
 pub(super) fn argument(mechanism: &Mechanism, wish: &str) -> String {
@@ -360,193 +363,4 @@ impl Methods<'_> {
         let order = self.mechanism.coordinate_order(self.driver);
         order.iter().map(|&index| field(&self.mechanism.coordinates[index].name)).collect()
     }
-}
-
-/// The body of a function.
-struct Body {
-    tokens: Tokens,
-    operations: Operations,
-    /// The arguments that it uses.
-    arguments: Vec<Ident>,
-    /// What it uses of the runtime.
-    uses: BTreeSet<&'static str>,
-    /// The functions of the user's that it calls.
-    externals: BTreeSet<ExternalId>,
-}
-
-impl Body {
-    /// A kernel with its last lines, which use these names of the runtime.
-    fn new<const N: usize>(code: Code, tail: TokenStream, also: [&'static str; N]) -> Self {
-        let Code { mut body, operations, arguments, mut uses, externals, .. } = code;
-        body.extend(tail);
-        uses.extend(also);
-        Self { tokens: body, operations, arguments, uses, externals }
-    }
-
-    /// Lines that compute nothing themselves.
-    fn plain<const N: usize, const M: usize>(
-        tokens: TokenStream,
-        arguments: [&Ident; N],
-        uses: [&'static str; M],
-    ) -> Self {
-        let arguments = arguments.into_iter().cloned().collect();
-        let (operations, externals) = (Operations::default(), BTreeSet::new());
-        Self { tokens: tokens.into(), operations, arguments, uses: BTreeSet::from(uses), externals }
-    }
-}
-
-/// What the functions use of the runtime, in the order in which rustfmt sorts it.
-fn imports(mechanism: &Mechanism, used: &BTreeSet<&'static str>) -> Vec<Ident> {
-    let mut types = vec!["Error", "Real", "SMatrix", "SVector", "Solution"];
-    if !mechanism.points.is_empty() {
-        types.push("Vector2");
-    }
-    let (others, functions): (Vec<&str>, Vec<&str>) =
-        used.iter().partition(|name| name.starts_with(char::is_uppercase));
-    types.extend(others);
-    types.sort_unstable();
-    types.into_iter().chain(functions).map(ident).collect()
-}
-
-/// The name of an argument in the signature of a function: with an underscore if the body ignores it.
-fn argument_of(name: &Ident, body: Option<&Body>) -> Ident {
-    if body.is_some_and(|body| body.arguments.contains(name)) { name.clone() } else { ident(&format!("_{name}")) }
-}
-
-/// A size without suffix, as people write it.
-fn literal(count: usize) -> Literal {
-    Literal::usize_unsuffixed(count)
-}
-
-/// The members of a pose from determinants, cosines and sines, what is held as a number, and the values of
-/// the user's functions.
-fn pose_members<'a>(plan: &PosePlan, mut results: impl Iterator<Item = &'a Operand>) -> TokenStream {
-    let mut members = TokenStream::new();
-    for ((_, field, _), value) in plan.determinants.iter().zip(results.by_ref()) {
-        let member = member(&ident(field), value);
-        members.extend(quote!(#member,));
-    }
-    for field in plan.directions.values() {
-        let (field, parts) = (ident(field), results.by_ref().take(2));
-        members.extend(quote!(#field: unit(#(#parts),*),));
-    }
-    let values = plan.values.iter().map(|(_, field, _)| field);
-    for (field, value) in values.chain(plan.externals.iter().map(|(_, field, _)| field)).zip(results) {
-        let member = member(&ident(field), value);
-        members.extend(quote!(#member,));
-    }
-    members
-}
-
-/// `name: value`, or `name` alone if the value is called so.
-fn member(name: &Ident, value: &Operand) -> TokenStream {
-    match value {
-        Operand::Name(value) if value == name => quote!(#name),
-        value => quote!(#name: #value),
-    }
-}
-
-fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
-    lines.map(str::to_owned).to_vec()
-}
-
-/// A paragraph of formulas, if there are any.
-fn fenced(lines: impl Iterator<Item = String>) -> Vec<String> {
-    let mut block = vec![String::new(), "```text".to_owned()];
-    block.extend(lines);
-    block.push("```".to_owned());
-    if block.len() > 3 { block } else { Vec::new() }
-}
-
-fn count(operations: Operations) -> String {
-    let Operations { multiplications, additions, divisions, functions } = operations;
-    let parts = [
-        (functions, "function", "functions"),
-        (divisions, "division", "divisions"),
-        (multiplications, "multiplication", "multiplications"),
-        (additions, "addition", "additions"),
-    ];
-    let mut text = String::new();
-    for (count, one, many) in parts {
-        if count > 0 {
-            text.push_str(if text.is_empty() { "" } else { ", " });
-            text.push_str(&count.to_string());
-            text.push(' ');
-            text.push_str(if count == 1 { one } else { many });
-        }
-    }
-    text
-}
-
-/// A matrix from its entries, column by column.
-fn columns_of(entries: &[impl ToTokens], rows: usize) -> TokenStream {
-    let columns = entries.chunks(rows).map(|column| quote!([#(#column),*]));
-    quote!(SMatrix::from([#(#columns),*]))
-}
-
-/// Values separated by commas, in lists of lists of so many each, the outer ones first.
-fn in_parts(values: Vec<Operand>, sizes: &[usize]) -> Tokens {
-    let mut tokens = Tokens::default();
-    let count = values.len() / sizes.iter().product::<usize>().max(1);
-    write_parts(&mut tokens, &mut values.into_iter(), count, sizes);
-    tokens
-}
-
-fn write_parts(tokens: &mut Tokens, values: &mut std::vec::IntoIter<Operand>, count: usize, sizes: &[usize]) {
-    for index in 0..count {
-        if index > 0 {
-            tokens.punct(',');
-        }
-        if let Some((&size, inner)) = sizes.split_first() {
-            let mut list = Tokens::default();
-            write_parts(&mut list, values, size, inner);
-            tokens.group(Delimiter::Bracket, list);
-            continue;
-        }
-        match values.next() {
-            Some(Operand::Name(name)) => tokens.append(name),
-            Some(Operand::Constant(value) | Operand::Formula(value)) => tokens.join(value),
-            None => {}
-        }
-    }
-}
-
-/// `finite(NAME, what, [values])?;`, each value once.
-fn check_finite(code: &mut Code, what: &str, values: &[Operand]) -> TokenStream {
-    let mut seen = FxHashSet::default();
-    let values: Vec<_> = values
-        .iter()
-        .filter(|value| match value {
-            Operand::Name(name) => seen.insert(name.to_string()),
-            Operand::Constant(_) => false,
-            Operand::Formula(_) => true,
-        })
-        .collect();
-    if values.is_empty() {
-        return TokenStream::new();
-    }
-    code.uses.insert("finite");
-    let what = string(what);
-    quote!(finite(Self::NAME, #what, [#(#values),*])?;)
-}
-
-/// Gives a name to every result that is not one already.
-fn bind(results: &[Operand], wishes: &[String], taken: &mut Taken) -> (TokenStream, Vec<Operand>) {
-    let mut bindings = Tokens::default();
-    let mut names = Vec::new();
-    for (result, wish) in results.iter().zip(wishes) {
-        names.push(match result {
-            Operand::Formula(formula) => {
-                let name = ident(&taken.unique(wish));
-                bindings.word("let");
-                bindings.ident(&name);
-                bindings.punct('=');
-                bindings.join(formula.clone());
-                bindings.punct(';');
-                Operand::Name(name)
-            }
-            named => named.clone(),
-        });
-    }
-    (bindings.into(), names)
 }
