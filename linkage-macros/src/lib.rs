@@ -449,7 +449,7 @@ use proc_macro::TokenStream;
 ///   |ds/dv| limit. Static and sliding limit are the same unless the limit is a law of `rate(s)`.
 /// - At an impact s'+ = -e s'-; what rests on another stop is not pushed through it. Impulses of friction are neglected.
 /// - Bouncing ends where the rebound is less than the square root of the scalar's rounding beside the hardest impact of
-///   the series, or no higher than what rounding leaves of the place.
+///   the series, or no higher than one rounding of the place.
 /// - `power` counts limit |s'| of each friction as dissipated; in scenes with contacts it leaves out the power of drives,
 ///   which depends on what sticks: `loads` of a simulation has it, with the forces of frictions, stops and drives.
 ///

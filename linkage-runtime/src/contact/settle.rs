@@ -6,7 +6,7 @@ use super::bounded::bounded;
 use super::held::{Held, Response, nothing, slipping};
 use super::impact::{Struck, impact};
 use super::reduced::ReducedEquations;
-use super::state::{Contacts, is_nothing, slip_or_stick};
+use super::state::{Contacts, ROUNDINGS, is_nothing, slip_or_stick};
 use super::{ContactLaw, Mode};
 use crate::{Error, Real, real};
 
@@ -98,15 +98,16 @@ impl<T: Real, const C: usize> Contacts<T, C> {
         }
         let (rates, _) = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
-        // A rebound that is over within the rounding of the time is none, nor one that is lost in that of the place.
+        // A rebound that is over within the rounding of the time is none, nor one that is no higher than one rounding of
+        // the place.
         let free = Response::new(&after, &[T::zero(); C], |place| struck[place].is_some())?;
         let shortest = real::<T>(SHORTEST) * T::default_epsilon() * t.abs();
         let mut again = false;
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
-            let is_over = real::<T>(2.0) * rate <= shortest * back
-                || rate * rate <= real::<T>(2.0) * self.resolution[place] * back;
+            let lost = self.resolution[place] / real(ROUNDINGS);
+            let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lost * back;
             if !restitution.is_zero() && back > T::zero() && is_over {
                 *restitution = T::zero();
                 again = true;

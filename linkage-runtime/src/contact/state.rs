@@ -11,7 +11,7 @@ use crate::scalar::to_f64;
 use crate::{Error, Real, real};
 
 /// A rate or a gap below this many roundings of its terms is zero.
-const ROUNDINGS: f64 = 16.0;
+pub(super) const ROUNDINGS: f64 = 16.0;
 
 /// The modes of the contacts of a scene, with what is remembered from one event to the next.
 ///
@@ -20,7 +20,7 @@ const ROUNDINGS: f64 = 16.0;
 ///
 /// **The end of bouncing.** A stop comes to rest where what its rebound would have left is less than the square root
 /// of the scalar's rounding of the greatest rate that it was hit with since it last rested, or where the rebound would
-/// be over within the rounding of the time, or no higher than what rounding leaves of the place
+/// be over within the rounding of the time, or no higher than one rounding of the place
 /// ([`with_resolution`](Self::with_resolution); simulations do it).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contacts<T, const C: usize> {
@@ -115,7 +115,7 @@ impl<T: Real, const C: usize> Contacts<T, C> {
 
     /// With what rounding may leave of each s where that is more than its value tells: a coordinate that is solved for
     /// is as near to a stop at zero as the closures are to zero. Nearer than this it touches, and a rebound that is no
-    /// higher is none.
+    /// higher than a sixteenth of it is none.
     #[must_use]
     pub fn with_resolution(self, resolution: [T; C]) -> Self {
         Self { resolution, ..self }
