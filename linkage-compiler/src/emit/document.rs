@@ -20,9 +20,7 @@ pub(super) fn constant(
     kernels: &[(String, Operations)],
     private: &TokenStream,
 ) -> TokenStream {
-    let text = |index: &usize| mechanism.coordinates[*index].name.text.as_str();
-    let inputs: Vec<&str> = driver.inputs.iter().map(text).collect();
-    let unknowns: Vec<&str> = driver.unknowns.iter().map(text).collect();
+    let [inputs, unknowns] = [&driver.inputs, &driver.unknowns].map(|places| texts(mechanism, places));
     let names = names(mechanism, derivation, &inputs, &unknowns);
     let graph = &derivation.graph;
     let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
@@ -92,9 +90,7 @@ pub(super) fn of_scene(
     kernels: &[(String, Operations)],
     private: &TokenStream,
 ) -> TokenStream {
-    let text = |index: &usize| mechanism.coordinates[*index].name.text.as_str();
-    let inputs: Vec<&str> = driver.inputs.iter().map(text).collect();
-    let unknowns: Vec<&str> = driver.unknowns.iter().map(text).collect();
+    let [inputs, unknowns] = [&driver.inputs, &driver.unknowns].map(|places| texts(mechanism, places));
     let mut names = names(mechanism, derivation, &inputs, &unknowns);
     for parameter in &mechanism.scene_parameters {
         names.insert(parameter.symbol, Name::Plain(&parameter.name.text));
@@ -140,6 +136,11 @@ pub(super) fn of_scene(
     sections.write("kernels", Some(works(kernels)));
     let sections = sections.0;
     quote!(#private::__scene_derivation! { #sections })
+}
+
+/// What the user calls these coordinates.
+fn texts<'a>(mechanism: &'a Mechanism, places: &[usize]) -> Vec<&'a str> {
+    places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str()).collect()
 }
 
 /// What each symbol is called.

@@ -5,6 +5,7 @@ mod assemble;
 mod block;
 mod body;
 mod closures;
+mod comments;
 mod contacts;
 mod external;
 mod jerk;
@@ -18,7 +19,6 @@ mod sensitivity;
 mod signature;
 mod unreduced;
 mod velocity;
-mod words;
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -39,9 +39,9 @@ use crate::graph::{ExternalId, NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
 use body::{Body, argument_of, bind, check_finite, columns_of, in_parts, literal, member, pose_members};
+use comments::{count, fenced, lines};
 pub(in crate::emit) use scene::of_scene;
 use signature::Words;
-use words::{count, fenced, lines};
 
 /// The name of an argument, beside which no name of the user's may stand.
 pub(super) fn argument(mechanism: &Mechanism, wish: &str) -> String {
