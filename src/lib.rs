@@ -71,9 +71,9 @@ pub mod __private {
     };
     pub use linkage_runtime::{
         Along, Assembly, Balance, Bound, Contact, ContactLaw, Elbow, Energy, Equations, Error, Factorization, Group,
-        Limits, Mechanism, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope, Solution, Unreduced,
-        chord, elbow_chord, equilibrium, existing, finite, finite_each, finite_matrices, finite_matrix, finite_outputs,
-        finite_points, limits, newton, newton_group, not_negative, output_motions, point_motions, product_of_pivots,
-        real, reduced, regular, side_of, sound, stops, unit,
+        Limits, Mechanism, NearestTurns, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope,
+        Solution, Turn, Turns, Unreduced, chord, countable, elbow_chord, equilibrium, existing, finite, finite_each,
+        finite_matrices, finite_matrix, finite_outputs, finite_points, limits, newton, newton_group, not_negative,
+        output_motions, point_motions, product_of_pivots, real, reduced, regular, side_of, sound, stops, unit,
     };
 }

@@ -95,7 +95,7 @@ macro_rules! __mechanism {
         unknowns $unknowns:ident [$($unknown:ident $unknown_text:literal $unknown_angle:literal)*] $u:literal,
         inputs $inputs:ident [$($input:ident $input_text:literal $input_angle:literal)*] $v:literal,
         groups [$($group:literal $equations:tt $of:tt)*] $groups:literal
-        $(, branch $branch:ident)?
+        $(, branch $branch:ident $($near:ident)?)?
     ) => {
         impl<T: $crate::Real> $crate::Mechanism<T, $u, $v> for $name<T> {
             const NAME: &'static str = ::core::stringify!($name);
@@ -172,6 +172,15 @@ macro_rules! __mechanism {
                 ) -> ::core::result::Result<Self::Pose, $crate::Error> {
                     self.assemble(inputs, branch)
                 }
+                $(
+                    fn $near(
+                        &self,
+                        guess: &Self::Coordinates,
+                        branch: Self::Branch,
+                    ) -> ::core::result::Result<Self::Pose, $crate::Error> {
+                        self.$near(guess, branch)
+                    }
+                )?
                 fn branch_of(&self, pose: &Self::Pose) -> Self::Branch {
                     self.branch_of(pose)
                 }

@@ -78,6 +78,10 @@ where
         Ok(SVector::from(factors.solve((*right).into())))
     }
 
+    fn jacobian(&self, point: &Self::Point) -> SMatrix<T, N, N> {
+        point.as_ref().map_or_else(|_| SMatrix::zeros(), |(_, balance)| SMatrix::from(balance.slopes))
+    }
+
     fn regularity(&self, point: &Self::Point) -> f64 {
         point.as_ref().map_or(0.0, |(_, balance)| {
             beside_columns(product_of_pivots(balance.slopes), &SMatrix::from(balance.slopes))

@@ -44,6 +44,7 @@ pub mod sheet;
 pub mod simulation;
 mod sine;
 pub mod singularity;
+mod turn;
 
 pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, side_of};
 pub use contact::{Along, Contact, ContactLaw, Mode, sound, stops};
@@ -62,3 +63,4 @@ pub use nalgebra;
 pub use position::{Solution, newton, newton_group};
 pub use scalar::{Real, real, unit};
 pub use scene::{Coordinates, Energy, Inputs, Power, Scene, Unreduced, finite_each, not_negative};
+pub use turn::{NearestTurns, Turn, Turns, countable};

@@ -92,7 +92,16 @@ pub trait Assembly<T: Real, const U: usize, const V: usize>: Mechanism<T, U, V> 
     /// # Errors
     /// [`Error::Unbuildable`] if a group does not reach, [`Error::NotFinite`] if a number is not finite.
     fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, Error>;
-    /// The branch that a position belongs to.
+    /// The position at the inputs of a guess on this branch; where the numbers of angles matter, in the turns that are
+    /// nearest to the guess instead of those of the branch.
+    ///
+    /// # Errors
+    /// Those of [`assemble`](Self::assemble), and [`Error::OutOfRange`] if a guess is more turns away than a branch can
+    /// count.
+    fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, Error> {
+        self.assemble(Self::inputs(guess).into(), branch)
+    }
+    /// The branch that a position belongs to: `assemble` on it gives the position back.
     fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
 }
 

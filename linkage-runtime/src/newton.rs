@@ -1,6 +1,6 @@
 //! Newton's method: u <- u - J^-1 Psi, damped, with honest failure.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
@@ -23,6 +23,8 @@ pub(crate) trait Closures<T: Real, const N: usize> {
     fn residual(&self, point: &Self::Point) -> (SVector<T, N>, SVector<T, N>);
     /// J^-1 `right`.
     fn solve(&self, point: &Self::Point, right: &SVector<T, N>) -> Result<SVector<T, N>, Error>;
+    /// J, row by column.
+    fn jacobian(&self, point: &Self::Point) -> SMatrix<T, N, N>;
     /// How regular J is, without a verdict.
     fn regularity(&self, point: &Self::Point) -> f64;
     /// The mechanism, and the group if it is one alone.
@@ -61,19 +63,31 @@ pub(crate) fn search<T: Real, C: Closures<T, N>, const N: usize>(
         };
         let next = if arrived { iterate_at(closures, &here, step) } else { damped(closures, &here, step) };
         // Within rounding a step may help or not; what is better stays.
-        let Some(next) = next.filter(|next| next.size < here.size) else {
-            if arrived {
-                break;
-            }
-            return Err(stopped(closures, iterations, &here));
-        };
+        let Some(next) = next.filter(|next| next.size < here.size) else { break };
         here = next;
         iterations += 1;
         if arrived {
             break;
         }
     }
-    if here.size > enough { Err(stopped(closures, iterations, &here)) } else { Ok((here, iterations)) }
+    if here.size <= enough || is_rounding(closures, &here, enough) {
+        Ok((here, iterations))
+    } else {
+        Err(stopped(closures, iterations, &here))
+    }
+}
+
+/// Whether what is left of Psi is explained by the rounding of the unknowns too, |Psi| <= epsilon (sizes + |J| |u|): an
+/// angle of many turns is less exact than its sine.
+fn is_rounding<T: Real, C: Closures<T, N>, const N: usize>(
+    closures: &C,
+    at: &Iterate<C::Point, T, N>,
+    epsilon: T,
+) -> bool {
+    let (_, sizes) = closures.residual(&at.point);
+    let of_unknowns = closures.jacobian(&at.point).abs() * at.unknowns.abs();
+    let bounds = (sizes + of_unknowns) * epsilon;
+    at.residual.iter().zip(&bounds).all(|(psi, bound)| psi.abs() <= *bound)
 }
 
 fn iterate<T: Real, C: Closures<T, N>, const N: usize>(

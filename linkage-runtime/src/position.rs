@@ -118,6 +118,10 @@ where
         self.mechanism.solve_jacobian(pose, right)
     }
 
+    fn jacobian(&self, pose: &M::Pose) -> SMatrix<T, U, U> {
+        self.mechanism.jacobian_unknowns(pose)
+    }
+
     fn regularity(&self, pose: &M::Pose) -> f64 {
         beside_columns(self.mechanism.determinant(pose), &self.mechanism.jacobian_unknowns(pose))
     }
@@ -153,6 +157,10 @@ where
     fn solve(&self, (_, sizes, columns): &Self::Point, right: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
         let factors = Factorization::new(self.mechanism, self.group, *columns, *sizes)?;
         Ok(SVector::from(factors.solve((*right).into())))
+    }
+
+    fn jacobian(&self, (_, _, columns): &Self::Point) -> SMatrix<T, N, N> {
+        SMatrix::from(*columns)
     }
 
     fn regularity(&self, (_, _, columns): &Self::Point) -> f64 {

@@ -293,14 +293,14 @@ impl Solver<'_> {
         })
     }
 
-    /// Names a solved direction; the angle itself is there for whoever asks.
+    /// Names a solved direction; the number of the angle is there for whoever asks.
     fn direction(&mut self, angle: SymbolId, [cosine, sine]: Vector) {
         let name = self.graph.symbol_name(angle).to_owned();
         let cosine = self.fresh(&format!("cos_{name}"), cosine);
         let sine = self.fresh(&format!("sin_{name}"), sine);
         self.assembly.directions.insert(angle, [cosine, sine]);
-        let value = self.graph.call(Function::Atan2, &[sine, cosine]);
-        self.name(angle, value);
+        let principal = self.graph.call(Function::Atan2, &[sine, cosine]);
+        self.assembly.stages.push(Stage::Turn { symbol: angle, principal });
     }
 
     /// The root of a product of two factors, with the sign of the branch; neither may be negative.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use proc_macro2::{Delimiter, Ident, TokenStream};
+use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::expression::{define, direction_name, signed};
@@ -45,6 +45,9 @@ pub(super) struct Given<'a> {
     pub pose: Option<&'a PosePlan>,
     /// The argument that says which solution of a group is meant.
     pub branch: &'a Ident,
+    /// What gives angles their turns, and the places of those that have one.
+    pub turn: &'a Ident,
+    pub turns: BTreeMap<SymbolId, usize>,
     /// The dyad, if there is one, whose solution has a result in the range of the scalar where its triangle is plain.
     pub dyads: Vec<Option<usize>>,
 }
@@ -328,6 +331,18 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             if fresh {
                 names.set(value.value, name);
             }
+        }
+        Line::Turn { symbol, principal } => {
+            let principal = signed(names, schedule, *principal);
+            let name = names.introduce(*symbol).ident.clone();
+            let turn = given.turn;
+            assign(body, keyword, &name, |body| match given.turns.get(symbol) {
+                Some(&place) => {
+                    let place = Literal::usize_unsuffixed(place);
+                    body.extend(quote!(#turn.number(#place, #principal)));
+                }
+                None => body.join(principal),
+            });
         }
         Line::Guard { block, determinant, size } => {
             let (determinant, size) = (signed(names, schedule, *determinant), signed(names, schedule, *size));

@@ -12,8 +12,9 @@ use crate::places::{Hash, Places};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 24] = [
+pub(super) const RUNTIME_FUNCTIONS: [&str; 25] = [
     "chord",
+    "countable",
     "elbow_chord",
     "equilibrium",
     "existing",

@@ -1,9 +1,9 @@
-//! What a pose carries: the direction of every angle that a formula takes a sine or cosine of, the
-//! coordinates that formulas use as they are, the determinant, and the values of the user's functions.
+//! What a pose carries: the direction of every angle that a formula takes a sine or cosine of, the inputs and the
+//! coordinates whose number matters, the determinants, and the values of the user's functions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::derivation::{Derivation, Row};
+use crate::derivation::{ContactFormula, Derivation, Row};
 use crate::graph::{Function, Node, NodeId, SymbolId, Texts};
 use crate::simplify::schedule::Given;
 
@@ -28,6 +28,7 @@ pub(super) struct PosePlan {
 impl PosePlan {
     pub(super) fn new(derivation: &mut Derivation, argument: String) -> Self {
         let formulas = formulas(derivation);
+        let numeric: Vec<NodeId> = formulas.iter().copied().chain(formulas_of_scenes(derivation)).collect();
         let graph = &mut derivation.graph;
         // Sines inside the determinant alone are taken when the pose is made.
         let mut angles = BTreeSet::new();
@@ -67,6 +68,8 @@ impl PosePlan {
         let directions: BTreeMap<NodeId, String> =
             angles.iter().map(|&angle| (angle, unique(angle_name(texts.of(graph, angle))))).collect();
         let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
+        bare.extend(graph.needed_as_numbers(&numeric));
+        bare.extend(derivation.inputs.iter().map(|&input| derivation.coordinates[input].value));
         let mut values = Vec::new();
         for (index, coordinate) in derivation.coordinates.iter().enumerate() {
             let has_direction = bare_angles.contains(&coordinate.value);
@@ -96,6 +99,21 @@ impl PosePlan {
     pub(super) fn direction(&self, angle: NodeId) -> &str {
         self.directions.get(&angle).map_or("", String::as_str)
     }
+}
+
+/// The formulas of the scenes that hold coordinates not only by the motion of the mechanism.
+fn formulas_of_scenes(derivation: &Derivation) -> impl Iterator<Item = NodeId> {
+    derivation.scenes.iter().flat_map(|scene| {
+        let energies = [scene.potential, scene.applied, scene.dissipated];
+        let contacts = scene.contacts.iter().flat_map(|contact| {
+            let law = match &contact.law {
+                ContactFormula::Friction { limit, .. } => vec![*limit],
+                ContactFormula::Stop { range, .. } => range.to_vec(),
+            };
+            law.into_iter().chain([contact.value])
+        });
+        scene.forces.iter().copied().chain(energies).chain(contacts)
+    })
 }
 
 fn formulas(derivation: &Derivation) -> Vec<NodeId> {

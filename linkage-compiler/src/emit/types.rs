@@ -4,11 +4,12 @@ use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Attribute;
 
+use super::methods::{AngleTurn, Branches};
 use super::names::{comment, ident, string};
 use super::pose::PosePlan;
 use super::tokens::Tokens;
 use super::{Types, expression};
-use crate::derivation::{Choice, Derivation};
+use crate::derivation::Derivation;
 use crate::graph::{Number, Texts};
 use crate::model::{Coordinate, Driver, Mechanism, Name, Parameter};
 
@@ -314,21 +315,46 @@ fn named<'a>(names: impl Iterator<Item = &'a Name>) -> TokenStream {
 /// Of more groups than this nobody tries all branches.
 pub(super) const MOST_BRANCHING: usize = 16;
 
-/// Which solution of each group that has two.
+/// The side of each group that has two solutions and, where the position has a closed form, the turn of each angle
+/// whose number matters.
 pub(super) fn branch(
     mechanism: &Mechanism,
     types: &Types,
-    sides: &[(Ident, Choice)],
+    Branches { sides, turns }: &Branches,
+    is_assembled: bool,
     private: &TokenStream,
 ) -> TokenStream {
     let visibility = &mechanism.visibility;
     let Types { driver, branch, derives, .. } = types;
+    let turns: &[AngleTurn] = if is_assembled { turns } else { &[] };
     let title = comment(&format!(" Which solution is meant of each group of [`{driver}`] that has two."));
     let members = sides.iter().map(|(side, choice)| {
         let [first, second] = choice.words().map(str::to_lowercase);
         let docs = comment(&format!(" Of the group of `{side}`: {first} or {second}."));
         let choice = ident(choice.name());
         quote!(#[doc = #docs] pub #side: #private::#choice)
+    });
+    let turn_members = turns.iter().map(|AngleTurn { field, coordinate, .. }| {
+        let docs = comment(&format!(
+            " The turn of `{coordinate}`: 0 for its principal value, between -pi and pi; n adds 2 pi n."
+        ));
+        quote!(#[doc = #docs] pub #field: i32)
+    });
+    let zeros: Vec<TokenStream> = turns.iter().map(|AngleTurn { field, .. }| quote!(#field: 0)).collect();
+    let new = (!turns.is_empty() && sides.len() <= MOST_ARGUMENTS).then(|| {
+        let arguments = sides.iter().map(|(side, choice)| {
+            let choice = ident(choice.name());
+            quote!(#side: #private::#choice)
+        });
+        let names = sides.iter().map(|(side, _)| side);
+        quote! {
+            /// The branch with these solutions, and every angle at its principal value.
+
+            #[must_use]
+            pub const fn new(#(#arguments),*) -> Self {
+                Self { #(#names,)* #(#zeros),* }
+            }
+        }
     });
     let bits = (0..sides.len()).map(|place| match place {
         0 => quote!(bits & 1),
@@ -337,36 +363,40 @@ pub(super) fn branch(
             quote!((bits >> #place) & 1)
         }
     });
-    let sides = sides.iter().zip(bits).map(|((side, choice), bit)| {
+    let each = sides.iter().zip(bits).map(|((side, choice), bit)| {
         let ([first, second], choice) = (choice.words().map(ident), ident(choice.name()));
         quote!(#side: if #bit == 0 { #private::#choice::#first } else { #private::#choice::#second })
     });
-    let sides: Vec<TokenStream> = sides.collect();
     let every = match sides.len() {
-        0 => quote!(::core::iter::once(Self {})),
+        0 => quote!(::core::iter::once(Self { #(#zeros),* })),
         many => {
             let count = Literal::u32_unsuffixed(1 << many.min(MOST_BRANCHING));
             quote! {
                 ::core::iter::Iterator::map(0..#count, |bits: u32| Self {
-                    #(#sides),*
+                    #(#each,)* #(#zeros),*
                 })
             }
         }
     };
     let all = (sides.len() <= MOST_BRANCHING).then(|| {
+        let text = if turns.is_empty() {
+            " Every branch there could be; at a given input some may not exist."
+        } else {
+            " Every branch there could be, with angles at their principal values; at a given input some may not exist."
+        };
+        let text = comment(text);
         quote! {
-            impl #branch {
-                /// Every branch there could be; at a given input some may not exist.
-                pub fn all() -> impl ::core::iter::Iterator<Item = Self> {
-                    #every
-                }
+            #[doc = #text]
+            pub fn all() -> impl ::core::iter::Iterator<Item = Self> {
+                #every
             }
         }
     });
+    let functions = (new.is_some() || all.is_some()).then(|| quote!(impl #branch { #new #all }));
     quote! {
         #[doc = #title]
         #derives
-        #visibility struct #branch { #(#members),* }
-        #all
+        #visibility struct #branch { #(#members,)* #(#turn_members),* }
+        #functions
     }
 }

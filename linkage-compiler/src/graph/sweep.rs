@@ -1,6 +1,8 @@
 //! What an expression is made of: sweeps whose cost is that of what they find, not of the graph.
 
-use super::{Graph, Node, NodeId, SymbolId};
+use rustc_hash::FxHashSet;
+
+use super::{Function, Graph, Node, NodeId, Number, SymbolId};
 
 impl Graph {
     /// The direct parts of a node.
@@ -21,6 +23,42 @@ impl Graph {
     #[must_use]
     pub fn symbols_of(&self, roots: &[NodeId]) -> Vec<SymbolId> {
         self.reachable(roots).into_iter().filter_map(|id| self.as_symbol(id)).collect()
+    }
+
+    /// The symbols whose numbers the roots depend on: not those that enter by whole multiples in sines and cosines
+    /// alone, where a direction is enough.
+    #[must_use]
+    pub fn needed_as_numbers(&self, roots: &[NodeId]) -> Vec<SymbolId> {
+        let (mut needed, mut seen, mut stack) = (Vec::new(), FxHashSet::default(), roots.to_vec());
+        while let Some(id) = stack.pop() {
+            if !seen.insert(id) {
+                continue;
+            }
+            match self.node(id) {
+                Node::Symbol(symbol) => needed.push(*symbol),
+                Node::Call(Function::Sin | Function::Cos, angle) => stack.extend(self.beyond_whole_multiples(angle[0])),
+                _ => stack.extend(self.children(id)),
+            }
+        }
+        needed
+    }
+
+    /// The parts of an angle that are not whole multiples of a symbol.
+    fn beyond_whole_multiples(&self, angle: NodeId) -> Vec<NodeId> {
+        let is_whole =
+            |coefficient: Number, part: NodeId| coefficient.as_integer().is_some() && self.as_symbol(part).is_some();
+        match self.node(angle) {
+            Node::Sum { terms, .. } => terms
+                .iter()
+                .filter(|(coefficient, term)| !is_whole(*coefficient, *term))
+                .map(|(_, term)| *term)
+                .collect(),
+            Node::Product { coefficient, factors } if matches!(factors.as_slice(), &[(base, 1)] if is_whole(*coefficient, base)) => {
+                Vec::new()
+            }
+            _ if is_whole(Number::ONE, angle) => Vec::new(),
+            _ => self.children(angle),
+        }
     }
 
     /// The nodes that the roots are made of, children before parents, but for those that are `done`; of

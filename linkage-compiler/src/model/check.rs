@@ -33,7 +33,7 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// What emitted code calls its own; the types of the user stand beside it.
-const TYPES_OF_EMITTED_CODE: [&str; 27] = [
+const TYPES_OF_EMITTED_CODE: [&str; 30] = [
     "Along",
     "Assembly",
     "Balance",
@@ -50,6 +50,7 @@ const TYPES_OF_EMITTED_CODE: [&str; 27] = [
     "Iterator",
     "Limits",
     "Mechanism",
+    "NearestTurns",
     "OutputMotion",
     "PointMotion",
     "Power",
@@ -60,6 +61,8 @@ const TYPES_OF_EMITTED_CODE: [&str; 27] = [
     "Scene",
     "Search",
     "Solution",
+    "Turn",
+    "Turns",
     "Vector2",
 ];
 

@@ -64,7 +64,9 @@ impl Methods<'_> {
         let (u, v) = (literal(self.driver.unknowns.len()), literal(self.driver.inputs.len()));
         let groups = kernels.map(|kernels| groups(kernels.derivation)).unwrap_or_default();
         let count = literal(groups.len());
-        let branch = self.is_assembled.then(|| quote!(, branch #branch));
+        let is_turned = self.branches.as_ref().is_some_and(|branches| !branches.turns.is_empty());
+        let near = is_turned.then(|| ident("assemble_near"));
+        let branch = self.is_assembled.then(|| quote!(, branch #branch #near));
         quote! {
             #private::__mechanism! {
                 #driver #coordinates #pose,

@@ -2,7 +2,7 @@
 
 use quote::{format_ident, quote};
 
-use super::super::kernel::{self, Given};
+use super::super::kernel;
 use super::super::tokens::Tokens;
 use super::super::types::field;
 use super::{Body, Kernels, Methods, argument_of, lines};
@@ -63,7 +63,7 @@ impl Methods<'_> {
         let mut source = self.inputs(kernels, &from, |c| c.value);
         // They are taken apart by reference: the position needs them whole.
         source.from = Tokens::name(&from);
-        let given = Given { sources: vec![self.parameters(), source], pose: None, branch: &branch, dyads: Vec::new() };
+        let given = self.given(vec![self.parameters(), source], None);
         let stages = [Stage::Return(results)];
         let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
         let bounds = bounds.iter().zip(&names).zip(code.results.chunks(3)).map(|((bound, group), coefficients)| {
@@ -86,7 +86,13 @@ impl Methods<'_> {
         // A single input leaves no other to be taken over.
         let others = (self.driver.inputs.len() > 1).then(|| quote!(, ..#from));
         let (start, position, again) = if assembly.guesses.is_empty() {
-            let again = quote!(|_, #name| self.assemble(#inputs { #name #others }, #branch));
+            // The position nearest to the last: in the same turn.
+            let is_turned = self.branches.as_ref().is_some_and(|branches| !branches.turns.is_empty());
+            let again = if is_turned {
+                quote!(|position, #name| self.assemble_near(&#coordinates { #name, ..position.coordinates() }, #branch))
+            } else {
+                quote!(|_, #name| self.assemble(#inputs { #name #others }, #branch))
+            };
             (quote!(let #from = #from.into();), quote!(self.assemble(#from, #branch)?), again)
         } else {
             let again = quote!(|position, #name| self.assemble_near(&#coordinates { #name, ..position.coordinates() }, #branch));

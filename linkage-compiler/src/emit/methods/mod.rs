@@ -4,6 +4,7 @@ mod acceleration;
 mod assemble;
 mod block;
 mod body;
+mod branch;
 mod closures;
 mod comments;
 mod contacts;
@@ -22,7 +23,7 @@ mod velocity;
 
 use std::borrow::Cow;
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use proc_macro2::{Delimiter, Ident, TokenStream};
@@ -34,11 +35,12 @@ use super::pose::PosePlan;
 use super::tokens::Tokens;
 use super::types::{self, field};
 use super::{Emitted, Types, document};
-use crate::derivation::{Choice, Derivation, Form, Formulas, QuantityFormulas};
+use crate::derivation::{Derivation, Form, Formulas, QuantityFormulas};
 use crate::graph::{ExternalId, NodeId, SymbolId, Texts};
 use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
 use body::{Body, argument_of, bind, check_finite, columns_of, in_parts, literal, member, pose_members};
+pub(in crate::emit) use branch::{AngleTurn, Branches};
 use comments::{count, fenced, lines};
 pub(in crate::emit) use scene::of_scene;
 use signature::Words;
@@ -57,6 +59,7 @@ pub(super) fn argument(mechanism: &Mechanism, wish: &str) -> String {
 }
 
 /// The arguments that functions have in common.
+#[derive(Clone)]
 struct Arguments {
     pose: Ident,
     q: Ident,
@@ -65,6 +68,7 @@ struct Arguments {
     jerk: Ident,
     right: Ident,
     branch: Ident,
+    turn: Ident,
     inputs: Ident,
     guess: Ident,
 }
@@ -79,8 +83,8 @@ struct Methods<'a> {
     scope: Rc<Scope>,
     named: Vec<(NodeId, String)>,
     functions: Tokens,
-    /// The groups with two solutions, where position has a closed form.
-    branches: Option<Vec<(Ident, Choice)>>,
+    /// The members of a branch.
+    branches: Option<Branches>,
     /// Whether every group has one.
     is_assembled: bool,
     /// What each function does, by its name.
@@ -103,6 +107,7 @@ impl<'a> Methods<'a> {
             jerk: name("jerk"),
             right: name("right"),
             branch: name("branch"),
+            turn: name("turn"),
             inputs: name("inputs"),
             guess: name("guess"),
         };
@@ -114,6 +119,7 @@ impl<'a> Methods<'a> {
             &arguments.jerk,
             &arguments.right,
             &arguments.branch,
+            &arguments.turn,
             &arguments.inputs,
             &arguments.guess,
         ];
@@ -175,8 +181,8 @@ pub(super) fn of_driver(
     }
     let mut tokens = methods.block(kernels.as_ref(), private);
     tokens.extend(methods.calls(private));
-    if let Some(sides) = &methods.branches {
-        tokens.extend(types::branch(mechanism, types, sides, private));
+    if let Some(branches) = &methods.branches {
+        tokens.extend(types::branch(mechanism, types, branches, methods.is_assembled, private));
     }
     if let Some((derivation, formulas)) = derivation.zip(formulas) {
         tokens.extend(document::constant(mechanism, driver, derivation, &formulas, &methods.kernels, private));
@@ -325,11 +331,17 @@ impl Methods<'_> {
         }
     }
 
+    /// What a kernel starts from that assembles nothing.
+    fn given<'k>(&'k self, sources: Vec<Source<'k>>, pose: Option<&'k PosePlan>) -> Given<'k> {
+        let Arguments { branch, turn, .. } = &self.arguments;
+        Given { sources, pose, branch, turn, turns: BTreeMap::new(), dyads: Vec::new() }
+    }
+
     /// A kernel on a pose and what else it is given.
     fn on_pose<'k>(&'k self, kernels: &'k Kernels, sources: Vec<Source<'k>>, stages: &[Stage]) -> Code {
         let mut all = vec![self.parameters(), self.pose_source(kernels)];
         all.extend(sources);
-        let given = Given { sources: all, pose: Some(kernels.plan), branch: &self.arguments.branch, dyads: Vec::new() };
+        let given = self.given(all, Some(kernels.plan));
         kernel::write(kernels.derivation, &given, stages, &self.named, &self.scope)
     }
 

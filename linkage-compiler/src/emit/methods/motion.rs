@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::super::kernel::{Given, Operand};
+use super::super::kernel::Operand;
 use super::super::{Types, kernel};
 use super::{Arguments, Body, Kernels, Methods, argument_of, check_finite, in_parts, lines};
 use crate::derivation::{Form, Quantity};
@@ -36,7 +36,7 @@ impl Methods<'_> {
                 self.inputs(kernels, rate, |c| c.rate),
                 self.inputs(kernels, acceleration, |c| c.acceleration),
             ];
-            let given = Given { sources, pose: None, branch: &self.arguments.branch, dyads: Vec::new() };
+            let given = self.given(sources, None);
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
             let fields = self.coordinate_fields();
             let count = fields.len();

@@ -3,7 +3,6 @@
 use quote::quote;
 
 use super::super::kernel;
-use super::super::kernel::Given;
 use super::{Arguments, Body, Kernels, Methods, argument_of, pose_members};
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
@@ -34,7 +33,7 @@ impl Methods<'_> {
             let results = values.iter().chain(&circular).chain(&bare).chain(&externals);
             stages.push(Stage::Return(results.copied().collect()));
             let sources = vec![self.parameters(), self.coordinates(kernels, &q, |c| c.value)];
-            let given = Given { sources, pose: None, branch: &self.arguments.branch, dyads: Vec::new() };
+            let given = self.given(sources, None);
             let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
             if !circular.is_empty() {
                 code.uses.insert("unit");

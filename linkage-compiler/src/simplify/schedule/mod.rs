@@ -23,6 +23,8 @@ use translate::Builder;
 pub enum Stage {
     /// Gives a value a name that later stages refer to by its symbol.
     Let { symbol: SymbolId, node: NodeId },
+    /// Names the number of an angle: its principal value and so many turns as the kernel is given.
+    Turn { symbol: SymbolId, principal: NodeId },
     /// Refuses a determinant that is zero beside `size`.
     Guard { block: usize, determinant: NodeId, size: NodeId },
     /// Factorises the matrix of a block given by rows, whose rows are of these sizes.
@@ -65,7 +67,10 @@ impl Stage {
     #[must_use]
     pub fn introduced(&self) -> Vec<SymbolId> {
         match self {
-            Self::Let { symbol, .. } | Self::Pivots { symbol, .. } | Self::Chord { symbol, .. } => vec![*symbol],
+            Self::Let { symbol, .. }
+            | Self::Turn { symbol, .. }
+            | Self::Pivots { symbol, .. }
+            | Self::Chord { symbol, .. } => vec![*symbol],
             Self::Solve { targets, .. } | Self::Newton { targets, .. } => targets.clone(),
             _ => Vec::new(),
         }
@@ -76,6 +81,7 @@ impl Stage {
     pub fn nodes(&self) -> Vec<NodeId> {
         match self {
             Self::Let { node, .. } => vec![*node],
+            Self::Turn { principal, .. } => vec![*principal],
             Self::Guard { determinant, size, .. } => vec![*determinant, *size],
             Self::Chord { factors: [low, high], size, triangle, .. } => {
                 [*low, *high, *size].into_iter().chain(triangle.iter().flat_map(Triangle::values)).collect()
@@ -142,6 +148,10 @@ pub enum Line {
     Name {
         symbol: SymbolId,
         value: Signed,
+    },
+    Turn {
+        symbol: SymbolId,
+        principal: Signed,
     },
     Guard {
         block: usize,
@@ -233,10 +243,11 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
     let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| translated.of(*node)).collect() };
     for stage in stages {
         for node in stage.nodes() {
-            ordering.require(translated.of(node).value, matches!(stage, Stage::Let { .. }));
+            ordering.require(translated.of(node).value, matches!(stage, Stage::Let { .. } | Stage::Turn { .. }));
         }
         ordering.lines.push(match stage {
             Stage::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated.of(*node) },
+            Stage::Turn { symbol, principal } => Line::Turn { symbol: *symbol, principal: translated.of(*principal) },
             Stage::Guard { block, determinant, size } => {
                 Line::Guard { block: *block, determinant: translated.of(*determinant), size: translated.of(*size) }
             }

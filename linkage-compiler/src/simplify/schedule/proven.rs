@@ -26,7 +26,10 @@ impl Schedule {
         let (mut chords, mut factors_of_all) = (Vec::new(), Vec::new());
         for line in &self.lines {
             match line {
-                Line::Name { symbol, value } => drop(proven.named.insert(*symbol, value.value)),
+                // A number of turns is finite, so that an angle is if its principal value is.
+                Line::Name { symbol, value } | Line::Turn { symbol, principal: value } => {
+                    proven.named.insert(*symbol, value.value);
+                }
                 Line::Chord { symbol, factors, .. } => {
                     chords.push(*symbol);
                     factors_of_all.extend(factors.map(|factor| factor.value));

@@ -14,7 +14,7 @@ use std::cell::Cell;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::super::kernel::{self, Code, Given, Operand, Shape, Source};
+use super::super::kernel::{self, Code, Operand, Shape, Source};
 use super::super::names::ident;
 use super::super::pose::PosePlan;
 use super::super::scene::mechanism_field;
@@ -208,7 +208,7 @@ impl Methods<'_> {
             },
         ];
         sources.splice(2..2, motion);
-        let given = Given { sources, pose: None, branch: &self.arguments.branch, dyads: Vec::new() };
+        let given = self.given(sources, None);
         kernel::write(kernels.derivation, &given, stages, &self.named, &self.scope)
     }
 

@@ -1,0 +1,114 @@
+//! The turn of an angle: which of the numbers, 2 pi apart, that share one direction.
+//!
+//! A group solved in closed form gives the direction of an angle. Where its number matters, as that of a wheel that
+//! drives another, the number is the principal value, between -pi and pi, and a number of turns.
+
+use core::cell::Cell;
+
+use crate::scalar::to_f64;
+use crate::{Error, Real, real};
+
+/// The choice of the turns of a mechanism's angles, in the order in which they are solved.
+pub trait Turn<T: Real> {
+    /// The number of the angle at this place.
+    fn number(&self, place: usize, principal: T) -> T;
+}
+
+/// Turns by their number; 0 is the principal value.
+#[derive(Debug, Clone, Copy)]
+pub struct Turns<const N: usize>(pub [i32; N]);
+
+impl<T: Real, const N: usize> Turn<T> for Turns<N> {
+    #[inline]
+    fn number(&self, place: usize, principal: T) -> T {
+        turned(principal, self.0[place])
+    }
+}
+
+/// The turns in which angles are nearest to given numbers.
+#[derive(Debug, Clone)]
+pub struct NearestTurns<T, const N: usize> {
+    near: [T; N],
+    turns: Cell<[i32; N]>,
+}
+
+impl<T: Real, const N: usize> NearestTurns<T, N> {
+    /// The turns nearest to these numbers; a number beyond 2^31 turns counts as the last turn there is.
+    #[must_use]
+    pub fn new(near: [T; N]) -> Self {
+        Self { near, turns: Cell::new(near.map(whole_turns)) }
+    }
+
+    /// The turns that were found; of an angle that was not come to, those of a direction of zero.
+    #[must_use]
+    pub fn turns(&self) -> [i32; N] {
+        self.turns.get()
+    }
+}
+
+impl<T: Real, const N: usize> Turn<T> for NearestTurns<T, N> {
+    #[inline]
+    fn number(&self, place: usize, principal: T) -> T {
+        let mut turns = self.turns.get();
+        turns[place] = whole_turns(self.near[place] - principal);
+        self.turns.set(turns);
+        turned(principal, turns[place])
+    }
+}
+
+/// principal + 2 pi turns.
+#[inline]
+fn turned<T: Real>(principal: T, turns: i32) -> T {
+    principal + T::two_pi() * real::<T>(f64::from(turns))
+}
+
+/// The number of turns nearest to an angle.
+#[inline]
+fn whole_turns<T: Real>(angle: T) -> i32 {
+    // Beyond the range of the integer the conversion gives its end.
+    to_f64((angle / T::two_pi()).round()) as i32
+}
+
+/// Refuses guesses of angles that are not numbers, or so many turns away that a branch could not count them.
+///
+/// # Errors
+/// [`Error::NotFinite`], [`Error::OutOfRange`].
+pub fn countable<T: Real, const N: usize>(mechanism: &'static str, guesses: [T; N]) -> Result<(), Error> {
+    let most = f64::from(i32::MAX) * core::f64::consts::TAU;
+    for guess in guesses {
+        if !guess.is_finite() {
+            return Err(Error::NotFinite { mechanism, quantity: "the guess" });
+        }
+        let value = to_f64(guess);
+        if value.abs() > most {
+            return Err(Error::OutOfRange { quantity: "the guess of an angle", value, least: -most, most });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PI: f64 = core::f64::consts::PI;
+
+    #[test]
+    fn the_nearest_turn_gives_the_number_back() {
+        for turns in [-100_000, -3, -1, 0, 1, 2, 77] {
+            for principal in [-PI, -3.0, -1e-300, 0.0, 0.4, 3.0, PI] {
+                let number = Turns([turns]).number(0, principal);
+                let nearest = NearestTurns::new([number]);
+                assert_eq!((nearest.number(0, principal), nearest.turns()), (number, [turns]));
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_that_no_turn_reaches() {
+        assert_eq!(NearestTurns::new([f64::NAN, 1e300, -1e300]).turns(), [0, i32::MAX, i32::MIN]);
+        assert!(matches!(countable("m", [f64::NAN]), Err(Error::NotFinite { .. })));
+        assert!(matches!(countable("m", [0.0, -1.4e10]), Err(Error::OutOfRange { .. })));
+        assert!(countable("m", [0.0, -1.3e10]).is_ok());
+    }
+}

@@ -1,0 +1,213 @@
+//! The turns of angles: wheels, racks, screws and belts behind groups whose angles turn without end.
+//!
+//! A group in closed form gives a direction, and a direction does not tell how often a wheel has turned. What drives
+//! another wheel must not jump where the arc tangent does.
+
+use std::f64::consts::{PI, TAU};
+
+use linkage::continuation::{Direction, Path};
+use linkage::{Assembly, Elbow, Error, Mechanism, Slider, Slope, linkage};
+use nalgebra::SVector;
+
+include!("mechanisms/drag_link_drive.rs");
+include!("mechanisms/four_bar.rs");
+include!("mechanisms/geared_five_bar.rs");
+include!("mechanisms/pin_and_slot.rs");
+
+linkage! {
+    /// A rack behind an angle group, half an angle in a loop, and a law of the user in a number.
+    pub mechanism Halves {
+        param a = 2, b = 3, r = 0.5, lift = 0.2;
+        input phi;
+        unknown psi, half, q, x, y, cam;
+        extern fn rise(angle, lift) -> (law, slope, bend, change);
+        // An angle: psi turns with phi.
+        equation a * sin(psi) = a * sin(phi + 0.1 * sin(phi));
+        // Half of it, and a length of it, in loops.
+        loop 2@half = (x, y) + 1@(psi / 2) + (r * psi / 10)@0.3;
+        equation x = 0.4;
+        equation q = b * psi;
+        equation cam = law(psi, lift);
+    }
+    /// Directions alone.
+    pub mechanism Bare {
+        param a = 3, b = 2, c = 2.5, d = 1;
+        input theta;
+        unknown phi, psi;
+        loop a@theta + b@(phi + 0.3) + 0.1@phi = d@0 + c@(psi - 0.3) + 0.2@psi;
+        point P = a@theta + 2@(2 * phi);
+    }
+    /// A slider on a turning guide, whose turns a spring counts.
+    #[derive(Clone)]
+    pub mechanism Wound {
+        param a = 3, d = 1, k = 0.4, m = 1;
+        input phi;
+        unknown psi, s;
+        loop a@phi = d@0 + s@(psi + 0.2) + 0.1@psi;
+        point P = s@psi;
+        body slide { mass m; center P; }
+        scene Spring { inertia; spring k on psi; energy; }
+    }
+}
+
+/// A rise that goes on from turn to turn.
+fn rise<T: linkage::Real>(angle: T, lift: T) -> (T, T, T, T) {
+    (lift * angle + angle.sin(), lift + angle.cos(), -angle.sin(), -angle.cos())
+}
+
+/// The largest difference of coordinates; those of which a pose knows the direction alone are compared as directions.
+fn difference<M: Mechanism<f64, U, 1>, const U: usize>(a: &M::Coordinates, b: &M::Coordinates, bare: &[&str]) -> f64 {
+    let off = M::unknowns(a) - M::unknowns(b);
+    let of_unknowns = off.iter().zip(M::UNKNOWNS).map(|(&off, name)| {
+        let turns = if bare.contains(&name) { (off / TAU).round() } else { 0.0 };
+        (off - turns * TAU).abs()
+    });
+    of_unknowns.fold((M::inputs(a) - M::inputs(b)).amax(), f64::max)
+}
+
+/// Follows a mechanism over ten turns either way and assembles each position again from its branch; the coordinates
+/// come from the pose as numbers.
+fn comes_back<M, const U: usize>(
+    m: &M,
+    start: &M::Coordinates,
+    bare: &[&str],
+    coordinates: impl Fn(&M::Pose) -> M::Coordinates,
+) -> [M::Coordinates; 2]
+where
+    M: Assembly<f64, U, 1>,
+    M::Branch: std::fmt::Debug,
+    M::Coordinates: std::fmt::Debug,
+{
+    [Direction::Increasing, Direction::Decreasing].map(|direction| {
+        let mut path = Path::new(m, start, direction).unwrap();
+        let sign = if matches!(direction, Direction::Increasing) { 1.0 } else { -1.0 };
+        let [begin]: [f64; 1] = M::inputs(start).into();
+        for step in 1..=2000 {
+            // Steps that come to every multiple of a quarter turn.
+            let input = begin + sign * 20.0 * PI * f64::from(step) / 2000.0;
+            let here = path.advance_to(input).unwrap().position;
+            for q in [here, M::with_inputs(&here, SVector::<f64, 1>::new(input))] {
+                let pose = m.pose_at(&q);
+                let branch = m.branch_of(&pose);
+                let [again, near] =
+                    [m.assemble(M::inputs(&q).into(), branch), m.assemble_near(&q, branch)].map(Result::unwrap);
+                for found in [&again, &near] {
+                    let off = difference::<M, U>(&coordinates(found), &q, bare);
+                    assert!(off < 3e-13, "{off:e} at {input}: {branch:?}, {q:?}, {:?}", coordinates(found));
+                }
+                assert!(m.same_branch(&pose, &again));
+                assert_eq!(M::inputs(&coordinates(&again)), M::inputs(&q));
+            }
+        }
+        path.position()
+    })
+}
+
+#[test]
+fn a_pointer_does_not_jump_where_the_slot_goes_through_pi() {
+    let m = PinAndSlot::default();
+    let branch = PinAndSlotBranch::new(Slider::Far);
+    let [before, after] = [3.10, 3.15].map(|month| m.assemble(month, branch).unwrap().coordinates());
+    assert!((before.out + 1.552).abs() < 1e-3, "{before:?}");
+    // Without a turn the slot is at its principal value; a turn further on the pointer goes on.
+    assert!((after.out - 1.567).abs() < 1e-3, "{after:?}");
+    let on = PinAndSlotBranch { slot_turn: 1, ..branch };
+    let after = m.assemble(3.15, on).unwrap().coordinates();
+    assert!((after.out + PI - 1.567).abs() < 1e-3, "{after:?}");
+    assert_eq!(after.month, 3.15);
+    // Near the last position, which turn it is need not be known.
+    let near = PinAndSlotCoordinates { month: 3.15, ..before };
+    assert_eq!(m.assemble_near(&near, branch).unwrap().coordinates(), after);
+    assert_eq!(m.branch_of(&m.pose_at(&m.solve(&near).unwrap().coordinates)), on);
+}
+
+#[test]
+fn ten_turns_both_ways() {
+    let m = PinAndSlot::default();
+    let start = m.assemble(0.4, PinAndSlotBranch::new(Slider::Far)).unwrap().coordinates();
+    let [up, down] = comes_back(&m, &start, &[], PinAndSlotPose::coordinates);
+    // Ten turns of the slot are five of the pointer.
+    for (end, turns) in [(up, 10.0), (down, -10.0)] {
+        let ends = [end.slot - start.slot, -2.0 * (end.out - start.out), 2.0 * (end.small - start.small)];
+        assert!(ends.iter().all(|end| (end - turns * TAU).abs() < 1e-12), "{ends:?}");
+    }
+
+    let m = DragLinkDrive::default();
+    let branch = DragLinkDriveBranch::new(Elbow::Left, Elbow::Left);
+    let start = m.assemble(0.4, branch).unwrap().coordinates();
+    let [up, down] = comes_back(&m, &start, &["theta3", "rod_angle"], DragLinkDrivePose::coordinates);
+    for (end, turns) in [(up, 10.0), (down, -10.0)] {
+        assert!((end.nut - start.nut - turns * m.lead).abs() < 1e-12);
+        assert!((end.rack - start.rack - turns * m.r * TAU).abs() < 1e-11);
+    }
+
+    let m = Halves::default();
+    let start = m.assemble(0.3, HalvesBranch::new(Slope::Rising, Slope::Rising)).unwrap().coordinates();
+    assert!(start.cam.is_finite());
+}
+
+#[test]
+fn geared_wheels_at_a_lever() {
+    let m = GearedFiveBar::default();
+    for branch in GearedFiveBarBranch::all() {
+        let start = m.assemble(0.4, branch).unwrap().coordinates();
+        comes_back(&m, &start, &["theta2", "theta3"], GearedFiveBarPose::coordinates);
+    }
+}
+
+/// A rounding decides on which side of the cut an angle comes out: still the numbers come back.
+#[test]
+fn at_the_cut_itself() {
+    let m = PinAndSlot::default();
+    let far = PinAndSlotBranch::new(Slider::Far);
+    for turn in -3..=3 {
+        for ulps in -40_i64..=40 {
+            let month = PI + TAU * f64::from(turn);
+            let month = f64::from_bits(month.to_bits().wrapping_add_signed(ulps));
+            let start = m.assemble(month - 0.2, far).unwrap().coordinates();
+            let guess = PinAndSlotCoordinates { month, slot: start.slot + 0.2 + TAU * f64::from(turn), ..start };
+            let near = m.assemble_near(&guess, far).unwrap();
+            let q = near.coordinates();
+            assert!((q.slot - month).abs() < 1e-13, "{q:?}");
+            assert_eq!(m.assemble(month, m.branch_of(&near)).unwrap().coordinates(), q);
+            let solved = m.solve(&q).unwrap().coordinates;
+            let again = m.assemble(month, m.branch_of(&m.pose_at(&solved))).unwrap().coordinates();
+            assert!(difference::<PinAndSlot, 5>(&again, &solved, &[]) < 1e-13, "{again:?} {solved:?}");
+        }
+    }
+}
+
+#[test]
+fn a_spring_counts_turns() {
+    let m = Wound::default();
+    let start = m.assemble(0.4, WoundBranch::new(Slider::Far)).unwrap().coordinates();
+    comes_back(&m, &start, &[], WoundPose::coordinates);
+    let spring = Spring { mechanism: m.clone(), k: 0.4, m: 1.0 };
+    let turned = WoundBranch { psi_turn: 2, ..WoundBranch::new(Slider::Far) };
+    let q = m.assemble(0.4, turned).unwrap().coordinates();
+    assert_eq!(q.psi, start.psi + 2.0 * TAU);
+    let [loose, wound] = [start, q].map(|q| spring.energy(&q, 0.0).unwrap().potential);
+    assert!((wound - 0.2 * q.psi * q.psi).abs() < 1e-12 && wound > loose + 10.0);
+}
+
+#[test]
+fn turns_that_cannot_be_counted() {
+    let m = PinAndSlot::default();
+    let far = PinAndSlotBranch::new(Slider::Far);
+    let q = m.assemble(0.4, far).unwrap().coordinates();
+    let error = m.assemble_near(&PinAndSlotCoordinates { slot: f64::NAN, ..q }, far).unwrap_err();
+    assert!(matches!(error, Error::NotFinite { .. }), "{error}");
+    let error = m.assemble_near(&PinAndSlotCoordinates { slot: 1e300, ..q }, far).unwrap_err();
+    assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
+    // A pose in no turn that could be counted is still in a turn.
+    let pose = m.pose_at(&PinAndSlotCoordinates { slot: 1e300, ..q });
+    assert!(m.assemble(0.4, m.branch_of(&pose)).is_ok());
+}
+
+/// A branch has no turn where the number of no angle is asked for.
+#[test]
+fn what_has_no_turn() {
+    let FourBarBranch { theta3_theta4: _, theta3_turn, theta4_turn } = FourBarBranch::new(Elbow::Left);
+    assert_eq!([theta3_turn, theta4_turn], [0, 0]);
+    let BareBranch { phi_psi: _ } = BareBranch::all().next().unwrap();
+}
