@@ -117,7 +117,7 @@ fn main() {
     let mechanism = FourBar::default();
     let states = (0..COUNT).map(|index| {
         let theta2 = 0.3 + 1e-4 * index as f64;
-        let branch = FourBarBranch { theta3_theta4: linkage::Elbow::Left };
+        let branch = FourBarBranch::new(linkage::Elbow::Left);
         let q = mechanism.assemble(theta2, branch).expect("a position").coordinates();
         State::from([q.theta3, q.theta4, q.theta2, 12.0])
     });

@@ -77,6 +77,7 @@ fn by_hand_alike(m: &FourBar, theta2: f64) -> Result<FourBarPose, Error> {
     let (by_3, by_4) = (1.0 / m.l3, 1.0 / m.l4);
     let direction = |re, im| UnitComplex::new_unchecked(Complex { re, im });
     let pose = FourBarPose {
+        theta2_angle: theta2,
         theta2: direction(cosine, sine),
         theta3: direction(x * by_3, y * by_3),
         theta4: direction((dx - x) * by_4, (dy - y) * by_4),
@@ -86,7 +87,7 @@ fn by_hand_alike(m: &FourBar, theta2: f64) -> Result<FourBarPose, Error> {
     if parts.is_finite() { Ok(pose) } else { Err(Error::NotFinite { mechanism: "FourBar", quantity: "the position" }) }
 }
 
-const LEFT: FourBarBranch = FourBarBranch { theta3_theta4: Elbow::Left };
+const LEFT: FourBarBranch = FourBarBranch::new(Elbow::Left);
 
 fn emitted(m: &FourBar, theta2: f64) -> Result<FourBarPose, Error> {
     m.assemble(theta2, LEFT)

@@ -205,7 +205,7 @@ fn newton_by_steps() {
 #[test]
 fn newton_keeps_its_branch() {
     let m = FourBar::new(80.0, 50.0, 40.0, 60.0);
-    let left = FourBarBranch { theta3_theta4: linkage::Elbow::Left };
+    let left = FourBarBranch::new(linkage::Elbow::Left);
     let here = Reached::at(&m, m.assemble(0.9, left).unwrap().coordinates());
     let mut refused = 0;
     for step in 0..60 {
@@ -235,7 +235,7 @@ fn tables() {
 #[test]
 fn tables_go_round() {
     let m = FourBar::new(20.0, 80.0, 50.0, 70.0);
-    let start = m.assemble(0.3, FourBarBranch { theta3_theta4: linkage::Elbow::Left }).unwrap();
+    let start = m.assemble(0.3, FourBarBranch::new(linkage::Elbow::Left)).unwrap();
     // A drag link: coupler and rocker turn with the crank.
     let table = Table::<_, f64, 2, 257>::turn(&m, &start.coordinates()).unwrap();
     for (input, turns) in
@@ -251,7 +251,7 @@ fn tables_go_round() {
 #[test]
 fn tables_refuse() {
     let m = FourBar::new(80.0, 50.0, 40.0, 60.0);
-    let start = m.assemble(0.9, FourBarBranch { theta3_theta4: linkage::Elbow::Left }).unwrap().coordinates();
+    let start = m.assemble(0.9, FourBarBranch::new(linkage::Elbow::Left)).unwrap().coordinates();
     // Its crank cannot turn; a part of the way it can.
     Table::<_, f64, 2, 33>::turn(&m, &start).unwrap_err();
     let table = Table::<_, f64, 2, 33>::between(&m, &start, 0.5).unwrap();
@@ -275,7 +275,7 @@ fn tables_refuse() {
 #[test]
 fn by_type_is_the_direct_call() {
     let m = FourBar::default();
-    let left = FourBarBranch { theta3_theta4: linkage::Elbow::Left };
+    let left = FourBarBranch::new(linkage::Elbow::Left);
     for step in 0..200 {
         let input = TAU * f64::from(step) / 200.0 - PI;
         let (ours, direct) = (ClosedForm::position(&m, &left, input).unwrap(), m.assemble(input, left).unwrap());

@@ -25,7 +25,7 @@ fn four_bar(scale: f64) -> Vec<Frame> {
     let m = FourBar::<f64>::default().map(|length| length * scale);
     let frame = |step: u32| {
         let theta2 = f64::from(step * 360 / STEPS).to_radians();
-        let points = m.points(&m.assemble(theta2, FourBarBranch { theta3_theta4: Left }).unwrap()).unwrap();
+        let points = m.points(&m.assemble(theta2, FourBarBranch::new(Left)).unwrap()).unwrap();
         vec![("A", vector![0.0, 0.0]), ("B", points.b), ("C", points.c), ("D", vector![m.l1, 0.0]), ("G3", points.g3)]
     };
     (0..=STEPS).map(frame).collect()
@@ -200,7 +200,7 @@ fn sliders_stay_on_their_guides() {
     let frames: Vec<Frame> = (0..=STEPS)
         .map(|step| {
             let theta2 = f64::from(step * 360 / STEPS).to_radians();
-            let pose = m.assemble(theta2, OffsetSliderCrankBranch { theta3: Rising }).unwrap();
+            let pose = m.assemble(theta2, OffsetSliderCrankBranch::new(Rising)).unwrap();
             let points = m.points(&pose).unwrap();
             vec![("O", points.o), ("A", points.a), ("B", points.b), ("Foot", vector![0.0, m.c])]
         })

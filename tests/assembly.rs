@@ -11,7 +11,7 @@ include!("mechanisms/inverted_slider_crank.rs");
 include!("mechanisms/v_twin.rs");
 
 fn branch(theta3_theta4: Elbow) -> FourBarBranch {
-    FourBarBranch { theta3_theta4 }
+    FourBarBranch::new(theta3_theta4)
 }
 
 /// Both assemblies close, mirrored in the line between the outer joints; all that there are is two.
@@ -70,13 +70,13 @@ fn branches_mean_what_they_say() {
         assert!(left[0] > 0.0 && left[1] < 0.0, "{left:?}");
         let m = relative::Knee::default();
         let left = elbows.map(|bend_theta3| {
-            let points = m.points(&m.assemble(angle, relative::KneeBranch { bend_theta3 }).unwrap()).unwrap();
+            let points = m.points(&m.assemble(angle, relative::KneeBranch::new(bend_theta3)).unwrap()).unwrap();
             (points.b - points.d).perp(&(points.c - points.d))
         });
         assert!(left[0] > 0.0 && left[1] < 0.0, "{left:?}");
         // RPR and RRP: the modulus of the slider.
         let m = InvertedSliderCrank::default();
-        let lengths = sliders.map(|theta4_b| m.assemble(angle, InvertedSliderCrankBranch { theta4_b }).unwrap().b);
+        let lengths = sliders.map(|theta4_b| m.assemble(angle, InvertedSliderCrankBranch::new(theta4_b)).unwrap().b);
         assert!(lengths[0] > lengths[1], "{lengths:?}");
         let m = VTwin::default();
         let lengths = sliders.map(|phi_front_s_front| {
@@ -86,7 +86,7 @@ fn branches_mean_what_they_say() {
         // One angle: its equation, the second row, grows with it.
         let m = OffsetSliderCrank::default();
         let slopes = [Slope::Rising, Slope::Falling].map(|theta3| {
-            let pose = m.assemble(angle, OffsetSliderCrankBranch { theta3 }).unwrap();
+            let pose = m.assemble(angle, OffsetSliderCrankBranch::new(theta3)).unwrap();
             m.jacobian_unknowns(&pose)[(1, 0)]
         });
         assert!(slopes[0] > 0.0 && slopes[1] < 0.0, "{slopes:?}");
@@ -198,7 +198,7 @@ fn a_guide_with_an_offset_link() {
         let m = Introductory { delta, ..Introductory::default() };
         for degrees in (0..360).step_by(5) {
             for phi2_z2 in [Slider::Far, Slider::Near] {
-                let pose = m.assemble(f64::from(degrees).to_radians(), IntroductoryBranch { phi2_z2 }).unwrap();
+                let pose = m.assemble(f64::from(degrees).to_radians(), IntroductoryBranch::new(phi2_z2)).unwrap();
                 let size = m.closure_sizes(&pose).sum();
                 assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * size, "{delta}, {degrees} deg");
                 let other = m.pose_at(&pose.coordinates());
@@ -212,13 +212,7 @@ fn a_guide_with_an_offset_link() {
 #[test]
 fn steps_leave_no_trace() {
     let m = Jansen::default();
-    let branch = JansenBranch {
-        angle_b_angle_j: Elbow::Right,
-        angle_d_angle_e: Elbow::Right,
-        angle_c_angle_k: Elbow::Left,
-        angle_f_angle_g: Elbow::Left,
-        angle_h_angle_i: Elbow::Right,
-    };
+    let branch = JansenBranch::new(Elbow::Right, Elbow::Right, Elbow::Left, Elbow::Left, Elbow::Right);
     let mut found = 0;
     for degrees in 0..360_u32 {
         let crank = f64::from(degrees).to_radians();
@@ -259,7 +253,7 @@ fn what_does_not_reach_is_named() {
     }
     // Of two groups the second: its links are too short, the first assembles.
     let m = SixBar { f: 0.1, g: 0.1, ..SixBar::default() };
-    let branch = SixBarBranch { theta2_theta3: Elbow::Right, theta4_theta5: Elbow::Right };
+    let branch = SixBarBranch::new(Elbow::Right, Elbow::Right);
     match m.assemble(1.0, branch) {
         Err(Error::Unbuildable { group: "theta4, theta5", .. }) => {}
         other => panic!("{other:?}"),
@@ -267,7 +261,7 @@ fn what_does_not_reach_is_named() {
     // A rod shorter than the offset.
     let m = OffsetSliderCrank { b: 1.0, ..OffsetSliderCrank::default() };
     assert!(matches!(
-        m.assemble(0.0, OffsetSliderCrankBranch { theta3: Slope::Rising }),
+        m.assemble(0.0, OffsetSliderCrankBranch::new(Slope::Rising)),
         Err(Error::Unbuildable { group: "theta3", .. })
     ));
 }

@@ -19,7 +19,7 @@ fn close(found: f64, expected: f64, error: f64) {
 }
 
 fn left(m: &FourBar, theta2: f64) -> FourBarCoordinates {
-    m.assemble(theta2, FourBarBranch { theta3_theta4: Elbow::Left }).unwrap().coordinates()
+    m.assemble(theta2, FourBarBranch::new(Elbow::Left)).unwrap().coordinates()
 }
 
 /// A rocker that drives: its dead points are where crank and coupler are in line.

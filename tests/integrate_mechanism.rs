@@ -41,7 +41,7 @@ fn energy(four_bar: &FourBar<f64>, position: &Position, y: &State) -> f64 {
 }
 
 fn assembled(four_bar: &FourBar<f64>, theta2: f64) -> Result<Position, Error> {
-    Ok(four_bar.assemble(theta2, FourBarBranch { theta3_theta4: Elbow::Left })?.coordinates())
+    Ok(four_bar.assemble(theta2, FourBarBranch::new(Elbow::Left))?.coordinates())
 }
 
 const START: (f64, State) = (0.0, State::new(0.35, 6.0));

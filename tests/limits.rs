@@ -97,7 +97,7 @@ fn next(value: f64, up: bool) -> f64 {
 /// Where C can reach from B and D: cos(theta2) between those of the two stretched positions.
 #[test]
 fn a_four_bar_in_closed_form() {
-    let branch = FourBarBranch { theta3_theta4: Elbow::Left };
+    let branch = FourBarBranch::new(Elbow::Left);
     // Crank-rocker; drag-link; neither link turns: about 0, about pi, and on one side only.
     for (lengths, start, low, high) in [
         ([80.0, 20.0, 50.0, 70.0], 0.3, None, None),
@@ -176,7 +176,7 @@ fn span(theta1: f64, branch: SixBarBranch) -> f64 {
 
 #[test]
 fn groups_on_groups_are_bracketed() {
-    let branch = SixBarBranch { theta2_theta3: Elbow::Left, theta4_theta5: Elbow::Left };
+    let branch = SixBarBranch::new(Elbow::Left, Elbow::Left);
     let m = SixBar::default();
     assert_eq!(m.limits(1.0, branch).unwrap(), Limits { lower: Limit::None, upper: Limit::None });
     // The second dyad too short for all of the swing.
@@ -193,7 +193,7 @@ fn groups_on_groups_are_bracketed() {
 /// A gap between two steps of the search, where links just fail to reach: a closer look finds it.
 #[test]
 fn a_narrow_gap_is_seen() {
-    let branch = SixBarBranch { theta2_theta3: Elbow::Left, theta4_theta5: Elbow::Left };
+    let branch = SixBarBranch::new(Elbow::Left, Elbow::Left);
     let distance = |v| span(v, branch);
     let farthest =
         (0..36_000).map(|i| f64::from(i) * TAU / 36_000.0).max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
@@ -263,7 +263,7 @@ fn groups_without_closed_form_are_followed() {
 #[test]
 fn scale_free() {
     let m = FourBar::new(70.0, 60.0, 30.0, 50.0);
-    let branch = FourBarBranch { theta3_theta4: Elbow::Right };
+    let branch = FourBarBranch::new(Elbow::Right);
     let found = m.limits(1.0, branch).unwrap();
     for exponent in [-300, -60, 60, 300] {
         let scaled = m.clone().map(|length| length * 2_f64.powi(exponent));
@@ -274,7 +274,7 @@ fn scale_free() {
 #[test]
 fn nonsense_is_refused() {
     let m = FourBar::new(80.0, 20.0, 10.0, 10.0);
-    let branch = FourBarBranch { theta3_theta4: Elbow::Left };
+    let branch = FourBarBranch::new(Elbow::Left);
     assert!(matches!(m.limits(0.3, branch), Err(Error::Unbuildable { .. })));
     assert!(matches!(FourBar::new(80.0, 20.0, 50.0, 70.0).limits(f64::NAN, branch), Err(Error::NotFinite { .. })));
     assert!(matches!(FourBar::new(f64::INFINITY, 20.0, 50.0, 70.0).limits(0.0, branch), Err(Error::NotFinite { .. })));

@@ -36,7 +36,7 @@ impl Run {
     /// # Errors
     /// Those of the simulation.
     pub fn new(scene: Closing<f64>, angle: f64) -> Result<Self, Error> {
-        let start = scene.mechanism.assemble(angle, DoorCloserBranch { alpha_beta: Elbow::Left })?.coordinates();
+        let start = scene.mechanism.assemble(angle, DoorCloserBranch::new(Elbow::Left))?.coordinates();
         let energy = |q: &DoorCloserCoordinates<f64>, rate: f64| -> Result<f64, Error> {
             let energy = scene.energy(q, DoorCloserInputs { door: rate })?;
             Ok(energy.kinetic + energy.potential)

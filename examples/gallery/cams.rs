@@ -23,7 +23,7 @@ fn turn() -> impl Iterator<Item = f64> {
 
 fn cam_follower() -> Result<Figure, Box<dyn Error>> {
     let m = CamFollower::default();
-    let mut figure = assembled!("Cam follower", CamFollower, m on CamFollowerBranch {}, from 30.0, |pose, points| {
+    let mut figure = assembled!("Cam follower", CamFollower, m on CamFollowerBranch::new(), from 30.0, |pose, points| {
         let stem = points.roller + at(0.0, 2.0 * m.height);
         [("O", at(0.0, 0.0)), ("Nose", polar(m.prime, pose.theta.angle())), ("Stem", stem)]
     });
@@ -41,13 +41,13 @@ fn cam_rocker() -> Result<Figure, Box<dyn Error>> {
     let m = CamRocker::default();
     let roller = 0.2 * m.lever;
     let axis = at(-m.distance, 0.0);
-    let mut figure = assembled!("Cam and rocker", CamRocker, m on CamRockerBranch { phi_beta: Left }, from 30.0,
+    let mut figure = assembled!("Cam and rocker", CamRocker, m on CamRockerBranch::new(Left), from 30.0,
     |pose, points| {
         let nose = axis + polar(m.lever, pose.theta.angle());
         [("O", at(0.0, 0.0)), ("Axis", axis), ("Nose", nose), ("Rim", points.roller + at(roller, 0.0))]
     });
     let pitch: Result<Vec<Vector2<f64>>, linkage::Error> =
-        turn().map(|theta| Ok(m.points(&m.assemble(theta, CamRockerBranch { phi_beta: Left })?)?.pitch)).collect();
+        turn().map(|theta| Ok(m.points(&m.assemble(theta, CamRockerBranch::new(Left))?)?.pitch)).collect();
     let pitch = pitch?;
     // The profile lies a roller's radius inside the pitch curve, which is passed clockwise.
     let inside = (0..pitch.len()).map(|index| {

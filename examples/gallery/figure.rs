@@ -126,9 +126,9 @@ macro_rules! frame {
 /// The figure of a mechanism with one input, on one branch, as far round as it goes from an input in degrees: every
 /// position in closed form.
 macro_rules! assembled {
-    ($name:expr, $mechanism:ident, $m:ident on $branch:ident { $($side:ident: $value:expr),* }, from $degrees:expr,
+    ($name:expr, $mechanism:ident, $m:ident on $branch:ident::new($($side:expr),*), from $degrees:expr,
      |$pose:ident, $points:ident| $more:expr) => {{
-        let branch = $branch { $($side: $value),* };
+        let branch = $branch::new($($side),*);
         let course = Course::around(f64::to_radians($degrees), |input| $m.assemble(input, branch).is_ok());
         let mut figure = Figure::new($name, $mechanism::<f64>::DERIVATION, course);
         for input in course.inputs() {

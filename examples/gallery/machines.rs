@@ -23,13 +23,7 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
 fn jansen() -> Result<Figure, Box<dyn Error>> {
     let m = Jansen::default();
     let mut figure = assembled!("Jansen's leg", Jansen,
-        m on JansenBranch {
-            angle_b_angle_j: Left,
-            angle_d_angle_e: Left,
-            angle_c_angle_k: Right,
-            angle_f_angle_g: Right,
-            angle_h_angle_i: Right
-        },
+        m on JansenBranch::new(Left, Left, Right, Right, Right),
         from 0.0, |pose, points| []);
     figure.picture.link(&["Pivot", "Upper", "Back"]).link(&["Knee", "Ankle", "Foot"]).link(&["Pin", "Upper"]);
     figure.picture.link(&["Pin", "Knee"]).link(&["Pivot", "Knee"]).link(&["Back", "Ankle"]);
@@ -43,7 +37,7 @@ fn jansen() -> Result<Figure, Box<dyn Error>> {
 fn klann() -> Result<Figure, Box<dyn Error>> {
     let m = Klann::default();
     let mut figure = assembled!("Klann's leg", Klann,
-        m on KlannBranch { arm_lower_angle: Right, leg_upper_angle: Left }, from 180.0, |pose, points| []);
+        m on KlannBranch::new(Right, Left), from 180.0, |pose, points| []);
     figure.picture.bent(&["Pin", "Elbow", "Knee"]).bent(&["Hip", "Knee", "Foot"]).link(&["Lower", "Elbow"]);
     figure.picture.link(&["Upper", "Hip"]).crank(&["O", "Pin"]);
     figure.picture.ground("O").ground("Lower").ground("Upper").trace("Foot");
@@ -57,7 +51,7 @@ fn pantograph() -> Result<Figure, Box<dyn Error>> {
     let m = Pantograph::default();
     let course = Course::Own("a trefoil drawn by hand");
     let mut figure = Figure::new("Pantograph", Pantograph::DERIVATION, course);
-    let branch = PantographBranch { alpha_beta: Left, gamma_delta: Right };
+    let branch = PantographBranch::new(Left, Right);
     for part in course.inputs() {
         let angle = TAU * part;
         let radius = 0.7 + 0.3 * (3.0 * angle).cos();
@@ -81,7 +75,7 @@ fn pantograph() -> Result<Figure, Box<dyn Error>> {
 fn wiper() -> Result<Figure, Box<dyn Error>> {
     let m = Wiper::default();
     let mut figure = assembled!("Windscreen wiper", Wiper,
-        m on WiperBranch { phi_first: Left, rod_second: Left }, from 60.0, |pose, points| []);
+        m on WiperBranch::new(Left, Left), from 60.0, |pose, points| []);
     figure.picture.bent(&["FirstPin", "First", "FirstTip"]).bent(&["SecondPin", "Second", "SecondTip"]);
     figure.picture.link(&["FirstPin", "SecondPin"]).link(&["Pin", "FirstPin"]).crank(&["Motor", "Pin"]);
     figure.picture.ground("Motor").ground("First").ground("Second").trace("FirstTip").trace("SecondTip");
@@ -94,7 +88,7 @@ fn wiper() -> Result<Figure, Box<dyn Error>> {
 fn v_twin() -> Result<Figure, Box<dyn Error>> {
     let m = VTwin::default();
     let mut figure = assembled!("V-twin engine", VTwin,
-    m on VTwinBranch { phi_front_s_front: Far, phi_rear_s_rear: Far }, from 60.0,
+    m on VTwinBranch::new(Far, Far), from 60.0,
     |pose, points| [
         ("M", (points.pin + points.front) / 2.0),
         ("N", (points.pin + points.rear) / 2.0),
@@ -110,7 +104,7 @@ fn v_twin() -> Result<Figure, Box<dyn Error>> {
 fn andrews() -> Result<Figure, Box<dyn Error>> {
     let m = Andrews::default();
     let mut figure = assembled!("Andrews' squeezer", Andrews,
-        m on AndrewsBranch { theta_gamma: Left, phi_delta: Right, omega_epsilon: Left }, from -3.536,
+        m on AndrewsBranch::new(Left, Right, Left), from -3.536,
         |pose, points| []);
     figure.picture.spring("D", "C").link(&["B", "E", "D"]).link(&["E", "H"]).link(&["A", "H"]).link(&["E", "G"]);
     figure.picture.link(&["A", "G"]).link(&["F", "E"]).crank(&["O", "F"]);

@@ -32,7 +32,7 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
 
 fn four_bar(name: &'static str, side: Elbow) -> Result<Figure, Box<dyn Error>> {
     let m = FourBar::default();
-    let mut figure = assembled!(name, FourBar, m on FourBarBranch { theta3_theta4: side }, from 20.0,
+    let mut figure = assembled!(name, FourBar, m on FourBarBranch::new(side), from 20.0,
         |pose, points| [("A", at(0.0, 0.0)), ("D", at(m.l1, 0.0))]);
     figure.picture.crank(&["A", "B"]).link(&["B", "G3", "C"]).link(&["D", "C"]);
     figure.picture.ground("A").ground("D").trace("G3");
@@ -66,7 +66,7 @@ fn five_bar() -> Result<Figure, Box<dyn Error>> {
 fn watt_i() -> Result<Figure, Box<dyn Error>> {
     let m = WattI::default();
     let mut figure = assembled!("Watt I six-bar", WattI,
-        m on WattIBranch { theta3_theta4: Left, theta5_theta6: Left }, from 60.0, |pose, points| []);
+        m on WattIBranch::new(Left, Left), from 60.0, |pose, points| []);
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C", "Q"]).link(&["P", "R"]);
     figure.picture.link(&["Q", "R"]).ground("A").ground("D").trace("R");
     Ok(figure.words(
@@ -78,7 +78,7 @@ fn watt_i() -> Result<Figure, Box<dyn Error>> {
 fn watt_ii() -> Result<Figure, Box<dyn Error>> {
     let m = WattII::default();
     let mut figure = assembled!("Watt II six-bar", WattII,
-        m on WattIIBranch { theta3_theta4: Left, theta5_theta6: Left }, from 60.0,
+        m on WattIIBranch::new(Left, Left), from 60.0,
         |pose, points| [("M", (points.b + points.c) / 2.0)]);
     figure.picture.crank(&["A", "B"]).link(&["B", "M", "C"]).link(&["D", "C", "P"]).link(&["P", "Q"]);
     figure.picture.link(&["F", "Q"]).ground("A").ground("D").ground("F").trace("M");
@@ -91,7 +91,7 @@ fn watt_ii() -> Result<Figure, Box<dyn Error>> {
 fn stephenson_i() -> Result<Figure, Box<dyn Error>> {
     let m = StephensonI::default();
     let mut figure = assembled!("Stephenson I six-bar", StephensonI,
-        m on StephensonIBranch { theta3_theta4: Left, theta5_theta6: Left }, from 60.0, |pose, points| []);
+        m on StephensonIBranch::new(Left, Left), from 60.0, |pose, points| []);
     figure.picture.crank(&["A", "B", "P"]).link(&["B", "C"]).link(&["D", "C", "Q"]).link(&["P", "R"]);
     figure.picture.link(&["Q", "R"]).ground("A").ground("D").trace("R");
     Ok(figure.words(
@@ -127,7 +127,7 @@ fn stephenson_ii() -> Result<Figure, Box<dyn Error>> {
 fn stephenson_iii() -> Result<Figure, Box<dyn Error>> {
     let m = StephensonIII::default();
     let mut figure = assembled!("Stephenson III six-bar", StephensonIII,
-        m on StephensonIIIBranch { theta3_theta4: Left, theta5_theta6: Left }, from 60.0, |pose, points| []);
+        m on StephensonIIIBranch::new(Left, Left), from 60.0, |pose, points| []);
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C"]).link(&["P", "Q"]);
     figure.picture.link(&["F", "Q"]).ground("A").ground("D").ground("F").trace("P");
     Ok(figure.words(

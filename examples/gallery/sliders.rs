@@ -29,7 +29,7 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
 fn offset_slider_crank() -> Result<Figure, Box<dyn Error>> {
     let m = OffsetSliderCrank::default();
     let mut figure = assembled!("Offset slider-crank", OffsetSliderCrank,
-        m on OffsetSliderCrankBranch { theta3: Rising }, from 60.0,
+        m on OffsetSliderCrankBranch::new(Rising), from 60.0,
         |pose, points| [("M", (points.a + points.b) / 2.0)]);
     figure.picture.crank(&["O", "A"]).link(&["A", "M", "B"]).slider("B").ground("O").trace("M");
     Ok(figure.words(
@@ -41,7 +41,7 @@ fn offset_slider_crank() -> Result<Figure, Box<dyn Error>> {
 fn inverted_slider_crank() -> Result<Figure, Box<dyn Error>> {
     let m = InvertedSliderCrank::default();
     let mut figure = assembled!("Inverted slider-crank", InvertedSliderCrank,
-        m on InvertedSliderCrankBranch { theta4_b: Far }, from 60.0,
+        m on InvertedSliderCrankBranch::new(Far), from 60.0,
         |pose, points| [("Tip", along(points.b, points.a, m.a + m.d + 15.0))]);
     figure.picture.bent(&["D", "B", "Tip"]).crank(&["O", "A"]).sleeve("A", ["B", "A"]);
     figure.picture.ground("O").ground("D").trace("Tip");
@@ -54,7 +54,7 @@ fn inverted_slider_crank() -> Result<Figure, Box<dyn Error>> {
 fn whitworth() -> Result<Figure, Box<dyn Error>> {
     let m = Whitworth::default();
     let mut figure = assembled!("Whitworth's quick return", Whitworth,
-    m on WhitworthBranch { psi_s: Far, phi: Rising }, from 60.0,
+    m on WhitworthBranch::new(Far, Rising), from 60.0,
     |pose, points| [
         ("Tip", along(points.e, points.c, m.arm + m.crank + m.offset + 12.0)),
         ("M", (points.e + points.ram) / 2.0),
@@ -70,7 +70,7 @@ fn whitworth() -> Result<Figure, Box<dyn Error>> {
 fn crank_shaper() -> Result<Figure, Box<dyn Error>> {
     let m = CrankShaper::default();
     let mut figure = assembled!("Crank shaper", CrankShaper,
-        m on CrankShaperBranch { psi_s: Far, phi: Rising }, from 60.0,
+        m on CrankShaperBranch::new(Far, Rising), from 60.0,
         |pose, points| [("M", (points.e + points.ram) / 2.0)]);
     figure.picture.link(&["C", "E"]).crank(&["O", "Pin"]).sleeve("Pin", ["C", "E"]);
     figure.picture.link(&["E", "M", "Ram"]).slider("Ram").ground("O").ground("C").trace("M");
@@ -82,7 +82,7 @@ fn crank_shaper() -> Result<Figure, Box<dyn Error>> {
 
 fn scotch_yoke() -> Result<Figure, Box<dyn Error>> {
     let m = ScotchYoke::default();
-    let mut figure = assembled!("Scotch yoke", ScotchYoke, m on ScotchYokeBranch {}, from 40.0,
+    let mut figure = assembled!("Scotch yoke", ScotchYoke, m on ScotchYokeBranch::new(), from 40.0,
     |pose, points| [
         ("O", at(0.0, 0.0)),
         ("Pin", at(m.r * pose.phi.re, m.r * pose.phi.im)),
@@ -97,7 +97,7 @@ fn scotch_yoke() -> Result<Figure, Box<dyn Error>> {
 
 fn elliptic_trammel() -> Result<Figure, Box<dyn Error>> {
     let m = EllipticTrammel::default();
-    let mut figure = assembled!("Elliptic trammel", EllipticTrammel, m on EllipticTrammelBranch {}, from 50.0,
+    let mut figure = assembled!("Elliptic trammel", EllipticTrammel, m on EllipticTrammelBranch::new(), from 50.0,
         |pose, points| []);
     figure.picture.crank(&["A", "B", "Pen"]).slider("A").slider("B").trace("Pen");
     Ok(figure.words(

@@ -45,7 +45,7 @@ fn watt_line() -> Result<Figure, Box<dyn Error>> {
 
 fn roberts() -> Result<Figure, Box<dyn Error>> {
     let m = Roberts::default();
-    let mut figure = assembled!("Roberts' line", Roberts, m on RobertsBranch { theta3_theta4: Left }, from 67.4,
+    let mut figure = assembled!("Roberts' line", Roberts, m on RobertsBranch::new(Left), from 67.4,
         |pose, points| []);
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C"]);
     figure.picture.ground("A").ground("D").trace("P");
@@ -58,7 +58,7 @@ fn roberts() -> Result<Figure, Box<dyn Error>> {
 fn chebyshev() -> Result<Figure, Box<dyn Error>> {
     let m = ChebyshevCoupler::default();
     let mut figure = assembled!("Chebyshev's line", ChebyshevCoupler,
-        m on ChebyshevCouplerBranch { theta2_theta4: Left }, from 180.0, |pose, points| []);
+        m on ChebyshevCouplerBranch::new(Left), from 180.0, |pose, points| []);
     figure.picture.link(&["A", "B"]).link(&["D", "C"]).crank(&["B", "P", "C"]);
     figure.picture.ground("A").ground("D").trace("P");
     Ok(figure.words(
@@ -69,7 +69,7 @@ fn chebyshev() -> Result<Figure, Box<dyn Error>> {
 
 fn hoecken() -> Result<Figure, Box<dyn Error>> {
     let m = Hoecken::default();
-    let mut figure = assembled!("Hoecken's line", Hoecken, m on HoeckenBranch { theta3_theta4: Left }, from 60.0,
+    let mut figure = assembled!("Hoecken's line", Hoecken, m on HoeckenBranch::new(Left), from 60.0,
         |pose, points| []);
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C"]);
     figure.picture.ground("A").ground("D").trace("P");
@@ -82,7 +82,7 @@ fn hoecken() -> Result<Figure, Box<dyn Error>> {
 fn peaucellier() -> Result<Figure, Box<dyn Error>> {
     let m = Peaucellier::default();
     let mut figure = assembled!("Peaucellier-Lipkin cell", Peaucellier,
-        m on PeaucellierBranch { upper_upper_side: Left, lower_lower_side: Right, upper_tip_lower_tip: Left },
+        m on PeaucellierBranch::new(Left, Right, Left),
         from 30.0, |pose, points| []);
     figure.picture.crank(&["Centre", "P"]).link(&["O", "Upper"]).link(&["O", "Lower"]);
     figure.picture.link(&["P", "Upper"]).link(&["P", "Lower"]).link(&["Q", "Upper"]).link(&["Q", "Lower"]);
@@ -95,7 +95,7 @@ fn peaucellier() -> Result<Figure, Box<dyn Error>> {
 
 fn hart() -> Result<Figure, Box<dyn Error>> {
     let m = Hart::default();
-    let mut figure = assembled!("Hart's inversor", Hart, m on HartBranch { alpha_beta: Left, gamma_delta: Left },
+    let mut figure = assembled!("Hart's inversor", Hart, m on HartBranch::new(Left, Left),
         from 30.0, |pose, points| []);
     figure.picture.crank(&["Centre", "P"]).link(&["A", "O", "B"]).link(&["A", "P", "D"]);
     figure.picture.link(&["B", "Q", "C"]).link(&["C", "D"]);

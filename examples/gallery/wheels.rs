@@ -22,7 +22,7 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
 fn geared_five_bar() -> Result<Figure, Box<dyn Error>> {
     let m = GearedFiveBar::default();
     let mut figure = assembled!("Geared five-bar", GearedFiveBar,
-    m on GearedFiveBarBranch { theta2_theta3: Left }, from 70.0,
+    m on GearedFiveBarBranch::new(Left), from 70.0,
     |pose, points| {
         let theta1 = pose.theta1.angle();
         let theta4 = m.ratio * theta1 + m.phase;
@@ -38,7 +38,7 @@ fn geared_five_bar() -> Result<Figure, Box<dyn Error>> {
 
 fn cardan() -> Result<Figure, Box<dyn Error>> {
     let m = Cardan::default();
-    let mut figure = assembled!("Cardan gears", Cardan, m on CardanBranch {}, from 50.0, |pose, points| []);
+    let mut figure = assembled!("Cardan gears", Cardan, m on CardanBranch::new(), from 50.0, |pose, points| []);
     figure.picture.ground_line((0..=72).map(|step| polar(m.ring, f64::from(step) * TAU / 72.0)));
     figure.picture.wheel("Centre", "Rim", m.planet).crank(&["O", "Centre"]).ground("O").trace("Rim").trace("Pen");
     Ok(figure.words(
@@ -80,7 +80,7 @@ fn coupled_wheels(name: &'static str, [above, below]: [Elbow; 2]) -> Result<Figu
     let course = Course::Turn((180.0 / f64::from(STEPS)).to_radians());
     let mut figure = Figure::new(name, CoupledWheels::DERIVATION, course);
     for theta in course.inputs() {
-        let branch = CoupledWheelsBranch { rod_follower: if theta.sin() > 0.0 { above } else { below } };
+        let branch = CoupledWheelsBranch::new(if theta.sin() > 0.0 { above } else { below });
         figure.branches.get_or_insert([CoupledWheelsBranch::all().count(), m.branches(theta).count()]);
         let pose = m.assemble(theta, branch)?;
         assert_eq!(m.branch_of(&pose), branch);

@@ -8,7 +8,7 @@ include!("../mechanisms/four_bar.rs");
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
 fn start(m: &FourBar) -> FourBarCoordinates {
-    m.assemble(0.35, FourBarBranch { theta3_theta4: Elbow::Left }).unwrap().coordinates()
+    m.assemble(0.35, FourBarBranch::new(Elbow::Left)).unwrap().coordinates()
 }
 
 #[test]

@@ -54,7 +54,7 @@ fn the_other_root() {
         for (exact, naive) in exact.iter().zip(naive) {
             naive_worst = naive_worst.max(difference(naive, exact));
             let ours = [Elbow::Left, Elbow::Right].map(|theta3_theta4| {
-                let pose = m.assemble(theta2, NortonFourBarBranch { theta3_theta4 }).unwrap();
+                let pose = m.assemble(theta2, NortonFourBarBranch::new(theta3_theta4)).unwrap();
                 difference(pose.coordinates().theta4, exact)
             });
             worst = worst.max(ours[0].min(ours[1]));

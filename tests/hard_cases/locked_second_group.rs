@@ -11,7 +11,7 @@ fn six_bar() -> SixBar {
     SixBar { f: 3.4, g: 3.4, ..SixBar::default() }
 }
 
-const BRANCH: SixBarBranch = SixBarBranch { theta2_theta3: Elbow::Left, theta4_theta5: Elbow::Left };
+const BRANCH: SixBarBranch = SixBarBranch::new(Elbow::Left, Elbow::Left);
 
 /// The first crank angle, beyond one where the mechanism can be assembled, where it cannot.
 fn limits(m: &SixBar) -> (f64, f64, &'static str) {

@@ -10,7 +10,7 @@ use linkage::{Elbow, linkage};
 
 include!("../mechanisms/four_bar.rs");
 
-const BRANCH: FourBarBranch = FourBarBranch { theta3_theta4: Elbow::Left };
+const BRANCH: FourBarBranch = FourBarBranch::new(Elbow::Left);
 
 /// Turns `turns` times, looking once a turn.
 fn turn(from: f64, turns: u32, looks: u32) {

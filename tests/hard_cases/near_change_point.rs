@@ -16,7 +16,7 @@ fn near(epsilon: f64) -> FourBar {
 }
 
 fn start(m: &FourBar, elbow: Elbow, theta: f64) -> FourBarCoordinates {
-    m.assemble(theta, FourBarBranch { theta3_theta4: elbow }).unwrap().coordinates()
+    m.assemble(theta, FourBarBranch::new(elbow)).unwrap().coordinates()
 }
 
 /// Whether a step of fixed size changes its motion, Newton's method started from what the velocity ratios predict.
@@ -39,7 +39,7 @@ fn round_the_corner() {
             assert!(fixed_step_changes(&m, 0.1), "the case does not bite at {epsilon}");
         }
         for elbow in [Elbow::Left, Elbow::Right] {
-            let branch = FourBarBranch { theta3_theta4: elbow };
+            let branch = FourBarBranch::new(elbow);
             let mut path = Path::new(&m, &start(&m, elbow, 2.5), Direction::Increasing).unwrap();
             let mut steps = 0;
             while path.position().theta2 < 3.8 {

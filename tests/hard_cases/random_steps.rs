@@ -276,7 +276,7 @@ fn four_bars(steps: usize) -> Count {
     while count.steps < steps {
         let m = FourBar::from([(); 4].map(|()| random.random_range(0.2..2.0)));
         let elbow = if random.random() { Elbow::Left } else { Elbow::Right };
-        let mut branch = FourBarBranch { theta3_theta4: elbow };
+        let mut branch = FourBarBranch::new(elbow);
         let Ok(pose) = m.assemble(random.random_range(0.0..TAU), branch) else { continue };
         let longest_step = 10_f64.powf(random.random_range(-2.0..0.0));
         let options = Options { longest_step, ..Options::default() };

@@ -9,7 +9,7 @@ use super::precise::{Scalar, big};
 
 include!("../mechanisms/four_bar.rs");
 
-const BRANCH: FourBarBranch = FourBarBranch { theta3_theta4: Elbow::Left };
+const BRANCH: FourBarBranch = FourBarBranch::new(Elbow::Left);
 
 /// Newton's method with an absolute tolerance.
 fn naive(m: &FourBar, theta2: f64) -> Option<FourBarCoordinates> {

@@ -12,7 +12,7 @@ use super::relative;
 include!("../mechanisms/inverted_slider_crank.rs");
 
 fn branch(theta4_b: Slider) -> InvertedSliderCrankBranch {
-    InvertedSliderCrankBranch { theta4_b }
+    InvertedSliderCrankBranch::new(theta4_b)
 }
 
 /// The pin at the distance c + gap from the pivot.

@@ -26,7 +26,7 @@ fn both_ways_out() {
         let direction = Direction::Along(FourBarCoordinates { theta2: 0.0, theta3, theta4: 0.0 });
         let mut path = Path::new(&m, &q, direction).unwrap();
         assert!(path.rates().theta2.abs() < 1e-15);
-        let branch = FourBarBranch { theta3_theta4: elbow };
+        let branch = FourBarBranch::new(elbow);
         for _ in 0..5 {
             let step = path.advance().unwrap();
             assert_eq!(step.event, None);

@@ -8,7 +8,7 @@ include!("../mechanisms/five_bar_scenes.rs");
 include!("../mechanisms/four_bar_scenes.rs");
 include!("../mechanisms/slider_crank_scenes.rs");
 
-pub(super) const FOUR_BAR: LoadedFourBarBranch = LoadedFourBarBranch { theta3_theta4: linkage::Elbow::Left };
+pub(super) const FOUR_BAR: LoadedFourBarBranch = LoadedFourBarBranch::new(linkage::Elbow::Left);
 
 pub(super) fn four_bar_at<T: Real>(v: [T; 1]) -> Option<LoadedFourBarCoordinates<T>> {
     let four_bar = LoadedFourBar::default().map(constant);
@@ -41,7 +41,7 @@ impl Positions<1> for FourBarPositions {
     }
 }
 
-pub(super) const PAIR: PairBranch = PairBranch { theta2_theta3: linkage::Elbow::Right };
+pub(super) const PAIR: PairBranch = PairBranch::new(linkage::Elbow::Right);
 
 pub(super) struct PairPositions;
 

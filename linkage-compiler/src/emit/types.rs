@@ -341,15 +341,19 @@ pub(super) fn branch(
         quote!(#[doc = #docs] pub #field: i32)
     });
     let zeros: Vec<TokenStream> = turns.iter().map(|AngleTurn { field, .. }| quote!(#field: 0)).collect();
-    let new = (!turns.is_empty() && sides.len() <= MOST_ARGUMENTS).then(|| {
+    let new = (sides.len() <= MOST_ARGUMENTS).then(|| {
         let arguments = sides.iter().map(|(side, choice)| {
             let choice = ident(choice.name());
             quote!(#side: #private::#choice)
         });
         let names = sides.iter().map(|(side, _)| side);
+        let text = comment(match turns {
+            [] => " The branch with these solutions.",
+            _ if sides.is_empty() => " The branch with every angle at its principal value.",
+            _ => " The branch with these solutions, and every angle at its principal value.",
+        });
         quote! {
-            /// The branch with these solutions, and every angle at its principal value.
-
+            #[doc = #text]
             #[must_use]
             pub const fn new(#(#arguments),*) -> Self {
                 Self { #(#names,)* #(#zeros),* }
@@ -393,9 +397,11 @@ pub(super) fn branch(
         }
     });
     let functions = (new.is_some() || all.is_some()).then(|| quote!(impl #branch { #new #all }));
+    let default = sides.is_empty().then(|| quote!(#[derive(::core::default::Default)]));
     quote! {
         #[doc = #title]
         #derives
+        #default
         #visibility struct #branch { #(#members,)* #(#turn_members),* }
         #functions
     }

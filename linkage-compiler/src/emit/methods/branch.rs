@@ -60,6 +60,8 @@ impl Methods<'_> {
         let (pose, inputs, branch_type) = (&self.types.pose, &self.types.inputs, &self.types.branch);
         let (argument, branch) = (self.arguments.pose.clone(), &self.arguments.branch);
         let Branches { sides, turns } = branches;
+        // Newton's method starts from a guess, which says the turns as well.
+        let turns: &[AngleTurn] = if self.is_assembled { turns } else { &[] };
         let members = chords.iter().zip(sides).filter_map(|(chord, (side, _))| {
             let (_, field, _) = kernels.plan.determinants.iter().find(|(block, ..)| *block == chord.block)?;
             let (field, minus) = (ident(field), chord.is_opposite.then(|| quote!(-)));
@@ -67,7 +69,7 @@ impl Methods<'_> {
         });
         let fields: Vec<&Ident> = turns.iter().map(|turn| &turn.field).collect();
         let members = quote!(#branch_type { #(#members,)* #(#fields: 0),* });
-        let is_turned = !turns.is_empty() && self.is_assembled;
+        let is_turned = !turns.is_empty();
         let mut uses = BTreeSet::new();
         uses.extend((!sides.is_empty()).then_some("side_of"));
         uses.extend(is_turned.then_some("NearestTurns"));
