@@ -138,8 +138,8 @@ fn a_group_without_closed_form() {
     for degrees in (0..360).step_by(3) {
         let theta2 = f64::from(degrees).to_radians();
         for theta3_theta4 in [Elbow::Left, Elbow::Right] {
-            // Nothing of the guess but psi counts.
-            let guess = KeplerCoordinates { theta2, psi: 0.5, theta3: f64::NAN, theta4: f64::NAN, s: f64::NAN };
+            // Nothing of the guess counts but psi and the turn of theta4, whose number is in the equation of psi.
+            let guess = KeplerCoordinates { theta2, psi: 0.5, theta3: f64::NAN, theta4: 0.0, s: f64::NAN };
             let branch = KeplerBranch { theta3_theta4 };
             let pose = m.assemble_near(&guess, branch).unwrap();
             assert_eq!(m.branch_of(&pose), branch);

@@ -25,6 +25,9 @@ const SCENES: [&str; 13] = [
     "Everything",
 ];
 
+/// The scenes in which the number of an angle matters.
+const WITH_NUMBERS: [&str; 4] = ["Twisted", "Stopped", "Smooth", "Everything"];
+
 /// `four_bar_effects` with those of its scenes that `keep` accepts, and with the parameters that these need.
 fn with_scenes(keep: impl Fn(&str) -> bool) -> syn::File {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/four_bar_effects.rs");
@@ -51,7 +54,8 @@ fn of<'a>(work: &'a Work, name: &'a str) -> impl Iterator<Item = (&'a str, Opera
         .map(|((_, function), operations)| (function.as_str(), *operations))
 }
 
-/// What a scene and the mechanism under it do is the same to the operation whatever else is declared, of each function.
+/// What a scene and the mechanism under it do is the same to the operation whatever else is declared, of each function;
+/// but where a spring or a stop asks for the number of an angle, the mechanism finds it when it is assembled.
 #[test]
 fn what_other_scenes_declare_costs_nothing() {
     let all = work(source::tokens_of("four_bar_effects"));
@@ -60,7 +64,15 @@ fn what_other_scenes_declare_costs_nothing() {
         for name in [scene, "FourBar"] {
             let (found, expected): (Vec<_>, Vec<_>) = (of(&all, name).collect(), of(&alone, name).collect());
             assert!(expected.len() > 1, "{name} of {scene}");
+            let is_assembly = |(function, _): &(&str, Operations)| function.starts_with("assemble");
+            let [(assembling, found), (alone, expected)] =
+                [found, expected].map(|work| work.into_iter().partition::<Vec<_>, _>(is_assembly));
             assert_eq!(found, expected, "{name} of {scene}");
+            for ((_, found), (_, expected)) in assembling.iter().zip(&alone) {
+                let turned = usize::from(!WITH_NUMBERS.contains(&scene));
+                assert_eq!(*found, Operations { functions: expected.functions + turned, ..*expected }, "{scene}");
+            }
+            assert_eq!(assembling.len(), alone.len());
         }
     }
 }

@@ -61,7 +61,9 @@ fn every_guess_converges_or_says_why() {
             let guess = FourBarCoordinates { theta2: 0.35, theta3: angle(i), theta4: angle(j) };
             match four_bar.solve(&guess) {
                 Ok(solution) => {
-                    assert!(solution.residual <= 1e-15);
+                    // An angle of several turns is no more exact than its own rounding error.
+                    let largest = solution.coordinates.theta3.abs().max(solution.coordinates.theta4.abs());
+                    assert!(solution.residual <= 1e-15 || largest > 5.0 && solution.residual <= 1e-16 * largest);
                     let pose = four_bar.pose_at(&solution.coordinates);
                     let before = four_bar.determinant(&four_bar.pose_at(&guess));
                     assert_eq!(solution.same_branch, (before >= 0.0) == (four_bar.determinant(&pose) >= 0.0));

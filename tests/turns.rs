@@ -29,6 +29,16 @@ linkage! {
         equation q = b * psi;
         equation cam = law(psi, lift);
     }
+    /// A dyad on a wheel behind a slot: how far the pin can go is a matter of the wheel's turns.
+    pub mechanism Limited {
+        param pin = 9.6, ecc = 1.1, arm = 2, long = 2.2, short = 1.8, d = 3;
+        input month;
+        unknown slot, s, out, p, q;
+        loop pin@month = ecc@0 + s@slot;
+        equation 2 * out = -slot;
+        loop arm@out + long@p = (0, -d) + short@q;
+        derive limits;
+    }
     /// Directions alone.
     pub mechanism Bare {
         param a = 3, b = 2, c = 2.5, d = 1;
@@ -210,4 +220,19 @@ fn what_has_no_turn() {
     let FourBarBranch { theta3_theta4: _, theta3_turn, theta4_turn } = FourBarBranch::new(Elbow::Left);
     assert_eq!([theta3_turn, theta4_turn], [0, 0]);
     let BareBranch { phi_psi: _ } = BareBranch::all().next().unwrap();
+}
+
+/// The search for a limit goes through the cut of the slot's angle.
+#[test]
+fn limits_beyond_a_turn() {
+    let m = Limited::default();
+    for side in [Elbow::Left, Elbow::Right] {
+        let found = m.limits(3.0, LimitedBranch::new(Slider::Far, side)).unwrap();
+        // The dyad is stretched where arm^2 + d^2 + 2 arm d sin(out) = (long + short)^2.
+        let out = ((4.0_f64 * 4.0 - 4.0 - 9.0) / 12.0).asin();
+        let month = |out: f64| -2.0 * out - (m.ecc * (-2.0 * out).sin() / m.pin).asin();
+        let [lower, upper] = [found.lower, found.upper].map(|limit| limit.input().unwrap());
+        assert!((lower - month(out)).abs() < 1e-12, "{lower} is not {}", month(out));
+        assert!((upper - month(-PI - out)).abs() < 1e-12, "{upper} is not {}", month(-PI - out));
+    }
 }

@@ -467,7 +467,7 @@ use proc_macro::TokenStream;
 /// | `FourBarCoordinates<T>` | q by name, also q' and q''; u before v; conversions from and to `SVector` |
 /// | `FourBarInputs<T>`, `FourBarUnknowns<T>` | v and u by name; a single input also from the bare number |
 /// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | the points and outputs by name |
-/// | `FourBarPose<T>`, `pose_at(&q)` | directions, determinant, values of your own functions: what follows takes a pose and needs no trigonometry; `coordinates()` gives the angles back |
+/// | `FourBarPose<T>`, `pose_at(&q)` | directions, determinants, the inputs and the angles whose number matters, values of your own functions: what follows takes a pose and needs no trigonometry; `coordinates()` gives the coordinates back |
 /// | `residual`, `closure_sizes` | Psi, and the sum of the magnitudes of its terms |
 /// | `jacobian_unknowns`, `jacobian_inputs`, `jacobian` | J, A and the whole of `Psi_q` |
 /// | `determinant`, `block_determinants` | det J, and the determinants of its blocks in the order in which they are solved |
@@ -475,10 +475,10 @@ use proc_macro::TokenStream;
 /// | `velocity`, `gamma`, `acceleration` | q', the quadratic velocity term, q'' |
 /// | `points`, `point_velocities`, `point_accelerations`, `point_ratios` | of all points; the ratios are W_l |
 /// | `outputs`, `output_velocities`, `output_accelerations`, `output_ratios` | of all outputs |
-/// | `assemble(v, FourBarBranch { .. })` | position in closed form where every block has one: group by group, on the branch that is asked for |
-/// | `assemble_near(&guess, FourBarBranch { .. })` | instead of `assemble` where a block has no closed form: that block by Newton's method from the guess, all others in closed form |
-/// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, by the names of its unknowns; `all()` of them |
-/// | `branches(v)` | every position that exists at these inputs, each with its branch |
+/// | `assemble(v, branch)` | position in closed form where every block has one: group by group, on the branch that is asked for |
+/// | `assemble_near(&guess, branch)` | where a block has no closed form, instead of `assemble`: that block by Newton's method from the guess, all others in closed form; where the number of an angle matters, beside `assemble`: in the turn nearest to the guess, see below |
+/// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` with all turns 0, `all()` of these |
+/// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values |
 /// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
 /// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once |
 /// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and the like of points and outputs | where a `derive` statement asks for them |
@@ -495,6 +495,42 @@ use proc_macro::TokenStream;
 /// named first; a link and a slider have the `Slider` far or near; the closure of a single angle has a
 /// rising or falling `Slope` there. Sliders alone and linear unknowns have one solution. A singular block, and one that cannot be assembled, is named by
 /// its unknowns in the error.
+///
+/// # Turns of angles
+///
+/// A group in closed form gives an angle as a direction. Its number, which tells how often it has turned, matters where
+/// a wheel, a rack or a screw is driven by it, in a length, a spring or a stop, in an output, in a function of your own,
+/// and in the sine of anything but a whole multiple of it. There the pose holds the number, and the branch has a turn:
+/// 0 is the principal value, between -pi and pi, and n adds 2 pi n. `assemble(v, branch)` depends on its arguments alone,
+/// so that a wheel behind an angle that goes through pi is put into another mesh unless the turn is counted.
+/// `assemble_near` counts it: it takes the turn nearest to a guess, such as the position before. `branch_of` finds the
+/// turns of a pose, and `assemble` on that branch gives the same numbers back. Two positions of different turns are
+/// still on one motion: `same_branch` compares the signs of determinants only. Inputs keep the number that they are
+/// given; an angle that a pose holds as its direction alone comes out of `coordinates()` between -pi and pi.
+///
+/// ```
+/// linkage::linkage! {
+///     /// A pin drives a slotted wheel about an axis near its own, which drives a second wheel of twice its size.
+///     pub mechanism PinAndSlot {
+///         param pin = 9.6, distance = 1.1;
+///         input phi;
+///         unknown slot, s, wheel;
+///         loop pin@phi = distance@0 + s@slot;
+///         equation 2 * wheel = -slot;
+///         point Mark = 10@wheel;
+///     }
+/// }
+/// let m = PinAndSlot::default();
+/// let branch = PinAndSlotBranch::new(linkage::Slider::Far);
+/// let mut q = m.assemble(3.10, branch)?.coordinates();
+/// for step in 0..600 {
+///     q.phi += 0.1;
+///     q = m.assemble_near(&q, branch)?.coordinates();
+/// }
+/// assert!((q.phi - 63.1).abs() < 1e-12 && (q.wheel + q.phi / 2.0).abs() < 0.1);
+/// assert_eq!(m.branch_of(&m.pose_at(&q)).slot_turn, 10);
+/// # Ok::<(), linkage::Error>(())
+/// ```
 ///
 /// # What is rejected
 ///

@@ -70,24 +70,21 @@ pub(crate) fn search<T: Real, C: Closures<T, N>, const N: usize>(
             break;
         }
     }
-    if here.size <= enough || is_rounding(closures, &here, enough) {
+    if here.size <= enough || is_rounding(closures, &here) {
         Ok((here, iterations))
     } else {
         Err(stopped(closures, iterations, &here))
     }
 }
 
-/// Whether what is left of Psi is explained by the rounding of the unknowns too, |Psi| <= epsilon (sizes + |J| |u|): an
-/// angle of many turns is less exact than its sine.
-fn is_rounding<T: Real, C: Closures<T, N>, const N: usize>(
-    closures: &C,
-    at: &Iterate<C::Point, T, N>,
-    epsilon: T,
-) -> bool {
+/// Whether what is left of Psi is what one rounding error of each unknown leaves, |Psi| <= epsilon |J| |u|: the sine of an
+/// angle of many turns is known better than the angle.
+fn is_rounding<T: Real, C: Closures<T, N>, const N: usize>(closures: &C, at: &Iterate<C::Point, T, N>) -> bool {
     let (_, sizes) = closures.residual(&at.point);
     let of_unknowns = closures.jacobian(&at.point).abs() * at.unknowns.abs();
-    let bounds = (sizes + of_unknowns) * epsilon;
-    at.residual.iter().zip(&bounds).all(|(psi, bound)| psi.abs() <= *bound)
+    let enough = sizes * real::<T>(ROUNDINGS);
+    let bounds = of_unknowns.zip_map(&enough, |one, other| if one > other { one } else { other });
+    at.residual.iter().zip(&bounds).all(|(psi, bound)| psi.abs() <= *bound * T::default_epsilon())
 }
 
 fn iterate<T: Real, C: Closures<T, N>, const N: usize>(

@@ -8,7 +8,7 @@ use core::cell::Cell;
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
 
-/// The choice of the turns of a mechanism's angles, in the order in which they are solved.
+/// The choice of the turns of a mechanism's angles, each of which has a place.
 pub trait Turn<T: Real> {
     /// The number of the angle at this place.
     fn number(&self, place: usize, principal: T) -> T;

@@ -15,11 +15,12 @@ fn never_mirrored_silently() {
         for j in 0..60 {
             let angle = |k: i32| f64::from(k) / 60.0 * std::f64::consts::TAU - std::f64::consts::PI;
             let guess = FourBarCoordinates { theta2: 0.35, theta3: angle(i), theta4: angle(j) };
-            let side = m.branch_of(&m.pose_at(&guess));
-            let found = position::newton(&m, &guess).map(|found| m.branch_of(&m.pose_at(&found.coordinates)));
+            let side = m.branch_of(&m.pose_at(&guess)).theta3_theta4;
+            let found =
+                position::newton(&m, &guess).map(|found| m.branch_of(&m.pose_at(&found.coordinates)).theta3_theta4);
             match Path::new(&m, &guess, Direction::Increasing) {
                 Ok(path) => {
-                    assert_eq!(m.branch_of(&m.pose_at(&path.position())), side);
+                    assert_eq!(m.branch_of(&m.pose_at(&path.position())).theta3_theta4, side);
                     followed += 1;
                 }
                 Err(Error::OtherBranch { mechanism, group }) => {

@@ -106,11 +106,11 @@ fn formulas_of_scenes(derivation: &Derivation) -> impl Iterator<Item = NodeId> {
     derivation.scenes.iter().flat_map(|scene| {
         let energies = [scene.potential, scene.applied, scene.dissipated];
         let contacts = scene.contacts.iter().flat_map(|contact| {
-            let law = match &contact.law {
+            match &contact.law {
+                // It acts along a rate.
                 ContactFormula::Friction { limit, .. } => vec![*limit],
-                ContactFormula::Stop { range, .. } => range.to_vec(),
-            };
-            law.into_iter().chain([contact.value])
+                ContactFormula::Stop { range: [lower, upper], .. } => vec![*lower, *upper, contact.value],
+            }
         });
         scene.forces.iter().copied().chain(energies).chain(contacts)
     })

@@ -22,10 +22,13 @@ impl Methods<'_> {
         let branches = Branches::new(kernels, &assembly, &stages);
         let (pose, inputs, branch_type) = (&self.types.pose, &self.types.inputs, &self.types.branch);
         let Arguments { inputs: v, branch, turn, guess, .. } = self.arguments.clone();
-        let position = if assembly.guesses.is_empty() {
+        let position = if !assembly.guesses.is_empty() {
+            self.guess(kernels, &guess, &assembly.guesses)
+        } else if branches.turns.is_empty() {
             self.inputs(kernels, &v, |c| c.value)
         } else {
-            self.guess(kernels, &guess, &assembly.guesses)
+            // Converted before.
+            Source { from: Tokens::name(&v), ..self.inputs(kernels, &v, |c| c.value) }
         };
         let given = Given {
             sources: vec![self.parameters(), position],
@@ -63,7 +66,6 @@ impl Methods<'_> {
             self.function(&lines(ASSEMBLE), signature, Some(body));
         } else {
             let docs = lines(["The position at these inputs on this branch, with angles in the turns that are given."]);
-            // The kernel takes its inputs apart by value.
             let v = argument_of(&v, Some(&body));
             let signature = quote!(#[inline] fn assemble_in_turns(
                 &self, #v: #inputs<T>, #used_branch: #branch_type, #turn: &impl Turn<T>,

@@ -17,7 +17,7 @@ use crate::simplify::schedule::Stage;
 pub(in crate::emit) struct Branches {
     /// The groups that have two solutions.
     pub(in crate::emit) sides: Vec<(Ident, Choice)>,
-    /// The solved angles that a pose holds as numbers, in the order in which they are solved.
+    /// The solved angles that a pose holds as numbers.
     pub(in crate::emit) turns: Vec<AngleTurn>,
 }
 
@@ -44,11 +44,12 @@ impl Branches {
             Stage::Turn { symbol, .. } => Some(*symbol),
             _ => None,
         });
-        let turns = solved.filter_map(|symbol| {
-            let (index, number, _) = kernels.plan.values.iter().find(|(_, _, other)| *other == symbol)?;
+        let solved: Vec<SymbolId> = solved.collect();
+        let numbers = kernels.plan.values.iter().filter(|(_, _, symbol)| solved.contains(symbol));
+        let turns = numbers.map(|(index, number, symbol)| {
             let coordinate = &derivation.coordinates[*index].name;
             let field = ident(&taken.unique(&format!("{coordinate}_turn")));
-            Some(AngleTurn { symbol, field, coordinate: ident(coordinate), number: ident(number) })
+            AngleTurn { symbol: *symbol, field, coordinate: ident(coordinate), number: ident(number) }
         });
         let turns = turns.collect();
         Self { sides, turns }

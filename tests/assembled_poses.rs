@@ -1,0 +1,162 @@
+//! A pose that is assembled and the pose at its coordinates are one: directions, determinants and all that follows.
+//!
+//! What `assemble` finds algebraically, `pose_at` finds from the angles, and J itself says what a determinant is.
+
+use linkage::{Assembly, Mechanism, linkage};
+use nalgebra::{SMatrix, SVector};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+
+include!("mechanisms/multiples.rs");
+include!("mechanisms/slider_named_first.rs");
+include!("mechanisms/three_together.rs");
+
+linkage! {
+    /// Each equation determines the unknown of its neighbour: two exchanges of columns, which cancel.
+    pub mechanism Crosswise {
+        param k = 2;
+        input v;
+        unknown a, b, c, d;
+        equation 3 * b = v;
+        equation 5 * a = k * v;
+        equation 7 * d = a + v;
+        equation 2 * c = b - d;
+    }
+}
+
+#[track_caller]
+fn close(found: f64, expected: f64, size: f64, what: &str) {
+    assert!((found - expected).abs() <= 1e-12 * size.max(1e-3), "{what}: {found} is not {expected}");
+}
+
+/// Determinants and velocity ratios of a pose against those of the matrices that it gives.
+fn agrees_with_its_matrices<M: Mechanism<f64, U, 1>, const U: usize>(m: &M, pose: &M::Pose)
+where
+    nalgebra::Const<U>: nalgebra::DimMin<nalgebra::Const<U>, Output = nalgebra::Const<U>>,
+{
+    let jacobian: SMatrix<f64, U, U> = m.jacobian_unknowns(pose);
+    let determinant = jacobian.lu().determinant();
+    let size: f64 = jacobian.column_iter().map(|column| column.norm()).product();
+    close(m.determinant(pose), determinant, size, "det J");
+    let right: SVector<f64, U> = m.jacobian_inputs(pose).column(0).into_owned();
+    let expected = jacobian.lu().solve(&right).unwrap();
+    let found = m.solve_jacobian(pose, &right).unwrap();
+    let size = expected.amax().max(1.0);
+    for (found, expected) in found.iter().zip(&expected) {
+        close(*found, *expected, size, "velocity ratio");
+    }
+}
+
+/// Assembled poses of all branches at random inputs, and what `more` compares of them besides.
+fn agrees<M, const U: usize>(
+    m: &M,
+    branches: impl Fn() -> Vec<M::Branch>,
+    coordinates: impl Fn(&M::Pose) -> M::Coordinates,
+    more: impl Fn(&M::Pose, &M::Pose),
+) where
+    M: Assembly<f64, U, 1>,
+    nalgebra::Const<U>: nalgebra::DimMin<nalgebra::Const<U>, Output = nalgebra::Const<U>>,
+{
+    let random = &mut SmallRng::seed_from_u64(11);
+    let mut found = 0;
+    for _ in 0..200 {
+        let input = SVector::<f64, 1>::new(random.random_range(-7.0..7.0));
+        for branch in branches() {
+            let Ok(pose) = m.assemble(input.into(), branch) else { continue };
+            let again = m.pose_at(&coordinates(&pose));
+            let [these, those] = [&pose, &again].map(|pose| m.block_determinants(pose));
+            for ((this, that), group) in these.as_ref().iter().zip(those.as_ref()).zip(M::GROUPS) {
+                close(*this, *that, 100.0, group.name);
+            }
+            assert!(m.residual(&pose).amax() < 1e-13 && m.same_branch(&pose, &again));
+            agrees_with_its_matrices::<M, U>(m, &pose);
+            agrees_with_its_matrices::<M, U>(m, &again);
+            more(&pose, &again);
+            found += 1;
+        }
+    }
+    assert!(found > 200, "{found} positions only");
+}
+
+#[test]
+fn whichever_unknown_is_named_first() {
+    let m = SliderNamedFirst::default();
+    agrees(
+        &m,
+        || SliderNamedFirstBranch::all().collect(),
+        SliderNamedFirstPose::coordinates,
+        |pose, again| {
+            let [these, those] =
+                [pose, again].map(|pose| m.point_velocities(pose, &m.velocity(pose, 1.0).unwrap()).unwrap());
+            assert!((these.a - those.a).amax() < 1e-11 && (these.b - those.b).amax() < 1e-11);
+        },
+    );
+}
+
+#[test]
+fn multiples_of_solved_angles() {
+    let m = Multiples::default();
+    agrees(
+        &m,
+        || MultiplesBranch::all().collect(),
+        MultiplesPose::coordinates,
+        |pose, again| {
+            let q = pose.coordinates();
+            let turned = |x: f64, y: f64, angle: f64| {
+                let (sine, cosine) = angle.sin_cos();
+                nalgebra::vector![x * cosine - y * sine, x * sine + y * cosine]
+            };
+            let expected = [
+                turned(3.0, 0.0, q.u - q.w),
+                turned(2.0, 0.0, -q.w),
+                turned(2.0, 0.0, 2.0 * q.u),
+                turned(1.0, 2.0, -3.0 * q.w + q.v),
+                turned(2.0, 0.0, -4.0 * q.u + 2.0 * q.w - q.v),
+                turned(1.0, 0.0, 5.0 * q.u - 6.0 * q.w),
+            ];
+            for pose in [pose, again] {
+                let points: [nalgebra::Vector2<f64>; 6] = m.points(pose).unwrap().into();
+                for (found, expected) in points.iter().zip(expected) {
+                    assert!((found - expected).amax() < 1e-13, "{found} is not {expected}");
+                }
+                let outputs = m.outputs(pose).unwrap();
+                close(outputs.difference, (q.u - q.w).sin(), 1.0, "sin(u - w)");
+                close(outputs.opposite, (1.0 - q.w).cos() - (2.0 * q.u).sin(), 1.0, "cos(1 - w) + sin(-2 u)");
+            }
+        },
+    );
+}
+
+#[test]
+fn exchanges_that_cancel() {
+    let m = Crosswise::default();
+    agrees(
+        &m,
+        || CrosswiseBranch::all().chain(CrosswiseBranch::all()).collect(),
+        CrosswisePose::coordinates,
+        |pose, _| {
+            assert_eq!(m.determinant(pose), 3.0 * 5.0 * 7.0 * 2.0);
+        },
+    );
+}
+
+/// A group of three unknowns is factorised: no formula of two is its determinant.
+#[test]
+fn three_unknowns_together() {
+    let m = ThreeTogether::default();
+    let mut q = ThreeTogetherCoordinates { phi: 0.9, psi: 0.1, x: 0.2, v: 3.0 };
+    for step in 0..100 {
+        q = m.solve(&ThreeTogetherCoordinates { v: 3.0 + 0.01 * f64::from(step), ..q }).unwrap().coordinates;
+        let pose = m.pose_at(&q);
+        assert_eq!(ThreeTogether::<f64>::GROUPS.len(), 1);
+        agrees_with_its_matrices::<ThreeTogether, 3>(&m, &pose);
+        // Against the position a little further.
+        let h = 1e-5;
+        let [after, before] = [h, -h].map(|h| {
+            let near = m.solve(&ThreeTogetherCoordinates { v: q.v + h, ..q }).unwrap().coordinates;
+            ThreeTogether::unknowns(&near)
+        });
+        let ratios = m.velocity_ratios(&pose).unwrap();
+        assert!(((after - before) / (2.0 * h) - ratios).amax() < 1e-8);
+    }
+}
