@@ -6,6 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Direction, Path};
+use linkage::simulation::simulate;
 use linkage::{Assembly, Elbow, Error, Mechanism, Slider, Slope, linkage};
 use nalgebra::SVector;
 
@@ -38,6 +39,17 @@ linkage! {
         equation 2 * out = -slot;
         loop arm@out + long@p = (0, -d) + short@q;
         derive limits;
+    }
+    /// Pin and slot on a wheel that turns itself, with a wheel that rolls about the slotted one.
+    pub mechanism Epicycle {
+        param pin = 9.6, ecc = 1.1;
+        input month;
+        unknown year, slot, s, out, rolled;
+        equation 223 * year = 25 * month;
+        loop pin@month = ecc@year + s@slot;
+        equation 3 * (out - year) = -2 * (slot - year);
+        equation rolled = year + 7 * slot / 5;
+        point Pointer = 10@out + 1@rolled;
     }
     /// Directions alone.
     pub mechanism Bare {
@@ -92,9 +104,9 @@ where
         let mut path = Path::new(m, start, direction).unwrap();
         let sign = if matches!(direction, Direction::Increasing) { 1.0 } else { -1.0 };
         let [begin]: [f64; 1] = M::inputs(start).into();
-        for step in 1..=2000 {
+        for step in 1..=800 {
             // Steps that come to every multiple of a quarter turn.
-            let input = begin + sign * 20.0 * PI * f64::from(step) / 2000.0;
+            let input = begin + sign * 20.0 * PI * f64::from(step) / 800.0;
             let here = path.advance_to(input).unwrap().position;
             for q in [here, M::with_inputs(&here, SVector::<f64, 1>::new(input))] {
                 let pose = m.pose_at(&q);
@@ -151,9 +163,19 @@ fn ten_turns_both_ways() {
         assert!((end.rack - start.rack - turns * m.r * TAU).abs() < 1e-11);
     }
 
+    let m = Epicycle::default();
+    let start = m.assemble(0.4, EpicycleBranch::new(Slider::Far)).unwrap().coordinates();
+    let [up, down] = comes_back(&m, &start, &[], EpicyclePose::coordinates);
+    assert!(up.rolled - down.rolled > 28.0 * TAU);
+
     let m = Halves::default();
-    let start = m.assemble(0.3, HalvesBranch::new(Slope::Rising, Slope::Rising)).unwrap().coordinates();
-    assert!(start.cam.is_finite());
+    let branch = HalvesBranch::new(Slope::Rising, Slope::Rising);
+    let [start, turned] =
+        [0, 1].map(|psi_turn| m.assemble(0.3, HalvesBranch { psi_turn, ..branch }).unwrap().coordinates());
+    assert!((turned.cam - start.cam - m.lift * TAU).abs() < 1e-14 && (turned.q - start.q - m.b * TAU).abs() < 1e-14);
+    // The vector at half the angle points the other way.
+    let residual = m.residual(&m.pose_at(&turned));
+    assert!(residual.amax() < 1e-14 && (turned.y - start.y).abs() > 0.1, "{turned:?} {start:?}");
 }
 
 #[test]
@@ -198,6 +220,28 @@ fn a_spring_counts_turns() {
     assert_eq!(q.psi, start.psi + 2.0 * TAU);
     let [loose, wound] = [start, q].map(|q| spring.energy(&q, 0.0).unwrap().potential);
     assert!((wound - 0.2 * q.psi * q.psi).abs() < 1e-12 && wound > loose + 10.0);
+}
+
+/// Positions of a simulation, ten turns either way.
+#[test]
+fn a_simulation_comes_back() {
+    let spring = Spring { mechanism: Wound::default(), k: 1e-3, m: 1.0 };
+    let m = &spring.mechanism;
+    let start = m.assemble(0.4, WoundBranch::new(Slider::Far)).unwrap().coordinates();
+    for speed in [7.0, -7.0] {
+        let mut motion = simulate(&spring, (0.0, start, speed), 20.0, 1e-9).unwrap();
+        let mut last = start;
+        for step in 1..=1000 {
+            let q = motion.at([0.02 * f64::from(step)]).next().unwrap().unwrap().q;
+            let pose = m.pose_at(&q);
+            let again = m.assemble(q.phi, m.branch_of(&pose)).unwrap().coordinates();
+            assert!(difference::<Wound, 2>(&again, &q, &[]) < 1e-12, "{again:?} {q:?}");
+            let near = m.assemble_near(&WoundCoordinates { phi: q.phi, ..last }, WoundBranch::new(Slider::Far));
+            assert_eq!(near.unwrap().coordinates(), again);
+            last = q;
+        }
+        assert!((last.psi - start.psi).abs() > 10.0 * TAU && (last.psi - start.psi) * speed > 0.0);
+    }
 }
 
 #[test]
