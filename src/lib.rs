@@ -74,6 +74,7 @@ pub mod __private {
         Limits, Mechanism, NearestTurns, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope,
         Solution, Turn, Turns, Unreduced, chord, countable, elbow_chord, equilibrium, existing, finite, finite_each,
         finite_matrices, finite_matrix, finite_outputs, finite_points, limits, newton, newton_group, not_negative,
-        output_motions, point_motions, product_of_pivots, real, reduced, regular, side_of, sound, stops, unit,
+        output_motions, point_motions, product_of_pivots, reach_chord, real, reduced, regular, side_of, solvable,
+        sound, stops, unit,
     };
 }

@@ -5,6 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::limits::{Limit, Limits};
 use linkage::{Elbow, Error, Slider, Slope, linkage};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
 
 linkage! {
     #[derive(Debug, Clone, PartialEq)]
@@ -278,4 +280,237 @@ fn nonsense_is_refused() {
     assert!(matches!(m.limits(0.3, branch), Err(Error::Unbuildable { .. })));
     assert!(matches!(FourBar::new(80.0, 20.0, 50.0, 70.0).limits(f64::NAN, branch), Err(Error::NotFinite { .. })));
     assert!(matches!(FourBar::new(f64::INFINITY, 20.0, 50.0, 70.0).limits(0.0, branch), Err(Error::NotFinite { .. })));
+}
+
+linkage! {
+    /// A pin on a planet wheel that turns forty times as fast as its carrier.
+    #[derive(Debug, Clone, PartialEq)]
+    mechanism Fast {
+        param ground = 3, carrier = 0.05, pin = 1, coupler = 2, rocker = 1.8, ratio = 40;
+        input theta;
+        unknown planet, alpha, beta;
+        equation planet = ratio * theta;
+        loop carrier@theta + pin@planet + coupler@alpha + rocker@beta = ground@0;
+        derive limits;
+    }
+
+    /// The table on struts that differ.
+    #[derive(Debug, Clone, PartialEq)]
+    mechanism Uneven {
+        param arm, strut, other, base;
+        input height;
+        unknown alpha, reach, beta, gamma;
+        loop arm@alpha = (reach, height);
+        loop arm@alpha + strut@beta = base@0 + other@gamma;
+        derive limits;
+    }
+
+    /// A dyad between the origin and a joint on a slide.
+    #[derive(Debug, Clone, PartialEq)]
+    mechanism Slide {
+        param p = 1.5, q = 1, offset = 2.5, aside = 0;
+        input v;
+        unknown alpha, beta;
+        loop p@alpha + q@beta = (v + offset, aside);
+        derive limits;
+    }
+
+    /// A wheel, a rack, and a dyad on the rack.
+    #[derive(Debug, Clone, PartialEq)]
+    mechanism Train {
+        param radius = 0.5, ratio = 3, p = 2, q = 1.5;
+        input theta, y;
+        unknown wheel, rack, alpha, beta;
+        equation wheel = ratio * theta;
+        equation rack = -radius * wheel;
+        loop p@alpha + q@beta = (rack, y);
+        derive limits;
+    }
+}
+
+/// Through linear equations a group depends on the inputs alone: |(rack, y)| <= p + q.
+#[test]
+fn behind_wheels_and_racks_in_closed_form() {
+    let branch = TrainBranch { alpha_beta: Elbow::Right };
+    let m = Train::default();
+    let inputs = TrainInputs { theta: 0.4, y: 2.1 };
+    let found = m.limits_of_theta(inputs, branch).unwrap();
+    // 3.5^2 - 2.1^2 = 2.8^2
+    exact(found.lower, -2.8 / 1.5, "alpha, beta");
+    exact(found.upper, 2.8 / 1.5, "alpha, beta");
+    let found = m.limits_of_y(inputs, branch).unwrap();
+    exact(found.upper, (3.5_f64 * 3.5 - 0.6 * 0.6).sqrt(), "alpha, beta");
+    // Of nearly straight links the joints come near each other: the other end.
+    exact(found.lower, -(3.5_f64 * 3.5 - 0.6 * 0.6).sqrt(), "alpha, beta");
+    let standing = Train { ratio: 0.0, ..m };
+    assert_eq!(standing.limits_of_theta(inputs, branch).unwrap(), Limits { lower: Limit::None, upper: Limit::None });
+}
+
+/// A group that turns forty times as fast as the input stops it within a degree or two, and many times in a turn; the
+/// first is meant.
+#[test]
+fn a_fast_group_is_followed() {
+    let m = Fast::default();
+    let branch = FastBranch { alpha_beta: Elbow::Left };
+    let found = m.limits(0.0, branch).unwrap();
+    for limit in [found.lower, found.upper] {
+        bracketed(limit, "alpha, beta", 0.0, |v| m.assemble(v, branch).is_ok());
+        assert!((0.06..0.065).contains(&limit.input().unwrap().abs()), "{limit:?}");
+    }
+}
+
+/// A gap that is narrower than a step and lies in the middle of one: the determinants on its two sides are equal.
+#[test]
+fn a_gap_between_equal_determinants_is_seen() {
+    let arm = 4.0 + 1.0 / 128.0;
+    // From here the steps to the exact limit are of 1/64, and none is at 0.
+    let start = arm - 360.0 / 64.0;
+    let branch = UnevenBranch { alpha: Slope::Rising, beta_gamma: Elbow::Left };
+    // The joints of the struts are too near each other while |height| is less than the width.
+    let width: f64 = 1.0 / 300.0;
+    let nearest = (36.0 + arm * arm - 12.0 * (arm * arm - width * width).sqrt()).sqrt();
+    let m = Uneven { arm, strut: 5.0, other: 5.0 - nearest, base: 6.0 };
+    let found = m.limits(start, branch).unwrap().upper;
+    bracketed(found, "beta, gamma", start, |v| m.assemble(v, branch).is_ok());
+    assert!((found.input().unwrap() + width).abs() < 1e-9, "{found:?}");
+    // Without a gap there is nothing to see.
+    exact(Uneven { other: 4.0, ..m }.limits(start, branch).unwrap().upper, arm, "alpha");
+}
+
+/// Zeros on both sides of 0, at 0, and of very different size.
+#[test]
+fn limits_of_a_slide() {
+    let branch = SlideBranch { alpha_beta: Elbow::Left };
+    let m = Slide::default();
+    // |v + 2.5| between 0.5 and 2.5.
+    for (start, lower, upper) in [(-1.0, -2.0, 0.0), (-4.0, -5.0, -3.0), (0.0, -2.0, 0.0), (-5.0, -5.0, -3.0)] {
+        let found = m.limits(start, branch).unwrap();
+        exact(found.lower, lower, "alpha, beta");
+        exact(found.upper, upper, "alpha, beta");
+    }
+    for (offset, upper) in [(2.5 - 1e-9, 1e-9), (-2.5 + 1e-9, 5.0 - 1e-9)] {
+        let found = Slide { offset, ..m }.limits(upper - 0.5, branch).unwrap().upper;
+        let Limit::Exact { input, .. } = found else { panic!("{found:?}") };
+        // The offset is rounded.
+        assert!((input - upper).abs() <= 4.0 * f64::EPSILON, "{input:?} {upper:?}");
+    }
+}
+
+/// A start at a limit, where rounding may put it beyond: the limit is there, and the other where it was.
+#[test]
+fn a_start_at_a_limit() {
+    let m = FourBar::new(70.0, 60.0, 30.0, 50.0);
+    let branch = FourBarBranch { theta3_theta4: Elbow::Left };
+    let whole = m.limits(1.0, branch).unwrap();
+    let [lower, upper] = [whole.lower, whole.upper].map(|limit| limit.input().unwrap());
+    let slide = Slide { aside: 0.3, ..Slide::default() };
+    let of_slide = SlideBranch { alpha_beta: Elbow::Left };
+    let whole = slide.limits(-1.0, of_slide).unwrap();
+    let [left, right] = [whole.lower, whole.upper].map(|limit| limit.input().unwrap());
+    let near = |found: f64, expected: f64| (found - expected).abs() <= 4.0 * f64::EPSILON * (1.0 + expected.abs());
+    for (end, other) in [(lower, upper), (upper, lower), (left, right), (right, left)] {
+        let is_slide = end == left || end == right;
+        for start in [end, next(end, false), next(end, true)] {
+            let found = if is_slide { slide.limits(start, of_slide) } else { m.limits(start, branch) };
+            let found = found.unwrap();
+            let ends = [found.lower, found.upper].map(|limit| limit.input().unwrap());
+            assert!(ends[0] <= start && start <= ends[1], "{start:?}: {found:?}");
+            let [same, far] = if end < other { ends } else { [ends[1], ends[0]] };
+            assert!(near(same, end) && near(far, other), "{start:?} of {end:?}: {found:?}");
+        }
+    }
+}
+
+/// Links that reach each other at one input alone, flat: lengths in decimals, which round to either side.
+#[test]
+fn links_that_touch_at_one_input() {
+    let mut count = 0;
+    for (i, j, k) in (1..9).flat_map(|i| (1..9).flat_map(move |j| (1..9).map(move |k| (i, j, k)))) {
+        let [p, q, crank] = [i, j, k].map(|tenths| 0.1 * f64::from(tenths));
+        let s = 0.1 * f64::from(i + j);
+        let bar = FourBar::new(0.1 * f64::from(i + j + k), crank, p, q);
+        let slide = Slide { p, q, offset: crank, aside: s };
+        let found = [
+            (bar.limits(0.0, FourBarBranch { theta3_theta4: Elbow::Left }), 0.0),
+            (slide.limits(-crank, SlideBranch { alpha_beta: Elbow::Left }), -crank),
+        ];
+        for (found, only) in found {
+            // Too short by a rounding error of the sum, at most.
+            let found = found.unwrap();
+            count += 1;
+            for limit in [found.lower, found.upper] {
+                let Limit::Exact { input, .. } = limit else { panic!("{bar:?} {limit:?}") };
+                assert!((input - only).abs() < 1e-7, "{bar:?} {limit:?}");
+            }
+        }
+    }
+    assert_eq!(count, 1024);
+}
+
+/// As far as there are positions, a limit is the same number in any unit of length; and none is not finite.
+#[test]
+fn no_limit_is_not_finite() {
+    let slide = Slide { p: 0.3, q: 0.2, offset: 0.1, aside: 0.05 };
+    let bar = FourBar::new(0.4, 0.3, 0.15, 0.25);
+    let (on_slide, on_bar) = (SlideBranch { alpha_beta: Elbow::Left }, FourBarBranch { theta3_theta4: Elbow::Left });
+    let inverted = Inverted { a: 0.4, c: 0.2, d: 0.5 };
+    let on_arm = InvertedBranch { theta4_b: Slider::Far };
+    let expected = slide.limits(0.2, on_slide).unwrap();
+    assert!(matches!((expected.lower, expected.upper), (Limit::Exact { .. }, Limit::Exact { .. })), "{expected:?}");
+    for exponent in [-330, -300, 300, 330] {
+        let scale = 2_f64.powi(exponent);
+        let scaled = slide.clone().map(|length| length * scale).limits(0.2 * scale, on_slide).unwrap();
+        for (limit, other) in [(scaled.lower, expected.lower), (scaled.upper, expected.upper)] {
+            assert_eq!(limit.input().map(|input| input / scale), other.input(), "2^{exponent}");
+        }
+        let scaled = bar.clone().map(|length| length * scale).limits(0.7, on_bar);
+        assert_eq!(scaled, bar.limits(0.7, on_bar), "2^{exponent}");
+        let scaled = inverted.clone().map(|length| length * scale).limits(2.0, on_arm);
+        assert_eq!(scaled, inverted.limits(2.0, on_arm), "2^{exponent}");
+    }
+    let random = &mut SmallRng::seed_from_u64(7);
+    let mut found = 0;
+    let mut check = |limits: Result<Limits<f64>, Error>, start: f64, case: &dyn std::fmt::Debug| {
+        let Ok(Limits { lower, upper }) = limits else { return };
+        found += 1;
+        for limit in [lower, upper] {
+            let numbers = match limit {
+                Limit::None => vec![],
+                Limit::Exact { input, .. } => vec![input],
+                Limit::Bracketed { assembled, unbuildable, .. } => vec![assembled, unbuildable],
+            };
+            assert!(numbers.iter().all(|number| number.is_finite()), "{case:?} {start:?}: {limit:?}");
+        }
+        assert!(lower.input().is_none_or(|lower| lower <= start), "{case:?} {start:?}: {lower:?}");
+        assert!(upper.input().is_none_or(|upper| upper >= start), "{case:?} {start:?}: {upper:?}");
+    };
+    for _ in 0..20_000 {
+        // One unit for all, or for each its own.
+        let most = [3, 100, 520][random.random_range(0..3)];
+        let unit: i32 = random.random_range(-1070..1020);
+        let mut length = || {
+            let exponent = random.random_range(-most..=most).clamp(-1070, 1020);
+            let exponent = if most == 3 { unit + exponent } else { exponent };
+            random.random_range(-2.0..2.0) * 2_f64.powi(exponent.clamp(-1074, 1022))
+        };
+        let lengths: [f64; 4] = std::array::from_fn(|_| length());
+        let start = length();
+        let m = FourBar::from(lengths);
+        check(m.limits(start, on_bar), start, &m);
+        let m = Slide::from(lengths);
+        check(m.limits(start, on_slide), start, &m);
+        check(m.limits(start - m.offset, on_slide), start - m.offset, &m);
+        let m = Inverted::new(lengths[0], lengths[1], lengths[2]);
+        check(m.limits(start, on_arm), start, &m);
+        let m = Engine { r: lengths[0], l: lengths[1] };
+        let v = 0.5 * (lengths[0] + lengths[1]);
+        check(m.limits(v, EngineBranch { phi1_phi2: Elbow::Left }), v, &m);
+        let m = Train { radius: lengths[0], ratio: start, p: lengths[1], q: lengths[2] };
+        let inputs = TrainInputs { theta: lengths[1] / (start * lengths[0]), y: lengths[3] };
+        let on_train = TrainBranch { alpha_beta: Elbow::Left };
+        check(m.limits_of_theta(inputs, on_train), inputs.theta, &m);
+        check(m.limits_of_y(inputs, on_train), inputs.y, &m);
+    }
+    println!("{found} limits");
+    assert!(found > 10_000, "{found}");
 }

@@ -301,6 +301,25 @@ fn attainable_accuracy() {
     assert!(worst.2 > 100.0 * f64::EPSILON, "{worst:?}");
 }
 
+/// Links in one line are singular whatever the angle of the line: an angle and that plus pi are rounded, each.
+#[test]
+fn links_in_line_are_singular_at_every_angle() {
+    let m = FourBar::default();
+    for step in -600..600 {
+        let theta3 = 0.01 * f64::from(step);
+        for theta4 in [theta3, theta3 + PI, theta3 - PI] {
+            let pose = m.pose_at(&FourBarCoordinates { theta2: 0.3, theta3, theta4 });
+            let found = singularity::report(&m, &pose).unwrap();
+            assert!(found.is_singular() && found.rank() == 1, "{theta3}, {theta4}: {found}");
+            assert!(found.groups().all(|group| !group.is_regular), "{theta3}, {theta4}: {found}");
+            assert_eq!(found.free().count(), 1);
+        }
+        // A thousandth of a millionth of a degree is no rounding.
+        let pose = m.pose_at(&FourBarCoordinates { theta2: 0.3, theta3, theta4: theta3 + 1e-11 });
+        assert!(!singularity::report(&m, &pose).unwrap().is_singular(), "{theta3}");
+    }
+}
+
 /// What is no number is said; nothing hangs, and lengths of zero are singular rather than not a number.
 #[test]
 fn bad_input() {

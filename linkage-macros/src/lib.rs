@@ -197,7 +197,7 @@ use proc_macro::TokenStream;
 ///
 /// | word | functions |
 /// |---|---|
-/// | `limits` | `limits(v, branch)`, of several inputs `limits_of_NAME`: the input interval about a position in which the mechanism can be assembled, exact where a group stands on the inputs alone, bracketed by search where groups stand on others |
+/// | `limits` | `limits(v, branch)`, of several inputs `limits_of_NAME`: the input interval about a position in which the mechanism can be assembled, exact where a group depends on the inputs alone, also through linear equations, bracketed by search where groups depend on others; inputs at which a group is undetermined are passed |
 /// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), of any number of inputs and along any input path; `point_jerks`, `output_jerks` |
 /// | `velocity_ratio_derivatives` | the function of this name: d2u/dv dv, of each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
 /// | `sensitivity` | the function of this name: du/dp = -J^-1 `Psi_p` at fixed inputs, one column a parameter; `point_sensitivities`, `output_sensitivities`, which hold what depends on the parameters directly, too |
@@ -478,7 +478,7 @@ use proc_macro::TokenStream;
 /// | `assemble(v, branch)` | position in closed form where every block has one: group by group, on the branch that is asked for |
 /// | `assemble_near(&guess, branch)` | where a block has no closed form, instead of `assemble`: that block by Newton's method from the guess, all others in closed form; where the number of an angle matters, beside `assemble`: in the turn nearest to the guess, see below |
 /// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` with all turns 0, `all()` of these |
-/// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values |
+/// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values; without the branches on which a group is undetermined |
 /// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
 /// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once |
 /// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and the like of points and outputs | where a `derive` statement asks for them |
@@ -531,6 +531,25 @@ use proc_macro::TokenStream;
 /// assert_eq!(m.branch_of(&m.pose_at(&q)).slot_turn, 10);
 /// # Ok::<(), linkage::Error>(())
 /// ```
+/// # Degenerate positions
+///
+/// A group can have no position at an input, one, two, or infinitely many. `assemble` says which:
+///
+/// - Links that do not reach each other: `Error::Unbuildable`, with the gap. Guides that are parallel and apart, and an
+///   unknown whose factor vanishes in an equation that needs it, are unbuildable too.
+/// - Links that just touch, flat at a limit: the position, whose determinant is zero; both branches meet there. A gap of
+///   less than two epsilons, relative to the terms of the loop equation, counts as touching: rounding leaves no smaller one.
+/// - A dyad whose outer joints coincide: with links of one length it can stand anywhere, which is
+///   `Error::Undetermined`; with links of different lengths it is unbuildable. Joints coincide within eight epsilons of the
+///   terms that they are made of. Likewise undetermined are a slotted arm whose pin is in its pivot, guides on one line, a
+///   link without length, and `0 * u = 0`.
+///
+/// A later group can be undetermined where an earlier one is at its limit: in Peaucellier's cell the rhombus closes there.
+/// `limits` gives that input nevertheless, as `Exact`, and passes inputs inside the range at which a group is undetermined,
+/// such as a folded kite. `branches` leaves out a branch on which a group is undetermined, as it leaves out one that is
+/// unbuildable. A limit that is `Exact` is right to two ulp, one that is `Bracketed` lies between its two inputs or within
+/// five ulp of them, each times the condition number of the limit: what a relative change of every length does to it.
+/// No limit is a number that is not finite.
 ///
 /// # What is rejected
 ///

@@ -59,37 +59,122 @@ choices! {
     }
 }
 
-/// The positions that exist among these branches, each with its branch.
+/// The positions that exist among these branches, each with its branch. A branch with no position is left out, and so is
+/// one with infinitely many.
 pub fn existing<B: Copy, P>(
     branches: impl Iterator<Item = B>,
     mut assemble: impl FnMut(B) -> Result<P, Error>,
 ) -> impl Iterator<Item = Result<(B, P), Error>> {
     branches.filter_map(move |branch| match assemble(branch) {
-        Err(Error::Unbuildable { .. }) => None,
+        Err(Error::Unbuildable { .. } | Error::Undetermined { .. }) => None,
         position => Some(position.map(|position| (branch, position))),
     })
 }
 
-/// A factor of this many roundings of its largest value below zero is zero: a chord that just touches.
-const ROUNDINGS: f64 = 16.0;
+/// A factor below zero by at most this many epsilons of its scale is zero: links that just touch, in line.
+///
+/// At the inputs in closed form at which links are in line, rounded to the nearest double, the factors of 200 000 random
+/// groups were below zero by at most 0.9 epsilons of their scales. With half of this such a position is still found, with
+/// a quarter it is not always; twice as many put the end of a range twice as far beyond the true one, in ulp times its
+/// condition number.
+const TOUCHING: f64 = 2.0;
 
-/// The root of the product of two factors whose largest value is `size`, with the sign of a side.
+/// A distance below this many epsilons of the sum of the magnitudes of its terms is zero. The joints of a mechanism are
+/// right to an ulp or two of these terms (`tests/forty_digits`): with half of it joints that coincide may seem apart
+/// by a rounding error, whose direction says nothing; with twice as much no position is refused that has a digit.
+const COINCIDENT: f64 = 8.0;
+
+/// The root of the product of the factors n - h and n + h, `size` = n, with the sign of a side. `scales` are the sums of
+/// the magnitudes of the terms that n and h are made of.
 ///
 /// # Errors
-/// [`Error::Unbuildable`] if there is none, [`Error::NotFinite`] if a number is not finite.
+/// [`Error::Unbuildable`] if there is none, [`Error::Undetermined`] if n and h are both zero, [`Error::NotFinite`] if a
+/// number is not finite.
 #[inline]
 pub fn chord<T: Real, S: Side>(
     mechanism: &'static str,
     group: &'static str,
     factors: [T; 2],
     size: T,
+    scales: [T; 2],
     side: S,
 ) -> Result<T, Error> {
     let [low, high] = factors;
     let radicand = low * high;
     // Both factors cannot be negative.
-    let root = if is_in_range(radicand) { radicand.sqrt() } else { guarded(mechanism, group, low, high, size)? };
+    let root = if is_in_range(radicand) {
+        radicand.sqrt()
+    } else {
+        touching_chord(mechanism, group, low, high, size, scales)?
+    };
     Ok(if side == S::OF_POSITIVE_ROOT { root } else { -root })
+}
+
+/// [`chord`] where n is a distance between joints, or another sum that may vanish by rounding alone.
+///
+/// # Errors
+/// Those of [`chord`].
+#[inline]
+pub fn reach_chord<T: Real, S: Side>(
+    mechanism: &'static str,
+    group: &'static str,
+    factors: [T; 2],
+    size: T,
+    scales: [T; 2],
+    side: S,
+) -> Result<T, Error> {
+    if size <= real::<T>(COINCIDENT) * T::default_epsilon() * scales[0] {
+        touching_chord(mechanism, group, factors[0], factors[1], size, scales)?;
+    }
+    chord(mechanism, group, factors, size, scales, side)
+}
+
+/// Refuses a group of linear unknowns whose determinant is zero. Of each unknown, `numerators` are what Cramer's rule
+/// divides by the determinant, `scales` the sums of the magnitudes of their terms.
+///
+/// # Errors
+/// [`Error::Undetermined`] if the numerators are zero as well, else [`Error::Unbuildable`]; [`Error::NotFinite`] if a
+/// numerator is not finite.
+#[inline]
+pub fn solvable<T: Real, const N: usize>(
+    mechanism: &'static str,
+    group: &'static str,
+    determinant: T,
+    numerators: [T; N],
+    scales: [T; N],
+) -> Result<(), Error> {
+    // What is not a number has its own error, at the end of the chain.
+    if determinant.is_zero() { Err(unsolvable(mechanism, group, &numerators, &scales)) } else { Ok(()) }
+}
+
+#[cold]
+#[inline(never)]
+fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators: &[T], scales: &[T]) -> Error {
+    let gaps = numerators.iter().zip(scales).map(|(numerator, scale)| relative(numerator.abs(), *scale));
+    let tolerance = COINCIDENT * to_f64(T::default_epsilon());
+    // Not by `max`, which loses what is not a number.
+    let gap = gaps.fold(0.0, |most: f64, gap| if gap <= most { most } else { gap });
+    if !numerators.iter().all(T::is_finite) {
+        Error::NotFinite { mechanism, quantity: POSITION }
+    } else if gap <= tolerance {
+        Error::Undetermined { mechanism, group }
+    } else {
+        Error::Unbuildable { mechanism, group, gap }
+    }
+}
+
+/// What is not finite where a position is not.
+const POSITION: &str = "the position";
+
+/// A magnitude relative to a scale.
+fn relative<T: Real>(magnitude: T, scale: T) -> f64 {
+    if magnitude.is_zero() {
+        0.0
+    } else if scale.is_zero() {
+        f64::INFINITY
+    } else {
+        to_f64(magnitude / scale)
+    }
 }
 
 /// Whether a product of squares of lengths is far from the ends of its range. That of huge or tiny lengths is taken in
@@ -107,11 +192,12 @@ const CANCELLATION: f64 = 1.0 / 16.0;
 
 /// The half chord of two links `[p, q]` between joints whose line is `[x, y]`, twice: the root of
 /// ((p + q)^2 - D^2) (D^2 - (p - q)^2), D^2 = x^2 + y^2, with the sign of a side; `factors` are the two
-/// differences, `sizes` are (p + q)^2 and D^2. A length may be negative, and counts by its magnitude.
+/// differences, `sizes` are (p + q)^2 and D^2. A length may be negative, and counts by its magnitude. `scale` is the sum
+/// of the magnitudes of the terms of x and y.
 ///
 /// Besides, whether the triangle is plain: open, and of a size at which no step from here to the directions of the links
 /// can leave the range of the scalar. With s = p + q, then D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16, so that neither link
-/// is shorter than s/32; and since 1 / D^2, s^2 D^2 and 1 / s are in range, so are the links' components, which are
+/// is shorter than s/32; and since D^2 / s^2, s^2 D^2 and 1 / s are in range, so are the links' components, which are
 /// less than 2 s before any rounding or after it.
 ///
 /// Near a dead point a factor is a difference of nearly equal squares. It is then computed from the lengths and
@@ -120,8 +206,10 @@ const CANCELLATION: f64 = 1.0 / 16.0;
 /// Numerische Mathematik 18, 1971.
 ///
 /// # Errors
-/// [`Error::Unbuildable`] if there is none, [`Error::NotFinite`] if a number is not finite.
+/// [`Error::Unbuildable`] if there is none, [`Error::Undetermined`] if the joints coincide and the links are equally long
+/// or if a link has no length, [`Error::NotFinite`] if a number is not finite.
 #[inline]
+#[expect(clippy::too_many_arguments, reason = "names and numbers of one group, which stay in registers")]
 pub fn elbow_chord<T: Real, S: Side>(
     mechanism: &'static str,
     group: &'static str,
@@ -129,30 +217,80 @@ pub fn elbow_chord<T: Real, S: Side>(
     sizes: [T; 2],
     links: [T; 2],
     line: [T; 2],
+    scale: T,
     side: S,
 ) -> Result<(T, bool), Error> {
     let ([low, high], [sum, distance], [p, q], [x, y]) = (factors, sizes, links, line);
     let part = real::<T>(CANCELLATION);
-    let is_open = low > part * sum && high > part * distance;
-    let is_plain = is_open && is_in_range(low * high) && distance > T::default_epsilon() * T::default_epsilon();
-    let (low, high, sum) = if is_open { (low, high, sum) } else { exactly(p, q, x, y, distance) };
-    Ok((chord(mechanism, group, [low, high], sum, side)?, is_plain))
+    let is_open = low > part * sum && high > part * distance && distance > T::default_epsilon() * sum;
+    let product = low * high;
+    let is_plain = is_open && is_in_range(product);
+    let root = if is_plain {
+        product.sqrt()
+    } else if is_open {
+        root(low, high, sum)
+    } else {
+        flat_chord(mechanism, group, p, q, x, y, scale)?
+    };
+    Ok((if side == S::OF_POSITIVE_ROOT { root } else { -root }, is_plain))
 }
 
-/// (p + q)^2 - D^2, D^2 - (p - q)^2 and (p + q)^2 of the lengths and the line as they are. What is less than one rounding of the
+/// The chord of a triangle that is not plain.
+///
+/// Scalars come and go in registers: arrays would be stored by callers that never come here, too.
+#[cold]
+#[inline(never)]
+fn flat_chord<T: Real>(
+    mechanism: &'static str,
+    group: &'static str,
+    p: T,
+    q: T,
+    x: T,
+    y: T,
+    scale: T,
+) -> Result<T, Error> {
+    let (p, q, epsilon) = (p.abs(), q.abs(), T::default_epsilon());
+    let (sum, distance, line) = ((p + q) * (p + q), x * x + y * y, x.hypot(y));
+    if !(sum.is_finite() && distance.is_finite()) {
+        return Err(Error::NotFinite { mechanism, quantity: POSITION });
+    }
+    let coincident = real::<T>(COINCIDENT) * epsilon;
+    let difference = (p - q).abs();
+    if line <= coincident * scale {
+        let gap = relative(difference, p + q);
+        let is_undetermined = difference <= coincident * (scale + p + q);
+        return Err(if is_undetermined {
+            Error::Undetermined { mechanism, group }
+        } else {
+            Error::Unbuildable { mechanism, group, gap: gap * gap }
+        });
+    }
+    let (low, high) = exactly(p, q, x, y, sum, distance);
+    // The sums of the magnitudes of the terms of both factors, each as often as it counts.
+    let two = real::<T>(2.0);
+    let of_line = line * scale;
+    let scales = [two * (sum + of_line), two * (difference * (p + q) + of_line)];
+    let least = if low < high { low } else { high };
+    let tolerance = real::<T>(TOUCHING) * epsilon * if low < high { scales[0] } else { scales[1] };
+    let root = if least > T::zero() {
+        root(low, high, sum)
+    } else if -least <= tolerance {
+        T::zero()
+    } else {
+        return Err(Error::Unbuildable { mechanism, group, gap: relative(-least, sum) });
+    };
+    // The angle of a link without length is any.
+    if p.is_zero() || q.is_zero() { Err(Error::Undetermined { mechanism, group }) } else { Ok(root) }
+}
+
+/// (p + q)^2 - D^2 and D^2 - (p - q)^2 of the lengths and the line as they are. What is less than one rounding of the
 /// squares is zero: lengths such as 33.3 and 66.7 are no nearer to what was meant.
 ///
 /// In a scalar without fused multiplication, such as double-double, the squares' own roundings stay.
-///
-/// Scalars come and go in registers: arrays would be stored on the road that does not call this, too.
-#[cold]
-#[inline(never)]
-fn exactly<T: Real>(p: T, q: T, x: T, y: T, distance: T) -> (T, T, T) {
-    let (p, q) = (p.abs(), q.abs());
-    let sum = (p + q) * (p + q);
+fn exactly<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
     let (low, high) = (beyond(two_sum(p, q), [x, y]), -beyond(two_sum(p, -q), [x, y]));
     let touching = |factor: T, size: T| if factor.abs() <= T::default_epsilon() * size { T::zero() } else { factor };
-    (touching(low, sum), touching(high, distance), sum)
+    (touching(low, sum), touching(high, distance))
 }
 
 /// (a + b)^2 - x^2 - y^2 for a sum a and its rounding error b.
@@ -178,24 +316,41 @@ fn two_product<T: Real>(a: T) -> [T; 2] {
     [square, a.mul_add(a, -square)]
 }
 
+/// The chord of a group that is not in range, or touches, or does not exist.
 #[cold]
 #[inline(never)]
-fn guarded<T: Real>(mechanism: &'static str, group: &'static str, low: T, high: T, size: T) -> Result<T, Error> {
+fn touching_chord<T: Real>(
+    mechanism: &'static str,
+    group: &'static str,
+    low: T,
+    high: T,
+    size: T,
+    [of_size, of_rest]: [T; 2],
+) -> Result<T, Error> {
     if !(low.is_finite() && high.is_finite() && size.is_finite()) {
-        return Err(Error::NotFinite { mechanism, quantity: "the position" });
+        return Err(Error::NotFinite { mechanism, quantity: POSITION });
     }
+    let (scale, epsilon) = (of_size + of_rest, T::default_epsilon());
     let least = if low < high { low } else { high };
-    if least > T::zero() {
-        // By a power of two: the same bits as those of lengths near 1.
-        let unit = power_of_two_below(size);
-        return Ok(((low / unit) * (high / unit)).sqrt() * unit);
+    let vanishes = size <= real::<T>(COINCIDENT) * epsilon * of_size;
+    let tolerance = real::<T>(if vanishes { COINCIDENT } else { TOUCHING }) * epsilon * scale;
+    if least > T::zero() && !vanishes {
+        Ok(root(low, high, size))
+    } else if -least > tolerance {
+        Err(Error::Unbuildable { mechanism, group, gap: relative(-least, size) })
+    } else if vanishes {
+        Err(Error::Undetermined { mechanism, group })
+    } else {
+        // Zero has the sign of the side, not of a factor.
+        Ok(T::zero())
     }
-    // Zero has the sign of the side, not of a factor.
-    if -least <= real::<T>(ROUNDINGS) * T::default_epsilon() * size {
-        return Ok(T::zero());
-    }
-    let gap = if size.is_zero() { f64::INFINITY } else { to_f64(-least / size) };
-    Err(Error::Unbuildable { mechanism, group, gap })
+}
+
+/// The root of a product of positive factors in units of a power of two: the same bits as those of lengths near 1.
+#[cold]
+fn root<T: Real>(low: T, high: T, size: T) -> T {
+    let unit = power_of_two_below(size);
+    ((low / unit) * (high / unit)).sqrt() * unit
 }
 
 /// The side that a root with this sign belongs to: at a dead point, where it is zero, the sign of the

@@ -33,6 +33,16 @@ pub enum Error {
         /// of the other groups what the link misses beside its length.
         gap: f64,
     },
+    /// A group has infinitely many positions at this input. Of two links (RRR) the outer joints coincide and the lengths
+    /// are equal to rounding, or a length is zero; of the other groups likewise everything that fixes an unknown
+    /// vanishes: the pin of a slotted link lies in its pivot, guides are parallel and coincide, the factor of an
+    /// unknown is zero and what it must equal too. Near this input the position depends on the side it is approached from.
+    Undetermined {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group; the groups before it can be assembled.
+        group: &'static str,
+    },
     /// Newton's method found no position: the mechanism cannot be assembled at this input, or the
     /// guess is too far.
     NotConverged {
@@ -251,6 +261,9 @@ impl fmt::Display for Error {
             ),
             Self::Unbuildable { mechanism, group, gap } => {
                 write!(f, "{mechanism} cannot be assembled at this input: {group} miss closing by {gap:.1e}")
+            }
+            Self::Undetermined { mechanism, group } => {
+                write!(f, "{mechanism} is undetermined at this input: the outer joints of group {group} coincide")
             }
             Self::NotConverged { mechanism, group, iterations, residual, regularity } => {
                 let of = group.map_or("", |_| " of ");

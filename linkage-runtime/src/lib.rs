@@ -46,7 +46,7 @@ mod sine;
 pub mod singularity;
 mod turn;
 
-pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, side_of};
+pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, reach_chord, side_of, solvable};
 pub use contact::{Along, Contact, ContactLaw, Mode, sound, stops};
 pub use equations::Equations;
 pub use equilibrium::{Balance, equilibrium};

@@ -90,7 +90,8 @@ pub trait Assembly<T: Real, const U: usize, const V: usize>: Mechanism<T, U, V> 
     /// The position at these inputs on this branch.
     ///
     /// # Errors
-    /// [`Error::Unbuildable`] if a group does not reach, [`Error::NotFinite`] if a number is not finite.
+    /// [`Error::Unbuildable`] if a group does not reach, [`Error::Undetermined`] if it can stand anywhere,
+    /// [`Error::NotFinite`] if a number is not finite.
     fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, Error>;
     /// The position at the inputs of a guess on this branch; where the numbers of angles matter, in the turns that are
     /// nearest to the guess instead of those of the branch.

@@ -67,7 +67,9 @@ fn assail<M, const N: usize, const U: usize, const V: usize>(
                     let text = format!("{pose:?}");
                     assert!(!text.contains("NaN") && !text.contains("inf"), "{parameters:?} {inputs:?}: {text}");
                 }
-                Err(Error::NotFinite { .. } | Error::Unbuildable { .. }) => found.refused += 1,
+                Err(Error::NotFinite { .. } | Error::Unbuildable { .. } | Error::Undetermined { .. }) => {
+                    found.refused += 1;
+                }
                 Err(error) => panic!("{parameters:?} {inputs:?}: {error}"),
             }
         }

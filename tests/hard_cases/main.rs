@@ -3,6 +3,7 @@
 
 mod all_flat_at_once;
 mod bad_input;
+mod coincident_joints;
 mod dead_centre;
 mod equal_link_slider_crank;
 mod freudenstein_half_angle;

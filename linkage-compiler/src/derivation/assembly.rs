@@ -16,9 +16,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
-use super::{Block, Derivation};
+use super::{Block, Derivation, magnitude};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::simplify::schedule::{Stage, Triangle};
+use crate::simplify::schedule::{ChordOf, Stage};
 use crate::simplify::{cramer, simplify};
 use crate::structure::Group;
 
@@ -210,10 +210,11 @@ impl Derivation {
 
     fn assemble(&mut self, number: usize, block: &Block, assembly: &mut Assembly) -> Option<NodeId> {
         let rows: Vec<NodeId> = block.equations.iter().map(|&equation| self.residual[equation]).collect();
+        let equations = rows.clone();
         let rows = assembly.solved(&mut self.graph, &rows);
         let symbols: Vec<SymbolId> =
             block.unknowns.iter().map(|&place| self.coordinates[self.unknowns[place]].value).collect();
-        let mut group = Solver { graph: &mut self.graph, number, assembly };
+        let mut group = Solver { graph: &mut self.graph, number, equations, assembly };
         match (block.group, rows.as_slice(), symbols.as_slice()) {
             (Group::Linear, &[row], &[unknown]) => group.linear(row, unknown),
             (Group::Angle, &[row], &[phi]) => group.angle(row, phi),
@@ -243,6 +244,8 @@ impl Derivation {
 struct Solver<'a> {
     graph: &'a mut Graph,
     number: usize,
+    /// The residuals in the unknowns of the groups before, as they are written.
+    equations: Vec<NodeId>,
     assembly: &'a mut Assembly,
 }
 
@@ -304,17 +307,60 @@ impl Solver<'_> {
     }
 
     /// The root of a product of two factors, with the sign of the branch; neither may be negative.
-    fn chord(&mut self, factors: [NodeId; 2], size: NodeId, triangle: Option<Triangle<NodeId>>) -> NodeId {
+    fn chord(&mut self, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId>) -> NodeId {
         self.assembly.bounds.push((self.number, factors.to_vec()));
         let symbol = self.graph.symbol(format!("chord_{}", self.number + 1));
-        self.assembly.stages.push(Stage::Chord { block: self.number, symbol, factors, size, triangle });
+        self.assembly.stages.push(Stage::Chord { block: self.number, symbol, factors, size, of });
         self.graph.variable(symbol)
+    }
+
+    /// The sum of the magnitudes of the terms of several expressions.
+    fn scale(&mut self, nodes: &[NodeId]) -> NodeId {
+        let sizes: Vec<_> = nodes.iter().map(|&node| (Number::ONE, magnitude::of(self.graph, node))).collect();
+        self.graph.sum(&sizes)
+    }
+
+    /// The scale of the terms of the equations that hold none of these unknowns.
+    fn scale_without(&mut self, unknowns: &[SymbolId]) -> NodeId {
+        let mut rest = Vec::new();
+        for equation in self.equations.clone() {
+            let terms = match self.graph.node(equation).clone() {
+                Node::Sum { constant, mut terms } => {
+                    terms.push((constant, self.graph.one()));
+                    terms
+                }
+                _ => vec![(Number::ONE, equation)],
+            };
+            let is_free = |&(_, term): &(Number, NodeId)| {
+                let symbols = self.graph.symbols_of(&[term]);
+                unknowns.iter().all(|unknown| !symbols.contains(unknown))
+            };
+            let free: Vec<_> = terms.into_iter().filter(is_free).collect();
+            rest.push(self.graph.sum(&free));
+        }
+        self.scale(&rest)
+    }
+
+    /// A chord of a reach made of `of_reach` and an offset made of `of_offset`.
+    fn reach(&mut self, size: NodeId, [of_reach, of_offset]: [NodeId; 2]) -> ChordOf<NodeId> {
+        let is_sum = |id: NodeId| matches!(self.graph.node(id), Node::Sum { .. });
+        let may_cancel = self.graph.reachable(&[size]).into_iter().any(is_sum);
+        ChordOf::Reach { scales: [of_reach, of_offset], may_cancel }
+    }
+
+    /// Refuses a determinant that vanishes, unless it is a number.
+    fn solvable(&mut self, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId>) {
+        if self.graph.constant_value(determinant).is_none() {
+            self.assembly.stages.push(Stage::Solvable { block: self.number, determinant, numerators, scales });
+        }
     }
 
     fn linear(&mut self, row: NodeId, unknown: SymbolId) -> Option<NodeId> {
         let slope = self.graph.partial(&[row], unknown)[0];
         let [rest] = self.at_zero([row], &[unknown]);
         let minus = self.graph.negate(rest);
+        let scale = self.scale_without(&[unknown]);
+        self.solvable(slope, vec![minus], vec![scale]);
         let value = self.graph.divide(minus, slope);
         self.name(unknown, value);
         Some(slope)
@@ -329,7 +375,9 @@ impl Solver<'_> {
         let n = length(self.graph, [a, b]);
         let factors = [self.graph.subtract(n, h), self.graph.add(n, h)];
         let square = square_of(self.graph, n);
-        let g = self.chord(factors, n, None);
+        let scales = [self.scale(&[a, b]), self.scale_without(&[phi])];
+        let of = self.reach(n, scales);
+        let g = self.chord(factors, n, of);
         // (cos, sin) . (a, b) = h and (cos, sin) x (a, b) = g
         let direction = with_products(self.graph, [a, b], square, h, g);
         self.direction(phi, direction);
@@ -342,6 +390,15 @@ impl Solver<'_> {
         let right = self.negated(rest);
         let jacobian = [[along[0], other[0]], [along[1], other[1]]];
         let whole = crate::simplify::determinant(self.graph, jacobian);
+        let [along_s, along_t] = [&along, &other].map(|guide| [guide[0], guide[1]]);
+        let numerators = [(right, along_t), (along_s, right)]
+            .map(|(one, two)| crate::simplify::determinant(self.graph, [[one[0], two[0]], [one[1], two[1]]]));
+        let of_right = self.scale_without(&[s, t]);
+        let scales = [&other, &along].map(|guide| {
+            let scale = self.scale(guide);
+            self.graph.multiply(of_right, scale)
+        });
+        self.solvable(whole, numerators.to_vec(), scales.to_vec());
         let [first, second] = cramer(self.graph, jacobian, whole, right);
         self.name(s, first);
         self.name(t, second);
@@ -386,7 +443,8 @@ impl Solver<'_> {
         let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
         let factors = [g.subtract(sum, distance), g.subtract(distance, difference)];
         let (p2, q2) = (square_of(g, p), square_of(g, q));
-        let twice = self.chord(factors, sum, Some(Triangle { links: [p, q], line: d, distance }));
+        let scale = self.scale_without(&[a, b]);
+        let twice = self.chord(factors, sum, ChordOf::Triangle { links: [p, q], line: d, distance, scale });
         let g = &mut *self.graph;
         let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
         let cross_product = g.negate(half_chord);
@@ -432,7 +490,11 @@ impl Solver<'_> {
             let g = &mut *self.graph;
             let reach = g.multiply(p, n);
             let factors = [g.subtract(reach, h), g.add(reach, h)];
-            let along = self.chord(factors, reach, None);
+            let (of_link, of_line) = (self.scale(&at_zero), self.scale(&line));
+            let of_rest = self.scale_without(&[phi, s]);
+            let scales = [of_link, of_rest].map(|scale| self.graph.multiply(scale, of_line));
+            let of = self.reach(reach, scales);
+            let along = self.chord(factors, reach, of);
             let g = &mut *self.graph;
             let square = square_of(g, n);
             let minus = g.negate(along);
@@ -463,7 +525,10 @@ impl Solver<'_> {
         let reach = g.call(Function::Sqrt, &[distance]);
         let reach = g.multiply(reach, n);
         let factors = [g.subtract(reach, across), g.add(reach, across)];
-        let along = self.chord(factors, reach, None);
+        let (of_line, of_arm, of_rest) = (self.scale(&e), self.scale(&p), self.scale_without(&[phi, s]));
+        let scales = [of_rest, of_arm].map(|scale| self.graph.multiply(scale, of_line));
+        // The distance of the joints is a sum under a name.
+        let along = self.chord(factors, reach, ChordOf::Reach { scales, may_cancel: true });
         // The reach is itself a root; its square is not.
         let g = &mut *self.graph;
         let (whole, part) = (g.multiply(distance, square), g.power(across, 2));

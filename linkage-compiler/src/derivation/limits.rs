@@ -1,24 +1,26 @@
 //! Where an input ends: what must not be negative for a group to be assembled, as a function of one input.
 //!
-//! A group that stands on inputs alone has a bound f(v) >= 0 of one of two forms, told by its derivatives:
-//! f''' = -f' is a + b cos(v) + c sin(v), and f''' = 0 is a + b v + c v^2. All other groups are searched.
+//! A group that depends on inputs alone, itself or through linear equations that are solved before it, has a bound
+//! f(v) >= 0 of one of two forms, told by its derivatives: f''' = -k^2 f' is a + b cos(k v) + c sin(k v), k being the rate
+//! of an angle in f, and f''' = 0 is a + b v + c v^2. All other groups are searched.
 
 use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
 use super::{Assembly, Derivation};
-use crate::graph::{NodeId, Number, SymbolId};
+use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::simplify::equality::{Verdict, is_zero};
 use crate::simplify::schedule::Stage;
 use crate::simplify::simplify;
+use crate::structure::Group;
 
 /// f(v) >= 0 where a block can be assembled.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
     pub block: usize,
-    /// Whether v is an angle.
-    pub is_angle: bool,
+    /// k, if f is periodic.
+    pub rate: Option<NodeId>,
     /// a, b and c, free of v.
     pub coefficients: [NodeId; 3],
 }
@@ -36,10 +38,10 @@ impl Derivation {
             })
             .collect();
         let mut bounds = Vec::new();
+        let on_inputs = self.on_inputs();
         for (block, functions) in &assembly.bounds {
-            let stands_on_inputs = self.stands_on_inputs(*block);
             for &function in functions {
-                let bound = stands_on_inputs.then(|| self.bound(*block, function, input, &formulas));
+                let bound = on_inputs[*block].then(|| self.bound(*block, function, input, &formulas));
                 match bound {
                     Some(Some(bound)) => bounds.extend(bound),
                     _ => is_searched = true,
@@ -49,13 +51,24 @@ impl Derivation {
         (bounds, is_searched)
     }
 
-    /// Whether no unknown of another block enters the closures of a block.
-    fn stands_on_inputs(&self, block: usize) -> bool {
-        let block = &self.blocks[block];
-        let rows: Vec<NodeId> = block.equations.iter().map(|&equation| self.residual[equation]).collect();
-        let symbols = self.graph.symbols_of(&rows);
-        let others = (0..self.unknowns.len()).filter(|place| !block.unknowns.contains(place));
-        others.map(|place| self.coordinates[self.unknowns[place]].value).all(|symbol| !symbols.contains(&symbol))
+    /// For each block, whether its equations hold no unknown of another block but of linear ones, of which the same is
+    /// true.
+    fn on_inputs(&self) -> Vec<bool> {
+        let mut on_inputs: Vec<bool> = Vec::with_capacity(self.blocks.len());
+        // The unknowns of the linear blocks among them.
+        let mut known = BTreeSet::new();
+        for block in &self.blocks {
+            let rows: Vec<NodeId> = block.equations.iter().map(|&equation| self.residual[equation]).collect();
+            let symbols = self.graph.symbols_of(&rows);
+            let is_on_inputs = (0..self.unknowns.len())
+                .filter(|place| !block.unknowns.contains(place) && !known.contains(place))
+                .all(|place| !symbols.contains(&self.coordinates[self.unknowns[place]].value));
+            if is_on_inputs && matches!(block.group, Group::Linear | Group::Sliders) {
+                known.extend(block.unknowns.iter().copied());
+            }
+            on_inputs.push(is_on_inputs);
+        }
+        on_inputs
     }
 
     /// A function in one of the two forms; none if it has neither, an empty one if the input has no say in it.
@@ -75,23 +88,30 @@ impl Derivation {
         let slope = graph.partial(&[function], input)[0];
         let curvature = graph.partial(&[slope], input)[0];
         let third = graph.partial(&[curvature], input)[0];
-        let circular = graph.add(third, slope);
-        let is_length = is_zero(graph, third) == Verdict::Equal;
-        let is_angle = !is_length && is_zero(graph, circular) == Verdict::Equal;
-        if !is_length && !is_angle {
-            return None;
-        }
+        let rate = if is_zero(graph, third) == Verdict::Equal {
+            None
+        } else {
+            let rates = rates(graph, function, input);
+            Some(rates.into_iter().find(|&rate| {
+                let square = graph.power(rate, 2);
+                let opposite = graph.multiply(square, slope);
+                let circular = graph.add(third, opposite);
+                is_zero(graph, circular) == Verdict::Equal
+            })?)
+        };
         let (variable, zero) = (graph.variable(input), graph.zero());
         let by = std::iter::once((variable, zero)).collect();
         let at_zero = graph.replace(&[function, slope, curvature], &by);
         let [value, slope, curvature] = [at_zero[0], at_zero[1], at_zero[2]];
-        let coefficients = if is_angle {
-            [graph.add(value, curvature), graph.negate(curvature), slope]
+        let coefficients = if let Some(rate) = rate {
+            let square = graph.power(rate, 2);
+            let [sine, cosine] = [(slope, rate), (curvature, square)].map(|(part, by)| graph.divide(part, by));
+            [graph.add(value, cosine), graph.negate(cosine), sine]
         } else {
             [value, slope, graph.scale(Number::ratio(1, 2), curvature)]
         };
         let coefficients = coefficients.map(|node| simplify(graph, &[node], &BTreeSet::new())[0]);
-        Some(Some(Bound { block, is_angle, coefficients }))
+        Some(Some(Bound { block, rate, coefficients }))
     }
 
     /// A function with the formulas of the names it is made of.
@@ -111,4 +131,22 @@ impl Derivation {
             function = self.graph.replace(&[function], &by)[0];
         }
     }
+}
+
+/// The rates at which the angles in a function turn with an input, as far as they are constant.
+fn rates(graph: &mut Graph, function: NodeId, input: SymbolId) -> Vec<NodeId> {
+    let mut angles = Vec::new();
+    for id in graph.reachable(&[function]) {
+        if let Node::Call(Function::Sin | Function::Cos, angle) = graph.node(id) {
+            angles.push(angle[0]);
+        }
+    }
+    let mut rates = Vec::new();
+    for rate in graph.partial(&angles, input) {
+        let is_constant = !graph.is_zero(rate) && !graph.symbols_of(&[rate]).contains(&input);
+        if is_constant && !rates.contains(&rate) {
+            rates.push(rate);
+        }
+    }
+    rates
 }

@@ -13,7 +13,7 @@ use super::pose::PosePlan;
 use super::tokens::Tokens;
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
-use crate::simplify::schedule::{self, Line, Operations, Schedule, Signed, Stage, Triangle, Value, ValueId};
+use crate::simplify::schedule::{self, ChordOf, Line, Operations, Schedule, Signed, Stage, Value, ValueId};
 
 /// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
 /// fields is used.
@@ -170,8 +170,10 @@ fn used_by(line: &Line) -> Option<&'static str> {
     match line {
         Line::Guard { .. } => Some("regular"),
         Line::Factor { .. } => Some("Factorization"),
-        Line::Chord { triangle: Some(_), .. } => Some("elbow_chord"),
+        Line::Chord { of: ChordOf::Triangle { .. }, .. } => Some("elbow_chord"),
+        Line::Chord { of: ChordOf::Reach { may_cancel: true, .. }, .. } => Some("reach_chord"),
         Line::Chord { .. } => Some("chord"),
+        Line::Solvable { .. } => Some("solvable"),
         Line::Newton { .. } => Some("newton_group"),
         Line::Pivots { .. } => Some("product_of_pivots"),
         _ => None,
@@ -372,12 +374,17 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
             let factors = ident(&names.factors[block]);
             body.extend(quote!(let [#(#targets),*] = #factors.solve([#(#right),*]);));
         }
-        Line::Chord { block, symbol, factors, size, triangle } => {
+        Line::Solvable { block, determinant, numerators, scales } => {
+            let determinant = signed(names, schedule, *determinant);
+            let [numerators, scales] = [numerators, scales]
+                .map(|values| values.iter().map(|value| signed(names, schedule, *value)).collect::<Vec<_>>());
+            let group = string(&derivation.blocks[*block].names(derivation));
+            body.extend(quote!(solvable(Self::NAME, #group, #determinant, [#(#numerators),*], [#(#scales),*])?;));
+        }
+        Line::Chord { block, symbol, factors, size, of } => {
             let mut written = |value: Signed| signed(names, schedule, value);
             let [low, high, size] = [factors[0], factors[1], *size].map(&mut written);
-            let triangle = triangle.map(|Triangle { links, line, distance }| {
-                (links.map(&mut written), line.map(&mut written), written(distance))
-            });
+            let of = of.map(&mut written);
             let group = string(&derivation.blocks[*block].names(derivation));
             let side = ident(&derivation.blocks[*block].branch(derivation));
             let name = names.introduce(*symbol).ident.clone();
@@ -387,13 +394,20 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
                 names.plain.insert(*block, plain);
             }
             let plain = names.plain.get(block).cloned().unwrap_or_else(|| ident("_"));
-            body.extend(match triangle {
-                Some(([p, q], [x, y], distance)) => quote!(
+            body.extend(match of {
+                ChordOf::Triangle { links: [p, q], line: [x, y], distance, scale } => quote!(
                     let (#name, #plain) = elbow_chord(
-                        Self::NAME, #group, [#low, #high], [#size, #distance], [#p, #q], [#x, #y], #branch.#side,
+                        Self::NAME, #group, [#low, #high], [#size, #distance], [#p, #q], [#x, #y], #scale, #branch.#side,
                     )?;
                 ),
-                None => quote!(let #name = chord(Self::NAME, #group, [#low, #high], #size, #branch.#side)?;),
+                ChordOf::Reach { scales: [reach, offset], may_cancel } => {
+                    let chord = ident(if may_cancel { "reach_chord" } else { "chord" });
+                    quote!(
+                        let #name = #chord(
+                            Self::NAME, #group, [#low, #high], #size, [#reach, #offset], #branch.#side,
+                        )?;
+                    )
+                }
             });
         }
         Line::Pivots { symbol, matrix } => {

@@ -12,7 +12,7 @@ use crate::places::{Hash, Places};
 use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
-pub(super) const RUNTIME_FUNCTIONS: [&str; 25] = [
+pub(super) const RUNTIME_FUNCTIONS: [&str; 27] = [
     "chord",
     "countable",
     "elbow_chord",
@@ -31,10 +31,12 @@ pub(super) const RUNTIME_FUNCTIONS: [&str; 25] = [
     "output_motions",
     "point_motions",
     "product_of_pivots",
+    "reach_chord",
     "real",
     "reduced",
     "regular",
     "side_of",
+    "solvable",
     "sound",
     "stops",
     "unit",

@@ -99,8 +99,7 @@ impl Methods<'_> {
             &format!("{} that are nearest to the guess.", names.join(", ")),
             "",
             "# Errors",
-            "`Unbuildable` if a group does not reach, `NotFinite` if a number is not finite, `OutOfRange` if a guess is",
-            "more turns away than a branch can count.",
+            "Those of `assemble`, and `OutOfRange` if a guess is more turns away than a branch can count.",
         ]);
         let near = branches.turns.iter().map(|turn| &turn.coordinate);
         let near = quote!([#(#guess.#near),*]);
@@ -138,11 +137,12 @@ impl Methods<'_> {
     }
 }
 
-const ASSEMBLE: [&str; 4] = [
+const ASSEMBLE: [&str; 5] = [
     "The position at these inputs in closed form: group by group, on the branch that is asked for.",
     "",
     "# Errors",
-    "`Unbuildable` if a group does not reach, `NotFinite` if a number is not finite.",
+    "`Unbuildable` if a group does not reach, `Undetermined` if it can stand anywhere, as between joints that",
+    "coincide, `NotFinite` if a number is not finite.",
 ];
 
 fn near_docs(kernels: &Kernels, stages: &[Stage]) -> Vec<String> {
@@ -156,8 +156,9 @@ fn near_docs(kernels: &Kernels, stages: &[Stage]) -> Vec<String> {
         &format!("but {} by Newton's method from the guess.", iterated.join(", then ")),
         "",
         "# Errors",
-        "`Unbuildable` if a group does not reach, `NotConverged` if Newton's method finds no position,",
-        "`OtherBranch` if it finds one beyond a dead point, `NotFinite` if a number is not finite.",
+        "`Unbuildable` if a group does not reach, `Undetermined` if it can stand anywhere, `NotConverged` if",
+        "Newton's method finds no position, `OtherBranch` if it finds one beyond a dead point, `NotFinite` if a",
+        "number is not finite.",
     ])
 }
 

@@ -123,7 +123,8 @@ impl Methods<'_> {
             "Every position that exists at these inputs, each with its branch.",
             "",
             "# Errors",
-            "`NotFinite` if a number is not finite; a branch that cannot be assembled is left out.",
+            "`NotFinite` if a number is not finite; a branch that cannot be assembled is left out, and one on which a group",
+            "is undetermined.",
         ]);
         let signature = quote!(pub fn branches(&self, #v: impl Into<#inputs<T>>)
             -> impl Iterator<Item = Result<(#branch_type, #pose<T>), Error>> + '_);

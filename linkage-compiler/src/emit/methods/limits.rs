@@ -35,7 +35,8 @@ impl Methods<'_> {
                 "The `{}` between which the mechanism can be assembled on a branch about a position{others}:",
                 name.text
             ),
-            "in closed form for groups that stand on the inputs alone, bracketed for the others.",
+            "in closed form for groups that depend on the inputs alone, directly or through linear equations, bracketed for",
+            "the others. Inputs at which a group is undetermined on the way are passed.",
             "",
             "# Errors",
             "Those of the position asked about, `NotFinite` if a number is not finite.",
@@ -55,7 +56,9 @@ impl Methods<'_> {
         let (bounds, is_searched) = kernels.derivation.bounds(assembly, input);
         let names: Vec<_> =
             bounds.iter().map(|bound| kernels.derivation.blocks[bound.block].names(kernels.derivation)).collect();
-        let results = bounds.iter().flat_map(|bound| bound.coefficients).collect();
+        let one = kernels.derivation.graph.one();
+        let results = bounds.iter().flat_map(|bound| bound.coefficients.into_iter().chain([bound.rate.unwrap_or(one)]));
+        let results = results.collect();
         let (from, branch) = (self.arguments.inputs.clone(), self.arguments.branch.clone());
         let (guess, coordinates, inputs) = (&self.arguments.guess, &self.types.coordinates, &self.types.inputs);
         let coordinate = &self.mechanism.coordinates[self.driver.inputs[place]];
@@ -66,9 +69,14 @@ impl Methods<'_> {
         let given = self.given(vec![self.parameters(), source], None);
         let stages = [Stage::Return(results)];
         let mut code = kernel::write(kernels.derivation, &given, &stages, &self.named, &self.scope);
-        let bounds = bounds.iter().zip(&names).zip(code.results.chunks(3)).map(|((bound, group), coefficients)| {
-            let kind = if bound.is_angle { quote!(Bound::Angle) } else { quote!(Bound::Length) };
-            quote!(#kind(#group, [#(#coefficients),*]))
+        let bounds = bounds.iter().zip(&names).zip(code.results.chunks(4)).map(|((bound, group), results)| {
+            let (coefficients, rate) = results.split_at(3);
+            let place = proc_macro2::Literal::usize_unsuffixed(bound.block);
+            if bound.rate.is_some() {
+                quote!(Bound::Angle((#place, #group), [#(#coefficients),*], #(#rate)*))
+            } else {
+                quote!(Bound::Length((#place, #group), [#(#coefficients),*]))
+            }
         });
         let bounds: Vec<_> = bounds.collect();
         code.uses.extend(["Limits", "Search", "limits"]);
@@ -102,7 +110,7 @@ impl Methods<'_> {
         code.body.extend(quote!(#start let position = #position; #body));
         code.arguments.extend([from.clone(), branch.clone(), guess.clone()]);
         let tail = quote!(
-            limits(#from.#name, position, [#(#bounds),*], #search, #again, |position| self.block_determinants(position))
+            limits(Self::NAME, #from.#name, position, [#(#bounds),*], #search, #again, |position| self.block_determinants(position))
         );
         Body::new(code, tail, [])
     }

@@ -32,8 +32,11 @@ pub enum Stage {
     /// Solves the factorised system of a block and names the solution.
     Solve { block: usize, targets: Vec<SymbolId>, right: Vec<NodeId> },
     /// Names the root of a product of two factors, with the sign of the branch of a block; refuses a
-    /// factor that is less than zero beside `size`.
-    Chord { block: usize, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, triangle: Option<Triangle<NodeId>> },
+    /// factor that is less than zero relative to its terms.
+    Chord { block: usize, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId> },
+    /// Refuses a determinant of linear unknowns that is zero; `numerators` are what is divided by it, `scales` the sums of
+    /// the magnitudes of their terms.
+    Solvable { block: usize, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
     /// Names the unknowns of a block, found by Newton's method from `start`: its residual, the sizes of its
     /// closures and its matrix row by row are `system`, made of the unknowns and of what is `known`.
     Newton { block: usize, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
@@ -43,22 +46,35 @@ pub enum Stage {
     Return(Vec<NodeId>),
 }
 
-/// Two links between joints: their lengths, the line between the joints, and its square.
+/// The geometry of a half chord.
 #[derive(Debug, Clone, Copy)]
-pub struct Triangle<V> {
-    pub links: [V; 2],
-    pub line: [V; 2],
-    pub distance: V,
+pub enum ChordOf<V> {
+    /// Two links between joints: their lengths, the line between the joints, its square, and the sum of the
+    /// magnitudes of its terms.
+    Triangle { links: [V; 2], line: [V; 2], distance: V, scale: V },
+    /// A reach and an offset, with the sums of the magnitudes of their terms, and whether the reach may vanish by
+    /// cancellation.
+    Reach { scales: [V; 2], may_cancel: bool },
 }
 
-impl<V: Copy> Triangle<V> {
-    fn values(&self) -> [V; 5] {
-        let Self { links: [p, q], line: [x, y], distance } = *self;
-        [p, q, x, y, distance]
+impl<V: Copy> ChordOf<V> {
+    fn values(&self) -> Vec<V> {
+        match *self {
+            Self::Triangle { links: [p, q], line: [x, y], distance, scale } => vec![p, q, x, y, distance, scale],
+            Self::Reach { scales, .. } => scales.to_vec(),
+        }
     }
 
-    fn map<W>(self, f: impl Fn(V) -> W) -> Triangle<W> {
-        Triangle { links: self.links.map(&f), line: self.line.map(&f), distance: f(self.distance) }
+    pub(crate) fn map<W>(self, mut f: impl FnMut(V) -> W) -> ChordOf<W> {
+        match self {
+            Self::Triangle { links, line, distance, scale } => ChordOf::Triangle {
+                links: links.map(&mut f),
+                line: line.map(&mut f),
+                distance: f(distance),
+                scale: f(scale),
+            },
+            Self::Reach { scales, may_cancel } => ChordOf::Reach { scales: scales.map(f), may_cancel },
+        }
     }
 }
 
@@ -83,8 +99,11 @@ impl Stage {
             Self::Let { node, .. } => vec![*node],
             Self::Turn { principal, .. } => vec![*principal],
             Self::Guard { determinant, size, .. } => vec![*determinant, *size],
-            Self::Chord { factors: [low, high], size, triangle, .. } => {
-                [*low, *high, *size].into_iter().chain(triangle.iter().flat_map(Triangle::values)).collect()
+            Self::Chord { factors: [low, high], size, of, .. } => {
+                [*low, *high, *size].into_iter().chain(of.values()).collect()
+            }
+            Self::Solvable { determinant, numerators, scales, .. } => {
+                std::iter::once(determinant).chain(numerators).chain(scales).copied().collect()
             }
             Self::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).copied().collect(),
             Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
@@ -177,7 +196,13 @@ pub enum Line {
         symbol: SymbolId,
         factors: [Signed; 2],
         size: Signed,
-        triangle: Option<Triangle<Signed>>,
+        of: ChordOf<Signed>,
+    },
+    Solvable {
+        block: usize,
+        determinant: Signed,
+        numerators: Vec<Signed>,
+        scales: Vec<Signed>,
     },
     Newton {
         block: usize,
@@ -258,12 +283,18 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
             Stage::Solve { block, targets, right } => {
                 Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }
             }
-            Stage::Chord { block, symbol, factors, size, triangle } => Line::Chord {
+            Stage::Chord { block, symbol, factors, size, of } => Line::Chord {
                 block: *block,
                 symbol: *symbol,
                 factors: factors.map(|node| translated.of(node)),
                 size: translated.of(*size),
-                triangle: triangle.map(|triangle| triangle.map(|node| translated.of(node))),
+                of: of.map(|node| translated.of(node)),
+            },
+            Stage::Solvable { block, determinant, numerators, scales } => Line::Solvable {
+                block: *block,
+                determinant: translated.of(*determinant),
+                numerators: signed(numerators),
+                scales: signed(scales),
             },
             Stage::Pivots { symbol, matrix } => {
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }

@@ -1,0 +1,2 @@
+#[path = "hard_cases/coincident_joints.rs"]
+mod coincident_joints;
