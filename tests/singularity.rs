@@ -285,10 +285,10 @@ fn attainable_accuracy() {
             let Ok(solution) = m.solve(&q) else { continue };
             let other = solution.coordinates;
             let error = (other.theta3 - q.theta3).abs().max((other.theta4 - q.theta4).abs());
-            if here.attainable < 1e-9 {
-                worst.0 = worst.0.max(error / here.unknowns.amax());
+            if here.attainable() < 1e-9 {
+                worst.0 = worst.0.max(error / here.unknowns().amax());
             }
-            worst.1 = worst.1.max(here.attainable);
+            worst.1 = worst.1.max(here.attainable());
             worst.2 = worst.2.max(error);
         }
     }
@@ -337,5 +337,5 @@ fn bad_input() {
     let found = singularity::report(&m, &m.pose_at(&q)).unwrap();
     assert_eq!((found.rank(), found.sigma_min(), found.determinant()), (0, 0.0, 0.0));
     assert!(found.groups().all(|group| group.regularity == 0.0 && !group.is_regular));
-    assert_eq!(singularity::accuracy(&m, &m.pose_at(&q)).unwrap().attainable, f64::INFINITY);
+    assert_eq!(singularity::accuracy(&m, &m.pose_at(&q)).unwrap().attainable(), f64::INFINITY);
 }

@@ -531,6 +531,7 @@ use proc_macro::TokenStream;
 /// assert_eq!(m.branch_of(&m.pose_at(&q)).slot_turn, 10);
 /// # Ok::<(), linkage::Error>(())
 /// ```
+///
 /// # Degenerate positions
 ///
 /// A group can have no position at an input, one, two, or infinitely many. `assemble` says which:

@@ -127,6 +127,9 @@ macro_rules! __mechanism {
             fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose {
                 self.pose_at(q)
             }
+            fn is_finite(pose: &Self::Pose) -> bool {
+                pose.is_finite()
+            }
             fn residual(&self, pose: &Self::Pose) -> $crate::nalgebra::SVector<T, $u> {
                 self.residual(pose)
             }

@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::error::all_finite;
 use crate::{Error, Mechanism, Real};
 
 /// The equations of motion in the inputs, without frictions and stops: M v'' = Q, u' = W v', u'' = W v'' + `bias`.
@@ -21,7 +22,7 @@ impl<T: Real, const U: usize, const V: usize> Equations<T, U, V> {
     /// From M and Q at a position and the rates v', with what the mechanism says of u.
     ///
     /// # Errors
-    /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] if a rate is not finite.
+    /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] if a number is not finite.
     pub fn at<M: Mechanism<T, U, V>>(
         mechanism: &M,
         q: &M::Coordinates,
@@ -37,6 +38,8 @@ impl<T: Real, const U: usize, const V: usize> Equations<T, U, V> {
         }
         let velocity = M::with_unknowns(&M::with_inputs(q, *rates), ratios * rates);
         let bias = -mechanism.solve_jacobian(&pose, &mechanism.gamma(&pose, &velocity))?;
+        let values = mass.iter().chain(forces.iter()).chain(ratios.iter()).chain(bias.iter());
+        all_finite(M::NAME, "the equations of motion", values)?;
         Ok(Self { mass, forces, ratios, bias })
     }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Const, DimMin, SMatrix, SVector};
 
+use crate::error::all_finite;
 use crate::newton::{Closures, search};
 use crate::position::beside_columns;
 use crate::{Error, Factorization, Real, product_of_pivots, real};
@@ -25,7 +26,8 @@ pub struct Balance<T, const N: usize> {
 /// values of these inputs. Stable or not is not asked.
 ///
 /// # Errors
-/// What `evaluate` says of the start, [`Error::NotConverged`] if no equilibrium is found.
+/// What `evaluate` says of the start, [`Error::NotConverged`] if no equilibrium is found, [`Error::NotFinite`] if a
+/// number is not finite.
 pub fn equilibrium<T, Q, const N: usize>(
     scene: &'static str,
     start: [T; N],
@@ -42,6 +44,8 @@ where
             *size += (slope * input).abs();
         }
     }
+    // Relative to an infinite size every force would be zero.
+    all_finite(scene, "the forces at rest", sizes.iter())?;
     // The measure stays as it is, so that smaller forces are better.
     let sizes = SVector::from(sizes) * real::<T>(COARSER);
     let (found, _) = search(&Forces { scene, sizes, evaluate: &evaluate }, SVector::from(start))?;

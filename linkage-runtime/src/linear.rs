@@ -2,7 +2,7 @@
 
 use nalgebra::{Const, DimMin, LU, SMatrix, SVector};
 
-use crate::scalar::to_f64;
+use crate::scalar::{smallest, to_f64};
 use crate::{Error, Real, real};
 
 /// A determinant below this many roundings of the largest value that its formula could take is no
@@ -132,7 +132,7 @@ where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let packed = factors.lu_internal();
-    (0..N).map(|index| packed[(index, index)].abs()).fold(T::max_value().unwrap_or_else(T::one), |a, b| a.min(b))
+    smallest((0..N).map(|index| packed[(index, index)]))
 }
 
 /// The determinant of a block of more than two unknowns, given by columns.

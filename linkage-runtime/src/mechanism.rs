@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::error::all_finite;
 use crate::{Error, Real, same_signs};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
@@ -17,7 +18,8 @@ pub struct Group {
 
 /// A mechanism with `U` dependent and `V` independent coordinates, closed where Psi(q) = 0.
 ///
-/// `linkage!` implements it for every mechanism and every driver of one.
+/// `linkage!` implements it for every mechanism and every driver of one. The functions without `Result` refuse nothing:
+/// their results of numbers that are not finite are not finite either, or mean nothing.
 pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     /// The name of the mechanism, as errors give it.
     const NAME: &'static str;
@@ -52,6 +54,8 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, U>) -> Self::Coordinates;
     /// The position at these coordinates.
     fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose;
+    /// Whether every number of a position is finite.
+    fn is_finite(pose: &Self::Pose) -> bool;
     /// Psi.
     fn residual(&self, pose: &Self::Pose) -> SVector<T, U>;
     /// The sum of the magnitudes of the terms of each closure.
@@ -69,7 +73,7 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     /// The quadratic velocity term (Psi_q q')_q q'.
     fn gamma(&self, pose: &Self::Pose, rate: &Self::Coordinates) -> SVector<T, U>;
     /// Whether the determinant of each block of J has the same sign at both positions: if not, they
-    /// belong to different assembly branches.
+    /// belong to different assembly branches. One that is not a number counts as negative.
     fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
         same_signs(self.block_determinants(pose).as_ref(), self.block_determinants(other).as_ref())
     }
@@ -104,6 +108,37 @@ pub trait Assembly<T: Real, const U: usize, const V: usize>: Mechanism<T, U, V> 
     }
     /// The branch that a position belongs to: `assemble` on it gives the position back.
     fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
+}
+
+/// Refuses coordinates and their pose if a number of them is infinite or not a number.
+///
+/// # Errors
+/// [`Error::NotFinite`].
+#[inline]
+pub(crate) fn finite_position<M, T, const U: usize, const V: usize>(
+    q: &M::Coordinates,
+    pose: &M::Pose,
+) -> Result<(), Error>
+where
+    T: Real,
+    M: Mechanism<T, U, V>,
+{
+    finite_coordinates::<M, T, U, V>(q)?;
+    if M::is_finite(pose) { Ok(()) } else { Err(Error::NotFinite { mechanism: M::NAME, quantity: "the position" }) }
+}
+
+/// Refuses coordinates of which one is infinite or not a number.
+///
+/// # Errors
+/// [`Error::NotFinite`].
+#[inline]
+pub(crate) fn finite_coordinates<M, T, const U: usize, const V: usize>(q: &M::Coordinates) -> Result<(), Error>
+where
+    T: Real,
+    M: Mechanism<T, U, V>,
+{
+    let (unknowns, inputs) = (M::unknowns(q), M::inputs(q));
+    all_finite(M::NAME, "the position", unknowns.iter().chain(inputs.iter()))
 }
 
 /// The name of the first group whose determinant changes its sign from one position to another.

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::scalar::to_f64;
+use crate::scalar::{largest, relative, to_f64};
 use crate::{Error, Real, real};
 
 /// Newton steps before the search is given up; from a fair guess it takes four or five.
@@ -36,7 +36,7 @@ pub(crate) struct Iterate<P, T, const N: usize> {
     pub(crate) unknowns: SVector<T, N>,
     pub(crate) point: P,
     residual: SVector<T, N>,
-    /// The largest relative residual.
+    /// The largest relative residual; not finite if a number of the iterate is not.
     pub(crate) size: T,
 }
 
@@ -84,7 +84,7 @@ fn is_rounding<T: Real, C: Closures<T, N>, const N: usize>(closures: &C, at: &It
     let of_unknowns = closures.jacobian(&at.point).abs() * at.unknowns.abs();
     let enough = sizes * real::<T>(ROUNDINGS);
     let bounds = of_unknowns.zip_map(&enough, |one, other| if one > other { one } else { other });
-    at.residual.iter().zip(&bounds).all(|(psi, bound)| psi.abs() <= *bound * T::default_epsilon())
+    at.residual.iter().zip(&bounds).all(|(psi, bound)| bound.is_finite() && psi.abs() <= *bound * T::default_epsilon())
 }
 
 fn iterate<T: Real, C: Closures<T, N>, const N: usize>(
@@ -93,12 +93,10 @@ fn iterate<T: Real, C: Closures<T, N>, const N: usize>(
 ) -> Iterate<C::Point, T, N> {
     let point = closures.at(&unknowns);
     let (residual, sizes) = closures.residual(&point);
-    let relative = residual.iter().zip(sizes.iter()).map(|(psi, size)| {
-        // Nothing is left of a closure whose terms are all zero.
-        if psi.is_zero() { T::zero() } else { psi.abs() / *size }
-    });
-    // A residual that is not a number must not be lost in a maximum.
-    let size = relative.fold(T::zero(), |largest, psi| if psi <= largest { largest } else { psi });
+    let residuals = residual.iter().zip(sizes.iter()).map(|(&psi, &size)| relative(psi, size));
+    // A residual may be finite at infinite unknowns, too.
+    let unknown = unknowns.iter().map(|&unknown| unknown * T::zero());
+    let size = largest(residuals.chain(unknown));
     Iterate { unknowns, point, residual, size }
 }
 

@@ -2,6 +2,8 @@
 
 use nalgebra::{Const, DimMin, SMatrix, SVector};
 
+use crate::error::all_finite;
+use crate::mechanism::finite_coordinates;
 use crate::newton::{Closures, Iterate, search};
 use crate::scalar::to_f64;
 use crate::{Error, Factorization, Mechanism, Real, linear::same_signs, product_of_pivots};
@@ -34,7 +36,9 @@ where
 {
     let pose = mechanism.pose_at(q);
     let step = mechanism.solve_jacobian(&pose, &mechanism.residual(&pose))?;
-    Ok(M::with_unknowns(q, M::unknowns(q) - step))
+    let next = M::with_unknowns(q, M::unknowns(q) - step);
+    finite_coordinates::<M, T, U, V>(&next)?;
+    Ok(next)
 }
 
 /// The position near `guess` whose inputs are those of `guess`, all unknowns together.
@@ -52,6 +56,8 @@ where
     T: Real,
     M: Mechanism<T, U, V>,
 {
+    // An input may be in no closure.
+    all_finite(M::NAME, "the input", M::inputs(guess).iter())?;
     let (Iterate { unknowns, point, size, .. }, iterations) =
         search(&Whole::<_, _, V> { mechanism, guess }, M::unknowns(guess))?;
     Ok(Solution {

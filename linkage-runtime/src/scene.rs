@@ -3,9 +3,10 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::contact::within;
+use crate::error::all_finite;
 use crate::scalar::to_f64;
 use crate::simulation::scales::Scales;
-use crate::{Contact, ContactLaw, Equations, Error, Mechanism, Real, newton};
+use crate::{Contact, ContactLaw, Equations, Error, Mechanism, Real, finite, newton};
 
 /// A mechanism of `U` dependent and `V` independent coordinates with inertia and forces, as a differential
 /// equation of `N` = `U` + 2 `V` unknowns, with `C` frictions and stops.
@@ -81,6 +82,7 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C
     /// # Errors
     /// [`Error::NotConverged`] if no position is found, [`Error::NotFinite`] if a number is not finite.
     fn project(&self, state: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+        all_finite(Self::NAME, "the state", state.iter())?;
         let (q, rates) = Self::parts(state);
         let closed = newton(self.mechanism(), &q)?;
         Ok(Self::state(&closed.coordinates, &rates))
@@ -101,6 +103,8 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C
         let state = self.project(&Self::state(q, rates))?;
         for ((coordinate, value, rate), law) in Self::inputs(&state).into_iter().zip(self.prescribed(t)) {
             let Some([position, speed, _]) = law else { continue };
+            // An infinite law agrees with everything.
+            finite(Self::NAME, "the law of a drive", [position, speed])?;
             for (quantity, given, law) in [("position", value, position), ("rate", rate, speed)] {
                 let gap = (given - law).abs();
                 // NaN is not consistent either.

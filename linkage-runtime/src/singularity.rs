@@ -62,8 +62,9 @@ use core::fmt;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::scalar::to_f64;
-use crate::{Error, Mechanism, Real, real};
+use crate::error::all_finite;
+use crate::scalar::{larger, largest, relative, to_f64};
+use crate::{Error, Mechanism, Real, finite, real};
 use decomposition::Decomposition;
 
 /// A singular value below this many roundings for each unknown is zero.
@@ -125,11 +126,23 @@ pub struct Accuracy<T, const U: usize> {
     pub residual: T,
     /// The smallest singular value of the equilibrated J.
     pub sigma_min: T,
+    /// What the columns of J were divided by.
+    scales: SVector<T, U>,
+}
+
+impl<T: Real, const U: usize> Accuracy<T, U> {
     /// eps / sigma min: the relative error that rounding the closures once explains. Infinite in a singular
     /// configuration, where the position is a double root and right to about the root of eps.
-    pub attainable: T,
+    #[must_use]
+    pub fn attainable(&self) -> T {
+        T::default_epsilon() / self.sigma_min
+    }
+
     /// The same of each unknown by itself, in radians and lengths.
-    pub unknowns: SVector<T, U>,
+    #[must_use]
+    pub fn unknowns(&self) -> SVector<T, U> {
+        self.scales.map(|scale| self.attainable() / scale)
+    }
 }
 
 /// J and A with rows and columns of comparable sizes.
@@ -154,19 +167,20 @@ impl<T: Real, const U: usize, const V: usize> Equilibrated<T, U, V> {
             inputs.row_mut(row).unscale_mut(size);
             input_sizes.row_mut(row).unscale_mut(size);
         }
-        let unknown_scales = SVector::from_fn(|column, _| positive(unknown_sizes.column(column).amax()));
-        let input_scales = SVector::from_fn(|column, _| positive(input_sizes.column(column).amax()));
+        let unknown_scales =
+            SVector::<T, U>::from_fn(|column, _| positive(largest(unknown_sizes.column(column).iter().copied())));
+        let input_scales =
+            SVector::<T, V>::from_fn(|column, _| positive(largest(input_sizes.column(column).iter().copied())));
         for column in 0..U {
             unknowns.column_mut(column).unscale_mut(unknown_scales[column]);
         }
         for column in 0..V {
             inputs.column_mut(column).unscale_mut(input_scales[column]);
         }
-        if unknowns.iter().chain(inputs.iter()).all(T::is_finite) {
-            Ok(Self { unknowns, inputs, sizes, unknown_scales, input_scales })
-        } else {
-            Err(Error::NotFinite { mechanism: M::NAME, quantity: "the Jacobian" })
-        }
+        // Divided by infinite sizes everything would be zero.
+        let scales = sizes.iter().chain(unknown_scales.iter()).chain(input_scales.iter());
+        all_finite(M::NAME, "the Jacobian", unknowns.iter().chain(inputs.iter()).chain(scales))?;
+        Ok(Self { unknowns, inputs, sizes, unknown_scales, input_scales })
     }
 }
 
@@ -184,7 +198,7 @@ fn threshold<T: Real>(count: usize) -> T {
 /// unknown and an input: a report, not a part of an inner loop.
 ///
 /// # Errors
-/// [`Error::NotFinite`] if an entry of the Jacobian is not a finite number.
+/// [`Error::NotFinite`] if an entry of the Jacobian, a determinant or a rate is not a finite number.
 pub fn report<T, M, const U: usize, const V: usize>(
     mechanism: &M,
     pose: &M::Pose,
@@ -206,16 +220,20 @@ where
     }
     let conditions = Decomposition::of(conditions);
     let conditions_rank = conditions.rank(zero);
-    let exchanges = SMatrix::from_fn(|unknown, input| {
+    let exchanges = SMatrix::<T, U, V>::from_fn(|unknown, input| {
         let mut exchanged = *j;
         exchanged.set_column(unknown, &a.column(input));
         let sigma_min = Decomposition::of(exchanged).least();
         if sigma_min > zero { sigma_min } else { T::zero() }
     });
     let determinant = mechanism.determinant(pose);
-    if !determinant.is_finite() {
-        return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the determinant" });
-    }
+    finite(M::NAME, "the determinant", [determinant])?;
+    let groups = core::array::from_fn(|group| measure(mechanism, pose, &equilibrated, group));
+    let measures =
+        groups.iter().flat_map(|group: &GroupMeasure<T>| [&group.determinant, &group.regularity, &group.sigma_min]);
+    all_finite(M::NAME, "the determinant", measures)?;
+    let (free, admissible) = (in_units(right.vectors, unknown_scales), in_units(conditions.vectors, input_scales));
+    all_finite(M::NAME, "a rate", free.iter().chain(admissible.iter()).chain(exchanges.iter()))?;
     Ok(Singularity {
         mechanism: M::NAME,
         unknowns: M::UNKNOWNS,
@@ -223,11 +241,11 @@ where
         determinant,
         rank,
         sigma_min: right.least(),
-        groups: core::array::from_fn(|group| measure(mechanism, pose, &equilibrated, group)),
+        groups,
         group_count: M::GROUPS.len(),
         rank_with_inputs: rank + conditions_rank,
-        free: in_units(right.vectors, unknown_scales),
-        admissible: in_units(conditions.vectors, input_scales),
+        free,
+        admissible,
         admissible_count: V - conditions_rank,
         exchanges,
     })
@@ -256,14 +274,10 @@ where
 {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let residual = mechanism.residual(pose);
-    let relative = residual.zip_map(&equilibrated.sizes, |residual, size| residual.abs() / positive(size));
-    if !relative.iter().all(T::is_finite) {
-        return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the residual" });
-    }
+    let residual = largest(residual.iter().zip(equilibrated.sizes.iter()).map(|(&psi, &size)| relative(psi, size)));
+    finite(M::NAME, "the residual", [residual])?;
     let sigma_min = Decomposition::of(equilibrated.unknowns).least();
-    let attainable = T::default_epsilon() / sigma_min;
-    let unknowns = equilibrated.unknown_scales.map(|scale| attainable / scale);
-    Ok(Accuracy { residual: relative.amax(), sigma_min, attainable, unknowns })
+    Ok(Accuracy { residual, sigma_min, scales: equilibrated.unknown_scales })
 }
 
 /// Vectors of the equilibrated system as rates, the entry that counts most there being 1.
@@ -297,8 +311,8 @@ fn measure<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
     let count = real::<T>(u32::try_from(U).map_or(f64::MAX, f64::from));
     let mut matrix = SMatrix::<T, U, U>::from_diagonal_element(count);
     for (column, &unknown) in block.unknowns.iter().enumerate() {
-        let relative = |&equation: &usize| sizes[(equation, unknown)] / positive(equilibrated.sizes[equation]);
-        let scale = positive(block.equations.iter().map(relative).fold(zero, |a, b| if a < b { b } else { a }));
+        let relative_size = |&equation: &usize| sizes[(equation, unknown)] / positive(equilibrated.sizes[equation]);
+        let scale = positive(largest(block.equations.iter().map(relative_size)));
         for (row, &equation) in block.equations.iter().enumerate() {
             let entry = equilibrated.unknowns[(equation, unknown)];
             matrix[(row, column)] = entry * equilibrated.unknown_scales[unknown] / scale;
@@ -306,10 +320,9 @@ fn measure<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
     }
     let decomposition = Decomposition::of(matrix);
     let regularity = match (block.equations, block.unknowns) {
-        (&[i], &[j]) => determinant / positive(sizes[(i, j)]),
+        (&[i], &[j]) => relative(determinant, sizes[(i, j)]),
         (&[i, k], &[j, l]) => {
-            let products = [sizes[(i, j)] * sizes[(k, l)], sizes[(i, l)] * sizes[(k, j)]];
-            determinant / positive(if products[0] < products[1] { products[1] } else { products[0] })
+            relative(determinant, larger(sizes[(i, j)] * sizes[(k, l)], sizes[(i, l)] * sizes[(k, j)]))
         }
         // |det| is the product of the singular values.
         _ => (0..U).fold(one, |part, place| part * decomposition.values[place] / positive(matrix.column(place).norm())),

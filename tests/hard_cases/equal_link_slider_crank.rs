@@ -41,7 +41,7 @@ fn positions_beside_it() {
         for phi2 in SLOPES {
             let pose = m.assemble(phi1, CompressorBranch { phi2 }).unwrap();
             let expected = if phi2 == SLOPES[0] { big(2.0 * m.z1) * &cosine } else { big(0.0) };
-            let attainable = singularity::accuracy(&m, &pose).unwrap().unknowns;
+            let attainable = singularity::accuracy(&m, &pose).unwrap().unknowns();
             let error = (big(pose.z3) - expected).double().abs();
             worst = worst.max(error / attainable.amax());
             // Away from it nothing is lost; near it what must be.

@@ -108,7 +108,7 @@ pub struct Reached<Q, P> {
 }
 
 impl<Q, P> Reached<Q, P> {
-    /// The position at these coordinates.
+    /// The position at these coordinates; nothing is refused, as of [`Mechanism::pose_at`].
     pub fn at<M, T, const U: usize, const V: usize>(mechanism: &M, coordinates: Q) -> Self
     where
         M: Mechanism<T, U, V, Coordinates = Q, Pose = P>,

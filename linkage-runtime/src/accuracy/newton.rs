@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::{Method, Reached};
-use crate::mechanism::other_group;
+use crate::mechanism::{finite_position, other_group};
 use crate::{Error, Mechanism, Real};
 
 /// `K` steps of Newton's method from a position nearby, predicted by its velocity ratios: u + W (v' - v), then `K` times
@@ -30,6 +30,7 @@ where
             let unknowns = M::unknowns(&here.coordinates) - step;
             here = Reached::at(mechanism, M::with_unknowns(&here.coordinates, unknowns));
         }
+        finite_position::<M, T, U, V>(&here.coordinates, &here.pose)?;
         if mechanism.same_branch(&from.pose, &here.pose) {
             Ok(here)
         } else {

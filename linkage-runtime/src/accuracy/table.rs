@@ -4,9 +4,10 @@ use nalgebra::{ComplexField, SVector};
 
 use super::newton::predicted;
 use super::{Method, Reached};
-use crate::mechanism::other_group;
-use crate::scalar::to_f64;
-use crate::{Error, Mechanism, Real, newton, real};
+use crate::error::all_finite;
+use crate::mechanism::{finite_position, other_group};
+use crate::scalar::{larger, largest, to_f64};
+use crate::{Error, Mechanism, Real, finite, newton, real};
 
 /// Positions of a mechanism with one input at `N` of its values, evenly spaced, and between them the cubics that have
 /// its velocity ratios as slopes (Hermite); no memory but its own 2 `U` `N` numbers.
@@ -46,9 +47,11 @@ impl<Q: Copy, T: Real, const U: usize, const N: usize> Table<Q, T, U, N> {
         let mut table = Self::between(mechanism, start, input + T::two_pi())?;
         let ends = [0, N - 1].map(|index| table.entries[index][0]);
         let turns = (ends[1] - ends[0]).map(|way| (way / T::two_pi()).round() * T::two_pi());
-        let rest = (ends[1] - ends[0] - turns).amax();
-        let size = T::one() + ends[0].amax().max(ends[1].amax());
-        if rest > real::<T>(ROUNDINGS) * T::default_epsilon() * size {
+        let rest = largest((ends[1] - ends[0] - turns).iter().copied());
+        let size = T::one() + largest(ends[0].iter().chain(ends[1].iter()).copied());
+        // What is not a number is no whole turn.
+        let is_whole = rest <= real::<T>(ROUNDINGS) * T::default_epsilon() * size;
+        if !is_whole {
             return Err(Error::NotPeriodic { mechanism: M::NAME });
         }
         table.advance = Some(turns);
@@ -84,6 +87,8 @@ impl<Q: Copy, T: Real, const U: usize, const N: usize> Table<Q, T, U, N> {
             table.entries[index] = [M::unknowns(&here.coordinates), slope];
         }
         table.error = table.measured(mechanism)?;
+        finite(M::NAME, "the input", [table.input, table.step])?;
+        all_finite(M::NAME, "velocity ratios", table.entries.as_flattened().iter().flatten())?;
         Ok(table)
     }
 
@@ -110,12 +115,12 @@ impl<Q: Copy, T: Real, const U: usize, const N: usize> Table<Q, T, U, N> {
 
     /// As much as a Newton step corrects half way between entries.
     fn measured<M: Mechanism<T, U, 1, Coordinates = Q>>(&self, mechanism: &M) -> Result<T, Error> {
-        (0..N - 1).try_fold(T::zero(), |largest, index| {
+        (0..N - 1).try_fold(T::zero(), |most, index| {
             let unknowns = self.cubic(index, real(0.5));
             let input = self.input + self.step * real::<T>(count(index) + 0.5);
             let pose = mechanism.pose_at(&self.coordinates::<M>(unknowns, input));
             let correction = mechanism.solve_jacobian(&pose, &mechanism.residual(&pose))?;
-            Ok(largest.max(correction.amax()))
+            Ok(larger(most, largest(correction.iter().copied())))
         })
     }
 
@@ -172,7 +177,10 @@ where
         if let Some(advance) = advance {
             unknowns += advance;
         }
-        Ok(Reached::at(mechanism, table.coordinates::<M>(unknowns, input)))
+        let coordinates = table.coordinates::<M>(unknowns, input);
+        let reached = Reached::at(mechanism, coordinates);
+        finite_position::<M, T, U, 1>(&reached.coordinates, &reached.pose)?;
+        Ok(reached)
     }
 }
 

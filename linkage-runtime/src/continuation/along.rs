@@ -88,6 +88,10 @@ where
         AlongPose { pose: self.mechanism.pose_at(&M::with_inputs(&at.q, inputs)), slope, bend }
     }
 
+    fn is_finite(at: &Self::Pose) -> bool {
+        M::is_finite(&at.pose) && at.slope.iter().chain(at.bend.iter()).all(T::is_finite)
+    }
+
     fn residual(&self, at: &Self::Pose) -> SVector<T, U> {
         self.mechanism.residual(&at.pose)
     }

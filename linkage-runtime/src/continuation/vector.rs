@@ -5,6 +5,7 @@ use core::ops::{Add, Mul, Sub};
 use nalgebra::SVector;
 
 use crate::Real;
+use crate::scalar::{larger, largest};
 
 /// A vector of q: its part along the unknowns, and its part along the input.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +42,7 @@ impl<T: Real, const U: usize> Vector<T, U> {
     }
 
     pub(super) fn largest(&self) -> T {
-        self.unknowns.amax().max(self.input.abs())
+        larger(largest(self.unknowns.iter().copied()), self.input.abs())
     }
 
     pub(super) fn normalized(&self) -> Self {

@@ -116,7 +116,7 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
         (self.start, self.start + self.length)
     }
 
-    /// The state at t. Outside of the step it is extrapolated.
+    /// The state at t. Outside of the step it is extrapolated, and need not be finite.
     #[must_use]
     pub fn at(&self, t: T) -> SVector<T, N> {
         if self.length.is_zero() { self.coefficients[0] } else { self.at_fraction((t - self.start) / self.length) }

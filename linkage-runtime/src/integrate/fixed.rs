@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use super::System;
 use super::control::{positive, within};
+use super::run::finite;
 use super::tableau::{self, SLOPES, Stage, Weights};
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
@@ -39,10 +40,11 @@ impl<S: System<T, N, 0>, T: Real, const N: usize> FixedStep<S, T, N> {
     /// From state `y` at `start`, by steps of this length, which is negative to go back in time.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the length is zero or not finite, or `start` is not.
+    /// [`Error::OutOfRange`] if the length is zero or not finite, or `start` is not, [`Error::NotFiniteAt`] if the state is not.
     pub fn new(system: S, (start, y): (T, SVector<T, N>), length: T) -> Result<Self, Error> {
         within("the time", to_f64(start), f64::MIN, f64::MAX)?;
         positive("the step", to_f64(length.abs()))?;
+        finite("the initial state", start, &y)?;
         Ok(Self { system, start, length, steps: 0, state: y })
     }
 
@@ -81,9 +83,8 @@ impl<S: System<T, N, 0>, T: Real, const N: usize> FixedStep<S, T, N> {
         slopes[0] = self.system.rate(t, &y)?;
         tableau::evaluate(|t, y| self.system.rate(t, y), STAGES, 1, (t, &y), h, &mut slopes)?;
         let next = y + tableau::combination(&slopes, SOLUTION) * h;
-        if !next.iter().all(T::is_finite) {
-            return Err(Error::NotFiniteAt { quantity: "the rate or the state", t: to_f64(t) });
-        }
+        finite("the rate or the state", t, &next)?;
+        finite("the time", t, &SVector::from([t + h]))?;
         self.state = next;
         self.steps += 1;
         Ok(())

@@ -405,7 +405,9 @@ where
         if t == self.to.0 {
             return Ok(self.to.1);
         }
-        Ok(self.interpolant()?.at(t))
+        let state = self.interpolant()?.at(t);
+        finite("the state", t, &state)?;
+        Ok(state)
     }
 
     pub(super) fn cubic(&self) -> Interpolant<T, N> {

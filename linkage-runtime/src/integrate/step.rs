@@ -78,6 +78,8 @@ where
         let h = end - t;
         tableau::evaluate(counted(&mut self.system, &mut self.counts), table.stages, 1, (t, y), h, &mut self.slopes)?;
         let next = y + tableau::combination(&self.slopes, table.solution) * h;
+        // Relative to an infinite state every error would be zero.
+        finite("the rate or the state", end, &next)?;
         let of_end = const { uses(M::TABLEAU.errors[0], M::TABLEAU.end) };
         if of_end {
             self.slopes[table.end] = self.slope(end, &next)?;

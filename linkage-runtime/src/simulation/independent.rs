@@ -7,6 +7,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::scales::Scales;
+use crate::scalar::smallest;
 use crate::{Mechanism, Real};
 
 /// A choice of independent coordinates, and the order in which the others are eliminated. Coordinates are columns of
@@ -160,7 +161,7 @@ impl<T: Real, const U: usize, const V: usize> Independent<T, U, V> {
 
     /// The smallest pivot: 0 where the closures do not determine the dependent coordinates.
     pub(super) fn regularity(&self) -> T {
-        self.pivots.amin()
+        smallest(self.pivots.iter().copied())
     }
 }
 

@@ -7,7 +7,9 @@ use super::scales::Scales;
 use super::state::{State, Touch};
 use super::watch::Unwatched;
 use crate::contact::Contacts;
+use crate::error::all_finite;
 use crate::integrate::Interpolant;
+use crate::scalar::smallest;
 use crate::scene::{Coordinates, Inputs};
 use crate::{Error, Mechanism, Real, Scene, newton, real};
 
@@ -105,7 +107,7 @@ where
         q: &Position<S, T, U, V, N, C>,
     ) -> Option<Factors<T, U, V>> {
         let factors = self.factors(independent, q);
-        (factors.pivots().amin() > independent.regularity() * real(LEAST_PART)).then_some(factors)
+        (smallest(factors.pivots().iter().copied()) > independent.regularity() * real(LEAST_PART)).then_some(factors)
     }
 
     /// u' and v'.
@@ -149,7 +151,9 @@ where
 
     pub(super) fn state(&self, t: T, y: &SVector<T, N>) -> Result<State<T, Position<S, T, U, V, N, C>, C>, Error> {
         let (q, _) = Self::unpack(y);
-        let rate = Self::joined(&q, self.velocity(t, y)?);
+        let rates = self.velocity(t, y)?;
+        all_finite(S::NAME, "the state", [t].iter().chain(y.iter()).chain(rates.0.iter()).chain(rates.1.iter()))?;
+        let rate = Self::joined(&q, rates);
         let touch = |place: usize| Touch { name: self.names[place], mode: self.contacts.modes[place], change: None };
         Ok(State { t, q, rate, event: None, contacts: core::array::from_fn(touch) })
     }

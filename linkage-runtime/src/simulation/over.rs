@@ -15,6 +15,7 @@ use super::independent::Independent;
 use super::motion::Motion;
 use crate::contact::ReducedEquations;
 use crate::integrate::Interpolant;
+use crate::scalar::{larger, largest};
 use crate::{Error, Mechanism, Real, Scene, real};
 
 /// Gauss's nodes on [0, 1]: the zeros of Legendre's polynomial of degree 8.
@@ -116,11 +117,11 @@ where
             let last = step.last();
             let (of_q, of_rates) = Self::unpack(&last);
             let size = self.scales.speed(&S::Mechanism::unknowns(&of_q), &S::Mechanism::inputs(&of_q));
-            let of_rates =
-                SVector::<T, V>::from_fn(|k, _| of_rates[k] / self.scales.coordinate(independent.free[k])).amax();
+            let of_rates = largest((0..V).map(|k| of_rates[k] / self.scales.coordinate(independent.free[k])));
             // Dense output is more exact than its last term by the next ratio of terms and the nodes' polynomial.
-            let inexact = size.max(of_rates / speed) * real(1e-5);
-            if inexact > tolerance.max(real(1e-9)) && turn > real(SHORTEST) {
+            let inexact = larger(size, of_rates / speed) * real(1e-5);
+            let is_exact = inexact <= tolerance.max(real(1e-9));
+            if !is_exact && turn > real(SHORTEST) {
                 return Ok(nearer);
             }
             let is_smooth = gap <= turn * real(GAP);
@@ -162,13 +163,14 @@ where
                 let q = self.closed_by(independent, &guess).ok()?;
                 let unknowns = S::Mechanism::unknowns(&q) - S::Mechanism::unknowns(&guess);
                 let inputs = S::Mechanism::inputs(&q) - S::Mechanism::inputs(&guess);
-                gap = gap.max(self.scales.speed(&unknowns, &inputs));
+                gap = larger(gap, self.scales.speed(&unknowns, &inputs));
                 let (at, factors) = (t + length * real(node), self.factors(independent, &q));
                 *slope = self.rate_by(independent, &factors, (at, &Self::pack(&q, &rates))).ok()?;
             }
             let next = Interpolant::of_slopes((t, *y), length, nodes, &slopes)?;
             let end = next.at_fraction(T::one());
-            let change = (end - step.at_fraction(T::one())).amax() / end.amax();
+            let [change, size] = [end - step.at_fraction(T::one()), end].map(|v| largest(v.iter().copied()));
+            let change = change / size;
             step = next;
             if !change.is_finite() {
                 return None;
@@ -246,6 +248,6 @@ where
         let rest = factors.reduce(&mechanism.residual(&pose));
         let pivots = factors.pivots();
         let open = rest.iter().zip(pivots.iter()).filter(|(_, pivot)| pivot.abs() <= weak);
-        open.fold(T::zero(), |most, (rest, _)| most.max(rest.abs()))
+        largest(open.map(|(rest, _)| *rest))
     }
 }

@@ -10,7 +10,7 @@ use super::state::{Loads, State};
 use super::watch::{Then, Unwatched, Watch, Watched};
 use crate::contact::Contacts;
 use crate::integrate::{Counts, Crossing, Dop853, Integration, Method, Tolerance};
-use crate::scalar::to_f64;
+use crate::scalar::{largest, to_f64};
 use crate::scene::Inputs;
 use crate::{Error, Mechanism, Real, Scene, real};
 
@@ -94,7 +94,7 @@ where
     let (unknowns, inputs) = motion.velocity(t, &y)?;
     let (_, accelerations) = Motion::<S, Unwatched, T, U, V, N, C>::unpack(&scene.derivative(t, &y)?);
     let speed = scales.speed(&unknowns, &inputs);
-    let urge = accelerations.component_div(&scales.inputs).amax().sqrt();
+    let urge = largest(accelerations.component_div(&scales.inputs).iter().copied()).sqrt();
     let span = to_f64(end - t).abs();
     let frequency = speed.max(urge);
     let slow = if span > 0.0 { real::<T>(span.recip()) } else { T::one() };

@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::contact::rounding_of;
+use crate::scalar::{larger, largest};
 use crate::{Along, Error, Mechanism, Real};
 
 /// What size of a coordinate and of a closure matters: of an angle 1, of a length that of the loops it is in.
@@ -20,8 +21,8 @@ impl<T: Real, const U: usize, const V: usize> Scales<T, U, V> {
         // A closure is as large as an angle can make it.
         let terms = mechanism.closure_sizes(&pose);
         let closures = SVector::from_fn(|row, _| {
-            let of_unknowns = largest(&by_unknowns, row, &M::UNKNOWN_ANGLES);
-            let of_angles = of_unknowns.max(largest(&by_inputs, row, &M::INPUT_ANGLES));
+            let of_unknowns = of_angles(&by_unknowns, row, &M::UNKNOWN_ANGLES);
+            let of_angles = larger(of_unknowns, of_angles(&by_inputs, row, &M::INPUT_ANGLES));
             usable(if of_angles.is_zero() { terms[row] } else { of_angles })
         });
         Self {
@@ -65,13 +66,13 @@ impl<T: Real, const U: usize, const V: usize> Scales<T, U, V> {
 
     /// The size of rates beside the sizes of their coordinates: an angular frequency.
     pub(super) fn speed(&self, unknowns: &SVector<T, U>, inputs: &SVector<T, V>) -> T {
-        unknowns.component_div(&self.unknowns).amax().max(inputs.component_div(&self.inputs).amax())
+        let (unknowns, inputs) = (unknowns.component_div(&self.unknowns), inputs.component_div(&self.inputs));
+        largest(unknowns.iter().chain(inputs.iter()).copied())
     }
 }
 
-fn largest<T: Real, const U: usize, const C: usize>(sizes: &SMatrix<T, U, C>, row: usize, angles: &[bool; C]) -> T {
-    let angles = (0..C).filter(|&column| angles[column]);
-    angles.fold(T::zero(), |most, column| most.max(sizes[(row, column)].abs()))
+fn of_angles<T: Real, const U: usize, const C: usize>(sizes: &SMatrix<T, U, C>, row: usize, angles: &[bool; C]) -> T {
+    largest((0..C).filter(|&column| angles[column]).map(|column| sizes[(row, column)]))
 }
 
 fn coordinates<T: Real, const U: usize, const C: usize>(
@@ -84,7 +85,7 @@ fn coordinates<T: Real, const U: usize, const C: usize>(
             return T::one();
         }
         let rows = (0..U).filter(|&row| !sizes[(row, column)].is_zero());
-        usable(rows.fold(T::zero(), |most, row| most.max(closures[row] / sizes[(row, column)].abs())))
+        usable(largest(rows.map(|row| closures[row] / sizes[(row, column)])))
     })
 }
 

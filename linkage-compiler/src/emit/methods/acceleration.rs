@@ -2,7 +2,7 @@
 
 use quote::quote;
 
-use super::{Body, Kernels, Methods, argument_of, check_finite, fenced, lines};
+use super::{Body, Kernels, Methods, argument_of, check_finite, fenced, lines, without_result};
 use crate::derivation::Form;
 use crate::simplify::schedule::Stage;
 
@@ -33,9 +33,9 @@ impl Methods<'_> {
             let rates = self.coordinates(kernels, &rate, |c| c.rate);
             let sources = vec![rates, self.inputs(kernels, &acceleration, |c| c.acceleration)];
             let mut written = self.on_pose(kernels, sources, &stages);
-            let solved: Vec<_> = unknowns.iter().map(|&index| written.results[index].clone()).collect();
-            let finite = check_finite(&mut written, "acceleration", &solved);
-            let (fields, results) = (self.coordinate_fields(), &written.results);
+            let results = written.results.clone();
+            let finite = check_finite(&mut written, "acceleration", &kernels.checked(&results));
+            let fields = self.coordinate_fields();
             let tail = quote!(#finite Ok(#coordinates { #(#fields: #results),* }));
             code = Some(Body::new(written, tail, []));
         }
@@ -45,7 +45,7 @@ impl Methods<'_> {
             [self.words.borrowed(&own, &pose_type), self.words.borrowed(&own_rate, &coordinates)],
             self.words.sized("SVector", [u]),
         );
-        self.function(&docs, signature, gamma);
+        self.function(&without_result(docs), signature, gamma);
         let docs = lines([
             "The acceleration q'' at the velocity q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
             "",

@@ -97,10 +97,21 @@ impl Methods<'_> {
             quote!(self.#field.angle())
         });
         let values: Vec<_> = values.collect();
+        let directions = plan.directions.values().map(|field| ident(field));
+        let parts: Vec<_> = directions.flat_map(|field| [quote!(self.#field.re), quote!(self.#field.im)]).collect();
+        let numbers = plan.values.iter().map(|(_, field, _)| field);
+        let numbers = numbers.chain(plan.determinants.iter().map(|(_, field, _)| field));
+        let numbers = numbers.chain(plan.externals.iter().map(|(_, field, _)| field)).map(|field| ident(field));
         quote! {
             impl<T: Real> #pose<T> {
+                #[doc = " Whether every number of this position is finite."]
+                #[must_use]
+                pub fn is_finite(&self) -> bool {
+                    [#(#parts,)* #(self.#numbers),*].iter().all(T::is_finite)
+                }
                 #[doc = " The coordinates of this position; an angle that is held as its direction alone comes out"]
-                #[doc = " between -pi and pi, at the price of an arc tangent."]
+                #[doc = " between -pi and pi, at the price of an arc tangent. Nothing is refused: results of numbers"]
+                #[doc = " that are not finite are not finite either, or mean nothing."]
                 #[must_use]
                 pub fn coordinates(&self) -> #coordinates<T> {
                     #coordinates { #(#fields: #values),* }

@@ -99,12 +99,15 @@ impl Methods<'_> {
         body.uses = uses;
         let docs = if is_turned {
             lines([
-                "The branch that a position belongs to; `assemble` on it gives the numbers of its angles back.",
-                "",
-                "It is found by assembling the position.",
+                "The branch that a position belongs to, by the signs of determinants, and by assembling it for the turns:",
+                "`assemble` on the branch gives the numbers of the angles back. Nothing is refused: of a determinant that is",
+                "not a number the sign tells as well, and the turn of such an angle is 0.",
             ])
         } else {
-            lines(["The branch that a position belongs to."])
+            lines([
+                "The branch that a position belongs to, by the signs of determinants; nothing is refused: of one that is not a",
+                "number the sign tells as well.",
+            ])
         };
         let argument = argument_of(&argument, Some(&body));
         let signature =

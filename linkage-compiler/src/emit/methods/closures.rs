@@ -8,7 +8,7 @@ use super::super::kernel::Operand;
 use super::super::names::{Taken, ident};
 use super::super::tokens::Tokens;
 use super::super::types::field;
-use super::{Body, Kernels, Methods, argument_of, columns_of, fenced, literal};
+use super::{Body, Kernels, Methods, argument_of, columns_of, fenced, literal, without_result};
 use crate::derivation::{Derivation, Row};
 use crate::graph::NodeId;
 use crate::simplify::schedule::Stage;
@@ -34,7 +34,7 @@ impl Methods<'_> {
         });
         let pose = argument_of(&self.arguments.pose, code.as_ref());
         let signature = self.words.total(name, [self.words.borrowed(&pose, &pose_type)], of);
-        self.function(docs, signature, code);
+        self.function(&without_result(docs.to_vec()), signature, code);
     }
 
     pub(super) fn closures(&mut self, kernels: Option<&mut Kernels>) {
@@ -125,7 +125,7 @@ impl Methods<'_> {
             [self.words.borrowed(&pose, &pose_type)],
             self.words.sized("SMatrix", [u, u + v]),
         );
-        self.function(&docs, signature, body);
+        self.function(&without_result(docs.to_vec()), signature, body);
     }
 
     fn jacobian_sizes(&mut self, kernels: Option<&mut Kernels>) {
@@ -150,7 +150,7 @@ impl Methods<'_> {
             let [of_u, of_v] = [u, v].map(|columns| self.words.sized("SMatrix", [u, columns]));
             self.words.total("jacobian_sizes", [self.words.borrowed(&pose, &pose_type)], quote!((#of_u, #of_v)).into())
         };
-        self.function(&docs, signature, code);
+        self.function(&without_result(docs.to_vec()), signature, code);
     }
 
     fn determinant(&mut self, kernels: Option<&mut Kernels>) {
@@ -204,12 +204,12 @@ impl Methods<'_> {
         }
         let own = argument_of(&pose, whole.as_ref());
         let signature = self.words.total("determinant", [self.words.borrowed(&own, &pose_type)], self.words.scalar());
-        self.function(&docs, signature, whole);
+        self.function(&without_result(docs), signature, whole);
         let pose = argument_of(&pose, parts.as_ref());
         let count = literal(count);
         let of = quote!([T; #count]).into();
         let signature = self.words.total("block_determinants", [self.words.borrowed(&pose, &pose_type)], of);
-        self.function(&blocks_docs, signature, parts);
+        self.function(&without_result(blocks_docs), signature, parts);
     }
 }
 

@@ -33,3 +33,12 @@ pub(super) fn count(operations: Operations) -> String {
     }
     text
 }
+
+/// The description of a function without `Result`, which says what it gives for numbers that are not finite.
+pub(super) fn without_result(mut docs: Vec<String>) -> Vec<String> {
+    docs.extend(lines([
+        "",
+        "Nothing is refused: results of numbers that are not finite are not finite either, or mean nothing.",
+    ]));
+    docs
+}

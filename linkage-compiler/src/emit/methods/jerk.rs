@@ -33,9 +33,9 @@ impl Methods<'_> {
                 self.inputs(kernels, &jerk, |c| c.jerk),
             ];
             let mut code = self.on_pose(kernels, sources, &stages);
-            let solved: Vec<_> = unknowns.iter().map(|&index| code.results[index].clone()).collect();
-            let finite = check_finite(&mut code, "jerk", &solved);
-            let (fields, results) = (self.coordinate_fields(), &code.results);
+            let results = code.results.clone();
+            let finite = check_finite(&mut code, "jerk", &kernels.checked(&results));
+            let fields = self.coordinate_fields();
             let tail = quote!(#finite Ok(#coordinates { #(#fields: #results),* }));
             Body::new(code, tail, [])
         });

@@ -29,7 +29,7 @@ use std::rc::Rc;
 use proc_macro2::{Delimiter, Ident, TokenStream};
 use quote::quote;
 
-use super::kernel::{self, Code, Given, Shape, Source};
+use super::kernel::{self, Code, Given, Operand, Shape, Source};
 use super::names::{Scope, ident};
 use super::pose::PosePlan;
 use super::tokens::Tokens;
@@ -41,7 +41,7 @@ use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::schedule::{Operations, Stage};
 use body::{Body, argument_of, bind, check_finite, columns_of, in_parts, literal, member, pose_members};
 pub(in crate::emit) use branch::{AngleTurn, Branches};
-use comments::{count, fenced, lines};
+use comments::{count, fenced, lines, without_result};
 pub(in crate::emit) use scene::of_scene;
 use signature::Words;
 
@@ -248,6 +248,20 @@ impl<'a> Kernels<'a> {
             named.into_iter().chain([stage])
         };
         stages.into_iter().flat_map(with).collect()
+    }
+
+    /// What is checked of results of which some are the user's own, in the order of the coordinates: the unknowns, and
+    /// the inputs that are in no closure. Rates of unknowns are sums of multiples of the rates of the other inputs,
+    /// so that they are not finite where those are not.
+    fn checked(&self, results: &[Operand]) -> Vec<Operand> {
+        let (derivation, rows) = (&self.derivation, self.derivation.jacobian_inputs());
+        let is_idle = |place: usize| {
+            let mut entries = rows.iter().filter_map(|row| row.get(&place));
+            entries.all(|&entry| derivation.graph.is_zero(entry))
+        };
+        let idle = derivation.inputs.iter().enumerate().filter(|(place, _)| is_idle(*place));
+        let checked = derivation.unknowns.iter().chain(idle.map(|(_, index)| index));
+        checked.map(|&index| results[index].clone()).collect()
     }
 
     fn text(&self, node: NodeId) -> String {

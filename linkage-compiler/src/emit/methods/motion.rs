@@ -24,6 +24,8 @@ impl Methods<'_> {
             stages = kernels.with_determinants(stages);
             let mut nodes = kernels.variables(&kernels.rates(&all));
             nodes.extend(kernels.variables(&kernels.accelerations(&all)));
+            let values: Vec<_> = kernels.derivation.coordinates.iter().map(|coordinate| coordinate.value).collect();
+            nodes.extend(kernels.variables(&values));
             let quantities: Vec<Quantity> =
                 kernels.derivation.points.iter().chain(&kernels.derivation.outputs).cloned().collect();
             for quantity in &quantities {
@@ -42,7 +44,7 @@ impl Methods<'_> {
             let count = fields.len();
             let mut results = std::mem::take(&mut code.results).into_iter();
             let mut take = |many: usize| results.by_ref().take(many).collect::<Vec<Operand>>();
-            let (rates, accelerations) = (take(count), take(count));
+            let (rates, accelerations, values) = (take(count), take(count), take(count));
             let (point_parts, output_parts) = (take(6 * self.mechanism.points.len()), take(usize::MAX));
             let mut members = TokenStream::new();
             if !point_parts.is_empty() {
@@ -55,9 +57,9 @@ impl Methods<'_> {
                 members.extend(quote!(outputs: output_motions(Self::NAME, [#values])?,));
                 code.uses.insert("output_motions");
             }
-            let solved: Vec<Operand> =
-                unknowns.iter().flat_map(|&index| [rates[index].clone(), accelerations[index].clone()]).collect();
-            let verdict = check_finite(&mut code, "motion", &solved);
+            // No rate need be other than finite where a coordinate is.
+            let checked = [kernels.checked(&rates), kernels.checked(&accelerations), values].concat();
+            let verdict = check_finite(&mut code, "motion", &checked);
             code.arguments.push(q.clone());
             Body::new(
                 code,

@@ -3,7 +3,7 @@
 use quote::quote;
 
 use super::super::kernel;
-use super::{Arguments, Body, Kernels, Methods, argument_of, pose_members};
+use super::{Arguments, Body, Kernels, Methods, argument_of, pose_members, without_result};
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::simplify::schedule::Stage;
 
@@ -46,7 +46,7 @@ impl Methods<'_> {
             [format!("The position at these coordinates, ready for use: one sine and cosine for each angle{calls}.")];
         let q = argument_of(&q, body.as_ref());
         let signature = self.words.total("pose_at", [self.words.borrowed(&q, coordinates)], self.words.of(pose));
-        self.function(&docs, signature, body);
+        self.function(&without_result(docs.to_vec()), signature, body);
 
         // The name of a function is never that of a `let`, so the trait's can be called beside it.
         let (guess, solution) = (quote!(&#coordinates<T>), quote!(Solution<#coordinates<T>>));

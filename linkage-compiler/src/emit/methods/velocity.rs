@@ -107,9 +107,9 @@ impl Methods<'_> {
             stages.push(Stage::Return(kernels.variables(&kernels.rates(&all))));
             let sources = vec![self.inputs(kernels, &rate, |c| c.rate)];
             let mut code = self.on_pose(kernels, sources, &stages);
-            let solved: Vec<_> = unknowns.iter().map(|&index| code.results[index].clone()).collect();
-            let finite = check_finite(&mut code, "velocity", &solved);
-            let (fields, results) = (self.coordinate_fields(), &code.results);
+            let results = code.results.clone();
+            let finite = check_finite(&mut code, "velocity", &kernels.checked(&results));
+            let fields = self.coordinate_fields();
             let tail = quote!(#finite Ok(#coordinates { #(#fields: #results),* }));
             Body::new(code, tail, [])
         });

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::super::{Body, Methods, argument_of, bind, lines, literal};
+use super::super::{Body, Methods, argument_of, bind, lines, literal, without_result};
 use super::{ERRORS, Parts, Setting};
 use crate::derivation::Prescribed;
 use crate::emit::kernel::Operand;
@@ -26,7 +26,7 @@ impl Methods<'_> {
         });
         let time = argument_of(&place.time, code.as_ref());
         let signature = quote!(#[must_use] pub fn drives(&self, #time: T) -> [[T; 3]; #count]);
-        self.function(&docs, signature, code);
+        self.function(&without_result(docs), signature, code);
     }
 
     /// Inverse dynamics: `M_d v'' - Q_d`.

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::super::{Body, Methods, argument_of, lines, literal};
+use super::super::{Body, Methods, argument_of, bind, check_finite, lines, literal};
 use super::{Parts, Setting};
 use crate::derivation::Form;
 use crate::graph::NodeId;
@@ -24,19 +24,27 @@ impl Methods<'_> {
             let mut stages = kernels.derivation.solution(&equilibrium.systems, Form::Entries);
             stages.push(Stage::Return(returned));
             let stages = needed(&kernels.derivation.graph, kernels.with_determinants(stages));
-            let code = self.on_state(place, kernels, &stages);
-            let (forces, rest) = code.results.split_at(many);
+            let mut code = self.on_state(place, kernels, &stages);
+            let names: Vec<&Ident> = free.iter().map(|&at| &place.inputs[at]).collect();
+            let mut wishes: Vec<String> = names.iter().map(|input| format!("{input}_force")).collect();
+            wishes.extend(names.iter().map(|input| format!("{input}_force_size")));
+            for input in &names {
+                wishes.extend(names.iter().map(|other| format!("{other}_force_by_{input}")));
+            }
+            let (bindings, values) = bind(&code.results, &wishes, &mut code.taken);
+            let finite = check_finite(&mut code, "the forces at rest", &values);
+            let (forces, rest) = values.split_at(many);
             let (sizes, slopes) = rest.split_at(many);
             let columns = slopes.chunks(many).map(|column| quote!([#(#column),*]));
             let balance = quote!(forces: [#(#forces),*], sizes: [#(#sizes),*], slopes: [#(#columns),*]);
-            Body::new(code, quote!(Ok(Balance { #balance })), [])
+            Body::new(code, quote!(#bindings #finite Ok(Balance { #balance })), [])
         });
         let docs = lines([
             "The forces of the free inputs at rest, the sums of the magnitudes of their parts, and their derivatives by these",
             "inputs along the closures, column by column: an equilibrium of one input is stable where its slope is negative.",
             "",
             "# Errors",
-            "`Singular` where J has no inverse.",
+            "`Singular` where J has no inverse, `NotFinite` if a force, its size or a derivative is not finite.",
         ]);
         let [own_time, own] = [&time, &q].map(|argument| argument_of(argument, code.as_ref()));
         let signature = quote!(pub fn balance(&self, #own_time: T, #own: &#coordinates<T>)

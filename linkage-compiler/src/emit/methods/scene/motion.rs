@@ -153,8 +153,7 @@ impl Methods<'_> {
             accelerations.extend(place.driven.iter().copied().zip(laws));
             accelerations.sort_by_key(|(at, _)| *at);
             let accelerations: Vec<Operand> = accelerations.into_iter().map(|(_, value)| value).collect();
-            let mut checked = accelerations.clone();
-            checked.extend(kernels.derivation.unknowns.iter().map(|&index| rates[index].clone()));
+            let checked = [accelerations.clone(), kernels.checked(rates)].concat();
             let verdict = self.blamed(place, &mut code, "the acceleration", &checked);
             let (fields, names) = (self.coordinate_fields(), &place.inputs);
             let members = fields.iter().zip(rates).map(|(field, rate)| super::super::member(field, rate));

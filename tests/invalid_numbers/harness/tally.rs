@@ -1,0 +1,153 @@
+//! What became of the calls.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use linkage::Error;
+
+use super::{Finite, Source};
+
+thread_local! {
+    static EVALUATIONS: Cell<u64> = const { Cell::new(0) };
+    static PANIC: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Counts one evaluation: of a position, of the equations of motion, of a user function.
+pub fn evaluated() {
+    EVALUATIONS.set(EVALUATIONS.get() + 1);
+}
+
+/// Keeps what a panic says.
+pub fn listen() {
+    std::panic::set_hook(Box::new(|panic| PANIC.with_borrow_mut(|said| *said = panic.to_string())));
+}
+
+/// The calls of one function.
+#[derive(Default, Clone)]
+struct Row {
+    calls: u64,
+    finite: u64,
+    refused: u64,
+    not_finite: u64,
+    panics: u64,
+    /// The most evaluations of one call.
+    evaluations: u64,
+}
+
+/// The calls of the functions of one mechanism, or of all.
+#[derive(Default)]
+pub struct Tally {
+    rows: BTreeMap<&'static str, Row>,
+}
+
+/// So many of what is wrong are told of each function.
+const EXAMPLES: u64 = 2;
+
+/// No call takes more evaluations: Newton's method at most 60 steps of 40 halvings each, a search for limits in 720
+/// steps with a closer look at each, a path 20 steps of 64 trials, a simulation 60 steps.
+const MOST_EVALUATIONS: u64 = 200_000;
+
+impl Tally {
+    /// A call that may refuse; what it gives if it does not, and all is well.
+    pub fn fallible<R: Finite + Debug>(
+        &mut self,
+        source: &Source,
+        name: &'static str,
+        call: impl FnOnce() -> Result<R, Error>,
+    ) -> Option<R> {
+        let (result, row) = self.call(source, name, call)?;
+        match result {
+            Ok(result) if result.all_finite() => {
+                row.finite += 1;
+                return Some(result);
+            }
+            Ok(result) => {
+                row.not_finite += 1;
+                if row.not_finite <= EXAMPLES {
+                    println!("  {name} seed {}: {result:?}", source.seed);
+                }
+            }
+            Err(_) => row.refused += 1,
+        }
+        None
+    }
+
+    /// A call that gives several results, of which each may refuse.
+    pub fn each<R: Finite + Debug>(
+        &mut self,
+        source: &Source,
+        name: &'static str,
+        call: impl FnOnce() -> Vec<Result<R, Error>>,
+    ) {
+        let results = self.call(source, name, call).map(|(results, _)| results);
+        for result in results.into_iter().flatten() {
+            self.fallible(source, name, || result);
+        }
+    }
+
+    /// A call that always gives something, of which nothing is asked here.
+    pub fn total<R>(&mut self, source: &Source, name: &'static str, call: impl FnOnce() -> R) -> Option<R> {
+        let (result, row) = self.call(source, name, call)?;
+        row.finite += 1;
+        Some(result)
+    }
+
+    fn call<R>(&mut self, source: &Source, name: &'static str, call: impl FnOnce() -> R) -> Option<(R, &mut Row)> {
+        let row = self.rows.entry(name).or_default();
+        row.calls += 1;
+        let before = EVALUATIONS.get();
+        let result = catch_unwind(AssertUnwindSafe(call));
+        row.evaluations = row.evaluations.max(EVALUATIONS.get() - before);
+        if result.is_err() {
+            row.panics += 1;
+            if row.panics <= EXAMPLES {
+                println!("  {name} seed {}: {}", source.seed, PANIC.take());
+            }
+        }
+        result.ok().map(|result| (result, row))
+    }
+
+    pub fn add(&mut self, other: &Self) {
+        for (name, row) in &other.rows {
+            let sum = self.rows.entry(name).or_default();
+            sum.calls += row.calls;
+            sum.finite += row.finite;
+            sum.refused += row.refused;
+            sum.not_finite += row.not_finite;
+            sum.panics += row.panics;
+            sum.evaluations = sum.evaluations.max(row.evaluations);
+        }
+    }
+
+    /// No result that is not finite, no panic, and no more evaluations than are said.
+    pub fn is_clean(&self) -> bool {
+        self.rows.values().all(|row| row.not_finite == 0 && row.panics == 0 && row.evaluations <= MOST_EVALUATIONS)
+    }
+
+    pub fn tell(&self, name: &str) {
+        let sum = |number: fn(&Row) -> u64| self.rows.values().map(number).sum::<u64>();
+        let [calls, finite, refused] = [sum(|row| row.calls), sum(|row| row.finite), sum(|row| row.refused)];
+        let [not_finite, panics] = [sum(|row| row.not_finite), sum(|row| row.panics)];
+        let most = self.rows.values().map(|row| row.evaluations).max().unwrap_or_default();
+        println!(
+            "{name}: {calls} calls of {} functions, {finite} finite, {refused} refused, {not_finite} not finite, \
+             {panics} panics, at most {most} evaluations",
+            self.rows.len()
+        );
+        for (function, row) in &self.rows {
+            let is_wrong = row.not_finite > 0 || row.panics > 0 || row.evaluations > MOST_EVALUATIONS;
+            if is_wrong || (name == "all" && !function.contains("::")) {
+                println!(
+                    "  {function}: {} calls, {} finite, {} refused, {} not finite, {} panics, at most {} evaluations",
+                    row.calls, row.finite, row.refused, row.not_finite, row.panics, row.evaluations
+                );
+            }
+        }
+        let fewest = self.rows.iter().filter(|(function, _)| function.contains("::")).min_by_key(|(_, row)| row.calls);
+        if let Some((function, row)) = fewest.filter(|_| name == "all") {
+            println!("  fewest: {} calls of {function}", row.calls);
+        }
+    }
+}

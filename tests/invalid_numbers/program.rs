@@ -1,0 +1,371 @@
+//! The text of the program: what is emitted for each mechanism, and a call of each of its functions.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use proc_macro2::TokenStream;
+use quote::ToTokens;
+use syn::{
+    Expr, FnArg, GenericParam, ImplItem, Item, ItemImpl, ItemStruct, Pat, ReturnType, Signature, Stmt, Visibility,
+};
+
+/// What a mechanism can be asked for; those that it does not ask for itself are added.
+const REQUESTS: [&str; 4] = ["limits", "jerk", "velocity_ratio_derivatives", "sensitivity"];
+
+/// Folders and files with mechanisms.
+const SOURCES: [&str; 3] = ["tests/mechanisms", "examples/engine/machine.rs", "examples/door_closer/machine.rs"];
+
+/// The files of the program by name.
+pub fn files(root: &Path) -> Vec<(String, String)> {
+    let mut files = Vec::new();
+    let mut modules = String::new();
+    let mut subjects = String::new();
+    for source in SOURCES {
+        let path = root.join(source);
+        let mut paths: Vec<_> = if path.is_dir() {
+            fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()).collect()
+        } else {
+            vec![path]
+        };
+        paths.sort();
+        for path in paths {
+            let parent = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            let name = if stem == "machine" { parent.into_owned() } else { stem.into_owned() };
+            let text = fs::read_to_string(&path).unwrap();
+            let file: syn::File = syn::parse_str(&text).unwrap();
+            let macros = file.items.iter().filter_map(|item| match item {
+                Item::Macro(item) if item.mac.path.is_ident("linkage") => Some(item.mac.tokens.clone()),
+                _ => None,
+            });
+            // Functions of the user's stand beside the mechanism.
+            let functions = file.items.iter().filter(|item| matches!(item, Item::Mod(_)));
+            let functions: Vec<_> = functions.map(|item| item.to_token_stream().to_string()).collect();
+            for (number, tokens) in macros.enumerate() {
+                let module = format!("{name}_{number}");
+                let emitted = expanded(&tokens);
+                let emitted: syn::File = syn::parse2(emitted).unwrap_or_else(|error| panic!("{module}: {error}"));
+                let mut text = functions.concat() + &prettyplease::unparse(&emitted);
+                let calls = Calls::of(&emitted);
+                write!(text, "\npub mod calls {{ use super::*; use crate::harness as h;\n{}}}\n", calls.text).unwrap();
+                writeln!(modules, "#[allow(warnings)] mod {module};").unwrap();
+                for subject in calls.subjects {
+                    writeln!(subjects, "(\"{subject}\", {module}::calls::{}),", snake(&subject)).unwrap();
+                }
+                files.push((format!("{module}.rs"), text));
+            }
+        }
+    }
+    let harness = root.join("tests/invalid_numbers/harness/mod.rs");
+    let laws = root.join("tests/source/cam_laws.rs");
+    files.push((
+        "main.rs".to_owned(),
+        format!(
+            "#[path = {harness:?}] mod harness;\n#[path = {laws:?}] mod laws;\n{COUNTED}\n{modules}\n\
+             fn main() {{ harness::main(&[{subjects}]); }}\n"
+        ),
+    ));
+    files
+}
+
+/// The functions that cams call, counted.
+const COUNTED: &str = "
+mod cam_laws {
+    use linkage::Real;
+    pub fn cycloidal_strokes<T: Real>(angle: T, height: T, rise: T) -> (T, T, T) {
+        crate::harness::evaluated();
+        crate::laws::cycloidal_strokes(angle, height, rise)
+    }
+    pub fn polynomial_strokes<T: Real>(angle: T, height: T, rise: T) -> (T, T, T, T) {
+        crate::harness::evaluated();
+        crate::laws::polynomial_strokes(angle, height, rise)
+    }
+}
+";
+
+/// What is emitted for mechanisms, asked for everything that they can be asked for.
+fn expanded(tokens: &TokenStream) -> TokenStream {
+    let text = tokens.to_string();
+    let expand = |text: &str| linkage_compiler::expand(text.parse().unwrap(), &"::linkage".parse().unwrap());
+    let has_errors = |tokens: &TokenStream| tokens.to_string().contains("compile_error");
+    let wanted: Vec<&str> = text.split("derive ").skip(1).filter_map(|rest| rest.split(';').next()).collect();
+    let is_wanted = |request: &str| wanted.iter().any(|list| list.split(',').any(|name| name.trim() == request));
+    // The first brace is that of the mechanism.
+    let with = |requests: &[&str]| text.replacen('{', &format!("{{ derive {};", requests.join(", ")), 1);
+    let missing: Vec<&str> = REQUESTS.into_iter().filter(|request| !is_wanted(request)).collect();
+    let all = expand(&if missing.is_empty() { text.clone() } else { with(&missing) });
+    if !has_errors(&all) {
+        return all;
+    }
+    let allowed: Vec<&str> = missing.into_iter().filter(|request| !has_errors(&expand(&with(&[request])))).collect();
+    expand(&if allowed.is_empty() { text.clone() } else { with(&allowed) })
+}
+
+/// `FourBar` as `four_bar`.
+fn snake(name: &str) -> String {
+    let mut text = String::new();
+    for letter in name.chars() {
+        if letter.is_uppercase() && !text.is_empty() {
+            text.push('_');
+        }
+        text.extend(letter.to_lowercase());
+    }
+    text
+}
+
+/// A type or a pattern without spaces.
+fn plain(tokens: impl ToTokens) -> String {
+    tokens.to_token_stream().to_string().replace(' ', "")
+}
+
+#[derive(Default)]
+struct Calls {
+    text: String,
+    /// The types whose functions are called.
+    subjects: Vec<String>,
+}
+
+/// What is emitted, by its types.
+#[derive(Default)]
+struct Emitted<'a> {
+    structs: BTreeMap<String, &'a ItemStruct>,
+    /// The functions with a receiver, by type.
+    functions: BTreeMap<String, Vec<&'a Signature>>,
+    defaults: Vec<String>,
+    /// The scenes with a trait.
+    scenes: Vec<String>,
+}
+
+impl<'a> Emitted<'a> {
+    fn gather(&mut self, items: &'a [Item]) {
+        for item in items {
+            match item {
+                Item::Struct(item) => {
+                    self.structs.insert(item.ident.to_string(), item);
+                }
+                Item::Impl(item) => self.implementation(item),
+                Item::Const(item) => {
+                    let Expr::Block(block) = &*item.expr else { continue };
+                    for statement in &block.block.stmts {
+                        if let Stmt::Item(item) = statement {
+                            self.gather(std::slice::from_ref(item));
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn implementation(&mut self, item: &'a ItemImpl) {
+        let of = plain(&item.self_ty);
+        let of = of.split('<').next().unwrap_or_default().to_owned();
+        if let Some((path, _)) = item.trait_.as_ref().map(|(path, of)| (plain(path), of)) {
+            if path.ends_with("Default") {
+                self.defaults.push(of);
+            } else if path.starts_with("Scene<") {
+                self.scenes.push(of);
+            }
+            return;
+        }
+        for item in &item.items {
+            let ImplItem::Fn(function) = item else { continue };
+            let is_called = matches!(function.vis, Visibility::Public(_))
+                && function
+                    .sig
+                    .receiver()
+                    .is_some_and(|receiver| matches!(receiver.kind, syn::ReceiverKind::Reference(..)));
+            if is_called {
+                self.functions.entry(of.clone()).or_default().push(&function.sig);
+            }
+        }
+    }
+}
+
+impl Calls {
+    fn of(file: &syn::File) -> Self {
+        let mut emitted = Emitted::default();
+        emitted.gather(&file.items);
+        let mut calls = Self::default();
+        for (name, item) in &emitted.structs {
+            calls.taken_apart(name, item);
+            calls.drawn(name, item, emitted.defaults.contains(name));
+        }
+        for (name, functions) in &emitted.functions {
+            // The functions of a pose are called with those of its mechanism.
+            if !name.ends_with("Pose") {
+                calls.subject(name, functions, &emitted);
+            }
+        }
+        calls
+    }
+
+    /// Every number of a type, field by field.
+    fn taken_apart(&mut self, name: &str, item: &ItemStruct) {
+        let fields: Vec<String> =
+            item.fields.iter().filter_map(|field| Some(field.ident.as_ref()?.to_string())).collect();
+        let of_quantity = item.generics.params.iter().any(|parameter| match parameter {
+            GenericParam::Type(parameter) => parameter.ident == "Q",
+            _ => false,
+        });
+        let (generics, of) = match (of_quantity, item.generics.params.is_empty()) {
+            (true, _) => ("<Q: h::Finite>", "<Q>"),
+            (false, false) => ("", "<f64>"),
+            (false, true) => ("", ""),
+        };
+        let list = fields.join(", ");
+        let all: String = fields.iter().map(|field| format!(" && h::Finite::all_finite({field})")).collect();
+        let _ = writeln!(
+            self.text,
+            "impl{generics} h::Finite for {name}{of} {{ fn all_finite(&self) -> bool {{ let {name} {{ {list} }} = self; true{all} }} }}"
+        );
+    }
+
+    /// A value of a type that can be an argument.
+    fn drawn(&mut self, name: &str, item: &ItemStruct, has_default: bool) {
+        let of = if item.generics.params.is_empty() { "" } else { "<f64>" };
+        if name.ends_with("Points") || name.ends_with("Outputs") || name.ends_with("Motion") {
+            return;
+        }
+        let fields: String = item
+            .fields
+            .iter()
+            .filter_map(|field| Some((field.ident.as_ref()?.to_string(), plain(&field.ty))))
+            .map(|(field, of)| match of.as_str() {
+                "T" if has_default => format!("{field}: s.parameter(default.{field}), "),
+                _ => format!("{field}: h::Draw::draw(s), "),
+            })
+            .collect();
+        let default =
+            if has_default { format!("let default = <{name} as Default>::default();") } else { String::new() };
+        let _ = writeln!(
+            self.text,
+            "impl h::Draw for {name}{of} {{ fn draw(s: &mut h::Source) -> Self {{ {default} {name} {{ {fields} }} }} }}"
+        );
+    }
+
+    /// One call of each function of a mechanism or a scene.
+    fn subject(&mut self, name: &str, functions: &[&Signature], emitted: &Emitted) {
+        let Some(of_inputs) = functions.iter().find_map(|function| inputs_of(function, emitted)) else {
+            panic!("{name}: no function has the inputs among its arguments")
+        };
+        let coordinates = functions.iter().flat_map(|function| &function.inputs).find_map(|argument| match argument {
+            FnArg::Typed(argument) => Some(plain(&argument.ty).strip_suffix("<T>")?.strip_prefix('&')?.to_owned())
+                .filter(|of| of.ends_with("Coordinates")),
+            FnArg::Receiver(_) => None,
+        });
+        let coordinates = coordinates.unwrap_or_default();
+        let inner = emitted.structs[name].fields.iter().find_map(|field| {
+            let of = plain(&field.ty);
+            let of = of.strip_suffix("<T>")?;
+            emitted.functions.contains_key(of).then(|| field.ident.as_ref().map(ToString::to_string))?
+        });
+        let mut text = format!("pub fn {}(t: &mut h::Tally, s: &mut h::Source) {{\n", snake(name));
+        let _ = writeln!(
+            text,
+            "let m: {name} = h::Draw::draw(s);\nlet [mut positions, mut motions] = [(); 2].map(|()| h::Pool::<{coordinates}>::default());"
+        );
+        match &inner {
+            Some(field) => {
+                let _ = writeln!(text, "h::positions(&m.{field}, s, &mut positions);");
+                if emitted.scenes.iter().any(|scene| scene == name) {
+                    let _ = writeln!(text, "h::scene(t, s, &m, &mut positions);");
+                }
+            }
+            None => {
+                let _ = writeln!(text, "let mut poses = h::Pool::default();");
+                let _ = writeln!(text, "h::mechanism(t, s, &m, &mut positions, &mut poses);");
+                if emitted.structs[&of_inputs].fields.len() == 1 {
+                    let _ = writeln!(text, "h::driven(t, s, &m, &mut positions);");
+                }
+                let pose = format!("{name}Pose");
+                for function in emitted.functions.get(&pose).into_iter().flatten() {
+                    let _ = writeln!(
+                        text,
+                        "{{ let pose: {pose} = poses.take(s); t.total(s, \"{pose}::{0}\", || pose.{0}()); }}",
+                        function.ident
+                    );
+                }
+            }
+        }
+        for function in functions {
+            text += &call(name, function);
+        }
+        text += "}\n";
+        self.text += &text;
+        self.subjects.push(name.to_owned());
+    }
+}
+
+/// The type of the inputs among the arguments of a function.
+fn inputs_of(function: &Signature, emitted: &Emitted) -> Option<String> {
+    function.inputs.iter().find_map(|argument| {
+        let FnArg::Typed(argument) = argument else { return None };
+        let of = plain(&argument.ty);
+        let of = of.strip_prefix("implInto<")?.strip_suffix("<T>>")?;
+        emitted.structs.contains_key(of).then(|| of.to_owned())
+    })
+}
+
+/// The call of one function.
+fn call(name: &str, function: &Signature) -> String {
+    let mut text = String::from("{ ");
+    let mut arguments = Vec::new();
+    let mut is_guessed = false;
+    for (place, argument) in function.inputs.iter().enumerate() {
+        let FnArg::Typed(argument) = argument else { continue };
+        let of = plain(&argument.ty);
+        let wish = match &*argument.pat {
+            Pat::Ident(pattern) => pattern.ident.to_string(),
+            _ => String::new(),
+        };
+        let is_position = ["q", "guess"].contains(&wish.trim_matches('_'));
+        is_guessed |= wish.trim_matches('_') == "guess";
+        let (value, passed) = match of.as_str() {
+            "T" => ("s.number()".to_owned(), ""),
+            _ if of.ends_with("Pose<T>") => ("poses.take(s)".to_owned(), "&"),
+            _ if of.ends_with("Coordinates<T>") && is_position => ("positions.take(s)".to_owned(), "&"),
+            _ if of.ends_with("Coordinates<T>") => ("motions.take(s)".to_owned(), "&"),
+            _ if of.starts_with("implInto<") || of.ends_with("Branch") => {
+                let of = of.trim_start_matches("implInto<").trim_end_matches('>').trim_end_matches("<T");
+                (format!("<{of} as h::Draw>::draw(s)"), "")
+            }
+            _ if of.starts_with("&SVector<T,") => {
+                (format!("<{} as h::Draw>::draw(s)", of[1..].replace("SVector<T,", "h::SVector<f64,")), "&")
+            }
+            _ => panic!("{name}::{}: nobody knows how to make `{wish}: {of}`", function.ident),
+        };
+        let _ = write!(text, "let a{place} = {value}; ");
+        arguments.push(format!("{passed}a{place}"));
+    }
+    let arguments = arguments.join(", ");
+    let called = format!("m.{}({arguments})", function.ident);
+    let ReturnType::Type(_, of) = &function.output else {
+        return String::new();
+    };
+    let of = plain(of);
+    let row = format!("\"{name}::{}\"", function.ident);
+    let kept = match of.as_str() {
+        _ if of.ends_with("Coordinates<T>,Error>") && is_guessed => "positions.keep(r)",
+        _ if of.ends_with("Coordinates<T>,Error>") => "motions.keep(r)",
+        _ if of.ends_with("Coordinates<T>>,Error>") && of.starts_with("Result<Solution<") => {
+            "positions.keep(r.coordinates)"
+        }
+        _ if of.ends_with("Pose<T>,Error>") => "poses.keep(r)",
+        _ if of.starts_with("Result<") || of.starts_with("impl") => "()",
+        // What a function without `Result` gives for invalid numbers, its description says.
+        _ => "",
+    };
+    let _ = if of.starts_with("implIterator<Item=Result<") || of.starts_with("impl::core::iter::Iterator<Item=Result<")
+    {
+        write!(text, "t.each(s, {row}, || {called}.collect());")
+    } else if kept.is_empty() {
+        write!(text, "t.total(s, {row}, || {called});")
+    } else {
+        write!(text, "if let Some(r) = t.fallible(s, {row}, || {called}) {{ {kept}; }}")
+    };
+    text += " }\n";
+    text
+}
