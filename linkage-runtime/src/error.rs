@@ -242,6 +242,14 @@ pub enum Error {
         /// Its restitution.
         value: f64,
     },
+    /// A simulation back in time of a scene with frictions or stops: what they take does not say where the motion came
+    /// from.
+    Irreversible {
+        /// The scene.
+        scene: &'static str,
+        /// The first of its frictions and stops.
+        contact: &'static str,
+    },
     /// No forces or impulses of the frictions and stops agree with the motion: a prescribed motion drives through a
     /// stop, or stops leave no way to move.
     NoContactForces {
@@ -327,6 +335,12 @@ impl fmt::Display for Error {
             }
             Self::Restitution { scene, stop, value } => {
                 write!(f, "the restitution of the {stop} in {scene} is {value}: it must be between 0 and 1")
+            }
+            Self::Irreversible { scene, contact } => {
+                write!(
+                    f,
+                    "{scene} cannot be followed back in time, for it has a {contact}: let it end later than it starts"
+                )
             }
             Self::NoContactForces { scene, contact } => {
                 write!(f, "no forces of frictions and stops agree with the motion of {scene}: {contact}")

@@ -199,3 +199,24 @@ fn blows_from_outside() {
         close("place", motion.state().q.x, -0.5, 1e-15);
     }
 }
+
+/// A ball that is let go late, when the time itself is known to rounding errors only: it bounces while a flight is
+/// longer than some of these, and rests.
+#[test]
+fn a_ball_let_go_late_bounces_and_rests() {
+    let scene = Bouncing::default();
+    let fall = (2.0 * 0.75 / 9.81_f64).sqrt();
+    for start in [0.0, 1.0, 1e3, 1e6, 1e8, 1e10, -1e10] {
+        let mut motion = simulate(&scene, (start, block(0.25), 0.0), start + 4.0, 1e-13).unwrap().most_steps(3000);
+        let mut impacts = 0;
+        while let Some(state) = motion.advance().unwrap_or_else(|error| panic!("{start:e}: {error}")) {
+            impacts += i32::from(state.changes().any(|(_, change)| change == Change::Impact));
+        }
+        assert_eq!((motion.state().rate.x, motion.state().mode("stop on height")), (0.0, Some(Mode::AtLower)));
+        // What is left of the last flight is 64 rounding errors of the time, or 0.4^20 of the fall.
+        let flights = |shortest: f64| (shortest / (2.0 * fall)).ln() / 0.4_f64.ln();
+        let expected = flights(64.0 * f64::EPSILON * start.abs()).min(20.0) as i32;
+        println!("{start:e}: {impacts} of {expected}");
+        assert!((impacts - expected).abs() <= 1, "{start:e}: {impacts} of {expected}");
+    }
+}

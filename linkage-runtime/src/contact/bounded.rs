@@ -142,6 +142,10 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
             }
             let part = match blocked {
                 Some((_, part)) if part.is_finite() => part,
+                _ if is_endless && self.is_level(&direction) => {
+                    self.count -= 1;
+                    return Ok(());
+                }
                 _ if is_endless => return Err(next),
                 _ => T::one(),
             };
@@ -154,6 +158,16 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
                 return Ok(());
             }
         }
+    }
+
+    /// Whether nothing but rounding is gained along a combination of the free forces to which nothing answers.
+    fn is_level(&self, direction: &[T; C]) -> bool {
+        let terms = self.free.iter().zip(direction).take(self.count).map(|(&contact, &way)| {
+            let bias = self.bounds[contact].map_or((T::zero(), T::zero()), |bounds| bounds.bias);
+            (bias.0 * way, bias.1 * way.abs())
+        });
+        let (slope, size) = terms.fold((T::zero(), T::zero()), |(a, b), (slope, size)| (a + slope, b + size));
+        slope.abs() <= nothing::<T>() * size
     }
 
     /// b + A f.

@@ -6,7 +6,7 @@ use super::bounded::{Bounds, bounded};
 use super::held::{Held, Response, slipping};
 use super::reduced::{ReducedContact, ReducedEquations};
 use super::{ContactLaw, Mode};
-use crate::integrate::Crossing;
+use crate::integrate::{Crossing, Guard};
 use crate::scalar::to_f64;
 use crate::{Error, Real, real};
 
@@ -16,7 +16,8 @@ pub(super) const ROUNDINGS: f64 = 16.0;
 /// The modes of the contacts of a scene, with what is remembered from one event to the next.
 ///
 /// [`begin`](Self::begin) at the start of a motion, and [`settle`](Self::settle) wherever an event function of
-/// [`events`](Self::events) has fallen through zero; between them [`motion`](Self::motion) is smooth.
+/// [`events`](Self::events) has fallen through zero; between them [`motion`](Self::motion) is smooth. Time runs forward:
+/// what an impact or friction has taken does not say where the motion came from.
 ///
 /// **The end of bouncing.** A stop comes to rest where what its rebound would have left is less than the square root
 /// of the scalar's rounding of the greatest rate that it was hit with since it last rested, or where the rebound would
@@ -212,6 +213,22 @@ impl<T: Real, const C: usize> Contacts<T, C> {
             }
         }
         Ok(values)
+    }
+
+    /// The same with what is known of their change: of an open stop its rate.
+    pub(crate) fn guards<const V: usize>(&self, equations: &ReducedEquations<T, V, C>) -> Result<[Guard<T>; C], Error> {
+        let values = self.events(equations)?;
+        Ok(core::array::from_fn(|place| {
+            let contact = &equations.contacts[place];
+            let rate = match (self.modes[place], contact.law) {
+                (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
+                    let (side, _) = nearer(contact, lower, upper);
+                    Some(contact.rate(&equations.rates).0 * side.inward())
+                }
+                _ => None,
+            };
+            Guard { value: values[place], rate }
+        }))
     }
 
     /// Which way the event functions pass through zero.

@@ -47,15 +47,22 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
 
     /// The root of the mean square of a change at `y` beside what is allowed.
     pub(super) fn share(&self, change: &SVector<T, N>, y: &SVector<T, N>) -> f64 {
-        ComplexField::sqrt(self.squares(change, |i| to_f64(y[i]).abs()) / N as f64)
+        self.norm(change, |i| to_f64(y[i]).abs()) / ComplexField::sqrt(N as f64)
     }
 
-    /// sum (`v_i` / allowed)^2.
-    fn squares(&self, v: &SVector<T, N>, size: impl Fn(usize) -> f64) -> f64 {
-        (0..N).fold(0.0, |sum, i| {
-            let part = to_f64(v[i]) / self.allowed(i, size(i));
-            sum + part * part
-        })
+    /// The root of sum (`v_i` / allowed)^2, also where the squares are too large for the scalar.
+    fn norm(&self, v: &SVector<T, N>, size: impl Fn(usize) -> f64) -> f64 {
+        let part = |i: usize| to_f64(v[i]) / self.allowed(i, size(i));
+        let sum = (0..N).fold(0.0, |sum, i| sum + part(i) * part(i));
+        if sum < f64::INFINITY {
+            return ComplexField::sqrt(sum);
+        }
+        let most = (0..N).fold(0.0, |most: f64, i| most.max(part(i).abs()));
+        if most == f64::INFINITY {
+            return most;
+        }
+        let sum = (0..N).fold(0.0, |sum, i| sum + (part(i) / most) * (part(i) / most));
+        most * ComplexField::sqrt(sum)
     }
 }
 
@@ -80,17 +87,22 @@ pub(super) fn error<T: Real, const N: usize>(
 ) -> f64 {
     let size = |i: usize| to_f64(y[i]).abs().max(to_f64(next[i]).abs());
     let [first, second] = tableau.errors.map(|weights| {
-        if weights.is_empty() { 0.0 } else { tolerance.squares(&tableau::combination(slopes, weights), size) }
+        if weights.is_empty() { 0.0 } else { tolerance.norm(&tableau::combination(slopes, weights), size) }
     });
-    // |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N.
-    let sum = first + 0.01 * second;
-    let sum = if sum <= 0.0 { 1.0 } else { sum };
-    h.abs() * first * ComplexField::sqrt(1.0 / (N as f64 * sum))
+    if first == 0.0 {
+        return 0.0;
+    }
+    if first == f64::INFINITY || second == f64::INFINITY {
+        return f64::INFINITY;
+    }
+    // |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N, where no square of a small error is lost.
+    let share = second / first;
+    h.abs() * first / ComplexField::sqrt(N as f64 * (1.0 + 0.01 * share * share))
 }
 
 /// A step to be tried: h = 0.01 |y| / |f|, and with the second derivative that a step of Euler's of that length shows,
 /// h^p max(|f|, |y''|) = 0.01, both in the time that the solution takes to change by its size.
-/// Where nothing moves or the state is zero, a millionth of `span`.
+/// Where nothing moves or the state is zero, a millionth of `span`, or less if the state moves by its scale sooner.
 #[inline]
 pub(super) fn first_length<T: Real, const N: usize>(
     order: u32,
@@ -98,20 +110,36 @@ pub(super) fn first_length<T: Real, const N: usize>(
     (y, slope): (&SVector<T, N>, &SVector<T, N>),
     span: f64,
     euler: impl FnOnce(f64) -> Result<SVector<T, N>, Error>,
-) -> Result<f64, Error> {
+) -> f64 {
     let size = |i: usize| to_f64(y[i]).abs();
-    let (moving, there) = (tolerance.squares(slope, size), tolerance.squares(y, size));
-    let known = moving * span * span > 1e-10 && there > 1e-10;
-    let time = if known { ComplexField::sqrt(there / moving) } else { span };
-    let guess = if known { 0.01 * time } else { 1e-6 * span }.min(span);
-    let bend = ComplexField::sqrt(tolerance.squares(&(euler(guess)? - slope), size)) / guess;
-    let steepest = (bend * time * time).max(ComplexField::sqrt(moving) * time);
+    let (moving, there) = (tolerance.norm(slope, size), tolerance.norm(y, size));
+    let known = moving * span > 1e-5 && there > 1e-5;
+    // The time in which the state moves by its scale.
+    let across = (tolerance.relative * moving).recip();
+    let time = if known {
+        there / moving
+    } else if 1e-4 * span > across {
+        across
+    } else {
+        span
+    };
+    let guess = if known || time < span { 0.01 * time } else { 1e-6 * span }.min(span);
+    // Where there is no rate so far ahead, shorter steps are tried.
+    let Ok(ahead) = euler(guess) else { return guess };
+    let bend = tolerance.norm(&(ahead - slope), size) / guess;
+    let steepest = (bend * time * time).max(moving * time);
+    let (most, root) = (0.01, 1.0 / f64::from(order));
     let length = if steepest <= 1e-15 {
         (1e-6 * time).max(1e-3 * guess)
+    } else if steepest < f64::INFINITY {
+        time * ComplexField::powf(most / steepest, root)
     } else {
-        time * ComplexField::powf(0.01 / steepest, 1.0 / f64::from(order))
+        let [bend, moving, time] = [bend, moving, time].map(ComplexField::ln);
+        ComplexField::exp(time + root * (ComplexField::ln(most) - (bend + 2.0 * time).max(moving + time)))
     };
-    Ok((100.0 * guess).min(length).min(span))
+    // Beside a change that is too large for the scalar every length is nothing: it is found by trying.
+    let length = if length > 0.0 { length } else { guess };
+    (100.0 * guess).min(length).min(span)
 }
 
 /// What is kept from step to step.

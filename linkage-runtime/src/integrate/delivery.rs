@@ -16,20 +16,20 @@ where
     T: Real,
 {
     /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
-    /// rate, and if that has one on the dense output.
+    /// rate, and if there may be one on the dense output.
     pub(super) fn search(&mut self, from: f64) -> Result<Found<T, N>, Error> {
         let roundings = self.roundings();
         let sides = self.sides;
         if self.interpolant.is_none() {
             let cubic = self.cubic();
-            let found = self.sides.search(&mut self.system, &cubic, (from, self.parts), roundings)?;
-            if !matches!(found, Found::Hit(_)) {
+            let found = self.sides.search(&mut self.system, (&cubic, true), (from, self.parts), roundings)?;
+            if !matches!(found, Found::Perhaps) {
                 return Ok(found);
             }
         }
         self.sides = sides;
         let interpolant = self.interpolant()?;
-        self.sides.search(&mut self.system, &interpolant, (from, self.parts), roundings)
+        self.sides.search(&mut self.system, (&interpolant, false), (from, self.parts), roundings)
     }
 
     /// What rounding leaves of the time, as a part of the last step.

@@ -134,6 +134,11 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
             .fold(last[0], |sum, (i, coefficient)| coefficient + sum * if i % 2 == 0 { s } else { rest })
     }
 
+    /// The length of the step, negative where it goes back in time.
+    pub(super) fn length(&self) -> T {
+        self.length
+    }
+
     /// The time at this part of the step.
     pub(super) fn time(&self, s: f64) -> T {
         self.start + real::<T>(s) * self.length

@@ -15,8 +15,9 @@ use crate::{Error, Real};
 /// The part of the tolerance by which a state may be corrected without another evaluation of the rate.
 const NEGLIGIBLE: f64 = 0.01;
 
-/// A step of this part of the interval is not made shorter for the sake of its guards.
-const SHORTEST: f64 = 1e-6;
+/// How often steps are made shorter in a row, each time to a sixteenth, for the sake of their guards: to a millionth of
+/// what the tolerance asks for. With 4 a jump of a guard is met by steps 16 times as long, with 6 it costs one more step.
+const MOST_SHORTENED: u32 = 5;
 
 /// What an integration has cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -87,6 +88,8 @@ pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0, const 
     pub(super) not_stiff: u32,
     pub(super) sides: Sides<K, C>,
     pub(super) instant: Instant<T>,
+    /// How often the step has been made shorter for the sake of its guards.
+    pub(super) shortened: u32,
 }
 
 impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
@@ -129,6 +132,7 @@ where
             not_stiff: 0,
             sides,
             instant: Instant { t: start, anew: false },
+            shortened: 0,
         })
     }
 
@@ -168,8 +172,9 @@ where
     }
 
     /// Looks at the event functions at so many equal parts of each step; 4 without it, at least 1. An event
-    /// function that goes through zero and back between two of them is not seen. Between the ends of a step the
-    /// functions are evaluated, but no rate.
+    /// function that goes through zero and back between two of them is seen if it turns once in the step; what turns
+    /// more often may need more parts ([which events are found](super)). Between the ends of a step the functions are
+    /// evaluated, but no rate unless something may happen.
     #[must_use]
     pub fn event_parts(mut self, parts: usize) -> Self {
         self.parts = parts.max(1);
@@ -291,18 +296,23 @@ where
             let length = to_f64(self.to.0 - self.from.0).abs();
             match found {
                 Found::Hit(hit) => {
+                    self.shortened = 0;
                     (self.t, self.state) = (hit.t, hit.state);
                     self.place = Place::Within(hit.at);
                     return self.deliver();
                 }
-                // What jumps stays unclear in any step.
-                Found::Unclear if is_new && length > SHORTEST * to_f64(self.end - self.start).abs() => {
+                Found::Unclear if is_new && self.shortened < MOST_SHORTENED => {
+                    self.shortened += 1;
                     self.go_back(self.from.0, self.from.1);
                     self.counts.accepted -= 1;
                     self.counts.rejected += 1;
                     self.limit_next(length / 16.0);
                 }
                 _ => {
+                    // What jumps stays unclear, in this step and in those that follow it.
+                    if !matches!(found, Found::Unclear) {
+                        self.shortened = 0;
+                    }
                     (self.t, self.state) = self.to;
                     self.place = Place::Boundary;
                     return Ok(Step { t: self.t, state: self.state, event: None });

@@ -28,7 +28,7 @@ where
         let span = to_f64(self.end - t);
         let direction = span.signum();
         if self.controller.length.is_none() {
-            self.controller.length = Some(self.first_length(span)?);
+            self.controller.length = Some(self.first_length(span));
         }
         let epsilon = to_f64(T::default_epsilon());
         if K + C > 0 && anew {
@@ -42,13 +42,12 @@ where
             if self.counts.accepted + self.counts.rejected >= self.most_steps {
                 return Err(Error::TooManySteps { t: to_f64(t), steps: self.most_steps });
             }
-            let whole = to_f64(self.end - self.start).abs();
-            let least = if failure.is_some() { whole } else { whole * epsilon };
-            if 0.1 * length <= epsilon * to_f64(t).abs() || length <= epsilon * least {
-                return Err(failure.unwrap_or(Error::StepTooSmall { t: to_f64(t), step: direction * length }));
-            }
             let last = 1.01 * length > span.abs();
             let end = if last { self.end } else { t + real::<T>(direction * length) };
+            // At time zero any length tells, however short beside the interval.
+            if 0.1 * length <= epsilon * to_f64(t).abs() || length < f64::MIN_POSITIVE || end == t {
+                return Err(failure.unwrap_or(Error::StepTooSmall { t: to_f64(t), step: direction * length }));
+            }
             let taken = to_f64(end - t).abs();
             match self.attempt((t, &y), end) {
                 Ok((error, next)) => {
@@ -85,7 +84,7 @@ where
             self.slopes[table.end] = self.slope(end, &next)?;
         }
         let error = control::error(table, &self.tolerance, (y, &next), &self.slopes, to_f64(h));
-        if !error.is_finite() {
+        if error.is_nan() || !next.iter().all(T::is_finite) {
             return Err(Error::NotFiniteAt { quantity: "the rate or the state", t: to_f64(end) });
         }
         if !of_end && error <= 1.0 {
@@ -101,7 +100,7 @@ where
         Ok(slope)
     }
 
-    fn first_length(&mut self, span: f64) -> Result<f64, Error> {
+    fn first_length(&mut self, span: f64) -> f64 {
         let (t, y, slope) = (self.t, self.state, self.slopes[0]);
         let tolerance = self.tolerance;
         control::first_length(M::TABLEAU.order, &tolerance, (&y, &slope), span.abs().min(self.largest), |h| {

@@ -5,6 +5,15 @@ use nalgebra::SVector;
 use super::{Action, Crossing};
 use crate::{Error, Real};
 
+/// A function that ends the law of the rate where it falls below zero, at one state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guard<T> {
+    /// Its value.
+    pub value: T,
+    /// Its change in time, if that is known. Where it is not, differences of values tell.
+    pub rate: Option<T>,
+}
+
 /// A system of N differential equations y' = f(t, y) with K events and C guards. A closure is one without any.
 ///
 /// One object has it all, so that its parts may share what they know: the last position as a guess, which coordinates
@@ -27,14 +36,14 @@ pub trait System<T: Real, const N: usize, const K: usize, const C: usize = 0> {
         [Crossing::Either; K]
     }
 
-    /// The functions that end the law of the rate where they fall through zero, beside the user's events: of what
+    /// The functions that end the law of the rate where they fall below zero, beside the user's events: of what
     /// sticks how much more it holds, of what is apart how far. Guard i is event K + i.
     ///
     /// # Errors
     /// If they cannot be computed, which ends the integration.
-    fn guards(&mut self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
+    fn guards(&mut self, t: T, y: &SVector<T, N>) -> Result<[Guard<T>; C], Error> {
         let _ = (t, y);
-        Ok([T::one(); C])
+        Ok([Guard { value: T::one(), rate: Some(T::zero()) }; C])
     }
 
     /// What happens at event `event`; of events at the same time the first comes first.

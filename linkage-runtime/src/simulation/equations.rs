@@ -9,7 +9,7 @@ use super::independent::{Factors, Independent};
 use super::motion::{LEAST_PART, Motion, Position, Road};
 use super::watch::Watch;
 use crate::contact::{ReducedContact, ReducedEquations};
-use crate::integrate::{Crossing, System};
+use crate::integrate::{Crossing, Guard, System};
 use crate::scene::Inputs;
 use crate::{Error, Mechanism, Mode, Real, Scene, finite, real};
 
@@ -133,7 +133,7 @@ where
         self.watch.crossings()
     }
 
-    fn guards(&mut self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
+    fn guards(&mut self, t: T, y: &SVector<T, N>) -> Result<[Guard<T>; C], Error> {
         self.margins(t, y)
     }
 }

@@ -15,6 +15,10 @@
 //!    if the closures hold there where the step says, and at the change point to rounding. Where two branches only come
 //!    near each other the motion follows its own round the bend.
 //!
+//! Contacts begin and end where their guards say ([which are found](crate::integrate)): of a stop, on a coordinate or an
+//! output, the rate of the gap is known, so that it is not missed however briefly it is touched within a step. Frictions
+//! and stops are followed forward in time only: [`Error::Irreversible`](crate::Error::Irreversible).
+//!
 //! The branch never changes but like this: what cannot be followed ends with an [`Error`](crate::Error), and what was
 //! computed until then stays.
 //!

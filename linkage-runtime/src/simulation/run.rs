@@ -72,7 +72,8 @@ pub struct Simulation<
 ///
 /// # Errors
 /// Those of [`Scene::start`]: [`Error::Negative`], [`Error::Inconsistent`], [`Error::NotConverged`]; those of the
-/// equations of motion there; [`Error::OutOfRange`] for a tolerance below ten roundings or above 1 and for times
+/// equations of motion there; [`Error::Irreversible`] if `end` is the earlier and the scene has frictions or stops;
+/// [`Error::OutOfRange`] for a tolerance below ten roundings or above 1 and for times
 /// that are not finite.
 pub fn simulate<S, T, const U: usize, const V: usize, const N: usize, const C: usize>(
     scene: &S,
@@ -89,6 +90,10 @@ where
     let (q, _) = S::parts(&y);
     let scales = Scales::of(mechanism, &q);
     let mut motion = Motion::new(scene, scales);
+    if C > 0 && end < t {
+        let contact = motion.contacts_alone(t, &y)?.contacts[0].name;
+        return Err(Error::Irreversible { scene: S::NAME, contact });
+    }
     let y = if C > 0 { motion.begin(t, &y)? } else { y };
     let contacts = motion.contacts;
     let (unknowns, inputs) = motion.velocity(t, &y)?;

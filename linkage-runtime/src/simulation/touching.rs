@@ -4,6 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::motion::{Motion, Road};
 use crate::contact::{Change, Contact, Contacts, ReducedContact, ReducedEquations, changes};
+use crate::integrate::Guard;
 use crate::{Error, Mechanism, Mode, Real, Scene};
 
 impl<S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'_, S, W, T, U, V, N, C>
@@ -48,12 +49,12 @@ where
     }
 
     /// How far each contact is from another mode, with the closures closed.
-    pub(super) fn margins(&self, t: T, y: &SVector<T, N>) -> Result<[T; C], Error> {
+    pub(super) fn margins(&self, t: T, y: &SVector<T, N>) -> Result<[Guard<T>; C], Error> {
         // A step in the inputs may have gone where nothing closes: it will be taken again.
         let y = self.closed(t, y).unwrap_or(*y);
         let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
         let equations = if is_free { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
-        self.contacts.events(&equations)
+        self.contacts.guards(&equations)
     }
 
     /// What rounding may leave of each s.

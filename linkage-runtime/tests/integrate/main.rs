@@ -4,6 +4,7 @@ mod accuracy;
 mod events;
 mod failure;
 mod order;
+mod shallow;
 mod systems;
 mod tableau;
 
