@@ -75,11 +75,11 @@ pub enum Error {
         /// How far the input stays from what is asked for, in radians or beside the lengths of its loops.
         gap: f64,
     },
-    /// Two motions of the mechanism cross here, and nothing says which of them is meant.
+    /// Motions of the mechanism cross here, and nothing says which of them is meant.
     ChangePoint {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
-        /// The unknowns of the group that is singular.
+        /// The unknowns of the group that is singular; of several the first.
         group: &'static str,
     },
     /// At this start the input does not say where the path goes: it is a dead point, or the direction given is
@@ -88,8 +88,8 @@ pub enum Error {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
     },
-    /// The path cannot be followed on: the shortest step fails. Where more than two motions meet, or are closer
-    /// than rounding can tell, it ends.
+    /// The path cannot be followed on: the shortest step fails. Where motions are closer to each other than rounding can
+    /// tell, it ends.
     Lost {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
@@ -289,7 +289,7 @@ impl fmt::Display for Error {
                 write!(f, "{mechanism} locks {gap:.1e} before this input: {group} are at a dead point")
             }
             Self::ChangePoint { mechanism, group } => {
-                write!(f, "two motions of {mechanism} cross here, where {group} are singular: choose one")
+                write!(f, "motions of {mechanism} cross here, where {group} are singular: choose one")
             }
             Self::NoDirection { mechanism } => {
                 write!(f, "the direction given does not say which way {mechanism} moves from this start")

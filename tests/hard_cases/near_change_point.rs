@@ -80,9 +80,10 @@ fn nothing_missing() {
     let m = near(0.0);
     let mut path = Path::new(&m, &start(&m, Elbow::Left, 2.5), Direction::Increasing).unwrap();
     let event = path.find_map(|step| step.unwrap().event).unwrap();
-    let Event::ChangePoint { group, tangents } = event else { panic!("{event:?}") };
-    assert_eq!(group, "theta3, theta4");
-    let mut ratios = tangents.map(|rates| rates.theta4 / rates.theta2);
+    let Event::ChangePoint { groups, tangents } = event else { panic!("{event:?}") };
+    assert!(groups.iter().eq(["theta3, theta4"]));
+    assert!(tangents.len() == 2 && tangents.is_complete());
+    let mut ratios = [tangents[0], tangents[1]].map(|rates| rates.theta4 / rates.theta2);
     ratios.sort_by(f64::total_cmp);
     assert!((ratios[0] + 0.5).abs() < 1e-12 && (ratios[1] - 1.0).abs() < 1e-12, "{ratios:?}");
 }

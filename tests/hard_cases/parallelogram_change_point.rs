@@ -117,8 +117,10 @@ fn both_tangents() {
     let m = wheels();
     let mut path = Path::new(&m, &at(2.0), Direction::Increasing).unwrap();
     let event = path.find_map(|step| step.unwrap().event).unwrap();
-    let Event::ChangePoint { group, tangents: [kept, other] } = event else { panic!("{event:?}") };
-    assert_eq!(group, "rod, follower");
+    let Event::ChangePoint { groups, tangents } = event else { panic!("{event:?}") };
+    assert!(groups.iter().eq(["rod, follower"]));
+    assert!(tangents.len() == 2 && tangents.is_complete());
+    let [kept, other] = [tangents[0], tangents[1]];
     assert!(kept.rod.abs() < 1e-12 && kept.follower > 0.0 && (kept.follower - kept.theta).abs() < 1e-12);
     // With the crank turned half: -t + 2 r = -f, and r = (t - f)/2 in -t^2 + 2 r^2 + f^2 = 0: f = -3 t... or t.
     let (t, r, f) = (other.theta, other.rod, other.follower);

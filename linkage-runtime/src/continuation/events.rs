@@ -2,8 +2,10 @@
 
 use super::change_point::Crossing;
 use super::curve::Curve;
+use super::groups::Groups;
 use super::options::Options;
 use super::place::{Place, weak};
+use super::tangents::Tangents;
 use super::vector::Vector;
 use crate::{Error, Mechanism, Real, real};
 
@@ -18,13 +20,12 @@ pub enum Event<Q> {
         /// The unknowns of the group.
         group: &'static str,
     },
-    /// Two motions of the mechanism cross: [J A] loses rank.
+    /// Motions of the mechanism cross: [J A] loses rank.
     ChangePoint {
-        /// The unknowns of the group.
-        group: &'static str,
-        /// The rates of the coordinates along the two motions: first along the one that was followed, in its
-        /// direction; then along the other, either way.
-        tangents: [Q; 2],
+        /// The groups that are singular there, all of them.
+        groups: Groups,
+        /// The rates of the coordinates along the motions.
+        tangents: Tangents<Q>,
     },
     /// The input is at an end of its range.
     Limit,
@@ -47,7 +48,7 @@ pub(super) enum Stands<Q, T, const U: usize> {
     AtZero,
     AtChangePoint,
     /// At a change point where nothing has been chosen yet.
-    Undecided(Crossing<Q, T, U>, &'static str),
+    Undecided(Crossing<Q, T, U>),
 }
 
 /// A number that is watched, from the position and the rates of the coordinates along the path.

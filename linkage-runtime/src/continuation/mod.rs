@@ -12,9 +12,9 @@
 //!    parallelogram followed without one becomes an antiparallelogram unnoticed.
 //! 3. *Events*: where the determinant of a group changes its sign (a dead point), where the input comes to the end of
 //!    its range or to where it was sent, and where a number of the user's is zero, the step ends, to rounding.
-//! 4. *Change points*, where [J A] loses rank and two motions cross: both tangents from the second derivatives, and
-//!    the way on as [`AtChangePoint`] says. Two motions that only come near each other are told from that by the
-//!    residual, and followed round their bend however sharp.
+//! 4. *Change points*, where [J A] loses rank and motions cross: all tangents from the second derivatives, all groups
+//!    that are singular there, one or several, and the way on as [`AtChangePoint`] says. Motions that only come near each
+//!    other are told from that by the residual, and followed round their bend however sharp.
 //!
 //! The motion never changes but by a policy: what cannot be followed is an [`Error`](crate::Error) that names the group.
 //!
@@ -23,16 +23,21 @@
 
 mod along;
 mod change_point;
+mod cone;
 mod curve;
 mod events;
+mod groups;
 mod options;
 mod path;
 mod place;
 mod root;
 mod tangent;
+mod tangents;
 mod vector;
 
 pub use along::{Along, AlongCoordinates, AlongPose};
 pub use events::Event;
+pub use groups::Groups;
 pub use options::{AtChangePoint, Direction, Options};
 pub use path::{Path, Step};
+pub use tangents::Tangents;

@@ -2,13 +2,14 @@
 
 use crate::{Error, Real, real};
 
-/// What is done at a change point, where two motions of the mechanism cross.
+/// What is done at a change point, where motions of the mechanism cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtChangePoint {
     /// The motion goes on smoothly: a parallelogram stays a parallelogram.
     #[default]
     Keep,
-    /// The other motion is taken, the way in which the input keeps its direction.
+    /// The other motion is taken, the way in which the input keeps its direction, or where it rests the first of the
+    /// unknowns that move. Where more than two motions cross, there is not one other: the path ends as by `Stop`.
     Switch,
     /// The path ends there; [`choose`](super::Path::choose) says how it goes on.
     Stop,

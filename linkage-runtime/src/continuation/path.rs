@@ -2,9 +2,11 @@
 
 use super::curve::{Curve, Refusal, Tried};
 use super::events::{End, Event, Stands, Wanted, Watch};
+use super::groups::Groups;
 use super::options::{AtChangePoint, Direction, Options};
 use super::place::{Place, weak};
 use super::tangent::Elimination;
+use super::tangents::Tangents;
 use super::vector::Vector;
 use crate::mechanism::other_group;
 use crate::scalar::to_f64;
@@ -46,6 +48,10 @@ const MOST_TRIALS: usize = 64;
 /// An event is ahead of a step of this many times its length at most.
 const AHEAD: f64 = 1.25;
 
+/// A dead point of less regularity than this may be a crossing: a step passes one at which an even number of pivots is
+/// zero without a change of side.
+const DOUBTFUL: f64 = 1e-3;
+
 /// A step of this many roundings of the coordinates is the shortest.
 const ROUNDINGS: f64 = 64.0;
 
@@ -74,6 +80,7 @@ where
         direction: Direction<M::Coordinates>,
         options: Options<T>,
     ) -> Result<Self, Error> {
+        const { assert!(M::GROUPS.len() <= Groups::MOST, "more groups than a path can tell apart") };
         options.check(M::NAME, Curve::<'_, M, T, U>::input(guess))?;
         let solution = position::newton(mechanism, guess)?;
         if !solution.same_branch {
@@ -90,15 +97,16 @@ where
         let path =
             |place, passed, stands| Self { curve, place, options, step, length, passed, stands, is_ended: false };
         if elimination.regularity() < weak() {
-            if let Some(crossing) = curve.crossing(&q, weak())? {
-                let group = curve.singular_group(&crossing.q);
-                let chosen = match direction {
-                    Direction::Along(rates) => Some(rates),
-                    Direction::Increasing | Direction::Decreasing => None,
-                };
-                let Some(rates) = chosen else { return Err(Error::ChangePoint { mechanism: M::NAME, group }) };
-                let tangent = curve.choose(&crossing.tangents, &rates)?;
-                let place = curve.at_crossing(crossing.q, tangent, T::zero(), group);
+            let rates = match direction {
+                Direction::Along(rates) => Some(rates),
+                Direction::Increasing | Direction::Decreasing => None,
+            };
+            let along = rates.map_or(Vector::zero(), |rates| curve.direction(&rates));
+            if let Some(crossing) = curve.crossing(&q, weak(), &along)? {
+                let group = crossing.groups.first();
+                let Some(rates) = rates else { return Err(Error::ChangePoint { mechanism: M::NAME, group }) };
+                let tangent = curve.choose(crossing.tangents(), &rates)?;
+                let place = curve.at_crossing(&crossing, tangent, T::zero());
                 return Ok(path(place, Some(crossing.q), Stands::AtChangePoint));
             }
             if elimination.regularity() < T::default_epsilon().sqrt() {
@@ -144,10 +152,10 @@ where
     /// # Errors
     /// [`Error::NoDirection`] if they are across both motions, or the path does not stand at a change point.
     pub fn choose(&mut self, rates: &M::Coordinates) -> Result<(), Error> {
-        let Stands::Undecided(crossing, _) = self.stands else {
+        let Stands::Undecided(crossing) = self.stands else {
             return Err(Error::NoDirection { mechanism: M::NAME });
         };
-        self.place.tangent = self.curve.choose(&crossing.tangents, rates)?;
+        self.place.tangent = self.curve.choose(crossing.tangents(), rates)?;
         // On which side the closures go on depends on the way that is chosen.
         self.place.side = T::zero();
         self.stands = Stands::AtChangePoint;
@@ -225,9 +233,10 @@ where
                         return Err(Error::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
                     }
                 }
-                Some(Event::ChangePoint { group, .. }) => {
+                Some(Event::ChangePoint { groups, .. }) => {
                     passed = step.event;
-                    if self.options.at_change_point == AtChangePoint::Stop && !is_target {
+                    let group = groups.first();
+                    if matches!(self.stands, Stands::Undecided(_)) && !is_target {
                         return Err(Error::ChangePoint { mechanism: M::NAME, group });
                     }
                     // Where all groups are flat at once the motions cross at the end of the input's range.
@@ -258,7 +267,8 @@ where
         target: Option<T>,
         watch: Option<Watch<'_, M::Coordinates, T>>,
     ) -> Result<(Step<M::Coordinates, T>, bool), Error> {
-        if let Stands::Undecided(_, group) = self.stands {
+        if let Stands::Undecided(crossing) = self.stands {
+            let group = crossing.groups.first();
             return Err(Error::ChangePoint { mechanism: M::NAME, group });
         }
         // At an end of its range the input goes no further.
@@ -314,11 +324,14 @@ where
             .as_ref()
             .ok()
             .filter(|place| curve.is_arc(from, &place.q, &place.tangent, from.regularity, &self.options));
-        if arc.is_none_or(|place| flips(place) || is_weak(place)) {
-            let guess = match &found {
-                Ok(place) if flips(place) => tried * (from.side / (from.side - place.side)),
-                _ => tried,
-            };
+        let turns = |place: &Place<M, T, U>| from.sign_changes(place).is_some();
+        let guess = match &found {
+            Ok(place) if flips(place) => Some(tried * (from.side / (from.side - place.side))),
+            Ok(place) if turns(place) => from.sign_changes(place).map(|share| tried * share),
+            Ok(place) if arc.is_some() && !is_weak(place) => curve.falls_twice(from, place, tried)?,
+            _ => Some(tried),
+        };
+        if let Some(guess) = guess {
             if let Some(end) = self.crossing_ahead(guess, tried)? {
                 let found = curve.first_event(from, end, wanted, &self.options)?;
                 return Ok(found.ok_or(refusal).map(|end| (end, tried)));
@@ -333,7 +346,17 @@ where
             place.forget_sign(curve.singular_group(&place.q));
         }
         let end = End { place, event: None, is_target: false, stands: Stands::OnTheWay };
-        let found = curve.first_event(from, end, wanted, &self.options)?;
+        let mut found = curve.first_event(from, end, wanted, &self.options)?;
+        // At a dead point [J A] has full rank.
+        let is_doubtful = |end: &End<M, T, U>| {
+            matches!(end.event, Some(Event::DeadPoint { .. })) && end.place.regularity < real(DOUBTFUL)
+        };
+        if let Some(end) = found.as_ref().filter(|end| is_doubtful(end)) {
+            let guess = curve.difference(&end.place.q, &from.q).dot(&from.tangent);
+            if let Some(crossing) = self.crossing_ahead(guess, tried)? {
+                found = curve.first_event(from, crossing, wanted, &self.options)?;
+            }
+        }
         Ok(found.ok_or(refusal).map(|end| (end, tried)))
     }
 
@@ -341,42 +364,36 @@ where
     fn crossing_ahead(&self, guess: T, tried: T) -> Result<Option<End<M, T, U>>, Error> {
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
-        let Some(mut crossing) = curve.crossing(&guess, tried * real(AHEAD) + weak())? else { return Ok(None) };
-        let is_near = |q: &M::Coordinates| curve.difference(&crossing.q, q).norm() <= weak();
+        let reach = tried * real(AHEAD) + weak();
+        let Some(mut crossing) = curve.crossing(&guess, reach, &from.tangent)? else { return Ok(None) };
+        let at = crossing.q;
+        let is_near = |q: &M::Coordinates| curve.difference(&at, q).norm() <= weak();
         if self.passed.as_ref().is_some_and(is_near) {
             return Ok(None);
         }
-        let way = curve.difference(&crossing.q, &from.q);
-        let ahead = way.dot(&from.tangent);
-        let [one, two] = crossing.tangents;
-        if one.dot(&from.tangent).abs() < two.dot(&from.tangent).abs() {
-            crossing.tangents = [two, one];
-        }
-        let sign = if crossing.tangents[0].dot(&from.tangent) < T::zero() { -T::one() } else { T::one() };
-        crossing.tangents[0] = crossing.tangents[0] * sign;
-        let [kept, other] = crossing.tangents;
+        let ahead = curve.difference(&crossing.q, &from.q).dot(&from.tangent);
+        crossing.followed(&from.tangent);
+        curve.add_fallen_groups(&mut crossing, from);
+        let kept = crossing.tangents()[0];
         let is_on_the_way = ahead > T::zero()
             && ahead <= tried * real(AHEAD)
             && curve.is_arc(from, &crossing.q, &kept, from.regularity, &self.options);
         if !(is_on_the_way || is_near(&from.q)) {
             return Ok(None);
         }
-        let (tangent, side) = match self.options.at_change_point {
-            AtChangePoint::Keep | AtChangePoint::Stop => (kept, -from.side),
-            AtChangePoint::Switch => {
-                let inputs = other.input * kept.input;
-                let agreement = if inputs.abs() > weak() { inputs } else { other.dot(&kept) };
-                (if agreement < T::zero() { other * -T::one() } else { other }, from.side)
-            }
+        // The closures change their side once for each pivot that passes its zero.
+        let behind = if crossing.defect % 2 == 1 { -from.side } else { from.side };
+        let beside = if crossing.defect == 1 { from.side } else { T::zero() };
+        let (tangent, side, is_decided) = match (self.options.at_change_point, crossing.tangents()) {
+            (AtChangePoint::Switch, &[_, other]) if crossing.is_complete => (other.like(&kept), beside, true),
+            (policy, _) => (kept, behind, policy == AtChangePoint::Keep),
         };
-        let group = curve.fallen_group(&from.determinants, &curve.determinants(&crossing.q));
-        let place = curve.at_crossing(crossing.q, tangent, side, group);
-        let tangents = [kept, other].map(|tangent| curve.rates(&crossing.q, &tangent));
-        let stands = match self.options.at_change_point {
-            AtChangePoint::Stop => Stands::Undecided(crossing, group),
-            _ => Stands::AtChangePoint,
-        };
-        Ok(Some(End { place, event: Some(Event::ChangePoint { group, tangents }), is_target: false, stands }))
+        let place = curve.at_crossing(&crossing, tangent, side);
+        let tangents = crossing.tangents().iter().map(|tangent| curve.rates(&crossing.q, tangent));
+        let tangents = Tangents::new(tangents, crossing.is_complete);
+        let event = Event::ChangePoint { groups: crossing.groups, tangents };
+        let stands = if is_decided { Stands::AtChangePoint } else { Stands::Undecided(crossing) };
+        Ok(Some(End { place, event: Some(event), is_target: false, stands }))
     }
 
     fn arrive(&mut self, end: End<M, T, U>, tried: T, was_refused: bool) -> (Step<M::Coordinates, T>, bool) {

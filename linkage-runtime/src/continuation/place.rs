@@ -1,11 +1,14 @@
 //! A place on the way, and one step from it.
 
-use super::curve::{Curve, Refusal, Tried};
+use nalgebra::{SMatrix, SVector};
+
+use super::change_point::Crossing;
+use super::curve::{Curve, Linear, Refusal, Tried};
+use super::groups::Groups;
 use super::options::Options;
 use super::root::root;
 use super::tangent::Elimination;
 use super::vector::Vector;
-use crate::scalar::to_f64;
 use crate::{Error, Mechanism, Real, real};
 
 /// A position of the curve with what tells it from its neighbours.
@@ -18,6 +21,8 @@ pub(super) struct Place<M: Mechanism<T, U, 1>, T: Real, const U: usize> {
     /// Of the blocks of J; zero where a block has just passed its zero.
     pub(super) determinants: M::BlockDeterminants,
     pub(super) regularity: T,
+    /// The same of the last but one pivot.
+    pub(super) last_but_one: T,
 }
 
 impl<M: Mechanism<T, U, 1>, T: Real, const U: usize> Clone for Place<M, T, U> {
@@ -35,10 +40,22 @@ impl<M: Mechanism<T, U, 1>, T: Real, const U: usize> Place<M, T, U> {
             }
         }
     }
+
+    /// The share of the way to another place after which the determinant of a group is zero, if one changes its sign.
+    pub(super) fn sign_changes(&self, to: &Self) -> Option<T> {
+        let mut pairs = self.determinants.as_ref().iter().zip(to.determinants.as_ref());
+        let (before, after) = pairs.find(|(before, after)| **before * **after < T::zero())?;
+        Some(*before / (*before - *after))
+    }
 }
 
 /// A step may leave its prediction by the angle it turns through, and by this much of its length.
 const SLACK: f64 = 1.0 / 64.0;
+
+/// Two pivots fall to zero on the way if the last but one falls to less than this part of its sum at the ends where that is
+/// expected: to zero if it falls and rises by one slope, to an eighth if by one and the double. At a half every way would
+/// do, at a sixteenth a bend hides a crossing.
+const FALLEN: f64 = 0.25;
 
 /// What rounding may add to that, in roundings of the coordinates.
 const ROUNDINGS: f64 = 64.0;
@@ -74,7 +91,14 @@ where
             // Of a tangent that is rounding alone nothing is known; the last one is.
             (tangent, side) = (*forward, T::zero());
         }
-        Place { q, tangent, side, determinants: self.determinants(&q), regularity }
+        Place {
+            q,
+            tangent,
+            side,
+            determinants: self.determinants(&q),
+            regularity,
+            last_but_one: elimination.last_but_one(),
+        }
     }
 
     /// The place at `distance` from another along its tangent, whatever the curve does between the two.
@@ -115,23 +139,72 @@ where
         root([low, high], values, smallest, |distance| Ok(self.at(from, distance)?.ok().map(|place| value(&place))))
     }
 
-    /// The group whose determinant fell most on the way from one place to another.
-    pub(super) fn fallen_group(&self, from: &M::BlockDeterminants, to: &M::BlockDeterminants) -> &'static str {
-        let mut fallen: Option<(f64, &'static str)> = None;
-        for ((before, after), group) in from.as_ref().iter().zip(to.as_ref()).zip(M::GROUPS) {
-            let part = to_f64(after.abs()) / to_f64(before.abs());
-            if part.is_finite() && fallen.is_none_or(|(least, _)| part < least) {
-                fallen = Some((part, group.name));
-            }
+    /// The distance from one place on the way to another at which two pivots may be zero at once. No determinant and no
+    /// side need change its sign there.
+    pub(super) fn falls_twice(&self, from: &Place<M, T, U>, to: &Place<M, T, U>, way: T) -> Result<Option<T>, Error> {
+        if U < 2 {
+            return Ok(None);
         }
-        fallen.map(|(_, group)| group).or_else(|| M::GROUPS.first().map(|group| group.name)).unwrap_or_default()
+        let sum = from.last_but_one + to.last_but_one;
+        let distance = way * (from.last_but_one / sum);
+        if !distance.is_finite() {
+            return Ok(None);
+        }
+        let at = self.linear(&self.moved(&from.q, &(from.tangent * distance)))?;
+        let between = Elimination::new(at.unknowns, at.input).last_but_one();
+        Ok((between <= sum * real(FALLEN)).then_some(distance))
     }
 
-    /// The place at a change point, where the sign of this group's determinant is rounding.
-    pub(super) fn at_crossing(&self, q: M::Coordinates, tangent: Vector<T, U>, side: T, group: &str) -> Place<M, T, U> {
-        let mut place = Place { q, tangent, side, determinants: self.determinants(&q), regularity: T::zero() };
-        place.forget_sign(group);
-        place
+    /// The groups whose block of J has a pivot that is zero to the root of rounding: so far rounding of the loop equations
+    /// moves a double root.
+    pub(super) fn singular_groups(&self, at: &Linear<T, U>) -> Groups {
+        let mut groups = Groups::none(M::GROUPS);
+        for (place, group) in M::GROUPS.iter().enumerate() {
+            let entries =
+                group.equations.iter().flat_map(|&row| group.unknowns.iter().map(move |&column| (row, column)));
+            let largest = entries.clone().fold(T::zero(), |most, entry| most.max(at.unknowns[entry].abs()));
+            // The block, and beside it a diagonal in the rows and columns of the other groups.
+            let mut block = SMatrix::<T, U, U>::zeros();
+            for entry in entries {
+                block[entry] = at.unknowns[entry];
+            }
+            let rows = (0..U).filter(|row| !group.equations.contains(row));
+            for (row, column) in rows.zip((0..U).filter(|column| !group.unknowns.contains(column))) {
+                block[(row, column)] = largest;
+            }
+            if Elimination::new(block, SVector::zeros()).defect(weak()) > 0 {
+                groups.insert(place);
+            }
+        }
+        groups
+    }
+
+    /// Adds the groups whose determinants have fallen to that on the way from a place: where all terms of a user's
+    /// equation vanish at the crossing, a block tells nothing by its own size.
+    pub(super) fn add_fallen_groups(&self, crossing: &mut Crossing<M::Coordinates, T, U>, from: &Place<M, T, U>) {
+        let determinants = self.determinants(&crossing.q);
+        let pairs = determinants.as_ref().iter().zip(from.determinants.as_ref());
+        for (place, (at, before)) in pairs.enumerate() {
+            if at.abs() <= before.abs() * weak() && !before.is_zero() {
+                crossing.groups.insert(place);
+            }
+        }
+    }
+
+    /// The place at a crossing, where the signs of the determinants of the groups that are singular are rounding.
+    pub(super) fn at_crossing(
+        &self,
+        crossing: &Crossing<M::Coordinates, T, U>,
+        tangent: Vector<T, U>,
+        side: T,
+    ) -> Place<M, T, U> {
+        let mut determinants = self.determinants(&crossing.q);
+        for (place, determinant) in determinants.as_mut().iter_mut().enumerate() {
+            if crossing.groups.contains(place) {
+                *determinant = T::zero();
+            }
+        }
+        Place { q: crossing.q, tangent, side, determinants, regularity: T::zero(), last_but_one: T::zero() }
     }
 
     /// The tangent nearest to these rates, their way.

@@ -19,45 +19,67 @@ pub(super) struct Elimination<T, const U: usize> {
     /// The column of the pivot of each row.
     column_of: [Option<usize>; U],
     pivots: usize,
-    first: T,
-    last: T,
+    /// The magnitudes of the pivots, the largest first.
+    sizes: SVector<T, U>,
     product: T,
 }
 
 impl<T: Real, const U: usize> Elimination<T, U> {
-    /// All pivots but the last, whose place is still open.
-    pub(super) fn all_but_one(unknowns: SMatrix<T, U, U>, input: SVector<T, U>) -> Self {
+    /// All pivots but the last `open`, whose places are still open.
+    pub(super) fn all_but(open: usize, unknowns: SMatrix<T, U, U>, input: SVector<T, U>) -> Self {
         let mut elimination = Self {
             unknowns,
             input,
             operator: SMatrix::identity(),
             column_of: [None; U],
             pivots: 0,
-            first: T::one(),
-            last: T::one(),
+            sizes: SVector::zeros(),
             product: T::one(),
         };
-        while elimination.pivots + 1 < U {
+        while elimination.pivots + open < U {
             elimination.pivot();
         }
         elimination
     }
 
     pub(super) fn new(unknowns: SMatrix<T, U, U>, input: SVector<T, U>) -> Self {
-        let mut elimination = Self::all_but_one(unknowns, input);
-        elimination.complete();
-        elimination
+        Self::all_but(0, unknowns, input)
     }
 
-    pub(super) fn complete(&mut self) {
-        if self.pivots < U {
-            self.pivot();
+    /// The smallest pivot relative to the largest: 0 where [J A] loses rank.
+    pub(super) fn regularity(&self) -> T {
+        match (self.sizes.iter().next(), self.sizes.iter().last()) {
+            (Some(first), Some(last)) if *first > T::zero() => *last / *first,
+            (Some(_), _) => T::zero(),
+            _ => T::one(),
         }
     }
 
-    /// The smallest pivot beside the largest: 0 where [J A] loses rank.
-    pub(super) fn regularity(&self) -> T {
-        if self.first > T::zero() { self.last / self.first } else { T::zero() }
+    /// The last but one pivot relative to the largest: 0 where [J A] loses rank twice.
+    pub(super) fn last_but_one(&self) -> T {
+        match (self.sizes.iter().next(), self.sizes.iter().rev().nth(1)) {
+            (Some(first), Some(last)) if *first > T::zero() => *last / *first,
+            (Some(_), Some(_)) => T::zero(),
+            _ => T::one(),
+        }
+    }
+
+    /// How many pivots are at most this part of the largest.
+    pub(super) fn defect(&self, weak: T) -> usize {
+        let least = self.sizes.amax() * weak;
+        self.sizes.iter().filter(|&&size| size <= least).count()
+    }
+
+    /// How many pivots come after the widest gap between one and the next.
+    pub(super) fn after_gap(&self) -> usize {
+        let mut widest = (T::one(), 1);
+        for next in 1..U {
+            let share = self.sizes[next] / self.sizes[next - 1];
+            if share < widest.0 {
+                widest = (share, U - next);
+            }
+        }
+        widest.1
     }
 
     fn entry(&self, row: usize, column: usize) -> T {
@@ -80,10 +102,7 @@ impl<T: Real, const U: usize> Elimination<T, U> {
         }
         let (row, column) = place;
         let value = self.entry(row, column);
-        if self.pivots == 0 {
-            self.first = largest;
-        }
-        self.last = largest;
+        self.sizes[self.pivots] = largest;
         self.product *= value;
         self.pivots += 1;
         self.column_of[row] = Some(column);
@@ -110,7 +129,7 @@ impl<T: Real, const U: usize> Elimination<T, U> {
     }
 
     /// The vector that [J A] takes to what is left in the rows without a pivot, with a 1 at a free column.
-    fn null(&self, free: usize) -> Vector<T, U> {
+    pub(super) fn null(&self, free: usize) -> Vector<T, U> {
         let mut vector = Vector::unit(free);
         for (row, column) in self.column_of.iter().enumerate() {
             if let Some(column) = *column {
@@ -120,7 +139,8 @@ impl<T: Real, const U: usize> Elimination<T, U> {
         vector
     }
 
-    fn free(&self) -> impl Iterator<Item = usize> + '_ {
+    /// The columns without a pivot.
+    pub(super) fn free(&self) -> impl Iterator<Item = usize> + '_ {
         (0..=U).filter(|&column| self.is_free(column))
     }
 
@@ -154,23 +174,25 @@ impl<T: Real, const U: usize> Elimination<T, U> {
         solution
     }
 
-    /// Where one pivot is open: the two directions that the others leave free, the combination of closures that is
-    /// left, and its derivatives along the two.
-    pub(super) fn open(&self) -> Option<Open<T, U>> {
-        let row = self.column_of.iter().position(Option::is_none)?;
-        let mut free = self.free();
-        let (one, two) = (free.next()?, free.next()?);
-        Some(Open {
-            directions: [self.null(one), self.null(two)],
-            combination: self.operator.row(row).transpose(),
-            slopes: [self.entry(row, one), self.entry(row, two)],
-        })
+    /// The rows without a pivot.
+    pub(super) fn open_rows(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..U).filter(|&row| self.column_of[row].is_none())
     }
-}
 
-/// What an elimination without its last pivot leaves open.
-pub(super) struct Open<T, const U: usize> {
-    pub(super) directions: [Vector<T, U>; 2],
-    pub(super) combination: SVector<T, U>,
-    pub(super) slopes: [T; 2],
+    /// A combination of loop equations reduced to the rows that have no pivot; the others are zero.
+    pub(super) fn left(&self, right: &SVector<T, U>) -> SVector<T, U> {
+        let reduced = self.operator * right;
+        SVector::from_fn(|row, _| if self.column_of[row].is_none() { reduced[row] } else { T::zero() })
+    }
+
+    /// The same of rounding errors, whose signs are not known.
+    pub(super) fn left_of_noise(&self, noise: &SVector<T, U>) -> SVector<T, U> {
+        let reduced = self.operator.abs() * noise;
+        SVector::from_fn(|row, _| if self.column_of[row].is_none() { reduced[row] } else { T::zero() })
+    }
+
+    /// The derivatives of what [`left`](Self::left) gives along the direction of a free column.
+    pub(super) fn slope(&self, free: usize) -> SVector<T, U> {
+        SVector::from_fn(|row, _| if self.column_of[row].is_none() { self.entry(row, free) } else { T::zero() })
+    }
 }

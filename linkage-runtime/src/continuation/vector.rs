@@ -4,6 +4,7 @@ use core::ops::{Add, Mul, Sub};
 
 use nalgebra::SVector;
 
+use super::place::weak;
 use crate::Real;
 use crate::scalar::{larger, largest};
 
@@ -62,6 +63,15 @@ impl<T: Real, const U: usize> Vector<T, U> {
     /// Each coordinate beside that of another.
     pub(super) fn beside(&self, size: &Self) -> Self {
         Self { unknowns: self.unknowns.component_div(&size.unknowns), input: self.input / size.input }
+    }
+
+    /// A direction or its opposite: that in which the input keeps its way along another, or if it rests the first of the
+    /// unknowns that move along both.
+    pub(super) fn like(&self, other: &Self) -> Self {
+        let products = core::iter::once(self.input * other.input)
+            .chain(self.unknowns.iter().zip(other.unknowns.iter()).map(|(one, two)| *one * *two));
+        let mut decisive = products.filter(|product| product.abs() > weak());
+        if decisive.next().is_some_and(|product| product < T::zero()) { *self * -T::one() } else { *self }
     }
 
     pub(super) fn is_finite(&self) -> bool {

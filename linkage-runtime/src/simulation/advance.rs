@@ -9,6 +9,7 @@ use super::state::{State, Touch};
 use super::watch::{Then, Watch};
 use crate::contact::Change;
 use crate::integrate::Method;
+use crate::scalar::to_f64;
 use crate::{Error, Mechanism, Real, Scene, same_signs};
 
 impl<S, T, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize>
@@ -25,7 +26,17 @@ where
             if self.integration.is_at_boundary() && !is_prepared {
                 self.prepare()?;
             }
+            let start = (self.integration.is_at_boundary()).then(|| (self.integration.t(), *self.integration.state()));
             let Some(step) = self.integration.advance()? else { return Ok(None) };
+            if let Some((t, y)) = start.filter(|_| step.event.is_none())
+                && self.ends_too_near(&y, &step.state)
+            {
+                // Again in two parts: over a change point leads a step that begins well before it.
+                self.integration.go_back(t, y);
+                self.integration.limit_next(0.5 * to_f64(step.t - t).abs());
+                self.is_prepared = true;
+                continue;
+            }
             let motion = self.integration.system();
             let (q, _) = S::parts(&step.state);
             let mechanism = motion.scene.mechanism();

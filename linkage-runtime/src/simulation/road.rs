@@ -33,6 +33,12 @@ pub(super) const WARNED: u32 = 16;
 /// Nearer to a change point nothing is left of the tangent.
 const NEAREST: f64 = 1e-7;
 
+/// The regularity of all coordinates below which no step ends that begins at four times as much, about the angle in
+/// radians that is left to the change point: a step over it from so near loses too many digits, the more the more groups
+/// are singular there. Of 450 falls of 10, 20 and 40 windows at tolerances from 1e-12 to 1e-4 none stops, nor at half
+/// this value or at twice it; at a quarter 5 do, and 54 where no step is taken back.
+const CLEAR: f64 = 0.15;
+
 /// What a simulation does where the inputs cannot drive the mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtSingularity {
@@ -165,6 +171,25 @@ where
         let (unknowns, inputs) = motion.velocity(t, &y)?;
         self.take(Road::Others(independent), &independent.of(&unknowns, &inputs));
         self.look_ahead(independent)
+    }
+
+    /// Whether a step ends just before what may be a change point, though it came from afar.
+    pub(super) fn ends_too_near(&self, start: &SVector<T, N>, end: &SVector<T, N>) -> bool {
+        if self.at_singularity == AtSingularity::Stop {
+            return false;
+        }
+        let motion = self.integration.system();
+        let mechanism = motion.scene.mechanism();
+        let regularity = |y: &SVector<T, N>| {
+            Independent::choose(mechanism, &mechanism.pose_at(&S::parts(y).0), &motion.scales, &[false; V]).regularity()
+        };
+        // No group is more regular by its inputs than all coordinates are together.
+        let (by_inputs, _) = weakest(mechanism, &mechanism.pose_at(&S::parts(end).0));
+        if by_inputs > real(CLEAR) {
+            return false;
+        }
+        let at_end = regularity(end);
+        at_end < real(CLEAR) && at_end < regularity(start) * real(0.25)
     }
 
     /// In other coordinates than the inputs: still the same, or better ones.

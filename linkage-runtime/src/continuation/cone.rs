@@ -1,0 +1,271 @@
+//! The common zeros of quadratic forms: the directions of the curves that cross.
+//!
+//! A form that is the product of two linear ones leaves one or the other zero, and a form that is a sum of squares leaves
+//! all of them zero; both leave a smaller space, in which the other forms are fewer. Two forms of three coordinates have
+//! such a product among their combinations (a pencil of conics has a degenerate one, whose parameter is a root of a cubic).
+//! That is all where two groups are singular at once, and where more are but each has a form in few coordinates, as those
+//! of chains of dyads have.
+
+use core::convert::Infallible;
+
+use nalgebra::{SMatrix, SVector};
+
+use super::place::weak;
+use super::root::root;
+use super::tangents::MOST_TANGENTS;
+use crate::{Real, real};
+
+/// The dimension of the largest null space whose tangents are sought: that of seven groups flat at once.
+pub(super) const DIMENSIONS: usize = 8;
+
+/// Spaces that are looked at: eight forms that all are products have 2^8 of the smallest.
+const MOST_SPACES: usize = 512;
+
+/// Each at least halves, by its logarithm, how far an entry is from 1.
+const SCALINGS: usize = 5;
+
+/// A direction stands for a space of tangents if this part of it lies there.
+const NEAR: f64 = 0.5;
+
+/// A quadratic form, in the leading coordinates.
+pub(super) type Form<T> = SMatrix<T, DIMENSIONS, DIMENSIONS>;
+type Coordinates<T> = SVector<T, DIMENSIONS>;
+
+/// The lines on which all forms vanish.
+pub(super) struct Cone<T> {
+    lines: [Coordinates<T>; MOST_TANGENTS],
+    count: usize,
+    is_complete: bool,
+    spaces: usize,
+}
+
+/// A space in which zeros are sought, and the forms that are left there.
+struct Space<T> {
+    /// Its basis in the first columns.
+    basis: Form<T>,
+    size: usize,
+    forms: [Form<T>; DIMENSIONS],
+    count: usize,
+}
+
+/// A form as a sum of squares of linear forms, each with its sign.
+struct Squares<T> {
+    linear: [Coordinates<T>; DIMENSIONS],
+    is_negative: [bool; DIMENSIONS],
+    rank: usize,
+}
+
+impl<T: Real> Cone<T> {
+    /// The zeros of forms in the first `size` coordinates; `direction` is one that is near to the wanted zero.
+    pub(super) fn of(forms: &[Form<T>], size: usize, direction: &Coordinates<T>) -> Self {
+        let mut cone = Self { lines: [Coordinates::zeros(); MOST_TANGENTS], count: 0, is_complete: true, spaces: 0 };
+        let mut space = Space { basis: Form::identity(), size, forms: [Form::zeros(); DIMENSIONS], count: 0 };
+        for form in forms {
+            let most = form.amax();
+            if most > T::zero() {
+                space.forms[space.count] = form / most;
+                space.count += 1;
+            }
+        }
+        space.equilibrate();
+        cone.search(space, direction);
+        cone
+    }
+
+    pub(super) fn lines(&self) -> &[Coordinates<T>] {
+        &self.lines[..self.count]
+    }
+
+    pub(super) fn is_complete(&self) -> bool {
+        self.is_complete
+    }
+
+    fn search(&mut self, mut space: Space<T>, direction: &Coordinates<T>) {
+        self.spaces += 1;
+        if self.spaces > MOST_SPACES {
+            self.is_complete = false;
+            return;
+        }
+        space.drop_zeros();
+        if space.size == 0 || (space.size == 1 && space.count > 0) {
+            return;
+        }
+        if space.count == 0 {
+            self.take(&space, direction);
+            return;
+        }
+        let mut product = None;
+        for form in &space.forms[..space.count] {
+            let squares = Squares::of(form, space.size);
+            let signs = &squares.is_negative[..squares.rank];
+            if signs.iter().all(|&sign| sign == signs[0]) {
+                self.search(space.without(&squares.linear[..squares.rank]), direction);
+                return;
+            }
+            if squares.rank == 2 && product.is_none() {
+                product = Some([squares.linear[0] + squares.linear[1], squares.linear[0] - squares.linear[1]]);
+            }
+        }
+        if let Some(factors) = product {
+            for factor in factors {
+                self.search(space.without(&[factor]), direction);
+            }
+        } else if space.size == 3 && space.count > 1 && space.degenerate() {
+            self.search(space, direction);
+        } else {
+            self.is_complete = false;
+        }
+    }
+
+    /// The whole of a space.
+    fn take(&mut self, space: &Space<T>, direction: &Coordinates<T>) {
+        if space.size == 1 {
+            self.push(&space.basis.column(0).into_owned());
+            return;
+        }
+        self.is_complete = false;
+        // The part of the direction in the space: that of least distance.
+        let basis = &space.basis;
+        let mut normal = basis.tr_mul(basis);
+        for unused in space.size..DIMENSIONS {
+            normal[(unused, unused)] = T::one();
+        }
+        let Some(cholesky) = normal.cholesky() else { return };
+        let nearest = basis * cholesky.solve(&basis.tr_mul(direction));
+        if nearest.norm() > direction.norm() * real(NEAR) {
+            self.push(&nearest);
+        }
+    }
+
+    fn push(&mut self, line: &Coordinates<T>) {
+        let line = line / line.norm();
+        let is_known = |known: &Coordinates<T>| (known * known.dot(&line) - line).norm() <= weak();
+        if self.lines().iter().any(is_known) {
+            return;
+        }
+        match self.lines.get_mut(self.count) {
+            Some(place) => {
+                *place = line;
+                self.count += 1;
+            }
+            None => self.is_complete = false,
+        }
+    }
+}
+
+impl<T: Real> Space<T> {
+    /// Scales the coordinates so that each has an entry near to 1 in some form (D. Ruiz, "A scaling algorithm to equilibrate
+    /// both rows and columns norms in matrices", 2001): what is small by its unit is not taken for zero.
+    fn equilibrate(&mut self) {
+        for _ in 0..SCALINGS {
+            for place in 0..self.size {
+                let most =
+                    self.forms[..self.count].iter().fold(T::zero(), |most, form| most.max(form.row(place).amax()));
+                if most > T::zero() {
+                    let factor = most.sqrt().recip();
+                    self.basis.column_mut(place).scale_mut(factor);
+                    for form in &mut self.forms[..self.count] {
+                        form.row_mut(place).scale_mut(factor);
+                        form.column_mut(place).scale_mut(factor);
+                    }
+                }
+            }
+        }
+    }
+
+    fn drop_zeros(&mut self) {
+        let mut kept = 0;
+        for place in 0..self.count {
+            if self.forms[place].amax() > weak() {
+                self.forms.swap(kept, place);
+                kept += 1;
+            }
+        }
+        self.count = kept;
+    }
+
+    /// The part in which linear forms vanish.
+    fn without(&self, linear: &[Coordinates<T>]) -> Self {
+        let mut part = Self { basis: self.basis, size: self.size, forms: self.forms, count: self.count };
+        // The linear forms in the coordinates that are left.
+        let mut rest = [Coordinates::zeros(); DIMENSIONS];
+        rest[..linear.len()].copy_from_slice(linear);
+        for place in 0..linear.len() {
+            let form = rest[place];
+            let pivot = form.iamax();
+            if form[pivot].is_zero() {
+                continue;
+            }
+            // x_pivot by the others; the last coordinate takes its place.
+            let last = part.size - 1;
+            let mut change = Form::<T>::zeros();
+            for column in 0..last {
+                let from = if column == pivot { last } else { column };
+                change[(from, column)] = T::one();
+                change[(pivot, column)] = -form[from] / form[pivot];
+            }
+            part.size = last;
+            part.basis *= change;
+            for form in &mut part.forms[..part.count] {
+                *form = change.tr_mul(form) * change;
+            }
+            for later in &mut rest[place + 1..] {
+                *later = change.tr_mul(later);
+            }
+        }
+        part
+    }
+
+    /// Puts a degenerate combination of the first two forms of three coordinates in the place of one of them.
+    fn degenerate(&mut self) -> bool {
+        let [one, two] = [self.forms[0], self.forms[1]];
+        let combination = |angle: T| one * angle.cos() + two * angle.sin();
+        let determinant = |angle: T| combination(angle).fixed_view::<3, 3>(0, 0).determinant();
+        // Half a turn changes the sign.
+        let interval = [T::zero(), T::pi()];
+        let ends = [determinant(T::zero()), -determinant(T::zero())];
+        let found: Result<_, Infallible> =
+            root(interval, ends, T::default_epsilon(), |angle| Ok(Some(determinant(angle))));
+        let Ok(Some(angle)) = found else { return false };
+        let form = combination(angle);
+        self.forms[usize::from(angle.sin().abs() > angle.cos().abs())] = form;
+        let squares = Squares::of(&form, self.size);
+        squares.rank <= 2
+    }
+}
+
+impl<T: Real> Squares<T> {
+    fn of(form: &Form<T>, size: usize) -> Self {
+        let mut squares =
+            Self { linear: [Coordinates::zeros(); DIMENSIONS], is_negative: [false; DIMENSIONS], rank: 0 };
+        let mut rest = *form;
+        while squares.rank < size {
+            // The coordinate or the sum or difference of two along which the form is largest.
+            let (mut along, mut most) = (Coordinates::zeros(), T::zero());
+            for i in 0..size {
+                for j in 0..=i {
+                    let mut trial = Coordinates::zeros();
+                    (trial[i], trial[j]) = (T::one(), T::one());
+                    if i != j {
+                        let is_opposed = (rest[(i, i)] + rest[(j, j)]) * rest[(i, j)] < T::zero();
+                        trial[j] = if is_opposed { -T::one() } else { T::one() };
+                    }
+                    let value = trial.dot(&(rest * trial)) / trial.norm_squared();
+                    if value.abs() > most.abs() {
+                        (along, most) = (trial, value);
+                    }
+                }
+            }
+            if most.abs() <= weak() {
+                break;
+            }
+            let image = rest * along;
+            let value = along.dot(&image);
+            rest -= image * image.transpose() / value;
+            squares.linear[squares.rank] = image / value.abs().sqrt();
+            squares.is_negative[squares.rank] = value < T::zero();
+            squares.rank += 1;
+        }
+        squares
+    }
+}

@@ -1,0 +1,54 @@
+//! Groups of unknowns that are meant together.
+
+use core::fmt;
+
+use crate::Group;
+
+/// Bits of a word.
+const BITS: usize = 64;
+
+/// Words: a mechanism of more groups has a Jacobian of 8 MB and more on the stack, which cannot be followed.
+const WORDS: usize = 8;
+
+/// Some of the groups of a mechanism, in the order in which they are solved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Groups {
+    all: &'static [Group],
+    members: [u64; WORDS],
+}
+
+impl Groups {
+    /// The most groups of a mechanism that is followed.
+    pub(super) const MOST: usize = BITS * WORDS;
+
+    pub(super) fn none(all: &'static [Group]) -> Self {
+        Self { all, members: [0; WORDS] }
+    }
+
+    pub(super) fn insert(&mut self, group: usize) {
+        if let Some(word) = self.members.get_mut(group / BITS) {
+            *word |= 1 << (group % BITS);
+        }
+    }
+
+    pub(super) fn contains(&self, group: usize) -> bool {
+        self.members.get(group / BITS).is_some_and(|word| word >> (group % BITS) & 1 == 1)
+    }
+
+    /// The unknowns of each group, by name.
+    pub fn iter(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.all.iter().enumerate().filter(|&(place, _)| self.contains(place)).map(|(_, group)| group.name)
+    }
+
+    /// The unknowns of the first group, by name.
+    #[must_use]
+    pub fn first(&self) -> &'static str {
+        self.iter().next().unwrap_or_default()
+    }
+}
+
+impl fmt::Debug for Groups {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
