@@ -2,12 +2,16 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 #![warn(missing_docs)]
 
-#[cfg(feature = "double-double")]
+#[cfg(not(any(feature = "std", feature = "libm")))]
+compile_error!("enable the feature `std` of `linkage`, or `libm` where there is no standard library");
+
+#[cfg(all(feature = "double-double", any(feature = "std", feature = "libm")))]
 pub use linkage_double::DoubleDouble;
 #[cfg(feature = "drawing")]
 pub use linkage_runtime::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_runtime::sheet;
+#[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
     Along, Assembly, Balance, Contact, ContactLaw, Elbow, Energy, Equations, Error, Group, Mechanism, Mode,
     OutputMotion, PointMotion, Power, Real, Scene, Slider, Slope, Solution, Unreduced, accuracy, contact, continuation,
@@ -48,6 +52,7 @@ pub use linkage_runtime::{
 /// assert!(motion.state()[0] > 10.0);
 /// # Ok::<(), linkage::Error>(())
 /// ```
+#[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::integrate;
 
 /// Mechanisms from their closure equations.
@@ -63,6 +68,7 @@ macro_rules! linkage {
 
 /// What emitted code refers to; not part of the interface.
 #[doc(hidden)]
+#[cfg(any(feature = "std", feature = "libm"))]
 pub mod __private {
     pub use linkage_macros::linkage;
     pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};

@@ -266,3 +266,78 @@ fn greedy_names() {
     assert!((sensitivity[(0, 0)] - by_ground).abs() < 1e-16, "{sensitivity} {by_ground}");
     assert!((motion.outputs.sin_right.value - 2.0 * q.right).abs() < 1e-15);
 }
+
+/// Configured out, a mechanism leaves nothing behind: another one may have its name and those of its types.
+mod configured {
+    linkage::linkage! {
+        #[cfg(any())]
+        #[derive(Clone)]
+        pub mechanism Machine {
+            param r = 1;
+            coordinate a, b;
+            drive Forward by a;
+            drive Backward by b;
+            equation a = r * b;
+            point P = r@a;
+            body wheel { inertia r; angle a; }
+            scene Running of Forward { inertia; equilibrium; }
+        }
+        #[cfg(all())]
+        #[allow(dead_code)]
+        mechanism Machine {
+            input a;
+            unknown b;
+            equation a = 2 * b;
+            scene Running { equilibrium; }
+        }
+    }
+
+    #[test]
+    fn the_other_machine_is_there() {
+        let machine = Machine::default();
+        assert_eq!(machine.solve(&MachineCoordinates { a: 3.0, b: 1.0 }).unwrap().coordinates.b, 1.5);
+    }
+}
+
+/// Nothing of the position enters these forces, and nothing else in the scenes is a number.
+mod still {
+    linkage::linkage! {
+        pub mechanism Plain {
+            param l = 1;
+            input v;
+            unknown u;
+            equation u = l * v;
+            body fixed { mass l; center (0, l); }
+            scene Loaded { gravity (0, -9); equilibrium; }
+            scene Idle { torque 0 on v; equilibrium; energy; power; reactions; }
+            scene Flat { potential 0 * v; equilibrium; }
+            scene Pushed { torque 1 on v; equilibrium; }
+            scene Empty { equilibrium; }
+        }
+    }
+
+    #[test]
+    fn forces_that_vanish_are_in_balance_everywhere() {
+        let plain = Plain::default();
+        let q = PlainCoordinates { v: 0.5, u: 0.5 };
+        assert_eq!(Loaded::from((plain, [])).balance(0.0, &q).unwrap().forces, [0.0]);
+        assert_eq!(Pushed::from((Plain::default(), [])).balance(0.0, &q).unwrap().forces, [1.0]);
+    }
+}
+
+/// The sine and the cosine of a sum of unknown angles, by its name and with a minus.
+mod signed_angles {
+    linkage::linkage! {
+        pub mechanism Folded {
+            param l = 2;
+            input v;
+            unknown a, b;
+            equation a = l * v;
+            equation b = l * a;
+            let sum = a * b + v * l;
+            point P = l@(-sum) + sum@(-2 * sum);
+            point Q = l@sum;
+            output o = -sum * sum + sin(-(v + a * b)) * cos(v + a * b) + (v + a * b);
+        }
+    }
+}

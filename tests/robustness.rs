@@ -132,3 +132,117 @@ fn constants_overflow_cleanly() {
         assert_eq!(messages(&with_output(hopeless)).len(), 1, "{hopeless}");
     }
 }
+
+/// Bodies whose centres are at r and at -r along one line: products that differ in the signs inside them alone.
+#[test]
+fn what_differs_in_signs_alone_is_shared_in_the_end() {
+    let source = "mechanism M { param k = 1, m = 1; input v; unknown r; equation r = k * v;
+        body b { mass m; center r@v; } body c { mass m; center (-r)@v; } scene Loaded { inertia; } }";
+    assert_eq!(expansion_messages(source), [""; 0]);
+    let squares = with_output("(a - v) * (v + 1) + (v - a) * (v + 1) + ((a - v) * (v - a))^3");
+    assert_eq!(expansion_messages(&squares), [""; 0]);
+}
+
+/// Each name is made of the one before twice, so that paths through them double with each.
+#[test]
+fn shared_angles_are_looked_at_once() {
+    let chain: String = (1..60).map(|link| format!("let a{link} = a{0} * a{0} + a{0};", link - 1)).collect();
+    let source = format!(
+        "mechanism M {{ input v; unknown u; let a0 = v; {chain} equation u = sin(a30) + cos(a31); output o = sin(a29) * u; }}"
+    );
+    let chain_used = source.split("equation").next().unwrap().len();
+    assert!(chain_used > 1000);
+    assert_eq!(expansion_messages(&source), [""; 0]);
+}
+
+#[test]
+fn tokens_left_over_in_an_attribute_are_told() {
+    for attribute in ["#[derive(Clone) nonsense]", "#[doc = \"x\" y]"] {
+        let source = format!("{attribute} {}", with_output("v"));
+        let found = expansion_messages(&source);
+        assert!(matches!(found.as_slice(), [one] if one.contains("unexpected token")), "{found:?}");
+        let inside = with_output("v").replacen("output", &format!("{attribute} output"), 1);
+        let found = expansion_messages(&inside);
+        assert!(found.iter().any(|one| one.contains("unexpected token")), "{found:?}");
+    }
+}
+
+#[test]
+fn attributes_without_effect_are_refused() {
+    for (attribute, statement, message) in [
+        ("#[cfg(test)]", "param", "cannot be configured out"),
+        ("#[cfg(test)]", "equation", "cannot be configured out"),
+        ("#[cfg_attr(test, cfg(any()))]", "param", "cannot be configured out"),
+        ("#[inline]", "output", "`#[inline]` has no effect here"),
+        ("#[serde::skip]", "input", "`#[serde::skip]` has no effect here"),
+        ("#[allow(unused)]", "equation", "`#[allow]` has no effect here"),
+        ("#[deprecated]", "param", "would warn"),
+        ("#[doc(hidden)]", "equation", "text alone"),
+        ("#[deprecated]", "mechanism", "would warn"),
+        ("#[cfg_attr(test, cfg(any()))]", "mechanism", "would reach only some"),
+    ] {
+        let source = with_output("v").replacen(statement, &format!("{attribute} {statement}"), 1);
+        let found = expansion_messages(&source);
+        assert!(matches!(found.as_slice(), [one] if one.contains(message)), "{attribute} {statement}: {found:?}");
+    }
+    let commented = with_output("v").replace("equation", "/// Said of it.\n equation");
+    assert_eq!(expansion_messages(&commented), [""; 0]);
+    assert_eq!(expansion_messages(&commented.replacen("param", "#[cfg_attr(test, serde(skip))] param", 1)), [""; 0]);
+}
+
+#[test]
+fn constants_that_no_float_holds_are_refused() {
+    for hopeless in [
+        "v / 5e-324",
+        "(1e200 * v)^2",
+        "v * pi * 1e308",
+        "sqrt(1e300 * v * 1e300)",
+        "1e-200 * v * 1e-200",
+        "1e-400 * v",
+        "(1e-200 * v)^2",
+        "v + 1e308 + 1e308",
+    ] {
+        let found = expansion_messages(&with_output(hopeless));
+        assert!(
+            matches!(found.as_slice(), [one] if one.contains("beyond the range of `f64`")),
+            "{hopeless}: {found:?}"
+        );
+    }
+    // The determinant is a product of constants that are in range.
+    for (first, second) in [("1e-200 * u + 2 * w = v", "u = 1e-200 * w"), ("1e200 * u = w^2 + v", "w * 1e200 = u^2")] {
+        let source = format!("mechanism M {{ input v; unknown u, w; equation {first}; equation {second}; }}");
+        let found = expansion_messages(&source);
+        assert!(matches!(found.as_slice(), [one] if one.starts_with("in the derivatives of `M`")), "{found:?}");
+    }
+}
+
+/// As many legs as 100 000 tokens hold; the work of an invocation is the sum of that of its mechanisms.
+#[test]
+fn a_hundred_thousand_tokens_of_honest_input_are_within_the_budget() {
+    use linkage_compiler::budget::{Budget, MOST_STEPS};
+    const LEGS: usize = 345;
+    let leg = source::tokens_of("jansen");
+    let steps = |legs: usize| {
+        let budget = Budget::default();
+        let legs = std::iter::repeat_n(leg.clone(), legs).flatten().collect();
+        let expansion = linkage_compiler::expand_within(legs, &"::linkage".parse().unwrap(), &budget);
+        assert!(!expansion.to_string().contains("compile_error"));
+        MOST_STEPS - budget.left()
+    };
+    let one = steps(1);
+    assert_eq!(steps(3), 3 * one);
+    assert!(LEGS * one < MOST_STEPS, "{one} steps a leg");
+}
+
+/// Matrices of millions of entries, most of them zero, are refused before they are made.
+#[test]
+fn as_many_inputs_as_unknowns() {
+    let source = |count: usize| {
+        let list = |name: &str| (0..count).map(|index| format!("{name}{index}")).collect::<Vec<_>>().join(", ");
+        let equations: String = (0..count).map(|index| format!("equation u{index} = 2 * v{index};")).collect();
+        format!("mechanism M {{ input {}; unknown {}; {equations} }}", list("v"), list("u"))
+    };
+    assert_eq!(expansion_messages(&source(40)), [""; 0]);
+    let found = expansion_messages(&source(1500));
+    assert!(matches!(found.as_slice(), [one] if one.contains("takes more work")), "{found:?}");
+}

@@ -58,6 +58,16 @@ impl Diagnostics {
         self.errors.is_empty()
     }
 
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.errors.len()
+    }
+
+    /// Takes back all messages but the first ones.
+    pub fn truncate(&mut self, length: usize) {
+        self.errors.truncate(length);
+    }
+
     /// The messages as text, in the order found.
     #[must_use]
     pub fn messages(&self) -> Vec<String> {

@@ -5,6 +5,7 @@
 //! syntax, model, graph, derivation, structure, simplify, emit.
 
 // Formulas and counts are converted between integers and floats on purpose.
+pub mod budget;
 pub mod derivation;
 pub mod diagnostics;
 pub mod emit;
@@ -18,6 +19,7 @@ pub mod syntax;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use budget::Budget;
 use derivation::Derivation;
 use diagnostics::Diagnostics;
 use emit::Emitted;
@@ -30,24 +32,78 @@ use simplify::schedule::Operations;
 /// names and types of what was meant, so that one mistake is one message.
 #[must_use]
 pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
+    expand_within(input, root, &Budget::default())
+}
+
+/// Expands an invocation that may take so many steps of work.
+#[must_use]
+pub fn expand_within(input: TokenStream, root: &TokenStream, budget: &Budget) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
     let trees = syntax::parse(input, &mut diagnostics);
-    let mechanisms: Vec<Mechanism> = trees.into_iter().map(|tree| model::resolve(tree, &mut diagnostics)).collect();
-    let mut derivations: Vec<Vec<Derivation>> = Vec::new();
+    let mut mechanisms = Vec::new();
+    for tree in trees {
+        let (before, was_spent) = (diagnostics.len(), budget.is_spent());
+        let mechanism = model::resolve(tree, budget, &mut diagnostics);
+        if budget.is_spent() {
+            diagnostics.truncate(before);
+            if !was_spent {
+                too_much(&mechanism, &mut diagnostics);
+            }
+        }
+        mechanisms.push(mechanism);
+    }
+    let mut tokens = TokenStream::new();
     if diagnostics.is_empty() {
-        derivations = mechanisms.iter().map(derive).collect();
-        for (mechanism, derivations) in mechanisms.iter().zip(&derivations) {
-            derivation::check(mechanism, derivations, &mut diagnostics);
+        for mechanism in &mechanisms {
+            let Emitted { tokens: emitted, .. } = checked(mechanism, budget, root, &mut diagnostics);
+            tokens.extend(emitted);
+            if budget.is_spent() {
+                break;
+            }
         }
     }
     if !diagnostics.is_empty() {
         let errors = diagnostics.to_tokens();
         let stubs = mechanisms.iter().filter(|mechanism| mechanism.is_well_named());
-        let stubs = stubs.map(|mechanism| emit::mechanism(mechanism, None, root).tokens);
+        let stubs = stubs.map(|mechanism| emit::stub(mechanism, root));
         return quote! { #errors #(#stubs)* };
     }
-    let derived = mechanisms.iter().zip(&mut derivations);
-    derived.map(|(mechanism, derivations)| emit::mechanism(mechanism, Some(derivations), root).tokens).collect()
+    tokens
+}
+
+/// Derives a mechanism, reports what only its derivatives tell, and emits it; one driver after the other, so that
+/// only one of them is held.
+fn checked(mechanism: &Mechanism, budget: &Budget, root: &TokenStream, diagnostics: &mut Diagnostics) -> Emitted {
+    let mut drivers = Emitted::default();
+    for driver in &mechanism.drivers {
+        let before = diagnostics.len();
+        let affordable = budget.spend(derivation::matrices(mechanism, driver));
+        let derivation = affordable.then(|| derivation::derive(mechanism, driver));
+        if let Some(mut derivation) = derivation
+            && !budget.is_spent()
+            && derivation::check(mechanism, driver, &mut derivation, diagnostics)
+        {
+            let emitted = emit::driver(mechanism, driver, Some(&mut derivation), root);
+            derivation::check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
+            drivers.tokens.extend(emitted.tokens);
+            drivers.operations = drivers.operations.plus(emitted.operations);
+        }
+        if budget.is_spent() {
+            diagnostics.truncate(before);
+            too_much(mechanism, diagnostics);
+            break;
+        }
+    }
+    emit::mechanism(mechanism, drivers, root)
+}
+
+/// Reports that the work of an invocation ends in a mechanism.
+fn too_much(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
+    let name = &mechanism.name;
+    diagnostics.error(
+        name.span(),
+        format_args!("this invocation takes more work than is done for one, and `{name}` is where it ends; split it"),
+    );
 }
 
 /// What a checked mechanism becomes, and how large it is.
@@ -63,23 +119,21 @@ pub struct Expansion {
 /// Derives and emits a checked mechanism; `root` is the path of the `linkage` crate.
 #[must_use]
 pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Expansion {
-    let mut derivations = derive(mechanism);
-    let Emitted { tokens, operations } = emit::mechanism(mechanism, Some(&mut derivations), root);
-    let nodes = derivations.iter().map(|derivation| derivation.graph.len()).sum();
+    let (mut nodes, mut drivers) = (0, Emitted::default());
+    for (driver, mut derivation) in mechanism.drivers.iter().zip(derive(mechanism)) {
+        let emitted = emit::driver(mechanism, driver, Some(&mut derivation), root);
+        nodes += derivation.graph.len();
+        drivers.tokens.extend(emitted.tokens);
+        drivers.operations = drivers.operations.plus(emitted.operations);
+    }
+    let Emitted { tokens, operations } = emit::mechanism(mechanism, drivers, root);
     Expansion { tokens, nodes, operations }
 }
 
 /// The derivations of a checked mechanism, one for each driver.
 #[must_use]
 pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
-    mechanism
-        .drivers
-        .iter()
-        .filter_map(|driver| {
-            let blocks = structure::order(&mechanism.incidence(driver), driver.unknowns.len()).ok()?;
-            Some(derivation::derive(mechanism, driver, blocks))
-        })
-        .collect()
+    mechanism.drivers.iter().map(|driver| derivation::derive(mechanism, driver)).collect()
 }
 
 /// Reads mechanisms without expanding them, for tests and tools.
@@ -89,6 +143,7 @@ pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
 pub fn read(input: TokenStream) -> Result<Vec<Mechanism>, Vec<String>> {
     let mut diagnostics = Diagnostics::default();
     let trees = syntax::parse(input, &mut diagnostics);
-    let mechanisms = trees.into_iter().map(|tree| model::resolve(tree, &mut diagnostics)).collect();
+    let budget = Budget::default();
+    let mechanisms = trees.into_iter().map(|tree| model::resolve(tree, &budget, &mut diagnostics)).collect();
     if diagnostics.is_empty() { Ok(mechanisms) } else { Err(diagnostics.messages()) }
 }

@@ -8,6 +8,8 @@
 //! kind none has both.
 
 #![cfg_attr(not(feature = "std"), no_std)]
+// Without elementary functions there is nothing; `linkage` says so.
+#![cfg(any(feature = "std", feature = "libm"))]
 #![warn(missing_docs)]
 
 mod field;

@@ -48,6 +48,19 @@ use proc_macro::TokenStream;
 /// a function body or a test. Statements may stand in any order, but for `let`, `point` and `output`,
 /// which use only what is above them. Doc comments on a statement reach the fields it declares.
 ///
+/// Attributes go where they have a meaning, and are refused elsewhere:
+///
+/// | on | what becomes of it |
+/// |---|---|
+/// | `mechanism` | `cfg` stands on all items that are emitted, so that a mechanism is there as a whole or not at all; `allow`, `warn`, `deny` and `forbid` as well; everything else, such as `derive` and its like, goes to the types that hold parameters |
+/// | `drive`, `scene` | all go to its type |
+/// | `param` | all go to its field, such as `#[serde(rename = "…")]` |
+/// | `input`, `unknown`, `coordinate`, `point`, `output`, `loop`, `equation`, `extern fn` | doc comments go to the documentation |
+/// | `let`, `derive`, `body`, effects | doc comments, for the reader of the source |
+///
+/// `cfg` on a part of a mechanism is refused, since a macro runs before it is evaluated: write one mechanism for each case.
+/// A mechanism that is configured out is read all the same. `deprecated` is refused, since emitted code would warn of itself.
+///
 /// | statement | meaning |
 /// |---|---|
 /// | `param a = 1, b;` | geometric and physical data; a default is a number. With defaults for all there is `Default` |
@@ -79,6 +92,10 @@ use proc_macro::TokenStream;
 /// | `x(P) y(P) norm(V) angle(V) dot(A, B) cross(A, B)` | of vectors |
 /// | `f(x, p)` | a function of your own, or a derivative of one, under the name that `extern fn` gives it |
 /// | `pi`, `20deg`, `1.5`, `3` | constants; integers, decimals and their ratios stay exact |
+///
+/// A constant, also one that comes of several or of a derivative, is zero or a normal number of `f64`, 2.3e-308 to 1.7e308;
+/// else it is refused. Another scalar takes it from `f64`: an `f32` rounds it, to infinity beyond 3.4e38, which functions
+/// that return a `Result` report as `NotFinite`, and to zero below 7e-46.
 ///
 /// `@` binds tighter than `+ -` and looser than `* /`, so `l3/2 @ phi + s @ (phi - delta)` needs no
 /// more parentheses than these. Angles are in radians. Whether a name is an angle or a length follows
@@ -566,10 +583,11 @@ use proc_macro::TokenStream;
 /// few closures, closures that are singular at every position, vectors where scalars belong and scalars
 /// where vectors belong, a name used as an angle and as a modulus, a function of your own that gives too few
 /// derivatives, `derive` of what is unknown or named already, bodies of negative mass or in no scene, scenes in which
-/// nothing with inertia moves with an input, division by zero, constants that are not finite,
+/// nothing with inertia moves with an input, division by zero, constants that no `f64` holds, attributes without effect,
 /// and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words and signs, more than
 /// 10 000 expressions, or 16 000 with their derivatives, each entry of a `sensitivity` being one (a chain of
-/// four-bars takes 70 a loop).
+/// four-bars takes 70 a loop). All mechanisms of an invocation share one budget of work, which is counted and not timed:
+/// 345 legs of Jansen's walking machine, as many as fit into one, take three quarters of it.
 ///
 /// ```compile_fail
 /// linkage::linkage! {

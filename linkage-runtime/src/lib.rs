@@ -16,6 +16,8 @@
 //! - [`sheet`]: the derivation as HTML.
 
 #![cfg_attr(not(feature = "std"), no_std)]
+// Without elementary functions there is nothing; `linkage` says so.
+#![cfg(any(feature = "std", feature = "libm"))]
 #![warn(missing_docs)]
 
 pub mod accuracy;

@@ -4,48 +4,84 @@ use std::collections::BTreeSet;
 
 use super::Derivation;
 use crate::diagnostics::Diagnostics;
-use crate::graph::{External, SymbolId};
-use crate::model::{Call, Driver, ExternalFunction, Mechanism};
+use crate::graph::{External, Graph, SymbolId};
+use crate::model::{Call, Driver, ExternalFunction, Mechanism, Request, Scene, Wish};
 
 /// A derivation of more expressions than this is refused: emitting it takes longer than anybody waits.
 pub const LARGEST: usize = 16_000;
 
-/// Reports what no choice of numbers can make a mechanism.
-pub fn check(mechanism: &Mechanism, derivations: &[Derivation], diagnostics: &mut Diagnostics) {
-    for (driver, derivation) in mechanism.drivers.iter().zip(derivations) {
-        // du/dp is full, and solved for only when it is emitted.
-        let entries = derivation.sensitivity.iter().map(|first| first.names.len() * derivation.unknowns.len());
-        let size = derivation.graph.len() + entries.sum::<usize>();
-        if size > LARGEST {
+/// The steps that an entry of a matrix counts as: it is written in several functions, as five tokens or more each, of
+/// some 80 bytes.
+const STEPS_OF_AN_ENTRY: usize = 100;
+
+/// The work that the matrices of a driver are, zeros included: J, W and what is asked for beyond.
+#[must_use]
+pub fn matrices(mechanism: &Mechanism, driver: &Driver) -> usize {
+    let (unknowns, inputs) = (driver.unknowns.len(), driver.inputs.len());
+    let of_driver = |scene: &&Scene| mechanism.drivers[scene.driver].name == driver.name;
+    let balanced = mechanism.scenes.iter().filter(of_driver).filter(|scene| scene.wishes.contains(&Wish::Equilibrium));
+    let is_wanted = |request| usize::from(mechanism.requests.contains(&request));
+    let second = is_wanted(Request::VelocityRatioDerivatives) + balanced.count();
+    let columns = unknowns + inputs + second * inputs.saturating_mul(inputs);
+    let columns = columns + is_wanted(Request::Sensitivity) * mechanism.parameters.len();
+    STEPS_OF_AN_ENTRY.saturating_mul(unknowns).saturating_mul(columns)
+}
+
+/// Reports what no choice of numbers can make a mechanism; gives whether nothing is wrong.
+pub fn check(
+    mechanism: &Mechanism,
+    driver: &Driver,
+    derivation: &mut Derivation,
+    diagnostics: &mut Diagnostics,
+) -> bool {
+    let before = diagnostics.len();
+    // du/dp is full, and solved for only when it is emitted.
+    let entries = derivation.sensitivity.iter().map(|first| first.names.len() * derivation.unknowns.len());
+    let size = derivation.graph.len() + entries.sum::<usize>();
+    if size > LARGEST {
+        diagnostics.error(
+            driver.name.span(),
+            format_args!(
+                "the derivatives of `{}` take {size} expressions, more than {LARGEST}; split the mechanism",
+                driver.name,
+            ),
+        );
+    }
+    if !given(mechanism, derivation, diagnostics) {
+        return false;
+    }
+    for block in &derivation.blocks {
+        if block.determinant.is_some_and(|determinant| derivation.graph.is_zero(determinant.value)) {
+            let names: Vec<String> = block
+                .unknowns
+                .iter()
+                .map(|&place| format!("`{}`", mechanism.coordinates[driver.unknowns[place]].name.text))
+                .collect();
             diagnostics.error(
                 driver.name.span(),
                 format_args!(
-                    "the derivatives of `{}` take {size} expressions, more than {LARGEST}; split the mechanism",
+                    "`{}` is singular at every position: the closures for {} say the same of both",
                     driver.name,
+                    names.join(" and ")
                 ),
             );
         }
-        if !given(mechanism, derivation, diagnostics) {
-            return;
-        }
-        for block in &derivation.blocks {
-            if block.determinant.is_some_and(|determinant| derivation.graph.is_zero(determinant.value)) {
-                let names: Vec<String> = block
-                    .unknowns
-                    .iter()
-                    .map(|&place| format!("`{}`", mechanism.coordinates[driver.unknowns[place]].name.text))
-                    .collect();
-                diagnostics.error(
-                    driver.name.span(),
-                    format_args!(
-                        "`{}` is singular at every position: the closures for {} say the same of both",
-                        driver.name,
-                        names.join(" and ")
-                    ),
-                );
-            }
-        }
-        without_inertia(mechanism, driver, derivation, diagnostics);
+    }
+    without_inertia(mechanism, driver, derivation, diagnostics);
+    if diagnostics.len() == before {
+        check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
+    }
+    diagnostics.len() == before
+}
+
+/// Reports a constant that came of the derivatives and that no `f64` holds.
+pub fn check_numbers(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph, diagnostics: &mut Diagnostics) {
+    let Some(fault) = graph.take_fault() else { return };
+    let message =
+        format!("in the derivatives of `{}`: {fault}\nchoose units in which the numbers are nearer to 1", driver.name);
+    match mechanism.extreme {
+        Some(extreme) => diagnostics.error(extreme.region, message),
+        None => diagnostics.error(driver.name.span(), message),
     }
 }
 

@@ -125,7 +125,7 @@ impl Derivation {
                     by.insert(name, formula);
                 }
             }
-            if by.is_empty() {
+            if by.is_empty() || self.graph.budget().is_spent() {
                 return function;
             }
             function = self.graph.replace(&[function], &by)[0];

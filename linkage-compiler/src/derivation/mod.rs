@@ -29,7 +29,7 @@ use crate::model::{Driver, Mechanism, Request};
 use crate::simplify::{self, simplify};
 use crate::structure::{self, Group, Method};
 pub use assembly::{Assembly, Choice, Chord};
-pub use check::{LARGEST, check};
+pub use check::{LARGEST, check, check_numbers, matrices};
 pub use contacts::{Contact, ContactFormula};
 pub use equilibrium::Equilibrium;
 pub use formulas::{Formulas, Inverse, QuantityFormulas};
@@ -126,9 +126,10 @@ pub struct Derivation {
     pub scenes: Vec<Scene>,
 }
 
-/// Derives a mechanism whose closures the structure stage found solvable in the order of `blocks`.
+/// Derives a checked mechanism, whose closures can be solved in the order of the blocks of its driver.
 #[must_use]
-pub fn derive(mechanism: &Mechanism, driver: &Driver, blocks: Vec<structure::Block>) -> Derivation {
+pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
+    let blocks = driver.blocks.clone();
     let mut graph = mechanism.graph.clone();
     let order = mechanism.coordinate_order(driver);
     let coordinates: Vec<Coordinate> = order

@@ -202,7 +202,8 @@ pub(super) fn plain(number: Number) -> TokenStream {
 /// A constant as a scalar of any type.
 pub(super) fn constant(number: Number) -> TokenStream {
     match number {
-        Number::Ratio(0, _) => quote!(T::zero()),
+        // A float may be zero as well, as the magnitude of one is.
+        number if number.is_zero() => quote!(T::zero()),
         Number::Ratio(1, 1) => quote!(T::one()),
         Number::Ratio(n, d) => {
             let value = n as f64 / d as f64;

@@ -298,8 +298,11 @@ fn write_line(writer: &Writer, body: &mut Tokens, line: &Line, names: &mut Names
         }
         Line::SineCosine { sine, cosine, angle } => {
             let argument = signed(names, schedule, *angle);
-            let argument =
-                if names.get(schedule, angle.value).is_some() { argument.into() } else { quote!((#argument)) };
+            let argument = if !angle.negative && names.get(schedule, angle.value).is_some() {
+                argument.into()
+            } else {
+                quote!((#argument))
+            };
             let (sine, cosine) = (names.invent(schedule, *sine), names.invent(schedule, *cosine));
             body.extend(quote!(let (#sine, #cosine) = #argument.sine_cosine();));
         }

@@ -2,6 +2,7 @@
 
 mod document;
 mod expression;
+mod items;
 mod kernel;
 mod methods;
 mod names;
@@ -64,39 +65,61 @@ pub struct Emitted {
     pub operations: Operations,
 }
 
-/// Everything emitted for one mechanism; `derivations` holds one for each driver, or none for a
-/// stub that only has the right names and types. `root` is the path of the `linkage` crate.
+/// A mechanism for which only the right names and types are emitted.
 #[must_use]
-pub fn mechanism(mechanism: &Mechanism, derivations: Option<&mut [Derivation]>, root: &TokenStream) -> Emitted {
+pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
+    let drivers = mechanism.drivers.iter().map(|driver| self::driver(mechanism, driver, None, root).tokens);
+    let tokens = std::iter::once(shared(mechanism, root)).chain(drivers);
+    items::bearing(tokens.collect(), &mechanism.everywhere)
+}
+
+/// What all drivers of a mechanism share and `drivers`, which are emitted already.
+#[must_use]
+pub fn mechanism(mechanism: &Mechanism, drivers: Emitted, root: &TokenStream) -> Emitted {
+    let mut tokens = shared(mechanism, root);
+    tokens.extend(drivers.tokens);
+    Emitted { tokens: items::bearing(tokens, &mechanism.everywhere), ..drivers }
+}
+
+fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
+    types::shared(mechanism, &types::derives(), &quote!(#root::__private))
+}
+
+/// Everything emitted for one driver of a mechanism and its scenes; without a derivation a stub that only has the
+/// right names and types. `root` is the path of the `linkage` crate.
+#[must_use]
+pub fn driver(
+    mechanism: &Mechanism,
+    driver: &Driver,
+    mut derivation: Option<&mut Derivation>,
+    root: &TokenStream,
+) -> Emitted {
     let private = quote!(#root::__private);
     let derives = types::derives();
-    let mut tokens = types::shared(mechanism, &derives, &private);
-    let mut operations = Operations::default();
-    let mut derivations = derivations.map(|derivations| derivations.iter_mut());
-    for driver in &mechanism.drivers {
-        let names = Types::new(mechanism, driver, &derives);
-        let mut derivation = derivations.as_mut().and_then(Iterator::next);
-        let plan = derivation
-            .as_deref_mut()
-            .map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
-        tokens.extend(types::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref(), &private));
-        let emitted = methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref_mut(), &private);
+    let names = Types::new(mechanism, driver, &derives);
+    let plan = derivation
+        .as_deref_mut()
+        .map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
+    let mut tokens = types::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref(), &private);
+    let emitted = methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref_mut(), &private);
+    tokens.extend(emitted.tokens);
+    let mut operations = emitted.operations;
+    let scenes = mechanism.scenes.iter().filter(|scene| mechanism.drivers[scene.driver].name == driver.name);
+    for (number, scene) in scenes.enumerate() {
+        if mechanism.graph.budget().is_spent() && derivation.is_some() {
+            break;
+        }
+        let names = Types { driver: scene.name.clone(), ..Types::new(mechanism, driver, &derives) };
+        tokens.extend(scene::types(mechanism, driver, scene, &private));
+        let emitted = methods::of_scene(
+            mechanism,
+            (driver, scene, number),
+            &names,
+            plan.as_ref().zip(derivation.as_deref_mut()),
+            &private,
+        );
         tokens.extend(emitted.tokens);
         operations = operations.plus(emitted.operations);
-        let scenes = mechanism.scenes.iter().filter(|scene| mechanism.drivers[scene.driver].name == driver.name);
-        for (number, scene) in scenes.enumerate() {
-            let names = Types { driver: scene.name.clone(), ..Types::new(mechanism, driver, &derives) };
-            tokens.extend(scene::types(mechanism, driver, scene, &private));
-            let emitted = methods::of_scene(
-                mechanism,
-                (driver, scene, number),
-                &names,
-                plan.as_ref().zip(derivation.as_deref_mut()),
-                &private,
-            );
-            tokens.extend(emitted.tokens);
-            operations = operations.plus(emitted.operations);
-        }
     }
     Emitted { tokens, operations }
 }

@@ -45,6 +45,9 @@ impl Graph {
 
     /// The sum of coefficient * item, like terms collected.
     pub fn sum(&mut self, items: &[(Number, NodeId)]) -> NodeId {
+        if let Some(any) = self.unaffordable(items.len()) {
+            return any;
+        }
         let mut constant = Number::ZERO;
         let mut terms: Vec<(NodeId, Number)> = Vec::with_capacity(items.len() + 2);
         let mut collect = |coefficient: Number, term: NodeId| {
@@ -78,6 +81,7 @@ impl Graph {
             }
         }
         let collected = terms;
+        self.budget.spend(collected.len());
         let mut terms = Vec::with_capacity(collected.len());
         for &(term, coefficient) in &collected {
             if coefficient.is_zero() {
@@ -114,6 +118,9 @@ impl Graph {
 
     /// The product of item^exponent, equal bases collected.
     pub fn product(&mut self, items: &[(NodeId, i32)]) -> NodeId {
+        if let Some(any) = self.unaffordable(items.len()) {
+            return any;
+        }
         let mut coefficient = Number::ONE;
         let mut factors: Vec<(NodeId, i32)> = Vec::with_capacity(items.len() + 2);
         let mut overflow = false;

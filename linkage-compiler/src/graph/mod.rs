@@ -24,6 +24,7 @@ pub use node::{Condition, Fault, Node, NodeId, SymbolId};
 pub use number::Number;
 pub use print::{Name, Printer, Texts};
 
+use crate::budget::Budget;
 use crate::places::Places;
 
 /// An arena of expressions.
@@ -40,11 +41,38 @@ pub struct Graph {
     externals: Vec<Vec<String>>,
     fault: Option<Fault>,
     conditions: BTreeSet<Condition>,
+    /// Copies of a graph draw on it as well.
+    budget: Budget,
 }
 
+/// What stays in memory counts as more steps than what is looked at, so that the budget bounds both: a node takes some
+/// 150 bytes and 32 for each part, a name some 50. With half of these counts an invocation that is refused in the end
+/// could take twice the memory.
+const STEPS_OF_A_NODE: usize = 64;
+const STEPS_OF_A_PART: usize = 4;
+const STEPS_OF_A_SYMBOL: usize = 16;
+
 impl Graph {
+    /// An empty graph whose work is counted.
+    #[must_use]
+    pub fn within(budget: &Budget) -> Self {
+        Self { budget: budget.clone(), ..Self::default() }
+    }
+
+    /// What is left of the work; once nothing is, expressions are no longer made, and any node stands for them.
+    #[must_use]
+    pub fn budget(&self) -> &Budget {
+        &self.budget
+    }
+
+    /// Some node if so much work cannot be done.
+    fn unaffordable(&self, steps: usize) -> Option<NodeId> {
+        (!self.budget.spend(steps) && !self.nodes.is_empty()).then(|| NodeId::new(0))
+    }
+
     /// A new name; two symbols of one name are two symbols.
     pub fn symbol(&mut self, name: impl Into<String>) -> SymbolId {
+        self.budget.spend(STEPS_OF_A_SYMBOL);
         self.symbols.push(name.into());
         SymbolId(u32::try_from(self.symbols.len() - 1).unwrap_or(u32::MAX))
     }
@@ -103,6 +131,15 @@ impl Graph {
         self.fault.take()
     }
 
+    /// What an attempt makes, and what it takes for granted; nothing if it goes wrong.
+    pub fn attempt<V>(&mut self, make: impl FnOnce(&mut Self) -> Option<V>) -> Option<(V, BTreeSet<Condition>)> {
+        let (fault, conditions) = (self.fault.take(), self.take_conditions());
+        let made = make(self);
+        let failed = std::mem::replace(&mut self.fault, fault).is_some();
+        let conditions = std::mem::replace(&mut self.conditions, conditions);
+        made.filter(|_| !failed).map(|made| (made, conditions))
+    }
+
     /// What has been taken for granted since the last call.
     pub fn take_conditions(&mut self) -> BTreeSet<Condition> {
         std::mem::take(&mut self.conditions)
@@ -146,9 +183,12 @@ impl Graph {
         if let Some(place) = self.ids.find(hash, |place| self.nodes[place] == node) {
             return NodeId::new(place);
         }
+        if let Some(any) = self.unaffordable(STEPS_OF_A_NODE + STEPS_OF_A_PART * node.parts()) {
+            return any;
+        }
         let value = interpret::node_value(&node, |_| None, |_, _| None, |id| self.values[id.index()]);
-        if value.is_some_and(|value| !value.is_finite()) {
-            self.fault.get_or_insert(Fault::NotFinite);
+        if value.is_some_and(|value| !value.is_finite()) || self.is_out_of_range(&node) {
+            self.fault.get_or_insert(Fault::OutOfRange);
         }
         let id = NodeId::new(self.nodes.len());
         self.values.push(value);
@@ -158,6 +198,36 @@ impl Graph {
         self.ids.insert(hash, self.nodes.len());
         self.nodes.push(node);
         id
+    }
+
+    /// Whether a coefficient, with the constants that it is multiplied by, is not a normal number.
+    fn is_out_of_range(&self, node: &Node) -> bool {
+        let normal = |value: f64| value.is_normal() || value == 0.0;
+        match node {
+            Node::Sum { constant, terms } => {
+                let factor = |&(coefficient, term): &(Number, NodeId)| match self.node(term) {
+                    Node::Product { factors, .. } => coefficient.to_f64() * self.constant_factor(factors),
+                    _ => coefficient.to_f64(),
+                };
+                !normal(constant.to_f64()) || !terms.iter().map(factor).all(f64::is_normal)
+            }
+            Node::Product { coefficient, factors } => {
+                !(coefficient.to_f64() * self.constant_factor(factors)).is_normal()
+            }
+            Node::Constant(value) => !normal(value.to_f64()),
+            _ => false,
+        }
+    }
+
+    /// The product of the factors that are constants.
+    fn constant_factor(&self, factors: &[(NodeId, i32)]) -> f64 {
+        let mut product = 1.0;
+        for &(base, exponent) in factors {
+            if let Some(value) = self.constant_value(base) {
+                product *= value.powi(exponent);
+            }
+        }
+        product
     }
 
     pub fn number(&mut self, value: Number) -> NodeId {

@@ -38,7 +38,8 @@ pub enum Node {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
     DivisionByZero,
-    NotFinite,
+    /// A constant that is not zero and not a normal number of `f64`.
+    OutOfRange,
     ExponentOverflow,
 }
 
@@ -50,6 +51,16 @@ pub enum Condition {
     NonZero(NodeId),
     /// f - f = 0, 0 f = 0
     Defined(NodeId),
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::DivisionByZero => "this divides by zero",
+            Self::OutOfRange => "this constant is beyond the range of `f64`, 2.3e-308 to 1.7e308",
+            Self::ExponentOverflow => "this exponent is too large",
+        })
+    }
 }
 
 impl SymbolId {
@@ -72,6 +83,16 @@ impl NodeId {
 }
 
 impl Node {
+    /// How many parts it has.
+    pub(super) fn parts(&self) -> usize {
+        match self {
+            Self::Constant(_) | Self::Pi | Self::Symbol(_) => 0,
+            Self::Sum { terms, .. } => terms.len(),
+            Self::Product { factors, .. } => factors.len(),
+            Self::Call(_, arguments) | Self::External(_, arguments) => arguments.len(),
+        }
+    }
+
     pub(super) fn hash(&self) -> Hash {
         match self {
             Self::Constant(number) => number.hashed(Hash::of(0)),

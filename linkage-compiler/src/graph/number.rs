@@ -46,12 +46,21 @@ impl Number {
         }
     }
 
+    /// A float that came of arithmetic: not a number where the result is too small to have all its digits, since a
+    /// coefficient that vanishes would take its term away.
+    fn float(value: f64, is_zero: bool) -> Self {
+        let underflows = !is_zero && value.abs() < f64::MIN_POSITIVE;
+        Self::Float(if underflows { f64::NAN } else { value })
+    }
+
     /// A decimal literal such as `1.25e-3`, exact where its value as a ratio is the same `f64`
     /// that the literal denotes.
     #[must_use]
     pub fn parse(digits: &str) -> Option<Self> {
         let float: f64 = digits.parse().ok()?;
-        Some(Self::decimal(digits).unwrap_or(Self::Float(float)))
+        let mantissa = digits.split(['e', 'E']).next().unwrap_or(digits);
+        let is_zero = !mantissa.contains(|digit: char| matches!(digit, '1'..='9'));
+        Some(Self::decimal(digits).unwrap_or(Self::float(float, is_zero)))
     }
 
     fn decimal(digits: &str) -> Option<Self> {
@@ -138,7 +147,7 @@ impl Number {
             (Self::Ratio(a, b), Self::Ratio(c, d)) => {
                 Self::ratio(i128::from(a) * i128::from(c), i128::from(b) * i128::from(d))
             }
-            _ => Self::Float(self.to_f64() * other.to_f64()),
+            _ => Self::float(self.to_f64() * other.to_f64(), self.is_zero() || other.is_zero()),
         }
     }
 
@@ -171,7 +180,7 @@ impl Number {
         };
         match exact {
             Some((n, d)) => Self::ratio(n, d),
-            None => Self::Float(self.to_f64().powi(exponent)),
+            None => Self::float(self.to_f64().powi(exponent), self.is_zero()),
         }
     }
 }
@@ -242,6 +251,15 @@ mod tests {
         assert_eq!(tiny.plus(Number::ratio(1, i128::from(i64::MAX - 1))).to_f64(), 2.0 / i64::MAX as f64);
         assert_eq!(Number::integer(3).power(60), Number::Float(3_f64.powi(60)));
         assert!(!Number::ZERO.power(-1).is_finite());
+    }
+
+    #[test]
+    fn underflow_is_no_zero() {
+        let small = Number::parse("1e-200").unwrap();
+        assert!(!small.multiply(small).is_finite() && !small.power(2).is_finite());
+        assert!(!Number::parse("1e-400").unwrap().is_finite() && !Number::parse("5e-324").unwrap().is_finite());
+        assert!(Number::parse("0e-400").unwrap().is_zero() && Number::Float(0.0).multiply(small).is_zero());
+        assert_eq!(Number::parse("2.3e-308").map(Number::to_f64), Some(2.3e-308));
     }
 
     #[test]

@@ -95,6 +95,7 @@ impl Graph {
             }
         }
         in_order(&mut found, &seen, lowest);
+        self.budget.spend(found.len());
         found
     }
 

@@ -1,12 +1,14 @@
 //! What is checked of a mechanism as a whole.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, Span};
 
 use super::scope::Scope;
 use super::{Driver, Mechanism};
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
-use crate::structure::StructurallySingular;
+use crate::structure::{self, StructurallySingular};
 
 /// Everything that is declared is used.
 pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
@@ -72,7 +74,8 @@ pub(super) fn misnamed(mechanism: &Mechanism) -> impl Iterator<Item = &Ident> {
     let shared = mechanism.is_driven_by_choice().then_some(&mechanism.name);
     let scenes = mechanism.scenes.iter().map(|scene| &scene.name);
     let names = shared.into_iter().chain(drivers).chain(scenes);
-    names.filter(|&name| name == "T" || TYPES_OF_EMITTED_CODE.iter().any(|taken| name == taken))
+    // T is the scalar, and S another one.
+    names.filter(|&name| name == "T" || name == "S" || TYPES_OF_EMITTED_CODE.iter().any(|taken| name == taken))
 }
 
 pub(super) fn types(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
@@ -104,7 +107,8 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// Closures and unknowns are as many, and every unknown can be solved for.
-pub(super) fn closures(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
+pub(super) fn closures(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
+    let mut orders = Vec::new();
     let rows: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
     let at = |driver: &Driver| -> Span { driver.name.span() };
     for driver in &mechanism.drivers {
@@ -133,22 +137,25 @@ pub(super) fn closures(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
         if rows == 0 {
             diagnostics.error(at(driver), "a mechanism needs at least one `loop` or `equation`");
         }
-        let symbols: Vec<SymbolId> = driver.unknowns.iter().map(|&index| mechanism.coordinates[index].symbol).collect();
+        let symbols: BTreeSet<SymbolId> =
+            driver.unknowns.iter().map(|&index| mechanism.coordinates[index].symbol).collect();
         let before = diagnostics.is_empty();
         for closure in &mechanism.closures {
             let found = mechanism.graph.symbols_of(&closure.rows);
-            if !symbols.iter().any(|symbol| found.contains(symbol)) {
+            if !found.iter().any(|symbol| symbols.contains(symbol)) {
                 diagnostics
                     .error(closure.span, format_args!("nothing unknown appears in this closure of `{}`", driver.name));
             }
         }
-        let incidence = mechanism.incidence(driver);
-        if before
-            && diagnostics.is_empty()
-            && let Err(singular) = crate::structure::order(&incidence, symbols.len())
-        {
-            singularity(mechanism, driver, &singular, diagnostics);
+        if before && diagnostics.is_empty() {
+            match structure::order(&mechanism.incidence(driver), driver.unknowns.len()) {
+                Ok(blocks) => orders.push(blocks),
+                Err(singular) => singularity(mechanism, driver, &singular, diagnostics),
+            }
         }
+    }
+    for (driver, blocks) in mechanism.drivers.iter_mut().zip(orders) {
+        driver.blocks = blocks;
     }
 }
 

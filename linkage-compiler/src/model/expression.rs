@@ -6,9 +6,9 @@ use proc_macro2::Ident;
 
 use super::kind::{Kind, bare_symbols};
 use super::scope::{Scope, VECTOR_FUNCTIONS, Value};
-use super::{Call, ExternalFunction};
+use super::{Call, ExternalFunction, Extreme};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
-use crate::graph::{External, ExternalId, Fault, Function, Graph, NodeId, Number, SymbolId};
+use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
 use crate::syntax::{Expression, ExpressionId, Expressions, Operator};
 
 /// The names and values of one mechanism while its statements are read.
@@ -27,6 +27,8 @@ pub(super) struct Lowering<'a> {
     pub(super) time: Option<NodeId>,
     /// Whether `rate` and `t` have a meaning here.
     pub(super) is_law: bool,
+    /// The number farthest from one that was read.
+    pub(super) extreme: Option<Extreme>,
     pub(super) diagnostics: &'a mut Diagnostics,
 }
 
@@ -37,23 +39,19 @@ impl Lowering<'_> {
         let missing = (id.index() + 1).saturating_sub(self.values.len());
         for (expression, region) in expressions.from(self.values.len()).take(missing) {
             let value = self.lower(expression, region);
-            let value = match self.graph.take_fault() {
-                Some(fault) => {
-                    self.diagnostics.error(
-                        region,
-                        match fault {
-                            Fault::DivisionByZero => "this divides by zero",
-                            Fault::NotFinite => "this constant is not a finite number",
-                            Fault::ExponentOverflow => "this exponent is too large",
-                        },
-                    );
-                    Value::Poison
-                }
-                None => value,
-            };
-            self.values.push(value);
+            let is_at_fault = self.blame(region);
+            self.values.push(if is_at_fault { Value::Poison } else { value });
         }
         self.values[id.index()]
+    }
+
+    /// Reports what has gone wrong in the graph, if anything has.
+    pub(super) fn blame(&mut self, region: impl Into<Region>) -> bool {
+        let fault = self.graph.take_fault();
+        if let Some(fault) = fault {
+            self.diagnostics.error(region, fault);
+        }
+        fault.is_some()
     }
 
     pub(super) fn scalar(&mut self, id: ExpressionId) -> Option<NodeId> {
@@ -100,7 +98,7 @@ impl Lowering<'_> {
 
     fn lower(&mut self, expression: &Expression, region: Region) -> Value {
         match expression {
-            Expression::Number { digits, degrees } => match Number::parse(digits) {
+            Expression::Number { digits, degrees } => match self.number(digits, region) {
                 Some(number) if *degrees => {
                     let pi = self.graph.pi();
                     Value::Scalar(self.graph.scale(number.multiply(Number::ratio(1, 180)), pi))
@@ -132,6 +130,15 @@ impl Lowering<'_> {
             &Expression::Power(base, exponent) => self.power(base, exponent),
             Expression::Call(name, arguments) => self.call(name, arguments, region),
         }
+    }
+
+    fn number(&mut self, digits: &str, region: Region) -> Option<Number> {
+        let number = Number::parse(digits)?;
+        let powers = number.to_f64().abs().log2().abs();
+        if powers.is_finite() && self.extreme.is_none_or(|extreme| powers > extreme.powers) {
+            self.extreme = Some(Extreme { region, powers });
+        }
+        Some(number)
     }
 
     /// r@phi = (r cos phi, r sin phi); (x, y)@phi = (x cos phi - y sin phi, x sin phi + y cos phi).

@@ -14,6 +14,7 @@ use super::scope::{Scope, Value};
 use super::{
     Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check, request, scene,
 };
+use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::syntax::{self, ExpressionId, StatementKind};
@@ -21,10 +22,13 @@ use crate::syntax::{self, ExpressionId, StatementKind};
 /// A mechanism of more expressions than this is refused: its derivatives are several times as many.
 const LARGEST: usize = 10_000;
 
-pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) -> Mechanism {
+pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagnostics) -> Mechanism {
     let syntax::Mechanism { attributes, visibility, name, statements, expressions } = tree;
+    const EVERYWHERE: [&str; 5] = ["cfg", "allow", "warn", "deny", "forbid"];
+    let is_everywhere = |attribute: &Attribute| EVERYWHERE.iter().any(|word| attribute.path().is_ident(word));
+    let (everywhere, attributes) = attributes.into_iter().partition(is_everywhere);
     let mut lowering = Lowering {
-        graph: Graph::default(),
+        graph: Graph::within(budget),
         scope: Scope::default(),
         values: Vec::new(),
         expressions: &expressions,
@@ -34,11 +38,13 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         rates: BTreeMap::new(),
         time: None,
         is_law: false,
+        extreme: None,
         diagnostics,
     };
     let complete = lowering.diagnostics.is_empty();
     let mut result = Mechanism {
         attributes,
+        everywhere,
         visibility,
         name,
         graph: Graph::default(),
@@ -55,6 +61,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         scenes: Vec::new(),
         scene_parameters: Vec::new(),
         time: None,
+        extreme: None,
     };
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
@@ -65,8 +72,9 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
     lowering.drivers(&statements, &mut result, roles);
     lowering.finish_scenes(reading, &mut result);
     result.requests = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
-    let Lowering { graph, scope, kinds, supposed, externals, diagnostics, .. } = lowering;
-    result.graph = graph;
+    lowering.blame(result.name.span());
+    let Lowering { graph, scope, kinds, supposed, externals, extreme, diagnostics, .. } = lowering;
+    (result.graph, result.extreme) = (graph, extreme);
     result.externals = externals;
     let kind_of = |symbol| match kinds.iter().find(|(other, _)| *other == symbol) {
         Some((_, kind)) => *kind,
@@ -90,7 +98,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, diagnostics: &mut Diagnostics) 
         check::usage(&result, &scope, diagnostics);
         check::types(&result, diagnostics);
         check::fields(&result, diagnostics);
-        check::closures(&result, diagnostics);
+        check::closures(&mut result, diagnostics);
     }
     result
 }
@@ -287,6 +295,9 @@ impl Lowering<'_> {
         result: &mut Mechanism,
     ) {
         let region = self.expressions.region(left).to(self.expressions.region(right));
+        if self.blame(region) {
+            return;
+        }
         if rows.iter().all(|&row| self.graph.is_zero(row)) {
             self.diagnostics.error(region, "both sides are the same: this closes nothing");
             return;
@@ -327,6 +338,7 @@ impl Lowering<'_> {
                 attributes: statement.attributes.clone(),
                 inputs: driven,
                 unknowns,
+                blocks: Vec::new(),
             });
         }
         if !chosen {
@@ -339,7 +351,7 @@ impl Lowering<'_> {
             }
             let name = result.name.clone();
             let unknowns = unknowns.into_iter().chain(open).collect();
-            result.drivers.push(Driver { name, attributes: Vec::new(), inputs, unknowns });
+            result.drivers.push(Driver { name, attributes: Vec::new(), inputs, unknowns, blocks: Vec::new() });
         }
     }
 }

@@ -15,8 +15,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Visibility};
 
+use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, Region};
 use crate::graph::{ExternalId, Graph, NodeId, SymbolId};
+use crate::structure::Block;
 use crate::syntax;
 pub use kind::Kind;
 pub use name::Name;
@@ -25,7 +27,10 @@ pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, Wish};
 
 /// A mechanism as meant.
 pub struct Mechanism {
+    /// Those of its types.
     pub attributes: Vec<Attribute>,
+    /// Those of all items that are emitted for it: `cfg`, and levels of lints.
+    pub everywhere: Vec<Attribute>,
     pub visibility: Visibility,
     pub name: Ident,
     pub graph: Graph,
@@ -46,6 +51,16 @@ pub struct Mechanism {
     pub scene_parameters: Vec<Parameter>,
     /// Where there are scenes: t.
     pub time: Option<SymbolId>,
+    /// The number in it that is farthest from one.
+    pub extreme: Option<Extreme>,
+}
+
+/// A number as it was written.
+#[derive(Debug, Clone, Copy)]
+pub struct Extreme {
+    pub region: Region,
+    /// How many powers of two it is from one.
+    pub powers: f64,
 }
 
 /// Geometric or physical data.
@@ -80,6 +95,8 @@ pub struct Driver {
     pub attributes: Vec<Attribute>,
     pub inputs: Vec<usize>,
     pub unknowns: Vec<usize>,
+    /// The order in which the closures are solved, once it is known that they can be.
+    pub blocks: Vec<Block>,
 }
 
 /// A named point of the plane.
@@ -167,6 +184,6 @@ impl Mechanism {
 
 /// Resolves one mechanism. What could be understood is returned even when there are errors, so
 /// that a stub with the right names can stand in for it.
-pub fn resolve(mechanism: syntax::Mechanism, diagnostics: &mut Diagnostics) -> Mechanism {
-    lower::mechanism(mechanism, diagnostics)
+pub fn resolve(mechanism: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagnostics) -> Mechanism {
+    lower::mechanism(mechanism, budget, diagnostics)
 }

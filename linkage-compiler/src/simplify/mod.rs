@@ -46,7 +46,7 @@ pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -
         for _ in 0..MOST_ROUNDS {
             let before = forms.best;
             forms.of(graph, before);
-            if forms.best == before {
+            if forms.best == before || graph.budget().is_spent() {
                 break;
             }
         }
@@ -67,11 +67,7 @@ struct Forms<'a> {
 impl Forms<'_> {
     /// Tries a form made from the best one; of equal cost that stays.
     fn offer(&mut self, graph: &mut Graph, form: impl FnOnce(&mut Graph) -> Option<NodeId>) {
-        let before = graph.take_conditions();
-        let form = form(graph);
-        let conditions = graph.take_conditions();
-        graph.assume(before);
-        let Some(form) = form else { return };
+        let Some((form, conditions)) = graph.attempt(form) else { return };
         let cost = cost(graph, form, self.given);
         if cost < self.cost {
             (self.best, self.cost) = (form, cost);

@@ -136,7 +136,7 @@ pub(super) fn expanded(graph: &mut Graph, id: NodeId) -> Option<Polynomial> {
 
 /// Every term times every term; none if there are too many. What cancels is taken to be other than zero.
 pub(super) fn multiply(graph: &mut Graph, left: &Polynomial, right: &Polynomial) -> Option<Polynomial> {
-    if left.len() * right.len() > MOST_TERMS {
+    if left.len() * right.len() > MOST_TERMS || !graph.budget().spend(left.len() * right.len()) {
         return None;
     }
     for (_, x) in left {
@@ -180,7 +180,7 @@ pub(super) fn quotient(graph: &mut Graph, dividend: NodeId, divisor: NodeId) -> 
     let dividend = expanded(graph, dividend)?;
     add(&mut rest, &dividend, Number::ONE, &Monomial::new());
     let mut quotient = Polynomial::new();
-    while !rest.is_empty() {
+    while !rest.is_empty() && graph.budget().spend(by.len() + rest.len()) {
         let (top, coefficient) = rest.iter().max_by(|a, b| order_of(a.0, b.0)).map(|(m, k)| (m.clone(), *k))?;
         let mut monomial: Monomial = top.into_iter().collect();
         for (base, exponent) in &lead_monomial {

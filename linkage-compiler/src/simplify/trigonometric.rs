@@ -33,7 +33,9 @@ impl Pair {
 /// Applies the identities from left to right until none fits.
 pub(super) fn combine(graph: &mut Graph, mut polynomial: Polynomial) -> Polynomial {
     // Each step joins two terms into one, or takes a square of a sine away.
-    while let Some(shorter) = combine_once(graph, &polynomial) {
+    while graph.budget().spend(polynomial.len())
+        && let Some(shorter) = combine_once(graph, &polynomial)
+    {
         polynomial = shorter;
     }
     polynomial

@@ -3,6 +3,7 @@
 //! A statement that does not parse is reported and skipped, so that one mistake costs one
 //! message and the rest of the mechanism is still understood.
 
+mod attributes;
 mod expression;
 mod scene;
 mod statement;
@@ -45,8 +46,8 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
         }
         None => {}
     }
+    let mut mechanisms = Vec::new();
     let parser = |stream: ParseStream| {
-        let mut mechanisms = Vec::new();
         while !stream.is_empty() {
             match mechanism(stream, diagnostics) {
                 Ok(mechanism) => mechanisms.push(mechanism),
@@ -56,13 +57,18 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
                 }
             }
         }
-        Ok(mechanisms)
+        Ok(())
     };
-    parser.parse2(input).unwrap_or_default()
+    // Tokens that are left over inside an attribute are told at the end.
+    if let Err(error) = parser.parse2(input) {
+        diagnostics.push(error);
+    }
+    mechanisms
 }
 
 fn mechanism(stream: ParseStream, diagnostics: &mut Diagnostics) -> syn::Result<Mechanism> {
     let attributes = stream.call(syn::Attribute::parse_outer)?;
+    attributes::check(&attributes, attributes::Bearer::Mechanism, diagnostics);
     let visibility = stream.parse()?;
     let keyword: Ident = stream
         .call(syn::ext::IdentExt::parse_any)

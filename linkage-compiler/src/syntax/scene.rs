@@ -1,10 +1,11 @@
 //! Bodies, and scenes: braces in braces, one effect a line.
 
 use proc_macro2::{Ident, Span, TokenTree};
-use syn::Token;
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
+use syn::{Attribute, Token};
 
+use super::attributes::{self, Bearer};
 use super::expression::{self, ExpressionId, Expressions};
 use super::statement::{end, equals, name};
 use crate::diagnostics::{Diagnostics, suggestion};
@@ -149,7 +150,10 @@ fn braces<V>(
     let mut items = Vec::new();
     while !content.is_empty() {
         let length = expressions.len();
-        let read = item(&content, expressions);
+        let read = content.call(Attribute::parse_outer).and_then(|attributes| {
+            attributes::check(&attributes, Bearer::Part, diagnostics);
+            item(&content, expressions)
+        });
         let ended = read.is_ok().then(|| {
             let last = expressions.last_region().filter(|_| expressions.len() > length);
             end(&content, Some(last.unwrap_or_else(|| before.into())))

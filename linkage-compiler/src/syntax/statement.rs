@@ -5,6 +5,7 @@ use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::{Attribute, Path, Token};
 
+use super::attributes::{self, Bearer};
 use super::expression::{self, ExpressionId, Expressions};
 use super::scene::{self, Body, Scene};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
@@ -56,6 +57,24 @@ pub enum StatementKind {
     Scene(Scene),
 }
 
+impl StatementKind {
+    /// What its attributes stand on.
+    fn bearer(&self) -> Bearer {
+        match self {
+            Self::Parameters(_) | Self::Drive { .. } | Self::Scene(_) => Bearer::Item,
+            Self::Inputs(_) | Self::Unknowns(_) | Self::Coordinates(_) | Self::Point { .. } | Self::Output { .. } => {
+                Bearer::Field
+            }
+            Self::Loop { .. }
+            | Self::Equation { .. }
+            | Self::Let { .. }
+            | Self::External { .. }
+            | Self::Derive(_)
+            | Self::Body(_) => Bearer::Part,
+        }
+    }
+}
+
 const KEYWORDS: [&str; 14] = [
     "param",
     "input",
@@ -93,12 +112,14 @@ pub(super) fn statements(
         match kind(stream, expressions, diagnostics) {
             // Braces end a statement.
             Ok(kind @ (StatementKind::Body(_) | StatementKind::Scene(_))) => {
+                attributes::check(&attributes, kind.bearer(), diagnostics);
                 statements.push(Statement { attributes, kind });
                 if stream.peek(Token![;]) {
                     skip_statement(stream);
                 }
             }
             Ok(kind) => {
+                attributes::check(&attributes, kind.bearer(), diagnostics);
                 statements.push(Statement { attributes, kind });
                 let last = expressions.last_region().filter(|_| expressions.len() > before);
                 if let Err(error) = end(stream, last) {

@@ -27,6 +27,7 @@ impl Lowering<'_> {
         let mut names = Names { inertia: None, contact: None, gravity: Vec::new(), drives: Vec::new() };
         for effect in &tree.effects {
             self.effect(effect, &mut scene, &mut names);
+            self.blame(effect.keyword.span());
         }
         reading.scenes.push((scene, tree.of.clone(), names));
     }

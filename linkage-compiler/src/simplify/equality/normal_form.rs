@@ -44,7 +44,7 @@ impl<'g> NormalForms<'g> {
     /// The forms of all that the roots are made of, with roots of unity of this order.
     pub(super) fn new(graph: &'g Graph, roots: &[NodeId], order: u32) -> Outcome<Self> {
         let (variables, indices, fractions) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
-        let mut forms = Self { graph, ring: Ring::new(order), variables, indices, fractions };
+        let mut forms = Self { graph, ring: Ring::new(order, graph.budget()), variables, indices, fractions };
         for id in graph.reachable(roots) {
             let fraction = forms.node(id)?;
             forms.fractions.insert(id, fraction);

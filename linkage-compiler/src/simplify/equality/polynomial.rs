@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::cyclotomic::Cyclotomic;
 use super::ratio::Ratio;
 use super::{MOST_TERMS, Outcome, Reason};
+use crate::budget::Budget;
 
 /// An element with more conjugates than this is not inverted.
 const MOST_CONJUGATES: usize = 16;
@@ -214,20 +215,21 @@ pub(super) struct Split {
 pub(super) struct Ring {
     pub(super) roots: Cyclotomic,
     work: Cell<usize>,
+    budget: Budget,
 }
 
 impl Ring {
-    pub(super) fn new(order: u32) -> Self {
-        Self { roots: Cyclotomic::new(order), work: Cell::new(MOST_TERMS) }
+    pub(super) fn new(order: u32, budget: &Budget) -> Self {
+        Self { roots: Cyclotomic::new(order), work: Cell::new(MOST_TERMS), budget: budget.clone() }
     }
 
     fn spend(&self, terms: usize) -> Outcome<()> {
         match self.work.get().checked_sub(terms) {
-            Some(left) => {
+            Some(left) if self.budget.spend(terms) => {
                 self.work.set(left);
                 Ok(())
             }
-            None => {
+            _ => {
                 self.work.set(0);
                 Err(Reason::TooManyTerms.into())
             }

@@ -255,7 +255,8 @@ pub fn schedule(graph: &Graph, stages: &[Stage], given: &Given, named: &[(NodeId
     for &node in &nodes {
         roots.push(translated.of(node));
     }
-    sharing::share(&mut values, &roots);
+    graph.budget().spend(nodes.len() + values.len());
+    sharing::share(&mut values, &roots, graph.budget());
     let mut names: Vec<(ValueId, String)> = Vec::new();
     for (node, name) in named {
         if let Some(Signed { negative: false, value }) = translated.get(*node) {

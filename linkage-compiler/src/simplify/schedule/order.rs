@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Circular, Line, Signed, Value, ValueId};
 use crate::graph::{ExternalId, Function, Graph, SymbolId};
@@ -132,8 +132,9 @@ impl Ordering {
                 _ => one.cosine = Some(value),
             }
         }
-        let several: Vec<Circular> =
-            several.into_values().filter(|one| self.is_known(one.angle.value, introduced)).collect();
+        let mut known = FxHashSet::default();
+        let several = several.into_values().filter(|one| self.is_known(one.angle.value, introduced, &mut known));
+        let several: Vec<Circular> = several.collect();
         if several.len() < 2 {
             return;
         }
@@ -146,19 +147,22 @@ impl Ordering {
         self.lines.push(Line::SinesCosines(several));
     }
 
-    /// Whether a value stands on nothing that the kernel itself solves for, and on no sine.
-    fn is_known(&self, value: ValueId, introduced: &BTreeSet<SymbolId>) -> bool {
-        let mut known = true;
-        let mut stack = vec![value];
-        while let (true, Some(id)) = (known, stack.pop()) {
-            known = match &self.values[id.0] {
-                Value::Symbol(symbol) => !introduced.contains(symbol),
-                Value::Call(Function::Sin | Function::Cos, _) => false,
-                _ => true,
-            };
-            self.values[id.0].each_part(|part| stack.push(part));
+    /// Whether a value depends on nothing that the kernel itself solves for, and on no sine; values that are `known`
+    /// are looked at once.
+    fn is_known(&self, value: ValueId, introduced: &BTreeSet<SymbolId>, known: &mut FxHashSet<ValueId>) -> bool {
+        let (mut seen, mut stack) = (FxHashSet::default(), vec![value]);
+        while let Some(id) = stack.pop() {
+            if known.contains(&id) || !seen.insert(id) {
+                continue;
+            }
+            match &self.values[id.0] {
+                Value::Symbol(symbol) if introduced.contains(symbol) => return false,
+                Value::Call(Function::Sin | Function::Cos, _) => return false,
+                _ => self.values[id.0].each_part(|part| stack.push(part)),
+            }
         }
-        known
+        known.extend(seen);
+        true
     }
 
     /// Writes sine and cosine of one angle as one line, if both are used.

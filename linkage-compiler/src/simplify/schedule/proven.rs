@@ -98,9 +98,10 @@ impl Proven<'_> {
     /// What a value is without its names.
     fn itself(&self, id: ValueId) -> ValueId {
         let mut id = id;
-        while let Value::Symbol(symbol) = self.schedule.value(id)
-            && let Some(value) = self.named.get(symbol)
-        {
+        // Each name is followed once: where work ended early, a value may be called by its own name.
+        for _ in 0..=self.named.len() {
+            let Value::Symbol(symbol) = self.schedule.value(id) else { break };
+            let Some(value) = self.named.get(symbol) else { break };
             id = *value;
         }
         id

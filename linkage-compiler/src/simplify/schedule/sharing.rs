@@ -5,8 +5,12 @@
 //! R. Kastner, "Optimizing polynomial expressions by algebraic factorization and common subexpression
 //! elimination", IEEE TCAD 25, 2006). A new pair is never more frequent than the one that it comes from,
 //! so that the pairs are gone through by their frequency once; what is out of date is put back.
+//!
+//! It ends because no part stands twice in a list: a pair is then held once a list, what takes its place makes
+//! the list shorter by one, and pairs are only held again by a list that has become shorter.
 
 use super::{Signed, Value, ValueId};
+use crate::budget::Budget;
 use crate::places::{Hash, Places};
 
 /// Of a sum or product of more parts than this only neighbours are paired: the pairs of a list grow
@@ -51,7 +55,7 @@ struct List {
 }
 
 /// Rewrites the sums and products that `roots` stand on until no two of them share a pair.
-pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed]) {
+pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget) {
     let mut seen = vec![false; values.len()].into_boxed_slice();
     let mut stack = Vec::with_capacity(2 * roots.len());
     for root in roots {
@@ -78,13 +82,14 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed]) {
             lists.push(List { value: ValueId(index), parts, is_new: false });
         }
         if lists.len() > 1 {
-            Sharing::new(kind, lists, values.len()).run(values);
+            Sharing::new(kind, lists, values.len(), budget).run(values);
         }
     }
 }
 
-struct Sharing {
+struct Sharing<'a> {
     kind: Kind,
+    budget: &'a Budget,
     lists: Vec<List>,
     /// Which parts stand in several lists, or may come to, being lists themselves: a pair with any
     /// other part is held once at most.
@@ -132,8 +137,8 @@ impl Holders {
     }
 }
 
-impl Sharing {
-    fn new(kind: Kind, lists: Vec<List>, values: usize) -> Self {
+impl<'a> Sharing<'a> {
+    fn new(kind: Kind, lists: Vec<List>, values: usize, budget: &'a Budget) -> Self {
         let [mut met, mut frequent] = [(); 2].map(|()| vec![false; values].into_boxed_slice());
         for list in &lists {
             frequent[list.value.0] = true;
@@ -141,7 +146,8 @@ impl Sharing {
                 frequent[part.value.0] |= std::mem::replace(&mut met[part.value.0], true);
             }
         }
-        Self { kind, lists, frequent, holders: Vec::new(), places: Places::default(), frequencies: Vec::new() }
+        let (holders, places, frequencies) = (Vec::new(), Places::default(), Vec::new());
+        Self { kind, budget, lists, frequent, holders, places, frequencies }
     }
 
     fn run(mut self, values: &mut Vec<Value>) {
@@ -158,7 +164,7 @@ impl Sharing {
             in_order(&mut equal);
             self.frequencies.push(Vec::new());
             let mut next = 0;
-            while next < equal.len() {
+            while next < equal.len() && !self.budget.is_spent() {
                 let pair = equal[next];
                 next += 1;
                 let Some(index) = self.find(pair) else { continue };
@@ -203,7 +209,9 @@ impl Sharing {
             }
         };
         for place in of.iter() {
-            if self.lists[place].value != shared {
+            let List { value, parts, .. } = &self.lists[place];
+            // A list that holds the shared value beside its parts keeps both.
+            if *value != shared && parts.iter().all(|part| part.value != shared) {
                 self.replace(place, pair, shared, sign, pairs);
             }
         }
@@ -262,6 +270,7 @@ impl Sharing {
     fn pairs(&self, place: usize, pairs: &mut Vec<Pair>) {
         pairs.clear();
         let parts = self.lists[place].parts.as_slice();
+        self.budget.spend(parts.len());
         let reach = if parts.len() > LONGEST_PAIRED { 1 } else { parts.len() };
         let mut first = 0;
         while first < parts.len() {

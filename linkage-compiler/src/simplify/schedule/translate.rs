@@ -3,6 +3,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rustc_hash::FxHashMap;
+
 use super::{Given, Signed, Value, ValueId};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 use crate::places::{Hash, Places};
@@ -14,6 +16,9 @@ pub(super) struct Builder<'a> {
     values: Vec<Value>,
     ids: Places,
     of: Translated,
+    /// The number of the last list that each value was met in, and that of this list.
+    met: Vec<usize>,
+    list: usize,
 }
 
 /// What each node became, by its index: every part is looked up again and again. Packed, and 0 for a node that
@@ -42,7 +47,8 @@ impl Translated {
 impl<'a> Builder<'a> {
     /// The values that the roots stand on, and which of them each node became.
     pub(super) fn translate_all(graph: &'a Graph, given: &'a Given, roots: &[NodeId]) -> (Vec<Value>, Translated) {
-        let mut builder = Self { graph, given, values: Vec::new(), ids: Places::default(), of: Translated::default() };
+        let (values, ids, of) = (Vec::new(), Places::default(), Translated::default());
+        let mut builder = Self { graph, given, values, ids, of, met: Vec::new(), list: 0 };
         builder.build(roots);
         (builder.values, builder.of)
     }
@@ -147,7 +153,13 @@ impl<'a> Builder<'a> {
     }
 
     /// Signs are moved out so that a - b and b - a are one value and most terms are added.
-    fn sum(&mut self, mut terms: Vec<Signed>) -> Signed {
+    fn sum(&mut self, terms: Vec<Signed>) -> Signed {
+        let mut terms = self.collected(terms);
+        match terms.as_slice() {
+            [] => return self.constant(Number::ZERO),
+            &[only] => return only,
+            _ => {}
+        }
         let negatives = terms.iter().filter(|term| term.negative).count();
         let flip = 2 * negatives > terms.len() || (2 * negatives == terms.len() && terms[0].negative);
         for term in &mut terms {
@@ -156,6 +168,63 @@ impl<'a> Builder<'a> {
         // What is added stands before what is taken away, so that nothing starts with a minus.
         terms.sort_by_key(|term| term.negative);
         Signed { negative: flip, value: self.intern(Value::Sum(terms)) }
+    }
+
+    /// The terms of a sum with each value once: those that differ in the signs inside them alone are one value.
+    fn collected(&mut self, mut terms: Vec<Signed>) -> Vec<Signed> {
+        // What is collected may be a value that is there already.
+        while self.meets_twice(terms.iter().map(|term| term.value)) {
+            let mut order = Vec::new();
+            let mut counts: FxHashMap<ValueId, i64> = FxHashMap::default();
+            for term in terms {
+                let count = counts.entry(term.value).or_insert_with(|| {
+                    order.push(term.value);
+                    0
+                });
+                *count += if term.negative { -1 } else { 1 };
+            }
+            terms = Vec::with_capacity(order.len());
+            for value in order {
+                let count = counts[&value];
+                if count != 0 {
+                    let value = self.scaled(Number::integer(count.abs()), value);
+                    terms.push(Signed { negative: count < 0, value });
+                }
+            }
+        }
+        terms
+    }
+
+    /// The factors of a product with each value once, and all numbers in one.
+    fn gathered(&mut self, mut constant: Number, mut factors: Vec<ValueId>) -> (Number, Vec<ValueId>) {
+        factors.retain(|factor| match self.values[factor.0] {
+            Value::Constant(number) if constant.multiply(number).is_finite() => {
+                constant = constant.multiply(number);
+                false
+            }
+            _ => true,
+        });
+        while self.meets_twice(factors.iter().copied()) {
+            factors.sort_unstable();
+            let mut once = Vec::with_capacity(factors.len());
+            for factor in factors {
+                match once.pop_if(|last| *last == factor) {
+                    // Not equal to the next, even if that is the same factor a third time.
+                    Some(twice) => once.extend([self.intern(Value::Square(twice))]),
+                    None => once.push(factor),
+                }
+            }
+            factors = once;
+        }
+        (constant, factors)
+    }
+
+    /// Whether a value stands twice in a list.
+    fn meets_twice(&mut self, list: impl Iterator<Item = ValueId>) -> bool {
+        self.list += 1;
+        self.met.resize(self.values.len(), 0);
+        let (number, met) = (self.list, &mut self.met);
+        list.into_iter().any(|value| std::mem::replace(&mut met[value.0], number) == number)
     }
 
     fn product(
@@ -212,7 +281,11 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn multiply(&mut self, constant: Number, mut factors: Vec<ValueId>) -> ValueId {
+    fn multiply(&mut self, constant: Number, factors: Vec<ValueId>) -> ValueId {
+        let (constant, mut factors) = self.gathered(constant, factors);
+        if constant.is_zero() {
+            return self.constant(Number::ZERO).value;
+        }
         if !constant.is_one() || factors.is_empty() {
             factors.insert(0, self.constant(constant).value);
         }

@@ -1,0 +1,182 @@
+//! Mutants of all mechanisms and scenes under test: the macro never panics, stays within its budget of work and of
+//! memory, and what it accepts compiles without warnings.
+//!
+//! `MUTANTS` is how many are expanded, `MUTANTS_COMPILED` how many of the accepted ones are compiled, and
+//! `MUTANTS_SEED` chooses others.
+
+#[path = "source/mutants.rs"]
+mod mutants;
+mod source;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::process::Command;
+use std::{env, fs};
+
+use linkage_compiler::budget::{Budget, MOST_STEPS};
+use mutants::Mutator;
+use proc_macro2::{TokenStream, TokenTree};
+use rand::SeedableRng;
+use rand::rngs::SmallRng;
+
+/// The most memory that the process may have held, in kilobytes.
+const MOST_MEMORY: usize = 512 << 10;
+
+fn setting(name: &str, usual: usize) -> usize {
+    env::var(name).map_or(usual, |text| text.parse().unwrap())
+}
+
+/// The invocations of the files of `tests/mechanisms`, in the order of their names.
+fn corpus() -> Vec<TokenStream> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms");
+    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let items = paths.iter().flat_map(|path| syn::parse_file(&fs::read_to_string(path).unwrap()).unwrap().items);
+    let invocations = items.filter_map(|item| match item {
+        syn::Item::Macro(item) if item.mac.path.is_ident("linkage") => Some(item.mac.tokens),
+        _ => None,
+    });
+    invocations.collect()
+}
+
+fn mutator() -> Mutator {
+    Mutator::new(SmallRng::seed_from_u64(setting("MUTANTS_SEED", 1) as u64), corpus())
+}
+
+/// Whether an expansion begins with a message.
+fn is_refused(expansion: &TokenStream) -> bool {
+    let beginning = expansion.clone().into_iter().take(8);
+    beginning.into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "compile_error"))
+}
+
+/// The most memory that the process has held, in kilobytes, where the system tells.
+fn memory() -> Option<usize> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.split_whitespace().next()?.parse().ok()
+}
+
+#[test]
+fn no_mutant_makes_the_macro_panic_or_run_away() {
+    let count = setting("MUTANTS", 2000);
+    let (mut mutator, root) = (mutator(), "::linkage".parse().unwrap());
+    let (mut accepted, mut most, mut longest) = (0, 0, String::new());
+    for number in 1..=count {
+        let mutant = mutator.mutant();
+        let budget = Budget::default();
+        let expand = || linkage_compiler::expand_within(mutant.clone(), &root, &budget);
+        let expansion = catch_unwind(AssertUnwindSafe(expand));
+        let expansion = expansion.unwrap_or_else(|_| panic!("mutant {number} panics:\n{mutant}"));
+        assert!(!expansion.is_empty(), "mutant {number} vanishes:\n{mutant}");
+        let is_accepted = !is_refused(&expansion);
+        accepted += usize::from(is_accepted);
+        let steps = MOST_STEPS - budget.left();
+        assert!(!budget.is_spent() || !is_accepted, "mutant {number} is beyond the budget:\n{mutant}");
+        if steps > most {
+            (most, longest) = (steps, mutant.to_string());
+        }
+        if let Some(memory) = memory().filter(|_| number % 100 == 0) {
+            assert!(memory < MOST_MEMORY, "{memory} kB after mutant {number}, of which the longest is\n{longest}");
+        }
+        if number % 500 == 0 {
+            // Two expansions of one input are equal, and they are Rust.
+            let again = linkage_compiler::expand(mutant.clone(), &root);
+            assert_eq!(expansion.to_string(), again.to_string());
+            syn::parse2::<syn::File>(expansion).unwrap_or_else(|error| panic!("{error}\n{mutant}"));
+        }
+    }
+    println!("{count} mutants, {accepted} accepted, at most {most} steps, {:?} kB", memory());
+    // A mutator whose mutants are all refused tests the messages alone.
+    assert!(5 * accepted > count, "{accepted} of {count}");
+}
+
+/// However early the work ends, what is left of it is a message.
+#[test]
+fn a_budget_that_ends_anywhere_is_one_message() {
+    let root: TokenStream = "::linkage".parse().unwrap();
+    let mut random = SmallRng::seed_from_u64(2);
+    for file in
+        ["every_function", "five_bar_contacts", "norton_four_bar", "cam_rocker", "slider_crank_scenes", "andrews"]
+    {
+        let all = {
+            let budget = Budget::default();
+            assert!(!is_refused(&linkage_compiler::expand_within(source::tokens_of(file), &root, &budget)));
+            MOST_STEPS - budget.left()
+        };
+        for _ in 0..setting("MUTANTS", 2000) / 100 {
+            let budget = Budget::new(rand::Rng::random_range(&mut random, 1..all));
+            let expansion = linkage_compiler::expand_within(source::tokens_of(file), &root, &budget);
+            let file: syn::File = syn::parse2(expansion).unwrap();
+            let messages = file.items.iter().filter_map(|item| match item {
+                syn::Item::Macro(item) if item.mac.path.is_ident("compile_error") => Some(item.mac.tokens.to_string()),
+                syn::Item::Macro(item) if item.mac.tokens.to_string().contains("this invocation") => {
+                    Some(item.mac.tokens.to_string())
+                }
+                _ => None,
+            });
+            let messages: Vec<String> = messages.collect();
+            assert!(matches!(messages.as_slice(), [one] if one.contains("takes more work")), "{messages:?}");
+        }
+    }
+}
+
+const MANIFEST: &str = r#"
+[package]
+name = "mutants"
+version = "0.0.0"
+edition = "2024"
+
+[dependencies]
+linkage = { path = "ROOT", default-features = false, features = ["std"] }
+
+[lints.rust]
+warnings = "deny"
+
+[workspace]
+"#;
+
+/// What the macro accepts is Rust without a warning.
+#[test]
+fn accepted_mutants_compile() {
+    let count = setting("MUTANTS_COMPILED", 60);
+    let root = env!("CARGO_MANIFEST_DIR");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutants");
+    fs::create_dir_all(folder.join("src")).unwrap();
+    fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
+    // The versions under test are those of this workspace.
+    fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    fs::copy(Path::new(root).join("tests/source/cam_laws.rs"), folder.join("src/cam_laws.rs")).unwrap();
+    let (mut mutator, path) = (mutator(), "::linkage".parse().unwrap());
+    let mut written = 0;
+    while written < count {
+        // So many fit into one compilation.
+        const TOGETHER: usize = 100;
+        let together = TOGETHER.min(count - written);
+        let mut library = String::from("pub mod cam_laws;\n");
+        for number in 0..together {
+            let (mutant, expansion) = loop {
+                let mutant = mutator.mutant();
+                let expansion = linkage_compiler::expand(mutant.clone(), &path);
+                if !is_refused(&expansion) {
+                    break (mutant, expansion);
+                }
+            };
+            let text = prettyplease::unparse(&syn::parse2(expansion).unwrap());
+            let comment = mutant.to_string().replace('\n', " ");
+            fs::write(folder.join(format!("src/mutant_{number}.rs")), format!("// {comment}\n{text}")).unwrap();
+            library += &format!("pub mod mutant_{number};\n");
+        }
+        fs::write(folder.join("src/lib.rs"), library).unwrap();
+        let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
+        let output = Command::new(cargo)
+            .args(["check", "--quiet", "--color=never", "--target-dir"])
+            .arg(folder.join("target"))
+            .current_dir(&folder)
+            .env_remove("RUSTFLAGS")
+            .output()
+            .unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "after {written}:\n{errors}");
+        written += together;
+    }
+}
