@@ -511,6 +511,18 @@ fn no_limit_is_not_finite() {
         check(m.limits_of_theta(inputs, on_train), inputs.theta, &m);
         check(m.limits_of_y(inputs, on_train), inputs.y, &m);
     }
+    // Joints far from the origin and near each other: the squares of the coordinates overflow, that of the line does not.
+    let mut refused = 0;
+    for exponent in 480..600 {
+        let (far, near) = (2_f64.powi(exponent), 2_f64.powi(320));
+        let m = FourBar::new(far, far, 0.6 * near, 0.7 * near);
+        let start = near / far;
+        assert!(m.assemble(start, on_bar).is_ok());
+        let limits = m.limits(start, on_bar);
+        refused += usize::from(matches!(limits, Err(Error::NotFinite { mechanism: "FourBar", quantity: "a limit" })));
+        check(limits, start, &m);
+    }
+    assert!((80..100).contains(&refused), "{refused}");
     println!("{found} limits");
     assert!(found > 10_000, "{found}");
 }

@@ -2,7 +2,8 @@
 //! floats. An error is measured in ulp times the condition number: what a relative change of each length does to the
 //! zero, and the zero itself.
 //!
-//! Of 20 000 limits each the largest errors were (TABLE).
+//! Closed forms are off by their cancellation where it is not corrected: by 5 to 10 such units in random mechanisms, by
+//! millions where links are nearly equal.
 //!
 //! ```text
 //! LIMITS=20000 cargo test --release --all-features --test limits_to_forty_digits -- --nocapture
@@ -20,7 +21,7 @@ mod precise;
 use precise::{Big, Scalar, big, direction};
 
 /// The promises, in ulp times condition number.
-const EXACT: f64 = 4.0;
+const EXACT: f64 = 2.0;
 const BRACKETED: f64 = 5.0;
 
 linkage! {

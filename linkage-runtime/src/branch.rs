@@ -73,15 +73,14 @@ pub fn existing<B: Copy, P>(
 
 /// A factor below zero by at most this many epsilons of its scale is zero: links that just touch, in line.
 ///
-/// At the inputs in closed form at which links are in line, rounded to the nearest double, the factors of 200 000 random
-/// groups were below zero by at most 0.9 epsilons of their scales. With half of this such a position is still found, with
-/// a quarter it is not always; twice as many put the end of a range twice as far beyond the true one, in ulp times its
-/// condition number.
+/// Brackets of limits are off by up to 4.0 ulp times their condition number with it (`tests/limits_to_forty_digits.rs`),
+/// half of it from here: twice as much puts them as much farther beyond, and with none links whose lengths are rounded
+/// decimals do not touch.
 const TOUCHING: f64 = 2.0;
 
-/// A distance below this many epsilons of the sum of the magnitudes of its terms is zero. The joints of a mechanism are
-/// right to an ulp or two of these terms (`tests/forty_digits`): with half of it joints that coincide may seem apart
-/// by a rounding error, whose direction says nothing; with twice as much no position is refused that has a digit.
+/// A distance below this many epsilons of the sum of the magnitudes of its terms is zero. The gallery's joints are right to
+/// three ulp of such terms times their condition number (`tests/forty_digits`): with none, joints that coincide but for a
+/// rounding error count as apart; with more, positions are refused that have digits left.
 const COINCIDENT: f64 = 8.0;
 
 /// The root of the product of the factors n - h and n + h, `size` = n, with the sign of a side. `scales` are the sums of

@@ -157,10 +157,10 @@ impl<T: Real> Bound<T> {
             Self::Angle(block, coefficients, rate) => (block, of_angle(coefficients, rate, start)?),
             Self::Length(block, coefficients) => (block, of_length(coefficients, start)?),
         };
+        let is_finite = lower.into_iter().chain(upper).all(|input| input.is_finite());
         // At a limit rounding may be on either side of it.
         let lower = lower.map(|input| if input < start { input } else { start });
         let upper = upper.map(|input| if input > start { input } else { start });
-        let is_finite = lower.into_iter().chain(upper).all(|input| input.is_finite());
         is_finite.then(|| [lower, upper].map(|input| Some((input?, block))))
     }
 }
@@ -268,11 +268,9 @@ impl<A, D> Searched<A, D> {
         D: Fn(&P) -> [T; N],
     {
         const NEAREST: i32 = 40;
-        match self.at(position, end)? {
-            // In line to rounding: there is nothing to correct.
-            Found::Undetermined => return Ok(end),
-            Found::Assembled(stop) if stop.determinants[place].is_zero() => return Ok(end),
-            _ => {}
+        // Where a later group coincides, the links are in line to rounding: there is nothing to correct.
+        if matches!(self.at(position, end)?, Found::Undetermined) {
+            return Ok(end);
         }
         let (mut input, mut exponent) = (end, NEAREST);
         for _ in 0..SECANTS {

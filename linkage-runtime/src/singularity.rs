@@ -228,6 +228,7 @@ where
     });
     let determinant = mechanism.determinant(pose);
     finite(M::NAME, "the determinant", [determinant])?;
+    all_finite(M::NAME, "a singular value", right.values.iter())?;
     let groups = core::array::from_fn(|group| measure(mechanism, pose, &equilibrated, group));
     let measures =
         groups.iter().flat_map(|group: &GroupMeasure<T>| [&group.determinant, &group.regularity, &group.sigma_min]);
@@ -260,7 +261,9 @@ where
     T: Real,
     M: Mechanism<T, U, V>,
 {
-    Ok(Decomposition::of(Equilibrated::of(mechanism, pose)?.unknowns).least())
+    let sigma_min = Decomposition::of(Equilibrated::of(mechanism, pose)?.unknowns).least();
+    finite(M::NAME, "a singular value", [sigma_min])?;
+    Ok(sigma_min)
 }
 
 /// The residual of a position and how accurate a position can be there: eps / sigma min.
@@ -277,6 +280,7 @@ where
     let residual = largest(residual.iter().zip(equilibrated.sizes.iter()).map(|(&psi, &size)| relative(psi, size)));
     finite(M::NAME, "the residual", [residual])?;
     let sigma_min = Decomposition::of(equilibrated.unknowns).least();
+    finite(M::NAME, "a singular value", [sigma_min])?;
     Ok(Accuracy { residual, sigma_min, scales: equilibrated.unknown_scales })
 }
 

@@ -96,9 +96,9 @@ where
             let elimination = Elimination::all_but(open, at.unknowns, at.input);
             let part = elimination.solve(&-at.residual);
             let along = if open == 1 {
-                self.to_saddle(&q, &at, &elimination, &part)
+                self.saddle_step(&q, &at, &elimination, &part)
             } else {
-                self.to_least_slopes(&q, &at, &elimination, &part)
+                self.least_slopes_step(&q, &at, &elimination, &part)
             };
             let Some(step) = along.map(|along| part + along).filter(Vector::is_finite) else { return Ok(None) };
             let next = self.moved(&q, &step);
@@ -114,7 +114,7 @@ where
     }
 
     /// The step along the two directions that one open row leaves, to where its slopes after `part` are zero.
-    fn to_saddle(
+    fn saddle_step(
         &self,
         q: &M::Coordinates,
         at: &Linear<T, U>,
@@ -142,7 +142,7 @@ where
 
     /// The step along all directions that several open rows leave, to where the squares of their slopes after `part`
     /// are least.
-    fn to_least_slopes(
+    fn least_slopes_step(
         &self,
         q: &M::Coordinates,
         at: &Linear<T, U>,

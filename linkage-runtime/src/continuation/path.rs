@@ -331,11 +331,11 @@ where
             Ok(place) if arc.is_some() && !is_weak(place) => curve.falls_twice(from, place, tried)?,
             _ => Some(tried),
         };
-        if let Some(guess) = guess {
-            if let Some(end) = self.crossing_ahead(guess, tried)? {
-                let found = curve.first_event(from, end, wanted, &self.options)?;
-                return Ok(found.ok_or(refusal).map(|end| (end, tried)));
-            }
+        if let Some(guess) = guess
+            && let Some(end) = self.crossing_ahead(guess, tried)?
+        {
+            let found = curve.first_event(from, end, wanted, &self.options)?;
+            return Ok(found.ok_or(refusal).map(|end| (end, tried)));
         }
         let Some(place) = arc.filter(|place| !flips(place)) else { return Ok(Err(refusal)) };
         let mut place = place.clone();

@@ -36,7 +36,7 @@ const NEAREST: f64 = 1e-7;
 /// The regularity of all coordinates below which no step ends that begins at four times as much, about the angle in
 /// radians that is left to the change point: a step over it from so near loses too many digits, the more the more groups
 /// are singular there. Of 450 falls of 10, 20 and 40 windows at tolerances from 1e-12 to 1e-4 none stops, nor at half
-/// this value or at twice it; at a quarter 5 do, and 54 where no step is taken back.
+/// this value or at twice it; at a quarter 5 do, and 48 where no step is taken back.
 const CLEAR: f64 = 0.15;
 
 /// What a simulation does where the inputs cannot drive the mechanism.

@@ -1,2 +1,0 @@
-#[path = "hard_cases/coincident_joints.rs"]
-mod coincident_joints;
