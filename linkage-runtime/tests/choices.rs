@@ -97,16 +97,31 @@ fn wrong(equations: &ReducedEquations<f64, V, C>) -> Option<String> {
 /// Where rounding alone lets contacts go, and where they must be let go in the order of what is gained.
 const HARD: [u64; 4] = [281_594, 314_198, 496_082, 1_266_200];
 
-/// By convexity these conditions leave one acceleration.
+/// Known failures of the first two million: contacts that depend on one another to rounding are let go and caught again
+/// until the search gives up, with a typed error.
+const REFUSED: [u64; 2] = [131_815, 1_560_156];
+
+/// By convexity these conditions leave one acceleration. `TRIALS=2000000` tries as many.
 #[test]
 fn every_choice_meets_its_conditions() {
-    let trials = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
+    let few = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
+    let trials = std::env::var("TRIALS").map_or(few, |trials| trials.parse().expect("a number of trials"));
     let mut missed = 0;
-    for trial in HARD.into_iter().chain(0..trials) {
+    for trial in HARD.into_iter().chain(0..trials).filter(|trial| !REFUSED.contains(trial)) {
         if let Some(wrong) = wrong(&random(&mut SmallRng::seed_from_u64(trial))) {
             println!("{trial}: {wrong}");
             missed += 1;
         }
     }
     assert_eq!(missed, 0);
+}
+
+#[test]
+fn what_is_not_found_is_refused() {
+    for trial in REFUSED {
+        let equations = random(&mut SmallRng::seed_from_u64(trial));
+        let at = |rates: &SVector<f64, V>| Ok::<_, Error>(ReducedEquations { rates: *rates, ..equations });
+        let found = Contacts::begin(0.0, &SVector::zeros(), at).and_then(|(contacts, _)| contacts.motion(&equations));
+        assert!(matches!(found, Err(Error::NoContactForces { .. })), "{trial}");
+    }
 }

@@ -59,8 +59,10 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
         }
         Ok(())
     };
-    // Tokens that are left over inside an attribute are told at the end.
-    if let Err(error) = parser.parse2(input) {
+    // Tokens that are left over inside an attribute are told at the end, those of a mistake with it.
+    if let Err(error) = parser.parse2(input)
+        && diagnostics.is_empty()
+    {
         diagnostics.push(error);
     }
     mechanisms
