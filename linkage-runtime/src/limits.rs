@@ -274,7 +274,7 @@ impl<A, D> Searched<A, D> {
         }
         let (mut input, mut exponent) = (end, NEAREST);
         for _ in 0..SECANTS {
-            let step = (start - end) * real::<T>(2.0_f64.powi(-exponent));
+            let step = (start - end) * real::<T>(2.0).powi(-exponent);
             let (near, far) = (input + step, input + step * real::<T>(4.0));
             let mut by = None;
             if let (Found::Assembled(one), Found::Assembled(other)) =

@@ -70,18 +70,22 @@ pub(crate) fn search<T: Real, C: Closures<T, N>, const N: usize>(
             break;
         }
     }
-    if here.size <= enough || is_rounding(closures, &here) {
+    if here.size <= enough || is_rounding(closures, &here, &start) {
         Ok((here, iterations))
     } else {
         Err(stopped(closures, iterations, &here))
     }
 }
 
-/// Whether what is left of Psi is what one rounding error of each unknown leaves, |Psi| <= epsilon |J| |u|: the sine of an
-/// angle of many turns is known better than the angle.
-fn is_rounding<T: Real, C: Closures<T, N>, const N: usize>(closures: &C, at: &Iterate<C::Point, T, N>) -> bool {
+/// Whether what is left of Psi is what one rounding error of unknowns as large as at the start leaves, |Psi| <= epsilon
+/// |J| |u|: the sine of an angle of many turns is known better than the angle.
+fn is_rounding<T: Real, C: Closures<T, N>, const N: usize>(
+    closures: &C,
+    at: &Iterate<C::Point, T, N>,
+    start: &SVector<T, N>,
+) -> bool {
     let (_, sizes) = closures.residual(&at.point);
-    let of_unknowns = closures.jacobian(&at.point).abs() * at.unknowns.abs();
+    let of_unknowns = closures.jacobian(&at.point).abs() * start.abs();
     let enough = sizes * real::<T>(ROUNDINGS);
     let bounds = of_unknowns.zip_map(&enough, |one, other| if one > other { one } else { other });
     at.residual.iter().zip(&bounds).all(|(psi, bound)| bound.is_finite() && psi.abs() <= *bound * T::default_epsilon())

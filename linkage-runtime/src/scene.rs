@@ -100,8 +100,8 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C
         rates: &Inputs<Self::Mechanism, T, U, V>,
     ) -> Result<SVector<T, N>, Error> {
         self.check()?;
-        let state = self.project(&Self::state(q, rates))?;
-        for ((coordinate, value, rate), law) in Self::inputs(&state).into_iter().zip(self.prescribed(t)) {
+        let given = Self::state(q, rates);
+        for ((coordinate, value, rate), law) in Self::inputs(&given).into_iter().zip(self.prescribed(t)) {
             let Some([position, speed, _]) = law else { continue };
             // An infinite law agrees with everything.
             finite(Self::NAME, "the law of a drive", [position, speed])?;
@@ -115,6 +115,7 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C
                 }
             }
         }
+        let state = self.project(&given)?;
         if C > 0 {
             let (q, _) = Self::parts(&state);
             let rest = <Self::Mechanism as Mechanism<T, U, V>>::with_unknowns(&q, SVector::zeros());

@@ -115,7 +115,8 @@ fn compute(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: Value
     };
     match schedule.value(value) {
         Value::Constant(number) => {
-            if !number.is_zero() && !number.is_one() {
+            // Parts of a turn are constants of the scalar.
+            if !number.is_zero() && !number.is_one() && turn(*number).is_none() {
                 names.take_number();
             }
             tokens.extend(names.constant(*number, |number| turn(number).unwrap_or_else(|| constant(number))));

@@ -20,14 +20,15 @@ pub(super) enum Bearer {
     Part,
 }
 
-/// Refuses attributes that would have no effect, or another one than somebody means.
-pub(super) fn check(attributes: &[Attribute], on: Bearer, diagnostics: &mut Diagnostics) {
-    for attribute in attributes {
+/// The attributes that have a meaning; those that would have no effect, or another one than somebody means, are
+/// refused.
+pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mut Diagnostics) -> Vec<Attribute> {
+    attributes.retain(|attribute| {
         let path = attribute.path();
         let configures = path.is_ident("cfg") || (path.is_ident("cfg_attr") && holds_cfg(attribute));
         let message = if path.is_ident("doc") {
             if on != Bearer::Part || is_text(attribute) {
-                continue;
+                return true;
             }
             "a doc comment has text alone here".to_owned()
         } else if path.is_ident("deprecated") {
@@ -42,10 +43,12 @@ pub(super) fn check(attributes: &[Attribute], on: Bearer, diagnostics: &mut Diag
             let name = path.to_token_stream().to_string().replace(' ', "");
             format!("`#[{name}]` has no effect here: this takes doc comments alone")
         } else {
-            continue;
+            return true;
         };
         diagnostics.push(syn::Error::new(path.span(), message));
-    }
+        false
+    });
+    attributes
 }
 
 /// Whether it is text, as a comment is.

@@ -70,7 +70,7 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
 
 fn mechanism(stream: ParseStream, diagnostics: &mut Diagnostics) -> syn::Result<Mechanism> {
     let attributes = stream.call(syn::Attribute::parse_outer)?;
-    attributes::check(&attributes, attributes::Bearer::Mechanism, diagnostics);
+    let attributes = attributes::meant(attributes, attributes::Bearer::Mechanism, diagnostics);
     let visibility = stream.parse()?;
     let keyword: Ident = stream
         .call(syn::ext::IdentExt::parse_any)

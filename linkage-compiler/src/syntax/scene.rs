@@ -151,7 +151,7 @@ fn braces<V>(
     while !content.is_empty() {
         let length = expressions.len();
         let read = content.call(Attribute::parse_outer).and_then(|attributes| {
-            attributes::check(&attributes, Bearer::Part, diagnostics);
+            attributes::meant(attributes, Bearer::Part, diagnostics);
             item(&content, expressions)
         });
         let ended = read.is_ok().then(|| {

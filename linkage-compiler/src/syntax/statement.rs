@@ -112,14 +112,14 @@ pub(super) fn statements(
         match kind(stream, expressions, diagnostics) {
             // Braces end a statement.
             Ok(kind @ (StatementKind::Body(_) | StatementKind::Scene(_))) => {
-                attributes::check(&attributes, kind.bearer(), diagnostics);
+                let attributes = attributes::meant(attributes, kind.bearer(), diagnostics);
                 statements.push(Statement { attributes, kind });
                 if stream.peek(Token![;]) {
                     skip_statement(stream);
                 }
             }
             Ok(kind) => {
-                attributes::check(&attributes, kind.bearer(), diagnostics);
+                let attributes = attributes::meant(attributes, kind.bearer(), diagnostics);
                 statements.push(Statement { attributes, kind });
                 let last = expressions.last_region().filter(|_| expressions.len() > before);
                 if let Err(error) = end(stream, last) {

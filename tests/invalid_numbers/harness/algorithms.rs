@@ -7,7 +7,7 @@ use linkage::continuation::{AtChangePoint, Direction, Options, Path};
 use linkage::integrate::{Action, Crossing, FixedStep, Tolerance, dop853, dopri5, watched};
 use linkage::nalgebra::{SMatrix, SVector};
 use linkage::position::newton_step;
-use linkage::simulation::{RealTime, simulate};
+use linkage::simulation::simulate;
 use linkage::singularity::{accuracy, report, sigma_min};
 use linkage::{Contact, Equations, Error, Group, Mechanism, Scene, Unreduced, position};
 

@@ -33,7 +33,10 @@ impl Methods<'_> {
         });
         let imports = imports(self.mechanism, &self.uses);
         let mechanism = self.for_general_algorithms(kernels, private);
-        let pose_coordinates = kernels.map(|kernels| self.pose_coordinates(kernels.derivation, kernels.plan));
+        let of_pose = match kernels {
+            Some(kernels) => self.of_pose(kernels.derivation, kernels.plan),
+            None => self.of_pose_stub(),
+        };
         quote! {
             const _: () = {
                 use ::core::convert::{From, Into};
@@ -41,7 +44,7 @@ impl Methods<'_> {
                 use ::core::result::Result::{self, Ok};
                 use #private::{#(#imports),*};
                 impl<T: Real> #driver<T> #members
-                #pose_coordinates
+                #of_pose
                 #mechanism
             };
         }
@@ -79,7 +82,7 @@ impl Methods<'_> {
     }
 
     /// Angles on request: the coordinates of a pose.
-    fn pose_coordinates(&self, derivation: &Derivation, plan: &PosePlan) -> TokenStream {
+    fn of_pose(&self, derivation: &Derivation, plan: &PosePlan) -> TokenStream {
         let Types { pose, coordinates, .. } = self.types;
         let fields = self.coordinate_fields();
         let angles: BTreeMap<SymbolId, &String> = plan
@@ -115,6 +118,22 @@ impl Methods<'_> {
                 #[must_use]
                 pub fn coordinates(&self) -> #coordinates<T> {
                     #coordinates { #(#fields: #values),* }
+                }
+            }
+        }
+    }
+}
+
+impl Methods<'_> {
+    fn of_pose_stub(&self) -> TokenStream {
+        let Types { pose, coordinates, .. } = self.types;
+        quote! {
+            impl<T: Real> #pose<T> {
+                pub fn is_finite(&self) -> bool {
+                    ::core::unreachable!()
+                }
+                pub fn coordinates(&self) -> #coordinates<T> {
+                    ::core::unreachable!()
                 }
             }
         }
