@@ -22,7 +22,7 @@ use precise::{Big, Scalar, big, direction};
 
 /// The promises, in ulp times condition number.
 const EXACT: f64 = 2.0;
-const BRACKETED: f64 = 5.0;
+const BRACKETED: f64 = 3.0;
 
 linkage! {
     #[derive(Debug, Clone, PartialEq)]

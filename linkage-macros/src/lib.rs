@@ -562,7 +562,7 @@ use proc_macro::TokenStream;
 /// - Links that do not reach each other: `Error::Unbuildable`, with the gap. Guides that are parallel and apart, and an
 ///   unknown whose factor vanishes in an equation that needs it, are unbuildable too.
 /// - Links that just touch, flat at a limit: the position, whose determinant is zero; both branches meet there. A gap of
-///   less than two epsilons, relative to the terms of the loop equation, counts as touching: rounding leaves no smaller one.
+///   less than an epsilon, relative to the terms of the loop equation, counts as touching: rounding leaves no smaller one.
 /// - A dyad whose outer joints coincide: with links of one length it can stand anywhere, which is
 ///   `Error::Undetermined`; with links of different lengths it is unbuildable. Joints coincide within eight epsilons of the
 ///   terms that they are made of. Likewise undetermined are a slotted arm whose pin is in its pivot, guides on one line, a
@@ -572,7 +572,7 @@ use proc_macro::TokenStream;
 /// `limits` gives that input nevertheless, as `Exact`, and passes inputs inside the range at which a group is undetermined,
 /// such as a folded kite. `branches` leaves out a branch on which a group is undetermined, as it leaves out one that is
 /// unbuildable. A limit that is `Exact` is right to two ulp, one that is `Bracketed` lies between its two inputs or within
-/// five ulp of them, each times the condition number of the limit: what a relative change of every length does to it.
+/// three ulp of them, each times the condition number of the limit: what a relative change of every length does to it.
 /// No limit is a number that is not finite.
 ///
 /// # What is rejected

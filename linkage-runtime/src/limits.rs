@@ -32,7 +32,7 @@ pub enum Limit<T> {
         group: &'static str,
     },
     /// By search: between two inputs that are next to each other, or between which a group is undetermined. Links that
-    /// miss each other by a rounding error count as in line, so the true limit lies between the two widened by five
+    /// miss each other by a rounding error count as in line, so the true limit lies between the two widened by three
     /// ulp times its condition number.
     Bracketed {
         /// The last input found at which the mechanism can be assembled.
