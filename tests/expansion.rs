@@ -127,7 +127,10 @@ snapshot!(geared_five_bar, functions("geared_five_bar", &["pose_at", "residual",
 snapshot!(scotch_yoke, functions("scotch_yoke", &["pose_at", "residual", "velocity_ratios", "motion"]));
 snapshot!(
     cam_rocker,
-    functions("cam_rocker", &["extern_turn", "pose_at", "assemble", "residual", "velocity", "acceleration", "motion"])
+    functions(
+        "cam_rocker",
+        &["extern_turn", "pose_at", "assemble_in_turns", "residual", "velocity", "acceleration", "motion"]
+    )
 );
 snapshot!(cam_follower, functions("cam_follower", &["pose_at", "outputs", "output_velocities"]));
 snapshot!(every_function, functions("every_function", &["outputs"]));

@@ -147,7 +147,7 @@ impl Finite for Limit<f64> {
     }
 }
 
-impl<Q: Finite> Finite for Event<Q> {
+impl<Q: Finite + Copy> Finite for Event<Q> {
     fn all_finite(&self) -> bool {
         match self {
             Self::ChangePoint { tangents, .. } => tangents.iter().all(Finite::all_finite),

@@ -72,6 +72,10 @@ impl Methods<'_> {
             ) -> Result<#pose<T>, Error>);
             body.uses.insert("Turn");
             self.function(&docs, signature, Some(body));
+            // People know its work by the name of the function that calls it.
+            if let Some((name, _)) = self.kernels.last_mut() {
+                "assemble".clone_into(name);
+            }
             self.assemble_by_turns(&branches);
         }
         if assembly.guesses.is_empty() {
