@@ -112,7 +112,7 @@ parts! {
     }
     [const U: usize, const V: usize] Contact<f64, U, V> { Contact { name: _, along, law } => along law }
     [] Limits<f64> { Limits { lower, upper } => lower upper }
-    [Q: Finite] Step<Q, f64> { Step { position, rates, length, event } => position rates length event }
+    [Q: Finite + Copy] Step<Q, f64> { Step { position, rates, length, event } => position rates length event }
     [const N: usize] linkage::integrate::Step<f64, N> {
         linkage::integrate::Step { t, state, event: _ } => t state
     }
