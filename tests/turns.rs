@@ -51,6 +51,14 @@ linkage! {
         equation rolled = year + 7 * slot / 5;
         point Pointer = 10@out + 1@rolled;
     }
+    /// A point at half an angle, of which nothing else asks for the number.
+    pub mechanism Halved {
+        param pin = 9.6, ecc = 1.1;
+        input month;
+        unknown slot, s;
+        loop pin@month = ecc@0 + s@slot;
+        point Half = 2@(slot / 2 + 1);
+    }
     /// Directions alone.
     pub mechanism Bare {
         param a = 3, b = 2, c = 2.5, d = 1;
@@ -167,6 +175,14 @@ fn ten_turns_both_ways() {
     let start = m.assemble(0.4, EpicycleBranch::new(Slider::Far)).unwrap().coordinates();
     let [up, down] = comes_back(&m, &start, &[], EpicyclePose::coordinates);
     assert!(up.rolled - down.rolled > 28.0 * TAU);
+
+    let m = Halved::default();
+    let start = m.assemble(0.4, HalvedBranch::new(Slider::Far)).unwrap().coordinates();
+    comes_back(&m, &start, &[], HalvedPose::coordinates);
+    let turned = HalvedBranch { slot_turn: 1, ..HalvedBranch::new(Slider::Far) };
+    let [here, turned] = [HalvedBranch::new(Slider::Far), turned]
+        .map(|branch| m.points(&m.assemble(0.4, branch).unwrap()).unwrap().half);
+    assert!((here + turned).amax() < 1e-14, "{here} {turned}");
 
     let m = Halves::default();
     let branch = HalvesBranch::new(Slope::Rising, Slope::Rising);
