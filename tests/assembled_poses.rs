@@ -1,6 +1,6 @@
 //! A pose that is assembled and the pose at its coordinates are one: directions, determinants and all that follows.
 //!
-//! What `assemble` finds algebraically, `pose_at` finds from the angles, and J itself says what a determinant is.
+//! `assemble` finds algebraically what `pose_at` finds from the angles, and J itself says what a determinant is.
 
 use linkage::{Assembly, Mechanism, linkage};
 use nalgebra::{SMatrix, SVector};

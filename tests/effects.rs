@@ -54,7 +54,7 @@ fn of<'a>(work: &'a Work, name: &'a str) -> impl Iterator<Item = (&'a str, Opera
         .map(|((_, function), operations)| (function.as_str(), *operations))
 }
 
-/// What a scene and the mechanism under it do is the same to the operation whatever else is declared, of each function;
+/// Each function of a scene and of its mechanism does the same operations whatever else is declared;
 /// but where a spring or a stop asks for the number of an angle, the mechanism finds it when it is assembled.
 #[test]
 fn what_other_scenes_declare_costs_nothing() {

@@ -341,3 +341,28 @@ mod signed_angles {
         }
     }
 }
+
+/// Parts of a turn: some are constants of the scalar, others products with one.
+mod turns {
+    #![deny(unused_imports)]
+
+    linkage::linkage! {
+        pub mechanism Half {
+            input v;
+            unknown u;
+            equation u = pi - v;
+        }
+        pub mechanism Seven {
+            input v;
+            unknown u;
+            equation u = 7 * pi - v;
+        }
+    }
+
+    #[test]
+    fn parts_of_a_turn_are_right() {
+        use std::f64::consts::PI;
+        assert_eq!(Half::default().assemble(1.0, HalfBranch::new()).unwrap().u, PI - 1.0);
+        assert_eq!(Seven::default().assemble(1.0, SevenBranch::new()).unwrap().u, 7.0 * PI - 1.0);
+    }
+}

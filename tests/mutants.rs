@@ -43,7 +43,7 @@ fn mutator() -> Mutator {
     Mutator::new(SmallRng::seed_from_u64(setting("MUTANTS_SEED", 1) as u64), corpus())
 }
 
-/// Whether an expansion begins with a message.
+/// True if an expansion begins with a message.
 fn is_refused(expansion: &TokenStream) -> bool {
     let beginning = expansion.clone().into_iter().take(8);
     beginning.into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "compile_error"))
@@ -135,7 +135,7 @@ warnings = "deny"
 [workspace]
 "#;
 
-/// What the macro accepts is Rust without a warning.
+/// Accepted mutants are Rust without a warning.
 #[test]
 fn accepted_mutants_compile() {
     let count = setting("MUTANTS_COMPILED", 60);

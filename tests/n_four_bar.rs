@@ -46,7 +46,7 @@ fn the_pendulum_is_the_elliptic_integral() {
     }
 }
 
-/// What came of one motion.
+/// The outcome of one motion.
 #[derive(Debug, Default)]
 struct Run {
     /// The largest angle of an upright from the first, and of a bar from level.

@@ -181,6 +181,8 @@ fn attributes_without_effect_are_refused() {
         ("#[allow(unused)]", "equation", "`#[allow]` has no effect here"),
         ("#[deprecated]", "param", "would warn"),
         ("#[doc(hidden)]", "equation", "text alone"),
+        ("#[doc = (-\"x\")]", "mechanism", "text alone"),
+        ("#[doc = (1 + 2)]", "param", "text alone"),
         ("#[deprecated]", "mechanism", "would warn"),
         ("#[cfg_attr(test, cfg(any()))]", "mechanism", "would reach only some"),
     ] {

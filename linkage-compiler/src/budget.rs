@@ -11,7 +11,7 @@ use std::rc::Rc;
 /// the end take twice as long, and more memory than 512 MB.
 pub const MOST_STEPS: usize = 150_000_000;
 
-/// What is left of the steps of an invocation; all graphs of it draw on one.
+/// The remaining steps of an invocation, which all its graphs share.
 #[derive(Debug, Clone)]
 pub struct Budget {
     left: Rc<Cell<usize>>,
@@ -37,7 +37,7 @@ impl Budget {
         left > 0
     }
 
-    /// Whether nothing is left: what is made from now on has no meaning, and loops end.
+    /// True if nothing is left: what is made from now on has no meaning, and loops end.
     #[must_use]
     pub fn is_spent(&self) -> bool {
         self.left.get() == 0

@@ -161,7 +161,7 @@ fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators:
     }
 }
 
-/// What is not finite where a position is not.
+/// The quantity that errors of positions name.
 const POSITION: &str = "the position";
 
 /// A magnitude relative to a scale.

@@ -54,7 +54,7 @@ pub trait Mechanism<T: Real, const U: usize, const V: usize> {
     fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, U>) -> Self::Coordinates;
     /// The position at these coordinates.
     fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose;
-    /// Whether every number of a position is finite.
+    /// True if every number of a position is finite.
     fn is_finite(pose: &Self::Pose) -> bool;
     /// Psi.
     fn residual(&self, pose: &Self::Pose) -> SVector<T, U>;

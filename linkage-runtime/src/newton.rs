@@ -77,7 +77,7 @@ pub(crate) fn search<T: Real, C: Closures<T, N>, const N: usize>(
     }
 }
 
-/// Whether what is left of Psi is what one rounding error of unknowns as large as at the start leaves, |Psi| <= epsilon
+/// True if what is left of Psi is what one rounding error of unknowns as large as at the start leaves, |Psi| <= epsilon
 /// |J| |u|: the sine of an angle of many turns is known better than the angle.
 fn is_rounding<T: Real, C: Closures<T, N>, const N: usize>(
     closures: &C,

@@ -126,7 +126,7 @@ pub struct Accuracy<T, const U: usize> {
     pub residual: T,
     /// The smallest singular value of the equilibrated J.
     pub sigma_min: T,
-    /// What the columns of J were divided by.
+    /// The divisors of the columns of J.
     scales: SVector<T, U>,
 }
 

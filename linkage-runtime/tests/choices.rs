@@ -43,7 +43,7 @@ fn random(random: &mut SmallRng) -> ReducedEquations<f64, V, C> {
     ReducedEquations { scene: "Random", coordinates: ["a", "b", "c"], mass, forces, rates: SVector::zeros(), contacts }
 }
 
-/// What is wrong with the motion that begins, beside rounding.
+/// The first condition that the motion that begins does not meet, but for rounding errors.
 fn wrong(equations: &ReducedEquations<f64, V, C>) -> Option<String> {
     let at = |rates: &SVector<f64, V>| Ok::<_, Error>(ReducedEquations { rates: *rates, ..*equations });
     let (contacts, _) = match Contacts::begin(0.0, &SVector::zeros(), at) {

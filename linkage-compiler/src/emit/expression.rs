@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use proc_macro2::{Delimiter, Literal, TokenStream};
+use proc_macro2::{Delimiter, Literal, TokenStream, TokenTree};
 use quote::quote;
 
 use super::names::Names;
@@ -115,11 +115,12 @@ fn compute(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: Value
     };
     match schedule.value(value) {
         Value::Constant(number) => {
-            // Parts of a turn are constants of the scalar.
-            if !number.is_zero() && !number.is_one() && turn(*number).is_none() {
+            let written = names.constant(*number, |number| turn(number).unwrap_or_else(|| constant(number)));
+            // Zero, one and parts of a turn are constants of the scalar itself.
+            if written.clone().into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "real")) {
                 names.take_number();
             }
-            tokens.extend(names.constant(*number, |number| turn(number).unwrap_or_else(|| constant(number))));
+            tokens.extend(written);
         }
         Value::Symbol(symbol) => tokens.append(names.symbol(*symbol)),
         // Given directions are named before any expression is written.

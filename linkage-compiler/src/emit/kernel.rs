@@ -45,7 +45,7 @@ pub(super) struct Given<'a> {
     pub pose: Option<&'a PosePlan>,
     /// The argument that says which solution of a group is meant.
     pub branch: &'a Ident,
-    /// What gives angles their turns, and the places of those that have one.
+    /// The argument that gives angles their turns, and the places of those that have one.
     pub turn: &'a Ident,
     pub turns: BTreeMap<SymbolId, usize>,
     /// The dyad, if there is one, whose solution has a result in the range of the scalar where its triangle is plain.

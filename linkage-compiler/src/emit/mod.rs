@@ -73,7 +73,7 @@ pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     items::bearing(tokens.collect(), &mechanism.everywhere)
 }
 
-/// What all drivers of a mechanism share and `drivers`, which are emitted already.
+/// The items that all drivers of a mechanism share, and `drivers`, which are emitted already.
 #[must_use]
 pub fn mechanism(mechanism: &Mechanism, drivers: Emitted, root: &TokenStream) -> Emitted {
     let mut tokens = shared(mechanism, root);

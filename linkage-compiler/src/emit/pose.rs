@@ -1,4 +1,4 @@
-//! What a pose carries: the direction of every angle that a formula takes a sine or cosine of, the inputs and the
+//! The fields of a pose: the direction of every angle that a formula takes a sine or cosine of, the inputs and the
 //! coordinates whose number matters, the determinants, and the values of the user's functions.
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -45,7 +45,7 @@ pub struct Graph {
     budget: Budget,
 }
 
-/// What stays in memory counts as more steps than what is looked at, so that the budget bounds both: a node takes some
+/// A node that stays in memory counts as more steps than one that is looked at, so that the budget bounds both: it takes some
 /// 150 bytes and 32 for each part, a name some 50. With half of these counts an invocation that is refused in the end
 /// could take twice the memory.
 const STEPS_OF_A_NODE: usize = 64;
@@ -59,7 +59,7 @@ impl Graph {
         Self { budget: budget.clone(), ..Self::default() }
     }
 
-    /// What is left of the work; once nothing is, expressions are no longer made, and any node stands for them.
+    /// The remaining work; once nothing is left, expressions are no longer made, and any node stands for them.
     #[must_use]
     pub fn budget(&self) -> &Budget {
         &self.budget
@@ -131,7 +131,7 @@ impl Graph {
         self.fault.take()
     }
 
-    /// What an attempt makes, and what it takes for granted; nothing if it goes wrong.
+    /// The result of an attempt with what it takes for granted; nothing if it goes wrong.
     pub fn attempt<V>(&mut self, make: impl FnOnce(&mut Self) -> Option<V>) -> Option<(V, BTreeSet<Condition>)> {
         let (fault, conditions) = (self.fault.take(), self.take_conditions());
         let made = make(self);
@@ -200,7 +200,7 @@ impl Graph {
         id
     }
 
-    /// Whether a coefficient, with the constants that it is multiplied by, is not a normal number.
+    /// True if a coefficient, with the constants that it is multiplied by, is not a normal number.
     fn is_out_of_range(&self, node: &Node) -> bool {
         let normal = |value: f64| value.is_normal() || value == 0.0;
         match node {

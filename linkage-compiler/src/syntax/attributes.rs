@@ -7,7 +7,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
 
 use crate::diagnostics::Diagnostics;
 
-/// What an attribute stands on.
+/// The construct that an attribute belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bearer {
     /// A mechanism, all of whose items may be configured out together.
@@ -27,7 +27,8 @@ pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mu
         let path = attribute.path();
         let configures = path.is_ident("cfg") || (path.is_ident("cfg_attr") && holds_cfg(attribute));
         let message = if path.is_ident("doc") {
-            if on != Bearer::Part || is_text(attribute) {
+            let has_meaning = if on == Bearer::Part { is_text(attribute) } else { can_be_text(attribute) };
+            if has_meaning {
                 return true;
             }
             "a doc comment has text alone here".to_owned()
@@ -51,13 +52,23 @@ pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mu
     attributes
 }
 
-/// Whether it is text, as a comment is.
+/// True if it is text, as a comment is.
 fn is_text(attribute: &Attribute) -> bool {
     let Meta::NameValue(MetaNameValue { value, .. }) = &attribute.meta else { return false };
     matches!(value, Expr::Lit(ExprLit { lit: Lit::Str(_), .. }))
 }
 
-/// Whether a `cfg_attr` makes a `cfg`.
+/// True if it is text, or a macro that gives text, or a setting such as `doc(hidden)`.
+fn can_be_text(attribute: &Attribute) -> bool {
+    is_text(attribute)
+        || match &attribute.meta {
+            Meta::NameValue(MetaNameValue { value, .. }) => matches!(value, Expr::Macro(_)),
+            Meta::List(_) => true,
+            Meta::Path(_) => false,
+        }
+}
+
+/// True if a `cfg_attr` makes a `cfg`.
 fn holds_cfg(attribute: &Attribute) -> bool {
     let Meta::List(list) = &attribute.meta else { return false };
     let after = list.tokens.clone().into_iter().skip_while(|token| !matches!(token, TokenTree::Punct(_)));

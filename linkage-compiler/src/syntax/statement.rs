@@ -58,7 +58,7 @@ pub enum StatementKind {
 }
 
 impl StatementKind {
-    /// What its attributes stand on.
+    /// The construct that its attributes belong to.
     fn bearer(&self) -> Bearer {
         match self {
             Self::Parameters(_) | Self::Drive { .. } | Self::Scene(_) => Bearer::Item,

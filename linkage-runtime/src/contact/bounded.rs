@@ -160,7 +160,7 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
         }
     }
 
-    /// Whether nothing but rounding is gained along a combination of the free forces to which nothing answers.
+    /// True if nothing but rounding is gained along a combination of the free forces to which nothing answers.
     fn is_level(&self, direction: &[T; C]) -> bool {
         let terms = self.free.iter().zip(direction).take(self.count).map(|(&contact, &way)| {
             let bias = self.bounds[contact].map_or((T::zero(), T::zero()), |bounds| bounds.bias);

@@ -215,7 +215,7 @@ impl<T: Real, const C: usize> Contacts<T, C> {
         Ok(values)
     }
 
-    /// The same with what is known of their change: of an open stop its rate.
+    /// The guards with what is known of their change: of an open stop its rate.
     pub(crate) fn guards<const V: usize>(&self, equations: &ReducedEquations<T, V, C>) -> Result<[Guard<T>; C], Error> {
         let values = self.events(equations)?;
         Ok(core::array::from_fn(|place| {

@@ -30,7 +30,7 @@ pub(super) struct Crossing<Q, T, const U: usize> {
     pub(super) q: Q,
     tangents: [Vector<T, U>; MOST_TANGENTS],
     count: usize,
-    /// Whether these are all.
+    /// True if these are all.
     pub(super) is_complete: bool,
     /// The number of pivots of [J A] that are zero.
     pub(super) defect: usize,

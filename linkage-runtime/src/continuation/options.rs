@@ -2,7 +2,7 @@
 
 use crate::{Error, Real, real};
 
-/// What is done at a change point, where motions of the mechanism cross.
+/// The policy at a change point, where motions of the mechanism cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtChangePoint {
     /// The motion goes on smoothly: a parallelogram stays a parallelogram.

@@ -21,7 +21,7 @@ pub(super) struct Place<M: Mechanism<T, U, 1>, T: Real, const U: usize> {
     /// Of the blocks of J; zero where a block has just passed its zero.
     pub(super) determinants: M::BlockDeterminants,
     pub(super) regularity: T,
-    /// The same of the last but one pivot.
+    /// The sign of the last but one pivot.
     pub(super) last_but_one: T,
 }
 

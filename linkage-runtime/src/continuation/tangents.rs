@@ -31,13 +31,13 @@ impl<Q: Copy> Tangents<Q> {
         self.iter().count()
     }
 
-    /// Whether there are none, which no crossing has.
+    /// True if there are none, which no crossing has.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Whether these are all. There are more where a whole family of motions begins, as where the outer joints of a
+    /// True if these are all. There are more where a whole family of motions begins, as where the outer joints of a
     /// dyad coincide, so that it turns freely; and where more than eight motions cross. They are not sought where more
     /// than seven pivots of [J A] are zero, or where the quadratic equations of more than three coordinates do not split:
     /// then that which was followed stands alone.

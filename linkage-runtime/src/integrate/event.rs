@@ -105,7 +105,7 @@ pub(super) struct Hit<T: Real, const N: usize> {
 struct Course<'a, S, T: Real, const N: usize> {
     system: &'a mut S,
     step: &'a Interpolant<T, N>,
-    /// What rounding leaves of the time, as a part of the step.
+    /// The resolution of the time, as a part of the step.
     roundings: f64,
 }
 
@@ -196,7 +196,7 @@ impl<S, T: Real, const N: usize> Course<'_, S, T, N> {
     }
 }
 
-/// Whether only rounding tells these values of a function apart.
+/// True if only rounding tells these values of a function apart.
 fn is_same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * f64::EPSILON * a.abs().max(b.abs())
 }
@@ -210,7 +210,7 @@ impl Side {
         self.crossing.is_none()
     }
 
-    /// Whether the function has reached zero or passed it, of a guard whether it has passed it: a stop that carries no
+    /// True if the function has reached zero or passed it, of a guard whether it has passed it: a stop that carries no
     /// load holds. A guard that began within rounding of zero or below has, where it goes on falling.
     fn passed(&self, seen: &Seen) -> bool {
         match self.sign {
@@ -243,19 +243,19 @@ impl Side {
         }
     }
 
-    /// Whether the function has a rate away from zero or towards it: 1 or -1, as it was seen.
+    /// True if the function has a rate away from zero or towards it: 1 or -1, as it was seen.
     fn way(&self, seen: &Seen) -> f64 {
         if self.sign < 0 { -seen.rate } else { seen.rate }
     }
 
-    /// Whether the function comes nearer to zero and turns between two places. At one of them it may stand: it starts
+    /// True if the function comes nearer to zero and turns between two places. At one of them it may stand: it starts
     /// from rest, or is too flat for a difference to tell.
     fn turns(&self, before: &Seen, here: &Seen) -> bool {
         let (start, end) = (self.way(before), self.way(here));
         self.sign != 0 && !self.passed(here) && start <= 0.0 && end >= 0.0 && start < end
     }
 
-    /// Whether the function comes nearer to zero from one place to another.
+    /// True if the function comes nearer to zero from one place to another.
     fn nears(&self, before: &Seen, here: &Seen) -> bool {
         let change = here.value - before.value;
         !is_same(here.value, before.value) && (if self.sign < 0 { -change } else { change }) < 0.0
@@ -372,7 +372,7 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         }
     }
 
-    /// Whether something may happen in the step: something passes zero, or comes nearer and turns.
+    /// True if something may happen in the step: something passes zero, or comes nearer and turns.
     fn glance<T: Real, S: System<T, N, K, C>, const N: usize>(
         &mut self,
         course: &mut Course<'_, S, T, N>,
@@ -423,7 +423,7 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         self.each().zip(before.each().zip(here.each())).any(|(side, (before, here))| side.turns(before, here))
     }
 
-    /// Whether this is so of a function whose rate the system does not know.
+    /// True if this is so of a function whose rate the system does not know.
     fn any_unknown<const P: usize>(&self, looks: [&Look<K, C>; P], is_so: impl Fn(&Side, [&Seen; P]) -> bool) -> bool {
         let events =
             (0..K).any(|i| self.events[i].sign != 0 && is_so(&self.events[i], looks.map(|look| &look.events[i])));

@@ -173,7 +173,7 @@ where
         self.look_ahead(independent)
     }
 
-    /// Whether a step ends just before what may be a change point, though it came from afar.
+    /// True if a step ends just before what may be a change point, though it came from afar.
     pub(super) fn ends_too_near(&self, start: &SVector<T, N>, end: &SVector<T, N>) -> bool {
         if self.at_singularity == AtSingularity::Stop {
             return false;

@@ -272,7 +272,7 @@ fn of_several_extrema_in_a_step_some_are_missed() {
     }
 }
 
-/// What looking for a minimum costs beside looking at the places alone: an oscillator far from its wall and near it.
+/// The cost of looking for a minimum relative to looking at the places alone: an oscillator far from its wall and near it.
 #[test]
 fn what_looking_costs() {
     for knows in [true, false] {

@@ -130,7 +130,7 @@ impl Source {
     }
 }
 
-/// What can be an argument.
+/// A type that can be an argument.
 pub trait Draw {
     fn draw(source: &mut Source) -> Self;
 }

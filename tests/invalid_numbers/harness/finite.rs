@@ -1,4 +1,4 @@
-//! Whether every number of a result is finite.
+//! True if every number of a result is finite.
 
 use std::marker::PhantomData;
 

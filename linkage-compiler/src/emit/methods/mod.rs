@@ -345,7 +345,7 @@ impl Methods<'_> {
         }
     }
 
-    /// What a kernel starts from that assembles nothing.
+    /// The start of a kernel that assembles nothing.
     fn given<'k>(&'k self, sources: Vec<Source<'k>>, pose: Option<&'k PosePlan>) -> Given<'k> {
         let Arguments { branch, turn, .. } = &self.arguments;
         Given { sources, pose, branch, turn, turns: BTreeMap::new(), dyads: Vec::new() }

@@ -147,7 +147,7 @@ impl Ordering {
         self.lines.push(Line::SinesCosines(several));
     }
 
-    /// Whether a value depends on nothing that the kernel itself solves for, and on no sine; values that are `known`
+    /// True if a value depends on nothing that the kernel itself solves for, and on no sine; values that are `known`
     /// are looked at once.
     fn is_known(&self, value: ValueId, introduced: &BTreeSet<SymbolId>, known: &mut FxHashSet<ValueId>) -> bool {
         let (mut seen, mut stack) = (FxHashSet::default(), vec![value]);

@@ -219,7 +219,7 @@ impl<'a> Builder<'a> {
         (constant, factors)
     }
 
-    /// Whether a value stands twice in a list.
+    /// True if a value stands twice in a list.
     fn meets_twice(&mut self, list: impl Iterator<Item = ValueId>) -> bool {
         self.list += 1;
         self.met.resize(self.values.len(), 0);
