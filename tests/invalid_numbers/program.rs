@@ -64,7 +64,7 @@ pub fn files(root: &Path) -> Vec<(String, String)> {
         "main.rs".to_owned(),
         format!(
             "#[path = {harness:?}] mod harness;\n#[path = {laws:?}] mod laws;\n{COUNTED}\n{modules}\n\
-             fn main() {{ harness::main(&[{subjects}]); }}\n"
+             fn main() -> std::process::ExitCode {{ harness::main(&[{subjects}]) }}\n"
         ),
     ));
     files

@@ -31,6 +31,11 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
         Self { start: t, length: T::zero(), coefficients, used: 1 }
     }
 
+    /// True if every coefficient is finite.
+    pub(super) fn is_finite(&self) -> bool {
+        self.coefficients.iter().take(self.used).flatten().all(T::is_finite)
+    }
+
     /// Hermite's cubic, of order 3: it takes no evaluation.
     #[inline]
     pub(super) fn cubic(start: T, length: T, states: [&SVector<T, N>; 2], slopes: [&SVector<T, N>; 2]) -> Self {

@@ -226,7 +226,7 @@ where
     /// in one step at most once.
     ///
     /// # Errors
-    /// What the rate returns where the method evaluates it for dense output.
+    /// What the rate returns where the method evaluates it for dense output, and [`Error::NotFiniteAt`].
     pub fn interpolant(&mut self) -> Result<Interpolant<T, N>, Error> {
         if let Some(interpolant) = self.interpolant {
             return Ok(interpolant);
@@ -237,6 +237,9 @@ where
         let rate = step::counted(&mut self.system, &mut self.counts);
         tableau::evaluate(rate, table.dense_stages, table.end + 1, (t, &y), h, &mut self.slopes)?;
         let interpolant = self.cubic().complete(table, &self.slopes);
+        if !interpolant.is_finite() {
+            return Err(Error::NotFiniteAt { quantity: "the dense output", t: to_f64(t) });
+        }
         self.interpolant = Some(interpolant);
         Ok(interpolant)
     }
