@@ -284,7 +284,13 @@ where
         let mut refusal = Refusal { residual: f64::NAN, regularity: f64::NAN };
         for number in 0..MOST_TRIALS {
             match self.attempt(trial, &wanted)? {
-                Ok((end, tried)) => return Ok(self.arrive(end, tried, number > 0)),
+                Ok((end, tried)) => {
+                    let way = self.curve.difference(&end.place.q, &self.place.q).norm();
+                    if !(self.length + way).is_finite() {
+                        return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the length of the path" });
+                    }
+                    return Ok(self.arrive(end, tried, way, number > 0));
+                }
                 Err(why) => refusal = why,
             }
             trial *= real(0.5);
@@ -396,9 +402,8 @@ where
         Ok(Some(End { place, event: Some(event), is_target: false, stands }))
     }
 
-    fn arrive(&mut self, end: End<M, T, U>, tried: T, was_refused: bool) -> (Step<M::Coordinates, T>, bool) {
+    fn arrive(&mut self, end: End<M, T, U>, tried: T, way: T, was_refused: bool) -> (Step<M::Coordinates, T>, bool) {
         let stands = end.stands;
-        let way = self.curve.difference(&end.place.q, &self.place.q).norm();
         let turn = (end.place.tangent - self.place.tangent).norm();
         let is_whole = end.event.is_none() && !end.is_target;
         // Steps grow and shrink towards the turn that is allowed.
