@@ -283,6 +283,7 @@ mod configured {
             scene Running of Forward { inertia; equilibrium; }
         }
         #[cfg(all())]
+        // Under test: a lint that is forwarded to all items.
         #[allow(dead_code)]
         mechanism Machine {
             input a;

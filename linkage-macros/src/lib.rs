@@ -52,7 +52,7 @@ use proc_macro::TokenStream;
 ///
 /// | on | what becomes of it |
 /// |---|---|
-/// | `mechanism` | `cfg` stands on all items that are emitted, so that a mechanism is there as a whole or not at all; `allow`, `warn`, `deny` and `forbid` as well; everything else, such as `derive` and its like, goes to the types that hold parameters |
+/// | `mechanism` | `cfg` applies to all items that are emitted, so that a mechanism is there as a whole or not at all; `allow`, `warn`, `deny` and `forbid` as well; everything else, such as `derive` and its like, goes to the types that hold parameters |
 /// | `drive`, `scene` | all go to its type |
 /// | `param` | all go to its field, such as `#[serde(rename = "…")]` |
 /// | `input`, `unknown`, `coordinate`, `point`, `output`, `loop`, `equation`, `extern fn` | doc comments go to the documentation |

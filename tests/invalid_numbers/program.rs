@@ -50,6 +50,7 @@ pub fn files(root: &Path) -> Vec<(String, String)> {
                 let mut text = functions.concat() + &prettyplease::unparse(&emitted);
                 let calls = Calls::of(&emitted);
                 write!(text, "\npub mod calls {{ use super::*; use crate::harness as h;\n{}}}\n", calls.text).unwrap();
+                // Generated calls use whatever there is; warnings of emitted code are the business of `emitted_source`.
                 writeln!(modules, "#[allow(warnings)] mod {module};").unwrap();
                 for subject in calls.subjects {
                     writeln!(subjects, "(\"{subject}\", {module}::calls::{}),", snake(&subject)).unwrap();

@@ -1,5 +1,5 @@
 //! The fields of a pose: the direction of every angle that a formula takes a sine or cosine of, the inputs and the
-//! coordinates whose number matters, the determinants, and the values of the user's functions.
+//! coordinates whose number matters, the determinants, and the values of user functions.
 
 use std::collections::{BTreeMap, BTreeSet};
 

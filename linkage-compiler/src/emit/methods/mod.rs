@@ -250,7 +250,7 @@ impl<'a> Kernels<'a> {
         stages.into_iter().flat_map(with).collect()
     }
 
-    /// What is checked of results of which some are the user's own, in the order of the coordinates: the unknowns, and
+    /// The results to be checked where some are the user's own, in the order of the coordinates: the unknowns, and
     /// the inputs that are in no closure. Rates of unknowns are sums of multiples of the rates of the other inputs,
     /// so that they are not finite where those are not.
     fn checked(&self, results: &[Operand]) -> Vec<Operand> {

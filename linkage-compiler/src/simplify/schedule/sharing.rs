@@ -210,7 +210,7 @@ impl<'a> Sharing<'a> {
         };
         for place in of.iter() {
             let List { value, parts, .. } = &self.lists[place];
-            // A list that holds the shared value beside its parts keeps both.
+            // A list that holds the shared value and its parts keeps both.
             if *value != shared && parts.iter().all(|part| part.value != shared) {
                 self.replace(place, pair, shared, sign, pairs);
             }
