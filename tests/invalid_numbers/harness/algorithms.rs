@@ -291,11 +291,9 @@ pub fn scene<S, M, const U: usize, const V: usize, const N: usize, const C: usiz
     });
     let Some(mut simulation) = simulation else { return };
     t.fallible(s, "Simulation::loads", || simulation.loads());
-    if s.below(4) == 0 {
-        let between = |part: f64| time + part * (end - time);
-        let times = [between(0.25), between(0.5), between(1.0), s.number()];
-        t.each(s, "Simulation::at", || simulation.at(times).take(times.len()).collect());
-    }
+    let between = |part: f64| time + part * (end - time);
+    let times = [between(0.25), between(0.5), between(1.0), s.number()];
+    t.each(s, "Simulation::at", || simulation.at(times).take(times.len()).collect());
     for _ in 0..20 {
         match t.fallible(s, "Simulation::advance", || simulation.advance()) {
             Some(Some(_)) => {}
