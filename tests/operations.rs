@@ -6,7 +6,7 @@ mod source;
 
 use linkage::linkage;
 use linkage_compiler::derivation::{Derivation, Form};
-use linkage_compiler::simplify::schedule::{Given, Operations, Stage, schedule};
+use linkage_compiler::lower::{Given, Operations, Stage, schedule};
 
 include!("mechanisms/five_bar.rs");
 include!("mechanisms/norton_four_bar.rs");

@@ -2,17 +2,18 @@
 //!
 //! [`expand`] is the whole of it in one paragraph; the stages stand in this order, and none looks
 //! back at an earlier one's types but through the model:
-//! syntax, model, graph, derivation, structure, simplify, emit.
+//! syntax, model, graph, algebra, structure, derivation, lower, emit.
 
 // Formulas and counts are converted between integers and floats on purpose.
+pub mod algebra;
 pub mod budget;
 pub mod derivation;
 pub mod diagnostics;
 pub mod emit;
 pub mod graph;
+pub mod lower;
 pub mod model;
 mod places;
-pub mod simplify;
 pub mod structure;
 pub mod syntax;
 
@@ -23,8 +24,8 @@ use budget::Budget;
 use derivation::Derivation;
 use diagnostics::Diagnostics;
 use emit::Emitted;
+use lower::Operations;
 use model::Mechanism;
-use simplify::schedule::Operations;
 
 /// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
 ///

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use linkage_compiler::simplify::schedule::Operations;
+use linkage_compiler::lower::Operations;
 use proc_macro2::TokenStream;
 use syn::visit::Visit;
 

@@ -17,9 +17,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap;
 
 use super::{Block, Derivation, magnitude};
+use crate::algebra::{cramer, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::simplify::schedule::{ChordOf, Stage};
-use crate::simplify::{cramer, simplify};
+use crate::lower::{ChordOf, Stage};
 use crate::structure::Group;
 
 /// A vector of the plane.
@@ -389,10 +389,10 @@ impl Solver<'_> {
         let rest = self.at_zero(rows, &[s, t]);
         let right = self.negated(rest);
         let jacobian = [[along[0], other[0]], [along[1], other[1]]];
-        let whole = crate::simplify::determinant(self.graph, jacobian);
+        let whole = crate::algebra::determinant(self.graph, jacobian);
         let [along_s, along_t] = [&along, &other].map(|guide| [guide[0], guide[1]]);
         let numerators = [(right, along_t), (along_s, right)]
-            .map(|(one, two)| crate::simplify::determinant(self.graph, [[one[0], two[0]], [one[1], two[1]]]));
+            .map(|(one, two)| crate::algebra::determinant(self.graph, [[one[0], two[0]], [one[1], two[1]]]));
         let of_right = self.scale_without(&[s, t]);
         let scales = [&other, &along].map(|guide| {
             let scale = self.scale(guide);

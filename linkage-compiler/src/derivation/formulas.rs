@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use super::{Derivation, Quantity, Row};
+use crate::algebra::adjugate;
 use crate::graph::{Condition, NodeId};
-use crate::simplify::adjugate;
 
 /// 1 / det J of a block, and adj J by rows.
 pub type Inverse = (NodeId, Vec<Row>);

@@ -6,7 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::assembly::Assembly;
 use super::{Block, Derivation};
 use crate::graph::{Node, NodeId, Number, SymbolId};
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Derivation {
     /// Names what the groups before know, and then the unknowns.

@@ -9,10 +9,10 @@ use std::collections::BTreeSet;
 use rustc_hash::FxHashMap;
 
 use super::{Assembly, Derivation};
+use crate::algebra::equality::{Verdict, is_zero};
+use crate::algebra::simplify;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::simplify::equality::{Verdict, is_zero};
-use crate::simplify::schedule::Stage;
-use crate::simplify::simplify;
+use crate::lower::Stage;
 use crate::structure::Group;
 
 /// f(v) >= 0 where a block can be assembled.

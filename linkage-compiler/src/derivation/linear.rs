@@ -1,7 +1,7 @@
 //! Linear systems J x = r of one or two unknowns, by formula.
 
+use crate::algebra::factor;
 use crate::graph::{Graph, NodeId};
-use crate::simplify::factor;
 
 /// How the solution of two equations is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

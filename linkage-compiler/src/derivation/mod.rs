@@ -24,9 +24,9 @@ mod unreduced;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::algebra::{self, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::model::{Driver, Mechanism, Request};
-use crate::simplify::{self, simplify};
 use crate::structure::{self, Group, Method};
 pub use assembly::{Assembly, Choice, Chord};
 pub use check::{LARGEST, check, check_numbers, matrices};
@@ -233,7 +233,7 @@ fn block(graph: &mut Graph, jacobian: &[Row], unknowns: &[usize], block: structu
     let determinant = (method == Method::ClosedForm).then(|| {
         let value = match places.len() {
             1 => entry(0, 0),
-            _ => simplify::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
+            _ => algebra::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
         };
         let size = magnitude::of_determinant(graph, value);
         Determinant { value, symbol: SymbolId::NONE, size }

@@ -2,8 +2,8 @@
 //! before it, which keep their names.
 
 use super::{Coordinate, Derivation, Row};
+use crate::algebra::{cramer, factor};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
-use crate::simplify::{cramer, factor};
 
 /// Names for W, by input and unknown.
 pub(super) fn names(

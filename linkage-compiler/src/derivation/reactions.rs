@@ -6,8 +6,8 @@
 
 use super::{Derivation, Form, along_rates, solve_closed};
 use crate::graph::{Function, NodeId, Number, SymbolId};
+use crate::lower::Stage;
 use crate::model::{self, Mechanism};
-use crate::simplify::schedule::Stage;
 
 /// The system of the reactions.
 #[derive(Debug, Clone)]

@@ -13,9 +13,9 @@ use super::equilibrium::Equilibrium;
 use super::reactions::Reactions;
 use super::unreduced::Unreduced;
 use super::{Derivation, Places, Row, along_rates, angles, jacobian};
+use crate::algebra::{gather, simplify};
 use crate::graph::{Function, Node, NodeId, Number, SymbolId};
 use crate::model::{self, Account, Driver, Mechanism, Wish};
-use crate::simplify::{gather, simplify};
 
 /// What is derived for one scene, in terms of q, q', W and t.
 #[derive(Debug, Clone)]

@@ -2,7 +2,7 @@
 
 use super::{Block, Derivation, Form, Row, solve_closed};
 use crate::graph::{NodeId, SymbolId};
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Derivation {
     /// Stages that solve J x = right for each right side and name the solutions, block by block, each

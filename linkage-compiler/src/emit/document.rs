@@ -8,8 +8,8 @@ use super::names::string;
 use super::tokens::Tokens;
 use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
 use crate::graph::{Condition, Name, NodeId, Printer, SymbolId};
+use crate::lower::Operations;
 use crate::model::{self, Driver, Mechanism};
-use crate::simplify::schedule::Operations;
 
 /// The constant, in a scope of its own for the names that it uses.
 pub(super) fn constant(

@@ -8,7 +8,7 @@ use quote::quote;
 use super::names::Names;
 use super::tokens::Tokens;
 use crate::graph::{Function, Number};
-use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
+use crate::lower::{Schedule, Signed, Value, ValueId};
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {

@@ -13,7 +13,7 @@ use super::pose::PosePlan;
 use super::tokens::Tokens;
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
-use crate::simplify::schedule::{self, ChordOf, Line, Operations, Schedule, Signed, Stage, Value, ValueId};
+use crate::lower::{self, ChordOf, Line, Operations, Schedule, Signed, Stage, Value, ValueId};
 
 /// Where the symbols of a kernel come from: each source is a pattern that is written if any of its
 /// fields is used.
@@ -97,9 +97,9 @@ pub(super) fn write(
     named: &[(NodeId, String)],
     scope: &Rc<Scope>,
 ) -> Code {
-    let nothing = schedule::Given::default();
+    let nothing = lower::Given::default();
     let at_hand = given.pose.map_or(&nothing, |plan| &plan.given);
-    let schedule = schedule::schedule(&derivation.graph, stages, at_hand, named);
+    let schedule = lower::schedule(&derivation.graph, stages, at_hand, named);
     let mut used = Vec::new();
     for &id in schedule.used() {
         if let Value::Symbol(symbol) = schedule.value(id) {

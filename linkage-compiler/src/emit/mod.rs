@@ -15,8 +15,8 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::derivation::Derivation;
+use crate::lower::Operations;
 use crate::model::{Driver, Mechanism};
-use crate::simplify::schedule::Operations;
 
 /// The names of the types of one driver of a mechanism.
 struct Types {

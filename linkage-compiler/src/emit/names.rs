@@ -8,8 +8,8 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use rustc_hash::FxHashMap;
 
 use crate::graph::{ExternalId, Graph, Number, SymbolId};
+use crate::lower::{Schedule, Signed, Value, ValueId};
 use crate::places::{Hash, Places};
-use crate::simplify::schedule::{Schedule, Signed, Value, ValueId};
 
 /// The functions of the runtime that emitted code calls, in alphabetical order.
 pub(super) const RUNTIME_FUNCTIONS: [&str; 27] = [

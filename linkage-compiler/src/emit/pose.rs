@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::derivation::{ContactFormula, Derivation, Row};
 use crate::graph::{Function, Node, NodeId, SymbolId, Texts};
-use crate::simplify::schedule::Given;
+use crate::lower::Given;
 
 use super::names::{Taken, angle_name};
 

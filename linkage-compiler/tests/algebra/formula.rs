@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::iter::Peekable;
 use std::str::Chars;
 
+use linkage_compiler::algebra::equality::{Verdict, compare};
 use linkage_compiler::graph::{Function, Graph, NodeId, Number, SymbolId};
-use linkage_compiler::simplify::equality::{Verdict, compare};
 
 /// A graph with names.
 #[derive(Default)]

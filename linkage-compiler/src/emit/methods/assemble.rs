@@ -12,7 +12,7 @@ use super::branch::Branches;
 use super::{Arguments, Body, Kernels, Methods, argument_of, bind, check_finite, lines, pose_members};
 use crate::derivation::Assembly;
 use crate::graph::{Function, NodeId, SymbolId};
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     pub(super) fn assemble(&mut self, kernels: Option<&mut Kernels>) {

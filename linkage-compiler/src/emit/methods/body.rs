@@ -11,7 +11,7 @@ use super::super::names::{Taken, ident, string};
 use super::super::pose::PosePlan;
 use super::super::tokens::Tokens;
 use crate::graph::ExternalId;
-use crate::simplify::schedule::Operations;
+use crate::lower::Operations;
 
 /// The body of a function.
 pub(super) struct Body {

@@ -11,7 +11,7 @@ use super::super::types;
 use super::{Body, Kernels, Methods, argument_of, lines};
 use crate::derivation::{Assembly, Choice, Chord};
 use crate::graph::SymbolId;
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 /// The members of a branch.
 pub(in crate::emit) struct Branches {

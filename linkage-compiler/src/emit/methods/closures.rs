@@ -11,7 +11,7 @@ use super::super::types::field;
 use super::{Body, Kernels, Methods, argument_of, columns_of, fenced, literal, without_result};
 use crate::derivation::{Derivation, Row};
 use crate::graph::NodeId;
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     pub(super) fn matrix_function(

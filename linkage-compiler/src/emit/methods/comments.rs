@@ -1,6 +1,6 @@
 //! The lines of doc comments.
 
-use crate::simplify::schedule::Operations;
+use crate::lower::Operations;
 
 pub(super) fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
     lines.map(str::to_owned).to_vec()

@@ -10,7 +10,7 @@ use super::scene::{Parts, Setting};
 use super::{Body, Methods, argument_of, bind, columns_of, fenced, lines, literal};
 use crate::derivation::ContactFormula;
 use crate::graph::NodeId;
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     /// Each friction and stop with its scalar, the derivatives of that, and its numbers.

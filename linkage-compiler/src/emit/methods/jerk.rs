@@ -4,7 +4,7 @@ use quote::quote;
 
 use super::{Body, Kernels, Methods, argument_of, check_finite, fenced, lines};
 use crate::derivation::Form;
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     pub(super) fn jerk(&mut self, kernels: Option<&mut Kernels>) {

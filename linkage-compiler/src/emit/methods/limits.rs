@@ -7,8 +7,8 @@ use super::super::tokens::Tokens;
 use super::super::types::field;
 use super::{Body, Kernels, Methods, argument_of, lines};
 use crate::derivation::Assembly;
+use crate::lower::Stage;
 use crate::model::Kind;
-use crate::simplify::schedule::Stage;
 
 impl Methods<'_> {
     /// `limits`, or of several inputs one function each.

@@ -7,7 +7,7 @@ use super::super::kernel::Operand;
 use super::super::{Types, kernel};
 use super::{Arguments, Body, Kernels, Methods, argument_of, check_finite, in_parts, lines};
 use crate::derivation::{Form, Quantity};
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     pub(super) fn motion(&mut self, kernels: Option<&mut Kernels>) {

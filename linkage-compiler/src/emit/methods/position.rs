@@ -5,7 +5,7 @@ use quote::quote;
 use super::super::kernel;
 use super::{Arguments, Body, Kernels, Methods, argument_of, pose_members, without_result};
 use crate::graph::{Function, NodeId, SymbolId};
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     pub(super) fn position(&mut self, kernels: Option<&mut Kernels>) {

@@ -12,8 +12,8 @@ use super::super::types::field;
 use super::{Body, Family, Kernels, Methods, argument_of, fenced, in_parts, lines};
 use crate::derivation::{Formulas, Quantity};
 use crate::graph::NodeId;
+use crate::lower::Stage;
 use crate::model::Request;
-use crate::simplify::schedule::Stage;
 
 /// The points or the outputs: what they are called and what holds them.
 pub(super) struct Members {

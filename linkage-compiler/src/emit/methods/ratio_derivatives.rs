@@ -9,7 +9,7 @@ use super::quantities::Members;
 use super::{Body, Family, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines, literal};
 use crate::derivation::{Form, Formulas};
 use crate::graph::NodeId;
-use crate::simplify::schedule::{Stage, needed};
+use crate::lower::{Stage, needed};
 
 impl Kernels<'_> {
     /// Stages that name W and L, and L by pair of inputs and unknown.

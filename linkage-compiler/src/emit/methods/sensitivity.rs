@@ -10,10 +10,10 @@ use super::super::names::ident;
 use super::closures::matrix_of;
 use super::quantities::Members;
 use super::{Body, Family, Kernels, Methods, argument_of, fenced, lines, literal};
+use crate::algebra::simplify;
 use crate::derivation::{Form, Formulas};
 use crate::graph::{NodeId, SymbolId};
-use crate::simplify::schedule::{Stage, needed};
-use crate::simplify::simplify;
+use crate::lower::{Stage, needed};
 
 const ERRORS: [&str; 3] =
     ["", "# Errors", "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value."];

@@ -9,7 +9,7 @@ use super::super::tokens::Tokens;
 use super::closures::matrix_of;
 use super::scene::{Parts, Setting};
 use super::{Body, Methods, argument_of, bind, check_finite, lines, literal};
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     pub(super) fn unreduced(&mut self, place: &Setting, parts: Parts) {

@@ -10,7 +10,7 @@ use super::super::tokens::Tokens;
 use super::{Body, Kernels, Methods, argument_of, bind, check_finite, columns_of, fenced, lines};
 use crate::derivation::{Form, Formulas};
 use crate::graph::SymbolId;
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     pub(super) fn velocity(&mut self, mut kernels: Option<&mut Kernels>, formulas: Option<&Formulas>) {

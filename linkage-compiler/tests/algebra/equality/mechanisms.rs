@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use linkage_compiler::algebra::determinant;
+use linkage_compiler::algebra::equality::{Verdict, compare, is_zero};
 use linkage_compiler::graph::{NodeId, Number, SymbolId};
-use linkage_compiler::simplify::determinant;
-use linkage_compiler::simplify::equality::{Verdict, compare, is_zero};
 
 use crate::formula::Formulas;
 

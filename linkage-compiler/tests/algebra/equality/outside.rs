@@ -1,7 +1,7 @@
 //! What is not decided, and what is in spite of functions outside the class.
 
+use linkage_compiler::algebra::equality::{MOST_TERMS, Reason, Verdict, compare, is_zero};
 use linkage_compiler::graph::{External, Number};
-use linkage_compiler::simplify::equality::{MOST_TERMS, Reason, Verdict, compare, is_zero};
 
 use crate::formula::Formulas;
 

@@ -3,8 +3,8 @@
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
+use linkage_compiler::algebra::equality::{Verdict, compare};
 use linkage_compiler::graph::{Function, NodeId, Number};
-use linkage_compiler::simplify::equality::{Verdict, compare};
 
 use crate::formula::Formulas;
 

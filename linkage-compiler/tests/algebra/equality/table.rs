@@ -1,6 +1,6 @@
 //! A table of trigonometry.
 
-use linkage_compiler::simplify::equality::Verdict;
+use linkage_compiler::algebra::equality::Verdict;
 
 use crate::formula::Formulas;
 

@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
+use linkage_compiler::algebra::equality::{Verdict, compare};
+use linkage_compiler::algebra::simplify;
 use linkage_compiler::graph::{Condition, Function, Graph, Node, NodeId, Number, SymbolId};
-use linkage_compiler::simplify::equality::{Verdict, compare};
-use linkage_compiler::simplify::simplify;
 
 const CASES: usize = 1500;
 const SYMBOLS: usize = 4;

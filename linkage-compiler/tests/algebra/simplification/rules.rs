@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use linkage_compiler::algebra::equality::{Reason, Verdict, compare};
+use linkage_compiler::algebra::simplify;
 use linkage_compiler::graph::{Condition, NodeId};
-use linkage_compiler::simplify::equality::{Reason, Verdict, compare};
-use linkage_compiler::simplify::simplify;
 
 use crate::formula::Formulas;
 

@@ -7,7 +7,7 @@ use super::super::{Body, Methods, argument_of, bind, lines, literal, without_res
 use super::{ERRORS, Parts, Setting};
 use crate::derivation::Prescribed;
 use crate::emit::kernel::Operand;
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     /// The laws of the driven inputs with their derivatives.

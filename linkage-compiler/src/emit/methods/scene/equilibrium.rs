@@ -7,7 +7,7 @@ use super::super::{Body, Methods, argument_of, bind, check_finite, lines, litera
 use super::{Parts, Setting};
 use crate::derivation::Form;
 use crate::graph::NodeId;
-use crate::simplify::schedule::{Stage, needed};
+use crate::lower::{Stage, needed};
 
 impl Methods<'_> {
     /// The forces at rest with their derivatives, and where they vanish.

@@ -24,8 +24,8 @@ use super::super::{Emitted, Types, document};
 use super::{Body, Kernels, Methods, argument_of, check_finite};
 use crate::derivation::{Derivation, Form, Scene};
 use crate::graph::{NodeId, Number, SymbolId};
+use crate::lower::{Operations, Stage, needed};
 use crate::model::{self, Driver, Mechanism, Wish};
-use crate::simplify::schedule::{Operations, Stage, needed};
 
 const ERRORS: [&str; 4] = [
     "",

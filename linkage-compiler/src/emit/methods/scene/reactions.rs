@@ -8,7 +8,7 @@ use super::{ERRORS, Parts, Setting};
 use crate::emit::kernel::Source;
 use crate::emit::names::ident;
 use crate::emit::tokens::Tokens;
-use crate::simplify::schedule::Stage;
+use crate::lower::Stage;
 
 impl Methods<'_> {
     pub(super) fn reactions(&mut self, place: &Setting, parts: Parts) {

@@ -7,7 +7,7 @@ use super::{Parts, Setting};
 use crate::derivation::ContactFormula;
 use crate::emit::names::string;
 use crate::graph::NodeId;
-use crate::simplify::schedule::{Operations, Stage};
+use crate::lower::{Operations, Stage};
 
 impl Methods<'_> {
     pub(super) fn check(&mut self, place: &Setting, parts: Parts) {

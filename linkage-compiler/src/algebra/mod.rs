@@ -1,5 +1,4 @@
-//! Equal but better: identities that make a formula shorter or more accurate, and the schedule that
-//! turns shared nodes into straight-line steps.
+//! Identities that make a formula shorter or more accurate, and the cost that chooses among them.
 //!
 //! The families of identities stand in files of their own: `rational`, `trigonometric`,
 //! `modulus`, `determinant`. Each offers other forms of an expression; [`cost()`] chooses among them, and
@@ -11,7 +10,6 @@ mod determinant;
 pub mod equality;
 mod modulus;
 mod rational;
-pub mod schedule;
 mod trigonometric;
 
 use std::collections::BTreeSet;

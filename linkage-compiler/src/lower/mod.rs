@@ -1,4 +1,4 @@
-//! From shared nodes to straight-line steps: every subexpression once, every sum or product of two
+//! Lowering: from shared nodes to straight-line code, every subexpression once, every sum or product of two
 //! parts that several have in common once, one sine-cosine pair an angle.
 
 mod needed;
