@@ -16,7 +16,7 @@ use std::time::Instant;
 use linkage::contact::{Contacts, ReducedEquations};
 use linkage::nalgebra::SVector;
 use linkage::{Error, Mode, Scene, linkage};
-use linkage_compiler::lower::Operations;
+use linkage_compiler::program::Operations;
 use work::{Work, work};
 
 include!("../tests/mechanisms/four_bar_effects.rs");

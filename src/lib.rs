@@ -66,21 +66,14 @@ macro_rules! linkage {
     };
 }
 
-/// What emitted code refers to; not part of the interface.
+/// The macro behind [`linkage!`]; not part of the interface.
 #[doc(hidden)]
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod __private {
     pub use linkage_macros::linkage;
-    pub use linkage_runtime::nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
-    pub use linkage_runtime::{
-        __coordinates, __derivation, __mechanism, __parameters, __part_of_coordinates, __quantities, __scene_derivation,
-    };
-    pub use linkage_runtime::{
-        Along, Assembly, Balance, Bound, Contact, ContactLaw, Elbow, Energy, Equations, Error, Factorization, Group,
-        Limits, Mechanism, NearestTurns, OutputMotion, PointMotion, Power, Real, Scene, Search, Slider, Slope,
-        Solution, Turn, Turns, Unreduced, chord, countable, elbow_chord, equilibrium, existing, finite, finite_each,
-        finite_matrices, finite_matrix, finite_outputs, finite_points, limits, newton, newton_group, not_negative,
-        output_motions, point_motions, product_of_pivots, reach_chord, real, reduced, regular, side_of, solvable,
-        sound, stops, unit,
-    };
+    pub use linkage_runtime::{__derivation, __scene_derivation};
 }
+
+#[doc(hidden)]
+#[cfg(any(feature = "std", feature = "libm"))]
+pub use linkage_runtime::__rt;

@@ -6,7 +6,7 @@ mod work;
 
 use std::collections::BTreeSet;
 
-use linkage_compiler::lower::Operations;
+use linkage_compiler::program::Operations;
 use work::{Work, work};
 
 const SCENES: [&str; 13] = [

@@ -5,8 +5,9 @@ mod families;
 mod source;
 
 use linkage::linkage;
-use linkage_compiler::derivation::{Derivation, Form};
-use linkage_compiler::lower::{Given, Operations, Stage, schedule};
+use linkage_compiler::derivation::{Derivation, Form, Step};
+use linkage_compiler::lower::schedule;
+use linkage_compiler::program::{Given, Operations};
 
 include!("mechanisms/five_bar.rs");
 include!("mechanisms/norton_four_bar.rs");
@@ -26,10 +27,10 @@ fn velocity_and_acceleration_in_products(file: &str) -> Operations {
         accelerations.push(d.coordinates[unknown].acceleration);
     }
     let (velocity, acceleration) = (d.velocity_side(), d.acceleration_side());
-    let mut stages = Vec::new();
-    for stage in d.solution(&[(velocity, rates.clone()), (acceleration, accelerations.clone())], Form::Entries) {
-        let Stage::Guard { block, .. } = stage else {
-            stages.push(stage);
+    let mut steps = Vec::new();
+    for step in d.solution(&[(velocity, rates.clone()), (acceleration, accelerations.clone())], Form::Entries) {
+        let Step::Guard { block, .. } = step else {
+            steps.push(step);
             continue;
         };
         let block = d.blocks[block].clone();
@@ -37,11 +38,11 @@ fn velocity_and_acceleration_in_products(file: &str) -> Operations {
         let [[a, b], [c, e]] = [[matrix[0][0], matrix[0][1]], [matrix[1][0], matrix[1][1]]];
         let (ae, bc) = (d.graph.multiply(a, e), d.graph.multiply(b, c));
         let node = d.graph.subtract(ae, bc);
-        stages.push(Stage::Let { symbol: block.determinant.unwrap().symbol, node });
+        steps.push(Step::Let { symbol: block.determinant.unwrap().symbol, node });
     }
-    let results = rates.into_iter().chain(accelerations).map(|symbol| d.graph.variable(symbol)).collect();
-    stages.push(Stage::Return(results));
-    schedule(&d.graph, &stages, &Given::default(), &[]).operations()
+    let results = rates.into_iter().chain(accelerations).map(|symbol| d.graph.variable(symbol));
+    let results: Vec<_> = results.collect();
+    schedule(&d.graph, &steps, &results, &Given::default(), &[]).operations()
 }
 
 /// Of the generators measured on the same four-bar CasADi emits 38 / 11 / 4, SymPy's `cse` 41 / 11 / 1,

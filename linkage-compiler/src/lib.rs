@@ -2,7 +2,7 @@
 //!
 //! [`expand`] is the whole of it in one paragraph; the stages stand in this order, and none looks
 //! back at an earlier one's types but through the model:
-//! syntax, model, graph, algebra, structure, derivation, lower, emit.
+//! syntax, model, graph, algebra, structure, derivation, program, lower, emit.
 
 // Formulas and counts are converted between integers and floats on purpose.
 pub mod algebra;
@@ -14,6 +14,7 @@ pub mod graph;
 pub mod lower;
 pub mod model;
 mod places;
+pub mod program;
 pub mod structure;
 pub mod syntax;
 
@@ -23,8 +24,7 @@ use quote::quote;
 use budget::Budget;
 use derivation::Derivation;
 use diagnostics::Diagnostics;
-use emit::Emitted;
-use lower::Operations;
+use program::Operations;
 use model::Mechanism;
 
 /// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
@@ -56,8 +56,7 @@ pub fn expand_within(input: TokenStream, root: &TokenStream, budget: &Budget) ->
     let mut tokens = TokenStream::new();
     if diagnostics.is_empty() {
         for mechanism in &mechanisms {
-            let Emitted { tokens: emitted, .. } = checked(mechanism, budget, root, &mut diagnostics);
-            tokens.extend(emitted);
+            tokens.extend(printed(mechanism, budget, root, &mut diagnostics));
             if budget.is_spent() {
                 break;
             }
@@ -72,22 +71,25 @@ pub fn expand_within(input: TokenStream, root: &TokenStream, budget: &Budget) ->
     tokens
 }
 
-/// Derives a mechanism, reports what only its derivatives tell, and emits it; one driver after the other, so that
-/// only one of them is held.
-fn checked(mechanism: &Mechanism, budget: &Budget, root: &TokenStream, diagnostics: &mut Diagnostics) -> Emitted {
-    let mut drivers = Emitted::default();
+/// Derives a mechanism, reports what only its derivatives tell, and prints its program; one driver after the other, so
+/// that only one of them is held.
+fn printed(
+    mechanism: &Mechanism,
+    budget: &Budget,
+    root: &TokenStream,
+    diagnostics: &mut Diagnostics,
+) -> TokenStream {
+    let mut drivers = Vec::new();
     for driver in &mechanism.drivers {
         let before = diagnostics.len();
-        let affordable = budget.spend(derivation::matrices(mechanism, driver));
-        let derivation = affordable.then(|| derivation::derive(mechanism, driver));
-        if let Some(mut derivation) = derivation
-            && !budget.is_spent()
-            && derivation::check(mechanism, driver, &mut derivation, diagnostics)
-        {
-            let emitted = emit::driver(mechanism, driver, Some(&mut derivation), root);
-            derivation::check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
-            drivers.tokens.extend(emitted.tokens);
-            drivers.operations = drivers.operations.plus(emitted.operations);
+        if budget.spend(derivation::matrices(mechanism, driver)) {
+            let mut derivation = derivation::derive(mechanism, driver);
+            if !budget.is_spent() && derivation::check(mechanism, driver, &mut derivation, diagnostics) {
+                let planned = program::plan(mechanism, driver, &mut derivation);
+                let lowered = lower::program(planned, &derivation);
+                drivers.push(emit::driver(&lowered, Some(&derivation), root));
+                derivation::check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
+            }
         }
         if budget.is_spent() {
             diagnostics.truncate(before);
@@ -120,15 +122,14 @@ pub struct Expansion {
 /// Derives and emits a checked mechanism; `root` is the path of the `linkage` crate.
 #[must_use]
 pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Expansion {
-    let (mut nodes, mut drivers) = (0, Emitted::default());
+    let (mut nodes, mut operations, mut drivers) = (0, Operations::default(), Vec::new());
     for (driver, mut derivation) in mechanism.drivers.iter().zip(derive(mechanism)) {
-        let emitted = emit::driver(mechanism, driver, Some(&mut derivation), root);
+        let lowered = lower::program(program::plan(mechanism, driver, &mut derivation), &derivation);
         nodes += derivation.graph.len();
-        drivers.tokens.extend(emitted.tokens);
-        drivers.operations = drivers.operations.plus(emitted.operations);
+        operations = operations.plus(emit::operations(&lowered));
+        drivers.push(emit::driver(&lowered, Some(&derivation), root));
     }
-    let Emitted { tokens, operations } = emit::mechanism(mechanism, drivers, root);
-    Expansion { tokens, nodes, operations }
+    Expansion { tokens: emit::mechanism(mechanism, drivers, root), nodes, operations }
 }
 
 /// The derivations of a checked mechanism, one for each driver.

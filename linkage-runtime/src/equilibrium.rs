@@ -5,7 +5,7 @@ use nalgebra::{Const, DimMin, SMatrix, SVector};
 use crate::error::all_finite;
 use crate::newton::{Closures, search};
 use crate::position::beside_columns;
-use crate::{Error, Factorization, Real, product_of_pivots, real};
+use crate::{Error, Factorization, Real, Solution, product_of_pivots, real};
 
 /// Positions close to rounding only, and forces are no better than positions: a sum of forces is zero beside this
 /// many times the sum of their magnitudes.
@@ -50,6 +50,14 @@ where
     let sizes = SVector::from(sizes) * real::<T>(COARSER);
     let (found, _) = search(&Forces { scene, sizes, evaluate: &evaluate }, SVector::from(start))?;
     found.point.map(|(q, ..)| q)
+}
+
+/// The coordinates of a position that is on the branch of its guess.
+///
+/// # Errors
+/// [`Error::OtherBranch`] if it is not.
+pub fn on_branch<Q>(scene: &'static str, found: Solution<Q>) -> Result<Q, Error> {
+    if found.same_branch { Ok(found.coordinates) } else { Err(Error::OtherBranch { mechanism: scene, group: "a loop" }) }
 }
 
 struct Forces<'a, T, F, const N: usize> {

@@ -20,6 +20,8 @@
 #![cfg(any(feature = "std", feature = "libm"))]
 #![warn(missing_docs)]
 
+#[doc(hidden)]
+pub mod __rt;
 pub mod accuracy;
 mod branch;
 pub mod contact;
@@ -48,21 +50,17 @@ mod sine;
 pub mod singularity;
 mod turn;
 
-pub use branch::{Elbow, Side, Slider, Slope, chord, elbow_chord, existing, reach_chord, side_of, solvable};
-pub use contact::{Along, Contact, ContactLaw, Mode, sound, stops};
+pub use branch::{Elbow, Side, Slider, Slope};
+pub use contact::{Along, Contact, ContactLaw, Mode};
 pub use equations::Equations;
-pub use equilibrium::{Balance, equilibrium};
-pub use error::{Error, finite, finite_matrix};
-pub use inertia::reduced;
-pub use limits::{Bound, Limits, Search, limits};
-use linear::same_signs;
-pub use linear::{Factorization, product_of_pivots, regular};
+pub use equilibrium::Balance;
+pub use error::Error;
+pub use limits::Limits;
+use error::finite;
+use linear::{Factorization, product_of_pivots, same_signs};
 pub use mechanism::{Assembly, Group, Mechanism};
-pub use motion::{
-    OutputMotion, PointMotion, finite_matrices, finite_outputs, finite_points, output_motions, point_motions,
-};
+pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
-pub use position::{Solution, newton, newton_group};
-pub use scalar::{Real, real, unit};
-pub use scene::{Coordinates, Energy, Inputs, Power, Scene, Unreduced, finite_each, not_negative};
-pub use turn::{NearestTurns, Turn, Turns, countable};
+pub use position::{Solution, newton};
+pub use scalar::{Real, real};
+pub use scene::{Coordinates, Energy, Inputs, Power, Scene, Unreduced};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use linkage_compiler::lower::Operations;
+use linkage_compiler::program::Operations;
 use proc_macro2::TokenStream;
 use syn::visit::Visit;
 

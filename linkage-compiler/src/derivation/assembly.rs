@@ -19,16 +19,16 @@ use rustc_hash::FxHashMap;
 use super::{Block, Derivation, magnitude};
 use crate::algebra::{cramer, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::lower::{ChordOf, Stage};
+use super::step::{ChordOf, Step};
 use crate::structure::Group;
 
 /// A vector of the plane.
 type Vector = [NodeId; 2];
 
-/// The stages that solve every group, and what they leave.
+/// The steps that solve every group, and what they leave.
 #[derive(Debug, Clone, Default)]
 pub struct Assembly {
-    pub stages: Vec<Stage>,
+    pub steps: Vec<Step>,
     /// The determinants of the blocks that have a formula.
     pub determinants: BTreeMap<usize, NodeId>,
     /// The blocks that have two solutions.
@@ -202,7 +202,7 @@ impl Derivation {
             }
             let Some(determinant) = block.determinant else { continue };
             let node = closed.unwrap_or_else(|| assembly.solved(&mut self.graph, &[determinant.value])[0]);
-            assembly.stages.push(Stage::Let { symbol: determinant.symbol, node });
+            assembly.steps.push(Step::Let { symbol: determinant.symbol, node });
             assembly.determinants.insert(number, self.graph.variable(determinant.symbol));
         }
         assembly
@@ -251,7 +251,7 @@ struct Solver<'a> {
 
 impl Solver<'_> {
     fn name(&mut self, symbol: SymbolId, node: NodeId) -> NodeId {
-        self.assembly.stages.push(Stage::Let { symbol, node });
+        self.assembly.steps.push(Step::Let { symbol, node });
         self.graph.variable(symbol)
     }
 
@@ -303,14 +303,14 @@ impl Solver<'_> {
         let sine = self.fresh(&format!("sin_{name}"), sine);
         self.assembly.directions.insert(angle, [cosine, sine]);
         let principal = self.graph.call(Function::Atan2, &[sine, cosine]);
-        self.assembly.stages.push(Stage::Turn { symbol: angle, principal });
+        self.assembly.steps.push(Step::Turn { symbol: angle, principal });
     }
 
     /// The root of a product of two factors, with the sign of the branch; neither may be negative.
     fn chord(&mut self, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId>) -> NodeId {
         self.assembly.bounds.push((self.number, factors.to_vec()));
         let symbol = self.graph.symbol(format!("chord_{}", self.number + 1));
-        self.assembly.stages.push(Stage::Chord { block: self.number, symbol, factors, size, of });
+        self.assembly.steps.push(Step::Chord { block: self.number, symbol, factors, size, of });
         self.graph.variable(symbol)
     }
 
@@ -351,7 +351,7 @@ impl Solver<'_> {
     /// Refuses a determinant that vanishes, unless it is a number.
     fn solvable(&mut self, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId>) {
         if self.graph.constant_value(determinant).is_none() {
-            self.assembly.stages.push(Stage::Solvable { block: self.number, determinant, numerators, scales });
+            self.assembly.steps.push(Step::Solvable { block: self.number, determinant, numerators, scales });
         }
     }
 

@@ -6,7 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::assembly::Assembly;
 use super::{Block, Derivation};
 use crate::graph::{Node, NodeId, Number, SymbolId};
-use crate::lower::Stage;
+use super::step::Step;
 
 impl Derivation {
     /// Names what the groups before know, and then the unknowns.
@@ -20,7 +20,7 @@ impl Derivation {
         let system = assembly.solved(&mut self.graph, &system);
         let mut split = Split::new(self, &targets, &system);
         let system = split.changing(&system);
-        assembly.stages.append(&mut split.stages);
+        assembly.steps.append(&mut split.steps);
         let known = self.graph.symbols_of(&system).into_iter().filter(|symbol| !targets.contains(symbol));
         let known: Vec<SymbolId> = known.collect();
         let known = known.into_iter().map(|symbol| self.graph.variable(symbol)).collect();
@@ -31,7 +31,7 @@ impl Derivation {
         let guesses: Vec<(usize, SymbolId)> = guesses.collect();
         let start = guesses.iter().map(|&(_, symbol)| self.graph.variable(symbol)).collect();
         assembly.guesses.extend(guesses);
-        assembly.stages.push(Stage::Newton { block: number, targets, start, known, system });
+        assembly.steps.push(Step::Newton { block: number, targets, start, known, system });
     }
 }
 
@@ -42,7 +42,7 @@ struct Split<'a> {
     holding: FxHashSet<NodeId>,
     /// The names of what does not change.
     names: FxHashMap<NodeId, NodeId>,
-    stages: Vec<Stage>,
+    steps: Vec<Step>,
 }
 
 impl<'a> Split<'a> {
@@ -55,7 +55,7 @@ impl<'a> Split<'a> {
                 holding.insert(id);
             }
         }
-        Self { derivation, holding, names: FxHashMap::default(), stages: Vec::new() }
+        Self { derivation, holding, names: FxHashMap::default(), steps: Vec::new() }
     }
 
     /// The same expressions with names in place of what does not change.
@@ -126,7 +126,7 @@ impl<'a> Split<'a> {
         }
         let symbol = graph.symbol(format!("known_{}", self.names.len() + 1));
         let name = graph.variable(symbol);
-        self.stages.push(Stage::Let { symbol, node: id });
+        self.steps.push(Step::Let { symbol, node: id });
         self.names.insert(id, name);
         name
     }

@@ -12,7 +12,7 @@ use super::{Assembly, Derivation};
 use crate::algebra::equality::{Verdict, is_zero};
 use crate::algebra::simplify;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::lower::Stage;
+use super::step::Step;
 use crate::structure::Group;
 
 /// f(v) >= 0 where a block can be assembled.
@@ -28,12 +28,12 @@ pub struct Bound {
 impl Derivation {
     /// The bounds on one input, by its place in q, and whether blocks are left that must be searched.
     pub fn bounds(&mut self, assembly: &Assembly, input: usize) -> (Vec<Bound>, bool) {
-        let mut is_searched = assembly.stages.iter().any(|stage| matches!(stage, Stage::Newton { .. }));
+        let mut is_searched = assembly.steps.iter().any(|step| matches!(step, Step::Newton { .. }));
         let formulas: FxHashMap<NodeId, NodeId> = assembly
-            .stages
+            .steps
             .iter()
-            .filter_map(|stage| match stage {
-                Stage::Let { symbol, node } => Some((self.graph.variable(*symbol), *node)),
+            .filter_map(|step| match step {
+                Step::Let { symbol, node } => Some((self.graph.variable(*symbol), *node)),
                 _ => None,
             })
             .collect();

@@ -20,6 +20,7 @@ mod reactions;
 mod scene;
 mod sensitivity;
 mod solution;
+mod step;
 mod unreduced;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,6 +40,7 @@ pub use ratio_derivatives::RatioDerivatives;
 pub use reactions::Reactions;
 pub use scene::{Prescribed, Scene};
 pub use sensitivity::Sensitivity;
+pub use step::{ChordOf, Step, needed, needed_names};
 
 /// The derivatives of one scalar by the coordinates, by their place in q; those not named are zero.
 pub type Row = BTreeMap<usize, NodeId>;

@@ -6,7 +6,7 @@
 
 use super::{Derivation, Form, along_rates, solve_closed};
 use crate::graph::{Function, NodeId, Number, SymbolId};
-use crate::lower::Stage;
+use super::step::Step;
 use crate::model::{self, Mechanism};
 
 /// The system of the reactions.
@@ -58,8 +58,8 @@ impl Derivation {
     }
 
     /// Stages that solve J' lambda = side, each block after the verdict on it.
-    pub fn transposed_solution(&mut self, reactions: &Reactions) -> Vec<Stage> {
-        let mut stages = Vec::new();
+    pub fn transposed_solution(&mut self, reactions: &Reactions) -> Vec<Step> {
+        let mut steps = Vec::new();
         let mut solved: Vec<(usize, NodeId)> = Vec::new();
         for number in (0..self.blocks.len()).rev() {
             let block = self.blocks[number].clone();
@@ -78,19 +78,19 @@ impl Derivation {
             }
             let targets: Vec<SymbolId> = block.equations.iter().map(|&equation| reactions.names[equation]).collect();
             if block.determinant.is_some() {
-                if let Some(divisor) = self.verdict(number, &block, &mut stages) {
+                if let Some(divisor) = self.verdict(number, &block, &mut steps) {
                     let values = solve_closed(&mut self.graph, &matrix, divisor, &right, Form::Entries);
                     let named = targets.iter().zip(values);
-                    stages.extend(named.map(|(&symbol, node)| Stage::Let { symbol, node }));
+                    steps.extend(named.map(|(&symbol, node)| Step::Let { symbol, node }));
                 }
             } else {
                 let sizes = matrix.iter().map(|row| self.size_of(row)).collect();
-                stages.push(Stage::Factor { block: number, matrix, sizes });
-                stages.push(Stage::Solve { block: number, targets: targets.clone(), right });
+                steps.push(Step::Factor { block: number, matrix, sizes });
+                steps.push(Step::Solve { block: number, targets: targets.clone(), right });
             }
             solved.extend(block.equations.iter().zip(targets).map(|(&at, name)| (at, self.graph.variable(name))));
         }
-        stages
+        steps
     }
 
     /// The sum of the magnitudes of a row.

@@ -1,25 +1,25 @@
-//! Linear systems in J as the stages of a kernel: the blocks in order, each by its own method.
+//! Linear systems in J as the steps of a kernel: the blocks in order, each by its own method.
 
 use super::{Block, Derivation, Form, Row, solve_closed};
 use crate::graph::{NodeId, SymbolId};
-use crate::lower::Stage;
+use super::step::Step;
 
 impl Derivation {
     /// Stages that solve J x = right for each right side and name the solutions, block by block, each
     /// after the verdict on it.
     ///
     /// A later system may refer to the solution of an earlier one: within a block they stand in order.
-    pub fn solution(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> Vec<Stage> {
+    pub fn solution(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> Vec<Step> {
         self.solve(systems, form).0
     }
 
-    /// The same stages, and each solution by unknown: its names, or zero where nothing moves.
-    pub fn solve(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> (Vec<Stage>, Vec<Vec<NodeId>>) {
-        let mut stages = Vec::new();
+    /// The same steps, and each solution by unknown: its names, or zero where nothing moves.
+    pub fn solve(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> (Vec<Step>, Vec<Vec<NodeId>>) {
+        let mut steps = Vec::new();
         let mut solved: Vec<Row> = vec![Row::new(); systems.len()];
         for number in 0..self.blocks.len() {
             let block = self.blocks[number].clone();
-            let divisor = self.verdict(number, &block, &mut stages);
+            let divisor = self.verdict(number, &block, &mut steps);
             let matrix = self.block_matrix(&block);
             for ((right, targets), solved) in systems.iter().zip(&mut solved) {
                 let right: Vec<NodeId> =
@@ -30,12 +30,12 @@ impl Derivation {
                     _ if right.iter().all(|&side| self.graph.is_zero(side)) => right,
                     Some(divisor) => solve_closed(&mut self.graph, &matrix, divisor, &right, form),
                     None => {
-                        stages.push(Stage::Solve { block: number, targets: targets.clone(), right });
+                        steps.push(Step::Solve { block: number, targets: targets.clone(), right });
                         Vec::new()
                     }
                 };
                 for ((symbol, node), name) in targets.into_iter().zip(formulas).zip(&mut solution) {
-                    stages.push(Stage::Let { symbol, node });
+                    steps.push(Step::Let { symbol, node });
                     // What does not move needs no name in what follows.
                     if self.graph.is_zero(node) {
                         *name = node;
@@ -47,14 +47,14 @@ impl Derivation {
         }
         let columns = &self.unknowns;
         let values = solved.iter().map(|solved| columns.iter().map(|column| solved[column]).collect());
-        (stages, values.collect())
+        (steps, values.collect())
     }
 
     /// The verdict on a block, and what its closed form divides by.
-    pub(super) fn verdict(&mut self, number: usize, block: &Block, stages: &mut Vec<Stage>) -> Option<NodeId> {
+    pub(super) fn verdict(&mut self, number: usize, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
         let Some(determinant) = block.determinant else {
             let sizes = block.equations.iter().map(|&equation| self.sizes[equation]).collect();
-            stages.push(Stage::Factor { block: number, matrix: self.block_matrix(block), sizes });
+            steps.push(Step::Factor { block: number, matrix: self.block_matrix(block), sizes });
             return None;
         };
         // A determinant that is a number other than zero needs no verdict.
@@ -62,7 +62,7 @@ impl Derivation {
             return Some(determinant.value);
         }
         let node = self.graph.variable(determinant.symbol);
-        stages.push(Stage::Guard { block: number, determinant: node, size: determinant.size });
+        steps.push(Step::Guard { block: number, determinant: node, size: determinant.size });
         Some(node)
     }
 

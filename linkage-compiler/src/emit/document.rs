@@ -8,7 +8,7 @@ use super::names::string;
 use super::tokens::Tokens;
 use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
 use crate::graph::{Condition, Name, NodeId, Printer, SymbolId};
-use crate::lower::Operations;
+use crate::program::Operations;
 use crate::model::{self, Driver, Mechanism};
 
 /// The constant, in a scope of its own for the names that it uses.

@@ -1,14 +1,13 @@
-//! Values of a schedule as Rust expressions.
+//! Expressions, patterns, statements and types of a program as Rust.
 
 use std::f64::consts::PI;
 
-use proc_macro2::{Delimiter, Literal, TokenStream, TokenTree};
-use quote::quote;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{ToTokens, quote};
 
-use super::names::Names;
-use super::tokens::Tokens;
-use crate::graph::{Function, Number};
-use crate::lower::{Schedule, Signed, Value, ValueId};
+use super::names::{ident, string};
+use crate::graph::Number;
+use crate::program::{Expression, Pattern, Statement, Type};
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
@@ -18,151 +17,273 @@ enum Binding {
     Atom,
 }
 
-/// A value, by its name if it has one.
-pub(super) fn signed(names: &Names, schedule: &Schedule, value: Signed) -> Tokens {
-    let mut tokens = Tokens::default();
-    write(&mut tokens, names, schedule, value);
-    tokens
-}
-
-/// Writes a value, by its name if it has one.
-pub(super) fn write(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: Signed) {
-    operand(tokens, names, schedule, value, Binding::Sum);
-}
-
-/// Writes how a value is computed, even if it has a name.
-pub(super) fn define(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: ValueId) {
-    compute(tokens, names, schedule, value);
-}
-
-fn operand(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: Signed, at_least: Binding) {
-    let name = names.get(schedule, value.value);
-    let definition = schedule.value(value.value);
-    // -(a - b) is b - a.
-    let flipped = match definition {
-        Value::Sum(terms) if value.negative && name.is_none() && terms.iter().any(|term| term.negative) => Some(terms),
-        _ => None,
-    };
-    let inner = if name.is_some() { Binding::Atom } else { binding(names, schedule, value.value) };
-    let zero = matches!(definition, Value::Constant(number) if number.is_zero());
-    let negative = value.negative && !zero && flipped.is_none();
-    // -a * b is (-a) * b: a minus binds tighter than a product and costs the same.
-    let bracketed = negative && inner < Binding::Product;
-    let outer = match (negative, bracketed) {
-        (false, _) => inner,
-        (true, true) => Binding::Prefix,
-        (true, false) => inner.min(Binding::Prefix),
-    };
-    let inside = |tokens: &mut Tokens| match (name, flipped) {
-        (Some(name), _) => tokens.ident(&name.ident),
-        (None, Some(terms)) => {
-            let flip = |term: &Signed| Signed { negative: !term.negative, value: term.value };
-            let mut terms: Vec<Signed> = terms.iter().map(flip).collect();
-            terms.sort_by_key(|term| term.negative);
-            sum(tokens, names, schedule, &terms);
-        }
-        (None, None) => compute(tokens, names, schedule, value.value),
-    };
-    // Most operands stand without brackets.
-    if outer >= at_least && !bracketed {
-        if negative {
-            tokens.punct('-');
-        }
-        inside(tokens);
-        return;
-    }
-    within(tokens, outer < at_least, |tokens| {
-        if negative {
-            tokens.punct('-');
-        }
-        within(tokens, bracketed, inside);
-    });
-}
-
-/// Writes in brackets, or without.
-fn within(tokens: &mut Tokens, brackets: bool, write: impl FnOnce(&mut Tokens)) {
-    if brackets {
-        let mut inside = Tokens::default();
-        write(&mut inside);
-        tokens.group(Delimiter::Parenthesis, inside);
-    } else {
-        write(tokens);
+impl ToTokens for Expression {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        written(self).to_tokens(tokens);
     }
 }
 
-fn sum(tokens: &mut Tokens, names: &Names, schedule: &Schedule, terms: &[Signed]) {
-    operand(tokens, names, schedule, terms[0], Binding::Sum);
-    for term in &terms[1..] {
-        tokens.punct(if term.negative { '-' } else { '+' });
-        operand(tokens, names, schedule, Signed { negative: false, value: term.value }, Binding::Product);
-    }
+/// An expression where it must bind at least so tightly.
+fn operand(value: &Expression, at_least: Binding) -> TokenStream {
+    let tokens = written(value);
+    if binding(value) < at_least { quote!((#tokens)) } else { tokens }
 }
 
-/// How tightly the definition of a value binds.
-fn binding(names: &Names, schedule: &Schedule, value: ValueId) -> Binding {
-    match schedule.value(value) {
-        Value::Sum(_) => Binding::Sum,
-        Value::Product(_) | Value::Quotient(..) => Binding::Product,
-        Value::Constant(number) if parts_of_pi(*number).is_some() => Binding::Product,
-        Value::Square(base) if names.get(schedule, *base).is_some() => Binding::Product,
+/// How tightly an expression binds.
+fn binding(value: &Expression) -> Binding {
+    match value {
+        Expression::Sum(_) | Expression::Closure { .. } => Binding::Sum,
+        Expression::Product(_) | Expression::Quotient(_) => Binding::Product,
+        Expression::Number(number) if parts_of_pi(*number).is_some() => Binding::Product,
+        Expression::Square(base) if matches!(**base, Expression::Name(_)) => Binding::Product,
+        // -a * b is (-a) * b: a minus binds tighter than a product and costs the same.
+        Expression::Negative(inside) => match binding(inside) {
+            Binding::Product => Binding::Product,
+            _ => Binding::Prefix,
+        },
+        Expression::Borrowed(_) | Expression::Behind(_) => Binding::Prefix,
         _ => Binding::Atom,
     }
 }
 
-fn compute(tokens: &mut Tokens, names: &Names, schedule: &Schedule, value: ValueId) {
-    let part = |tokens: &mut Tokens, value: ValueId, at_least: Binding| {
-        operand(tokens, names, schedule, Signed { negative: false, value }, at_least);
-    };
-    match schedule.value(value) {
-        Value::Constant(number) => {
-            let written = names.constant(*number, |number| turn(number).unwrap_or_else(|| constant(number)));
-            // Zero, one and parts of a turn are constants of the scalar itself.
-            if written.clone().into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "real")) {
-                names.take_number();
-            }
-            tokens.extend(written);
+fn written(value: &Expression) -> TokenStream {
+    match value {
+        Expression::Name(name) => ident(name).into_token_stream(),
+        Expression::Number(number) => turn(*number).unwrap_or_else(|| constant(*number)),
+        Expression::Sum(terms) => sum(terms),
+        Expression::Product(factors) => {
+            let mut factors = factors.iter();
+            let first = factors.next().map(|factor| operand(factor, Binding::Product));
+            let others = factors.map(|factor| operand(factor, Binding::Prefix));
+            quote!(#first #(* #others)*)
         }
-        Value::Symbol(symbol) => tokens.append(names.symbol(*symbol)),
-        // Given directions are named before any expression is written.
-        Value::Direction(..) => tokens.word("direction"),
-        // Calls of the user's functions have lines of their own.
-        Value::External(..) => tokens.word("external"),
-        Value::Sum(terms) => sum(tokens, names, schedule, terms),
-        Value::Product(factors) => {
-            part(tokens, factors[0], Binding::Product);
-            for &factor in &factors[1..] {
-                tokens.punct('*');
-                part(tokens, factor, Binding::Prefix);
+        Expression::Quotient(parts) => {
+            let (above, below) = (operand(&parts[0], Binding::Product), operand(&parts[1], Binding::Prefix));
+            quote!(#above / #below)
+        }
+        Expression::Square(base) => {
+            let written = operand(base, Binding::Atom);
+            match **base {
+                Expression::Name(_) => quote!(#written * #written),
+                _ => quote!(#written.powi(2)),
             }
         }
-        Value::Quotient(above, below) => {
-            part(tokens, *above, Binding::Product);
-            tokens.punct('/');
-            part(tokens, *below, Binding::Prefix);
+        Expression::Negative(inside) => {
+            let inside = operand(inside, Binding::Product);
+            quote!(-#inside)
         }
-        Value::Square(base) => {
-            part(tokens, *base, Binding::Atom);
-            if names.get(schedule, *base).is_some() {
-                tokens.punct('*');
-                part(tokens, *base, Binding::Atom);
-            } else {
-                tokens.extend(quote!(.powi(2)));
-            }
+        Expression::Elementary(function, arguments) => {
+            let name = ident(function.operation().name);
+            let first = arguments.first().map(|first| operand(first, Binding::Atom));
+            let others = arguments.iter().skip(1);
+            quote!(#first.#name(#(#others),*))
         }
-        Value::Call(function, arguments) => {
-            operand(tokens, names, schedule, arguments[0], Binding::Atom);
-            tokens.punct('.');
-            tokens.word(function.operation().method);
-            let mut inside = Tokens::default();
-            for (index, argument) in arguments[1..].iter().enumerate() {
-                if index > 0 {
-                    inside.punct(',');
-                }
-                write(&mut inside, names, schedule, *argument);
-            }
-            tokens.group(Delimiter::Parenthesis, inside);
+        Expression::Text(text) => string(text).into_token_stream(),
+        Expression::Count(count) => literal(*count).into_token_stream(),
+        Expression::Constant(path) if path.starts_with("Self::") => parsed(path),
+        Expression::Constant(path) => runtime(path),
+        Expression::Field(of, name) => {
+            let (of, name) = (operand(of, Binding::Atom), member(name));
+            quote!(#of.#name)
         }
+        Expression::Index(of, place) => {
+            let (of, place) = (operand(of, Binding::Atom), literal(*place));
+            quote!(#of[#place])
+        }
+        Expression::List(values) => quote!([#(#values),*]),
+        Expression::Repeated(value, count) => {
+            let count = literal(*count);
+            quote!([#value; #count])
+        }
+        Expression::Tuple(values) => match values.as_slice() {
+            [only] => quote!((#only,)),
+            _ => quote!((#(#values),*)),
+        },
+        Expression::Struct(of, members, rest) => {
+            let of = path(of);
+            let mut members: Vec<TokenStream> = members.iter().map(|(name, value)| field(name, value)).collect();
+            members.extend(rest.iter().map(|rest| quote!(..#rest)));
+            quote!(#of { #(#members),* })
+        }
+        Expression::Runtime(name, arguments) => {
+            let name = runtime(name);
+            quote!(#name(#(#arguments),*))
+        }
+        Expression::Associated(of, name, arguments) => {
+            let (of, name) = (path(of), ident(name));
+            quote!(#of::#name(#(#arguments),*))
+        }
+        Expression::Method(of, name, arguments) => {
+            let (of, name) = (operand(of, Binding::Atom), ident(name));
+            quote!(#of.#name(#(#arguments),*))
+        }
+        Expression::Try(value) => {
+            let value = operand(value, Binding::Atom);
+            quote!(#value?)
+        }
+        Expression::Borrowed(value) => {
+            let value = operand(value, Binding::Prefix);
+            quote!(&#value)
+        }
+        Expression::Behind(value) => {
+            let value = operand(value, Binding::Prefix);
+            quote!(*#value)
+        }
+        Expression::Closure { arguments, statements, value, moves } => {
+            let moves = moves.then(|| quote!(move));
+            let body = match statements.as_slice() {
+                [] => quote!(#value),
+                _ => quote!({ #(#statements)* #value }),
+            };
+            quote!(#moves |#(#arguments),*| #body)
+        }
+        // Lowering puts values in their places.
+        Expression::Result(place) | Expression::Local(place) => literal(*place).into_token_stream(),
     }
+}
+
+fn sum(terms: &[(bool, Expression)]) -> TokenStream {
+    let mut tokens = TokenStream::new();
+    for (place, (is_negative, term)) in terms.iter().enumerate() {
+        let least = if place == 0 && !is_negative { Binding::Sum } else { Binding::Product };
+        let term = operand(term, least);
+        tokens.extend(match (place, is_negative) {
+            (0, false) => term,
+            (_, true) => quote!(- #term),
+            (_, false) => quote!(+ #term),
+        });
+    }
+    tokens
+}
+
+/// `name: value`, or `name` alone if the value is called so.
+fn field(name: &str, value: &Expression) -> TokenStream {
+    let is_short = matches!(value, Expression::Name(other) if other == name);
+    let name = member(name);
+    if is_short { quote!(#name) } else { quote!(#name: #value) }
+}
+
+/// The name of a field, or its place in a tuple.
+fn member(name: &str) -> TokenStream {
+    match name.parse::<usize>() {
+        Ok(place) => literal(place).into_token_stream(),
+        Err(_) => ident(name).into_token_stream(),
+    }
+}
+
+/// A size without suffix, as people write it.
+pub(super) fn literal(count: usize) -> Literal {
+    Literal::usize_unsuffixed(count)
+}
+
+/// A path of the runtime.
+fn runtime(path: &str) -> TokenStream {
+    let path = parsed(path);
+    quote!(__rt::#path)
+}
+
+fn parsed(path: &str) -> TokenStream {
+    path.parse().unwrap_or_default()
+}
+
+impl ToTokens for Statement {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        tokens.extend(match self {
+            Self::Let(pattern, value) => quote!(let #pattern = #value;),
+            Self::Do(value) => quote!(#value;),
+            Self::Assign(place, value) => quote!(#place = #value;),
+            Self::Unless(conditions, inside) => match conditions.as_slice() {
+                [only] => quote!(if !#only { #(#inside)* }),
+                several => quote!(if !(#(#several)&&*) { #(#inside)* }),
+            },
+            // Lowering makes calls of these.
+            Self::Check { .. } | Self::CheckPosition => TokenStream::new(),
+        });
+    }
+}
+
+impl ToTokens for Pattern {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        tokens.extend(match self {
+            Self::Name(name) => ident(name).into_token_stream(),
+            Self::Mutable(inside) => quote!(mut #inside),
+            Self::Typed(name, of) => {
+                let name = ident(name);
+                quote!(#name: #of)
+            }
+            Self::Ignored | Self::Local(_) => quote!(_),
+            Self::List(patterns) => quote!([#(#patterns),*]),
+            Self::First(first) => quote!([#first, ..]),
+            Self::Tuple(patterns) => quote!((#(#patterns),*)),
+            Self::Struct { of, fields, is_whole } => {
+                let of = path(of);
+                let fields = fields.iter().map(|(field, name)| {
+                    let (field, name) = (ident(field), ident(name));
+                    if field == name { quote!(#field,) } else { quote!(#field: #name,) }
+                });
+                let rest = (!is_whole).then(|| quote!(..));
+                quote!(#of { #(#fields)* #rest })
+            }
+        });
+    }
+}
+
+impl ToTokens for Type {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        tokens.extend(match self {
+            Self::Scalar => quote!(T),
+            Self::Itself => quote!(Self),
+            Self::Own(name) => {
+                let name = ident(name);
+                quote!(#name<T>)
+            }
+            Self::Bare(name) => ident(name).into_token_stream(),
+            Self::Each(name, item) => {
+                let name = ident(name);
+                quote!(#name<#item>)
+            }
+            Self::Vector(rows) => {
+                let rows = literal(*rows);
+                quote!(__rt::SVector<T, #rows>)
+            }
+            Self::Matrix(rows, columns) => {
+                let (rows, columns) = (literal(*rows), literal(*columns));
+                quote!(__rt::SMatrix<T, #rows, #columns>)
+            }
+            Self::Plane => quote!(__rt::Vector2<T>),
+            Self::Runtime(name, sizes) => {
+                let (name, sizes) = (runtime(name), sizes.iter().map(|size| literal(*size)));
+                quote!(#name<T #(, #sizes)*>)
+            }
+            Self::Around(name, item) => {
+                let name = runtime(name);
+                quote!(#name<#item>)
+            }
+            Self::List(item, count) => {
+                let count = literal(*count);
+                quote!([#item; #count])
+            }
+            Self::Tuple(items) => quote!((#(#items),*)),
+            Self::Branches { branch, pose } => {
+                let (branch, pose) = (ident(branch), ident(pose));
+                quote!(impl __rt::Iterator<Item = __rt::Result<(#branch, #pose<T>), __rt::Error>> + '_)
+            }
+        });
+    }
+}
+
+/// A type as it stands before its fields or its functions.
+fn path(of: &Type) -> TokenStream {
+    match of {
+        Type::Own(name) | Type::Bare(name) | Type::Each(name, _) => ident(name).into_token_stream(),
+        Type::Runtime(name, _) => runtime(name),
+        other => other.to_token_stream(),
+    }
+}
+
+/// The name of an argument: with an underscore if the body ignores it.
+pub(super) fn argument(name: &str, is_used: bool) -> Ident {
+    if is_used { ident(name) } else { ident(&format!("_{name}")) }
 }
 
 /// count * pi / parts, if the number is a multiple of pi that somebody would write.
@@ -182,9 +303,9 @@ fn turn(number: Number) -> Option<TokenStream> {
     let (n, d) = (Literal::f64_unsuffixed(count), Literal::f64_unsuffixed(parts));
     Some(match (count == 1.0, parts == 1.0) {
         (true, true) => quote!(T::pi()),
-        (true, false) => quote!(T::pi() / real::<T>(#d)),
-        (false, true) => quote!(T::pi() * real::<T>(#n)),
-        (false, false) => quote!(T::pi() * real::<T>(#n) / real::<T>(#d)),
+        (true, false) => quote!(T::pi() / __rt::real::<T>(#d)),
+        (false, true) => quote!(T::pi() * __rt::real::<T>(#n)),
+        (false, false) => quote!(T::pi() * __rt::real::<T>(#n) / __rt::real::<T>(#d)),
     })
 }
 
@@ -214,14 +335,14 @@ pub(super) fn constant(number: Number) -> TokenStream {
             let (n, d) = (Literal::f64_unsuffixed(n as f64), Literal::f64_unsuffixed(d as f64));
             if short {
                 let value = Literal::f64_unsuffixed(value);
-                quote!(real::<T>(#value))
+                quote!(__rt::real::<T>(#value))
             } else {
-                quote!(real::<T>(#n / #d))
+                quote!(__rt::real::<T>(#n / #d))
             }
         }
         Number::Float(value) => {
             let literal = separated(value);
-            quote!(real::<T>(#literal))
+            quote!(__rt::real::<T>(#literal))
         }
     }
 }
@@ -241,9 +362,4 @@ fn separated(value: f64) -> TokenStream {
         let literal = Literal::f64_unsuffixed(value);
         quote!(#literal)
     })
-}
-
-/// The name of the sine or cosine of a direction.
-pub(super) fn direction_name(function: Function, angle: &str) -> String {
-    [function.operation().name, "_", angle].concat()
 }

@@ -1,125 +1,108 @@
-//! Rust that could have been written by hand: the user's names, the formula in the doc comment.
+//! Printers of a finished program: Rust that could have been written by hand, with the user's names and the formula in
+//! the doc comment.
 
 mod document;
 mod expression;
+mod external;
+mod functions;
 mod items;
-mod kernel;
-mod methods;
 mod names;
-mod pose;
 mod scene;
 mod tokens;
+mod traits;
 mod types;
 
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
 
 use crate::derivation::Derivation;
-use crate::lower::Operations;
-use crate::model::{Driver, Mechanism};
+use crate::lower::Code;
+use crate::model::Mechanism;
+use crate::program::{self, Function, Operations, Program};
+use functions::function;
+use names::string;
 
-/// The names of the types of one driver of a mechanism.
-struct Types {
-    /// The type that the functions belong to.
-    driver: Ident,
-    inputs: Ident,
-    unknowns: Ident,
-    pose: Ident,
-    coordinates: Ident,
-    points: Ident,
-    outputs: Ident,
-    motion: Ident,
-    branch: Ident,
-    /// The traits of plain data, as an attribute.
-    derives: TokenStream,
+/// The items of a whole mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
+#[must_use]
+pub fn mechanism(mechanism: &Mechanism, drivers: impl IntoIterator<Item = TokenStream>, root: &TokenStream) -> TokenStream {
+    let mut tokens = types::shared(mechanism, root);
+    tokens.extend(drivers);
+    items::bearing(tokens, &mechanism.everywhere)
 }
 
-impl Types {
-    fn new(mechanism: &Mechanism, driver: &Driver, derives: &TokenStream) -> Self {
-        // Types keep their place in the user's source but resolve where the macro is called.
-        let named = |stem: &Ident, suffix: &str| {
-            let mut ident = format_ident!("{stem}{suffix}");
-            ident.set_span(Span::call_site());
-            ident
-        };
-        let (own, shared) = (&driver.name, &mechanism.name);
-        Self {
-            driver: own.clone(),
-            inputs: named(own, "Inputs"),
-            unknowns: named(own, "Unknowns"),
-            pose: named(own, "Pose"),
-            coordinates: named(shared, "Coordinates"),
-            points: named(shared, "Points"),
-            outputs: named(shared, "Outputs"),
-            motion: named(own, "Motion"),
-            branch: named(own, "Branch"),
-            derives: derives.clone(),
-        }
-    }
-}
-
-/// What is emitted, and how much work its functions are, each called once.
-#[derive(Debug, Clone, Default)]
-pub struct Emitted {
-    pub tokens: TokenStream,
-    pub operations: Operations,
-}
-
-/// A mechanism for which only the right names and types are emitted.
+/// A mechanism with mistakes: every type and function that it would have, without bodies.
 #[must_use]
 pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
-    let drivers = mechanism.drivers.iter().map(|driver| self::driver(mechanism, driver, None, root).tokens);
-    let tokens = std::iter::once(shared(mechanism, root)).chain(drivers);
-    items::bearing(tokens.collect(), &mechanism.everywhere)
+    let drivers = mechanism.drivers.iter();
+    let drivers = drivers.map(|driver| self::driver(&program::stub(mechanism, driver), None, root));
+    self::mechanism(mechanism, drivers, root)
 }
 
-/// The items that all drivers of a mechanism share, and `drivers`, which are emitted already.
+/// Everything emitted for one driver of a mechanism and its scenes; without a derivation a stub.
 #[must_use]
-pub fn mechanism(mechanism: &Mechanism, drivers: Emitted, root: &TokenStream) -> Emitted {
-    let mut tokens = shared(mechanism, root);
-    tokens.extend(drivers.tokens);
-    Emitted { tokens: items::bearing(tokens, &mechanism.everywhere), ..drivers }
-}
-
-fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
-    types::shared(mechanism, &types::derives(), &quote!(#root::__private))
-}
-
-/// Everything emitted for one driver of a mechanism and its scenes; without a derivation a stub that only has the
-/// right names and types. `root` is the path of the `linkage` crate.
-#[must_use]
-pub fn driver(
-    mechanism: &Mechanism,
-    driver: &Driver,
-    mut derivation: Option<&mut Derivation>,
-    root: &TokenStream,
-) -> Emitted {
+pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
+    let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let private = quote!(#root::__private);
-    let derives = types::derives();
-    let names = Types::new(mechanism, driver, &derives);
-    let plan = derivation
-        .as_deref_mut()
-        .map(|derivation| pose::PosePlan::new(derivation, methods::argument(mechanism, "pose")));
-    let mut tokens = types::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref(), &private);
-    let emitted = methods::of_driver(mechanism, driver, &names, plan.as_ref(), derivation.as_deref_mut(), &private);
-    tokens.extend(emitted.tokens);
-    let mut operations = emitted.operations;
-    let scenes = mechanism.scenes.iter().filter(|scene| mechanism.drivers[scene.driver].name == driver.name);
-    for (number, scene) in scenes.enumerate() {
-        if mechanism.graph.budget().is_spent() && derivation.is_some() {
-            break;
-        }
-        let names = Types { driver: scene.name.clone(), ..Types::new(mechanism, driver, &derives) };
-        tokens.extend(scene::types(mechanism, driver, scene, &private));
-        let emitted = methods::of_scene(
-            mechanism,
-            (driver, scene, number),
-            &names,
-            plan.as_ref().zip(derivation.as_deref_mut()),
-            &private,
-        );
-        tokens.extend(emitted.tokens);
-        operations = operations.plus(emitted.operations);
+    let mut tokens = types::of_driver(program, derivation, root);
+    let (of_pose, implemented) = (traits::of_pose(program, derivation), traits::of_driver(program, derivation));
+    let text = "The name of the mechanism, as errors give it.";
+    tokens.extend(block(&driver.name, text, &program.functions, root, &quote!(#of_pose #implemented)));
+    tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
+    if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
+        let works = works(&program.functions);
+        tokens.extend(document::constant(mechanism, driver, derivation, &derived.formulas, &works, &private));
     }
-    Emitted { tokens, operations }
+    let order = mechanism.coordinate_order(driver);
+    let fields: Vec<Ident> = order.iter().map(|&index| types::field(&mechanism.coordinates[index].name)).collect();
+    for (number, scene) in program.scenes.iter().enumerate() {
+        tokens.extend(scene::types(&scene.signatures, root));
+        let name = &scene.signatures.scene.name;
+        let implemented = traits::of_scene(&scene.signatures, driver.unknowns.len(), &fields).unwrap_or_default();
+        let text = "The name of the scene, as errors give it.";
+        tokens.extend(block(name, text, &scene.functions, root, &implemented));
+        tokens.extend(external::calls(mechanism, &scene.functions, name, root));
+        if let Some(derivation) = derivation {
+            let derived = (derivation, &derivation.scenes[number]);
+            let works = works(&scene.functions);
+            tokens.extend(document::of_scene(mechanism, (driver, scene.signatures.scene), derived, &works, &private));
+        }
+    }
+    tokens
+}
+
+/// The functions of a type, and what else is implemented by them, in a scope of its own.
+fn block(
+    of: &Ident,
+    text: &str,
+    functions: &[Function<Code>],
+    root: &TokenStream,
+    implemented: &TokenStream,
+) -> TokenStream {
+    let (functions, name) = (functions.iter().map(function), string(&of.to_string()));
+    let text = names::comment(&format!(" {text}"));
+    quote! {
+        const _: () = {
+            use #root::__rt::{self, traits::*};
+            impl<T: __rt::Real> #of<T> {
+                #[doc = #text]
+                pub const NAME: &'static str = #name;
+                #(#functions)*
+            }
+            #implemented
+        };
+    }
+}
+
+/// The functions that compute something, with their work.
+fn works(functions: &[Function<Code>]) -> Vec<(String, Operations)> {
+    let works = functions.iter().filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
+    works.filter(|(_, work)| *work != Operations::default()).collect()
+}
+
+/// The work of all functions of a driver and of its scenes, each called once.
+#[must_use]
+pub fn operations(program: &Program<Code>) -> Operations {
+    let scenes = program.scenes.iter().flat_map(|scene| &scene.functions);
+    let bodies = program.functions.iter().chain(scenes).filter_map(|function| function.body.as_ref());
+    bodies.fold(Operations::default(), |sum, body| sum.plus(body.operations))
 }

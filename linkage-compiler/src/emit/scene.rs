@@ -1,22 +1,19 @@
 //! The type of a scene: the mechanism, and the parameters of the effects that the scene names.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use syn::Attribute;
 
-use super::methods::argument;
+use super::expression::literal;
 use super::names::ident;
-use super::types::{MOST_ARGUMENTS, default_of, docs, field};
-use crate::model::{Driver, Mechanism, Parameter, Scene};
+use super::types::{MOST_ARGUMENTS, default_of, docs, field, other_scalar};
+use crate::model::Parameter;
+use crate::program::SceneSignatures;
 
-/// The field that holds the mechanism.
-pub(super) fn mechanism_field(mechanism: &Mechanism) -> Ident {
-    ident(&argument(mechanism, "mechanism"))
-}
-
-pub(super) fn types(mechanism: &Mechanism, driver: &Driver, scene: &Scene, private: &TokenStream) -> TokenStream {
-    let (visibility, name, of) = (&mechanism.visibility, &scene.name, &driver.name);
-    let inner = mechanism_field(mechanism);
+pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenStream {
+    let SceneSignatures { mechanism, scene, .. } = signatures;
+    let (visibility, name, of) = (&mechanism.visibility, &scene.name, &mechanism.drivers[scene.driver].name);
+    let (inner, other_scalar) = (ident(&signatures.field), other_scalar(mechanism));
     let parameters: Vec<&Parameter> =
         scene.parameters.iter().map(|&place| &mechanism.scene_parameters[place]).collect();
     let fields: Vec<Ident> = parameters.iter().map(|parameter| field(&parameter.name)).collect();
@@ -28,12 +25,11 @@ pub(super) fn types(mechanism: &Mechanism, driver: &Driver, scene: &Scene, priva
     let title = docs(&scene.attributes, &format!("[`{of}`] with the effects of the scene `{name}`."));
     let forwarded = scene.attributes.iter().chain(&mechanism.attributes);
     let forwarded: Vec<&Attribute> = forwarded.filter(|attribute| !attribute.path().is_ident("doc")).collect();
-    let count = Literal::usize_unsuffixed(fields.len());
+    let count = literal(fields.len());
     let texts: Vec<&String> = parameters.iter().map(|parameter| &parameter.name.text).collect();
     let new = (fields.len() < MOST_ARGUMENTS).then(|| {
         quote! {
-            /// The mechanism with these parameters of the effects.
-
+            #[doc = " The mechanism with these parameters of the effects."]
             #[must_use]
             pub const fn new(#inner: #of<T>, #(#fields: T),*) -> Self {
                 Self { #inner, #(#fields),* }
@@ -55,7 +51,7 @@ pub(super) fn types(mechanism: &Mechanism, driver: &Driver, scene: &Scene, priva
         #title
         #(#forwarded)*
         #visibility struct #name<T = f64> {
-            /// The kinematics.
+            #[doc = " The kinematics."]
             pub #inner: #of<T>,
             #(#members),*
         }
@@ -64,14 +60,16 @@ pub(super) fn types(mechanism: &Mechanism, driver: &Driver, scene: &Scene, priva
                 Self { #inner, #(#fields),* }
             }
         }
-        impl<T: #private::Real> #name<T> {
-            /// The parameters of the effects as they were declared, in order.
-
+        impl<T: #root::__rt::Real> #name<T> {
+            #[doc = " The parameters of the effects as they were declared, in order."]
             pub const PARAMETERS: [&'static str; #count] = [#(#texts),*];
             #new
-            /// The same scene with another scalar.
+            #[doc = " The same scene with another scalar."]
             #[must_use]
-            pub fn map<S: #private::Real>(self, scalar: impl ::core::ops::Fn(T) -> S) -> #name<S> {
+            pub fn map<#other_scalar: #root::__rt::Real>(
+                self,
+                scalar: impl ::core::ops::Fn(T) -> #other_scalar,
+            ) -> #name<#other_scalar> {
                 #name { #(#fields: scalar(self.#fields),)* #inner: self.#inner.map(scalar) }
             }
         }

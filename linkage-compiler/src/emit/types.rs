@@ -1,17 +1,19 @@
-//! The types of a mechanism: parameters, coordinates, inputs, unknowns, points, outputs, pose, motion.
+//! The types of a mechanism: parameters, coordinates, inputs, unknowns, points, outputs, pose, motion, branch.
 
-use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
 use syn::Attribute;
 
-use super::methods::{AngleTurn, Branches};
-use super::names::{comment, ident, string};
-use super::pose::PosePlan;
-use super::tokens::Tokens;
-use super::{Types, expression};
+use super::expression::{self, literal};
+use super::names::{comment, ident};
 use crate::derivation::Derivation;
 use crate::graph::{Number, Texts};
-use crate::model::{Coordinate, Driver, Mechanism, Name, Parameter};
+use crate::lower::Code;
+use crate::model::{Coordinate, Mechanism, Name, Parameter};
+use crate::program::{Derived, Position, Program, TypeNames};
+
+/// More arguments than this are told apart by nobody: there the literal with its names is better.
+pub(super) const MOST_ARGUMENTS: usize = 7;
 
 /// A field name with the user's span, so that editors lead from one to the other.
 pub(super) fn field(name: &Name) -> Ident {
@@ -29,203 +31,289 @@ pub(super) fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
     }
 }
 
-/// A struct without fields still has its scalar: the member, and its value.
-fn phantom(fields: &[Ident]) -> (Option<TokenStream>, Option<TokenStream>) {
-    let empty = fields.is_empty();
-    (
-        empty.then(|| quote!(scalar: ::core::marker::PhantomData<T>)),
-        empty.then(|| quote!(scalar: ::core::marker::PhantomData)),
-    )
-}
-
-/// The name of that member, for the macros of the runtime.
-fn mark(is_empty: bool) -> Option<Ident> {
-    is_empty.then(|| ident("scalar"))
-}
-
-pub(super) fn derives() -> TokenStream {
+/// The traits of plain data.
+fn derives() -> TokenStream {
     quote!(#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)])
 }
 
+/// A struct of fields that each hold the scalar; without fields it still has its scalar.
+struct Fields<'a> {
+    names: Vec<Ident>,
+    texts: Vec<&'a str>,
+}
+
+impl<'a> Fields<'a> {
+    fn of(names: impl Iterator<Item = &'a Name>) -> Self {
+        let (names, texts) = names.map(|name| (field(name), name.text.as_str())).unzip();
+        Self { names, texts }
+    }
+
+    fn count(&self) -> Literal {
+        literal(self.names.len())
+    }
+
+    /// The member that only holds the scalar.
+    fn phantom(&self) -> Option<TokenStream> {
+        self.names.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData<T>))
+    }
+
+    /// The value of that member.
+    fn mark(&self) -> Option<TokenStream> {
+        self.names.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData))
+    }
+}
+
+/// The name of a second scalar, which no type of the user's has.
+pub(super) fn other_scalar(mechanism: &Mechanism) -> Ident {
+    let scenes = mechanism.scenes.iter().map(|scene| &scene.name);
+    let types: Vec<&Ident> = mechanism.drivers.iter().map(|driver| &driver.name).chain(scenes).collect();
+    let mut name = "S".to_owned();
+    while types.iter().any(|taken| **taken == name) || mechanism.name == name {
+        name.push('S');
+    }
+    ident(&name)
+}
+
 /// The types that all drivers of a mechanism share.
-pub(super) fn shared(mechanism: &Mechanism, derives: &TokenStream, private: &TokenStream) -> TokenStream {
-    let visibility = &mechanism.visibility;
-    let name = &mechanism.name;
+pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
+    let (visibility, name, derives) = (&mechanism.visibility, &mechanism.name, derives());
     let mut tokens = TokenStream::new();
     if mechanism.is_driven_by_choice() {
-        tokens.extend(parameters(mechanism, name, &mechanism.attributes, private));
+        tokens.extend(parameters(mechanism, name, &mechanism.attributes, root));
         for driver in &mechanism.drivers {
             let other = &driver.name;
-            let fields: Vec<Ident> = mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect();
-            let (_, no_scalar) = phantom(&fields);
+            let fields = Fields::of(mechanism.parameters.iter().map(|parameter| &parameter.name));
+            let (names, mark) = (&fields.names, fields.mark());
             for (from, to) in [(name, other), (other, name)] {
                 tokens.extend(quote! {
                     impl<T> ::core::convert::From<#from<T>> for #to<T> {
                         fn from(parameters: #from<T>) -> Self {
-                            let #from { #(#fields,)* .. } = parameters;
-                            Self { #(#fields,)* #no_scalar }
+                            let #from { #(#names,)* .. } = parameters;
+                            Self { #(#names,)* #mark }
                         }
                     }
                 });
             }
         }
     }
-    let coordinates = format_ident!("{name}Coordinates", span = proc_macro2::Span::call_site());
+    let names = mechanism.drivers.first().map(|driver| TypeNames::new(mechanism, driver));
+    let Some(names) = names else { return tokens };
     let order = mechanism.drivers.first().map(|driver| mechanism.coordinate_order(driver)).unwrap_or_default();
     let members: Vec<&Coordinate> = order.iter().map(|&index| &mechanism.coordinates[index]).collect();
-    let title = comment(&format!(" The coordinates q of [`{name}`] by name; their rates and accelerations as well."));
-    tokens.extend(coordinate_struct(mechanism, &coordinates, &title, &members, derives));
-    let (named_members, scalar) = (named(members.iter().map(|member| &member.name)), mark(members.is_empty()));
-    tokens.extend(quote!(#private::__coordinates!(#coordinates #named_members #scalar);));
-    for (suffix, what, names) in [
-        ("Points", "points", mechanism.points.iter().map(|p| (&p.name, &p.attributes)).collect::<Vec<_>>()),
-        ("Outputs", "outputs", mechanism.outputs.iter().map(|o| (&o.name, &o.attributes)).collect()),
+    let title = format!(" The coordinates q of [`{name}`] by name; their rates and accelerations as well.");
+    tokens.extend(coordinates(mechanism, &ident(&names.coordinates), &title, &members, root));
+    let points = mechanism.points.iter().map(|point| (&point.name, point.attributes.as_slice()));
+    let outputs = mechanism.outputs.iter().map(|output| (&output.name, output.attributes.as_slice()));
+    for (group, what, members) in [
+        (&names.points, "points", points.collect::<Vec<_>>()),
+        (&names.outputs, "outputs", outputs.collect()),
     ] {
-        if names.is_empty() {
+        if members.is_empty() {
             continue;
         }
-        let ident = format_ident!("{name}{suffix}", span = proc_macro2::Span::call_site());
-        let kind = &what[..what.len() - 1];
-        let members = names.iter().map(|(name, attributes)| {
-            let (docs, field) = (docs(attributes, &format!("The {kind} `{}`.", name.text)), field(name));
+        let (group, kind) = (ident(group), &what[..what.len() - 1]);
+        let fields = Fields::of(members.iter().map(|(name, _)| *name));
+        let (fields, texts, count) = (&fields.names, &fields.texts, fields.count());
+        let declared = members.iter().zip(fields).map(|((name, attributes), field)| {
+            let docs = docs(attributes, &format!("The {kind} `{}`.", name.text));
             quote!(#docs pub #field: Q)
         });
         let title = comment(&format!(" One quantity for each of the {what} of [`{name}`]."));
-        let named = named(names.iter().map(|(name, _)| *name));
         tokens.extend(quote! {
             #[doc = #title]
             #derives
-            #visibility struct #ident<Q> { #(#members),* }
-            #private::__quantities!(#ident #named);
+            #visibility struct #group<Q> { #(#declared),* }
+            impl<Q> #group<Q> {
+                #[doc = " The names as they were declared, in order."]
+                pub const NAMES: [&'static str; #count] = [#(#texts),*];
+            }
+            impl<Q> ::core::convert::From<#group<Q>> for [Q; #count] {
+                fn from(named: #group<Q>) -> Self {
+                    [#(named.#fields),*]
+                }
+            }
+            impl<Q> ::core::convert::From<[Q; #count]> for #group<Q> {
+                fn from([#(#fields),*]: [Q; #count]) -> Self {
+                    Self { #(#fields),* }
+                }
+            }
         });
     }
     tokens
 }
 
+/// A struct of coordinates with its conversions from and to vectors.
+fn coordinates(
+    mechanism: &Mechanism,
+    name: &Ident,
+    title: &str,
+    members: &[&Coordinate],
+    root: &TokenStream,
+) -> TokenStream {
+    let (visibility, derives, title) = (&mechanism.visibility, derives(), comment(title));
+    let fields = Fields::of(members.iter().map(|member| &member.name));
+    let (names, texts, count) = (&fields.names, &fields.texts, fields.count());
+    let (phantom, mark) = (fields.phantom(), fields.mark());
+    let declared = members.iter().zip(names).map(|(coordinate, field)| {
+        let docs = docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind));
+        quote!(#docs pub #field: T)
+    });
+    quote! {
+        #[doc = #title]
+        #derives
+        #visibility struct #name<T = f64> { #(#declared,)* #phantom }
+        impl<T> #name<T> {
+            #[doc = " The coordinates as they were declared, in order."]
+            pub const NAMES: [&'static str; #count] = [#(#texts),*];
+        }
+        impl<T: #root::__rt::Real> ::core::convert::From<#root::__rt::SVector<T, #count>> for #name<T> {
+            fn from(vector: #root::__rt::SVector<T, #count>) -> Self {
+                let [[#(#names),*]] = vector.data.0;
+                Self { #(#names,)* #mark }
+            }
+        }
+        impl<T: #root::__rt::Real> ::core::convert::From<#name<T>> for #root::__rt::SVector<T, #count> {
+            fn from(coordinates: #name<T>) -> Self {
+                <Self as ::core::convert::From<[T; #count]>>::from([#(coordinates.#names),*])
+            }
+        }
+    }
+}
+
 /// The types of one driver, and its parameters.
 pub(super) fn of_driver(
-    mechanism: &Mechanism,
-    driver: &Driver,
-    types: &Types,
-    plan: Option<&PosePlan>,
+    program: &Program<Code>,
     derivation: Option<&Derivation>,
-    private: &TokenStream,
+    root: &TokenStream,
 ) -> TokenStream {
-    let Types { driver: name, inputs, unknowns, pose, coordinates, points, outputs, motion, derives, .. } = types;
-    let visibility = &mechanism.visibility;
+    let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
+    let (name, types, visibility) = (&driver.name, &program.signatures.types, &mechanism.visibility);
     let attributes: Vec<Attribute> = if mechanism.is_driven_by_choice() {
         let forwarded = mechanism.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
         driver.attributes.iter().chain(forwarded).cloned().collect()
     } else {
         mechanism.attributes.clone()
     };
-    let mut tokens = parameters(mechanism, name, &attributes, private);
-    for (ident, what, indices) in
-        [(inputs, "independent coordinates v", &driver.inputs), (unknowns, "dependent coordinates u", &driver.unknowns)]
-    {
+    let mut tokens = parameters(mechanism, name, &attributes, root);
+    let all = ident(&types.coordinates);
+    let (inputs, unknowns) = (ident(&types.inputs), ident(&types.unknowns));
+    for (part, what, indices) in [
+        (&inputs, "independent coordinates v", &driver.inputs),
+        (&unknowns, "dependent coordinates u", &driver.unknowns),
+    ] {
         let members: Vec<&Coordinate> = indices.iter().map(|&index| &mechanism.coordinates[index]).collect();
-        let title = comment(&format!(" The {what} of [`{name}`] by name; their rates and accelerations as well."));
-        tokens.extend(coordinate_struct(mechanism, ident, &title, &members, derives));
-        let (named, scalar) = (named(members.iter().map(|member| &member.name)), mark(members.is_empty()));
-        tokens.extend(quote!(#private::__part_of_coordinates!(#ident #named #coordinates #scalar);));
+        let title = format!(" The {what} of [`{name}`] by name; their rates and accelerations as well.");
+        tokens.extend(coordinates(mechanism, part, &title, &members, root));
+        let fields = Fields::of(members.iter().map(|member| &member.name));
+        let (names, mark) = (&fields.names, fields.mark());
+        tokens.extend(quote! {
+            impl<T: #root::__rt::Real> ::core::convert::From<&#all<T>> for #part<T> {
+                fn from(q: &#all<T>) -> Self {
+                    Self { #(#names: q.#names,)* #mark }
+                }
+            }
+        });
     }
     if let &[only] = driver.inputs.as_slice() {
         let field = field(&mechanism.coordinates[only].name);
         tokens.extend(quote! {
-            impl<T: #private::Real> ::core::convert::From<T> for #inputs<T> {
+            impl<T: #root::__rt::Real> ::core::convert::From<T> for #inputs<T> {
                 fn from(#field: T) -> Self {
                     Self { #field }
                 }
             }
         });
     }
-    let members = plan
-        .map_or_else(|| quote!(scalar: ::core::marker::PhantomData<T>), |plan| pose_fields(plan, derivation, private));
+    let derived = program.derived.as_ref().zip(derivation);
+    let members = derived.map_or_else(
+        || quote!(scalar: ::core::marker::PhantomData<T>),
+        |(derived, derivation)| pose_fields(derived, derivation, root),
+    );
     let title = comment(&format!(
         " A position of [`{name}`] ready for use: each angle as its direction (cos, sin), so that whatever follows needs no trigonometry."
     ));
+    let pose = ident(&types.pose);
     tokens.extend(quote! {
         #[doc = #title]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         #visibility struct #pose<T = f64> { #members }
     });
-    let (position_type, mut rest) = (quote!(#coordinates<T>), TokenStream::new());
-    if !mechanism.points.is_empty() {
-        rest.extend(quote!(/// Position, velocity and acceleration of the points.
- pub points: #points<#private::PointMotion<T>>,));
-    }
-    if !mechanism.outputs.is_empty() {
-        rest.extend(quote!(/// Value, rate and acceleration of the outputs.
- pub outputs: #outputs<#private::OutputMotion<T>>,));
-    }
-    let title = comment(&format!(" A position of [`{name}`] with its velocity and acceleration."));
-    tokens.extend(quote! {
-        #[doc = #title]
-        #derives
-        #visibility struct #motion<T = f64> {
-            /// The position q.
-
-            pub position: #position_type,
-            /// The velocity q'.
-
-            pub velocity: #position_type,
-            /// The acceleration q''.
-
-            pub acceleration: #position_type,
-            #rest
-        }
-    });
+    tokens.extend(motion(mechanism, name, types, root));
+    tokens.extend(branch(program, root));
     tokens
 }
 
-fn pose_fields(plan: &PosePlan, derivation: Option<&Derivation>, private: &TokenStream) -> TokenStream {
-    let Some(derivation) = derivation else { return TokenStream::new() };
-    let mut members = TokenStream::new();
+fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenStream) -> TokenStream {
+    let (visibility, derives) = (&mechanism.visibility, derives());
+    let (motion, coordinates) = (ident(&types.motion), ident(&types.coordinates));
+    let points = (!mechanism.points.is_empty()).then(|| {
+        let points = ident(&types.points);
+        quote! {
+            #[doc = " Position, velocity and acceleration of the points."]
+            pub points: #points<#root::__rt::PointMotion<T>>,
+        }
+    });
+    let outputs = (!mechanism.outputs.is_empty()).then(|| {
+        let outputs = ident(&types.outputs);
+        quote! {
+            #[doc = " Value, rate and acceleration of the outputs."]
+            pub outputs: #outputs<#root::__rt::OutputMotion<T>>,
+        }
+    });
+    let title = comment(&format!(" A position of [`{name}`] with its velocity and acceleration."));
+    quote! {
+        #[doc = #title]
+        #derives
+        #visibility struct #motion<T = f64> {
+            #[doc = " The position q."]
+            pub position: #coordinates<T>,
+            #[doc = " The velocity q'."]
+            pub velocity: #coordinates<T>,
+            #[doc = " The acceleration q''."]
+            pub acceleration: #coordinates<T>,
+            #points
+            #outputs
+        }
+    }
+}
+
+fn pose_fields(derived: &Derived, derivation: &Derivation, root: &TokenStream) -> TokenStream {
+    let plan = &derived.pose;
     let mut texts = Texts::default();
+    let mut members = TokenStream::new();
+    let mut member = |name: &str, text: String, of: TokenStream| {
+        let (name, text) = (ident(name), comment(&text));
+        members.extend(quote!(#[doc = #text] pub #name: #of,));
+    };
     for (angle, name) in &plan.directions {
-        let ident = ident(name);
-        let text = comment(&format!(" The direction of `{}`.", texts.of(&derivation.graph, *angle)));
-        members.extend(quote!(#[doc = #text] pub #ident: #private::UnitComplex<T>,));
+        let text = format!(" The direction of `{}`.", texts.of(&derivation.graph, *angle));
+        member(name, text, quote!(#root::__rt::UnitComplex<T>));
     }
     for (index, name, _) in &plan.values {
-        let ident = ident(name);
-        let text = comment(&format!(" `{}` itself.", derivation.coordinates[*index].name));
-        members.extend(quote!(#[doc = #text] pub #ident: T,));
+        member(name, format!(" `{}` itself.", derivation.coordinates[*index].name), quote!(T));
     }
     for (node, name, _) in &plan.externals {
-        let ident = ident(name);
-        let text = comment(&format!(" `{}`.", texts.of(&derivation.graph, *node)));
-        members.extend(quote!(#[doc = #text] pub #ident: T,));
+        member(name, format!(" `{}`.", texts.of(&derivation.graph, *node)), quote!(T));
     }
     for (block, name, _) in &plan.determinants {
-        let Some(determinant) = derivation.blocks[*block].determinant else { continue };
-        let of = if derivation.blocks.len() == 1 {
-            "det J".to_owned()
-        } else {
-            format!(
-                "The determinant of the block of `{}`,",
-                derivation.blocks[*block].names(derivation).replace(", ", "`, `")
-            )
+        let block = &derivation.blocks[*block];
+        let Some(determinant) = block.determinant else { continue };
+        let of = match derivation.blocks.len() {
+            1 => "det J".to_owned(),
+            _ => format!("The determinant of the block of `{}`,", block.names(derivation).replace(", ", "`, `")),
         };
-        let text = comment(&format!(
-            " {of} = `{}`, from the angles themselves.",
-            texts.of(&derivation.graph, determinant.value)
-        ));
-        let ident = ident(name);
-        members.extend(quote!(#[doc = #text] pub #ident: T,));
+        let formula = texts.of(&derivation.graph, determinant.value);
+        member(name, format!(" {of} = `{formula}`, from the angles themselves."), quote!(T));
     }
     members
 }
 
-/// More arguments than this are told apart by nobody: there the literal with its names is better.
-pub(super) const MOST_ARGUMENTS: usize = 7;
-
-fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], private: &TokenStream) -> TokenStream {
+fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], root: &TokenStream) -> TokenStream {
     let visibility = &mechanism.visibility;
-    let fields: Vec<Ident> = mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect();
-    let (scalar, no_scalar) = phantom(&fields);
-    let number = fields.len();
-    let members = mechanism.parameters.iter().zip(&fields).map(|(parameter, field)| {
+    let fields = Fields::of(mechanism.parameters.iter().map(|parameter| &parameter.name));
+    let (names, texts, count) = (&fields.names, &fields.texts, fields.count());
+    let (phantom, mark, other) = (fields.phantom(), fields.mark(), other_scalar(mechanism));
+    let members = mechanism.parameters.iter().zip(names).map(|(parameter, field)| {
         let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
         let other = parameter.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
         quote!(#docs #(#other)* pub #field: T)
@@ -235,38 +323,52 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], pri
         let text = comment(&format!(" The parameters of the mechanism `{name}`."));
         quote!(#[doc = #text])
     });
-    let (named, mark) = (named(mechanism.parameters.iter().map(|parameter| &parameter.name)), mark(fields.is_empty()));
-    let mut tokens = quote! {
-        #title
-        #(#attributes)*
-        #visibility struct #name<T = f64> { #(#members,)* #scalar }
-        #private::__parameters!(#name #named #mark);
-    };
-    if number <= MOST_ARGUMENTS {
-        tokens.extend(quote! {
-            impl<T: #private::Real> #name<T> {
-                /// The mechanism with these parameters.
-
-                #[must_use]
-                pub const fn new(#(#fields: T),*) -> Self {
-                    Self { #(#fields,)* #no_scalar }
-                }
+    let new = (names.len() <= MOST_ARGUMENTS).then(|| {
+        quote! {
+            #[doc = " The mechanism with these parameters."]
+            #[must_use]
+            pub const fn new(#(#names: T),*) -> Self {
+                Self { #(#names,)* #mark }
             }
-        });
-    }
-    let defaults: Option<Vec<TokenStream>> =
-        mechanism.parameters.iter().map(|parameter| default_of(mechanism, parameter)).collect();
-    if let Some(defaults) = defaults {
-        tokens.extend(quote! {
+        }
+    });
+    let defaults = mechanism.parameters.iter().map(|parameter| default_of(mechanism, parameter));
+    let default = defaults.collect::<Option<Vec<_>>>().map(|defaults| {
+        quote! {
             // Of one scalar only, so that it need not be named.
             impl ::core::default::Default for #name {
                 fn default() -> Self {
-                    Self { #(#fields: #defaults,)* #no_scalar }
+                    Self { #(#names: #defaults,)* #mark }
                 }
             }
-        });
+        }
+    });
+    quote! {
+        #title
+        #(#attributes)*
+        #visibility struct #name<T = f64> { #(#members,)* #phantom }
+        impl<T> ::core::convert::From<[T; #count]> for #name<T> {
+            fn from([#(#names),*]: [T; #count]) -> Self {
+                Self { #(#names,)* #mark }
+            }
+        }
+        impl<T> ::core::convert::From<#name<T>> for [T; #count] {
+            fn from(parameters: #name<T>) -> Self {
+                [#(parameters.#names),*]
+            }
+        }
+        impl<T: #root::__rt::Real> #name<T> {
+            #[doc = " The parameters as they were declared, in order."]
+            pub const PARAMETERS: [&'static str; #count] = [#(#texts),*];
+            #new
+            #[doc = " The same mechanism with another scalar."]
+            #[must_use]
+            pub fn map<#other>(self, scalar: impl ::core::ops::Fn(T) -> #other) -> #name<#other> {
+                #name { #(#names: scalar(self.#names),)* #mark }
+            }
+        }
+        #default
     }
-    tokens
 }
 
 /// The default of a parameter as an `f64`.
@@ -277,76 +379,45 @@ pub(super) fn default_of(mechanism: &Mechanism, parameter: &Parameter) -> Option
     Some(expression::plain(number))
 }
 
-fn coordinate_struct(
-    mechanism: &Mechanism,
-    name: &Ident,
-    title: &Literal,
-    coordinates: &[&Coordinate],
-    derives: &TokenStream,
-) -> TokenStream {
-    let visibility = &mechanism.visibility;
-    let members = coordinates.iter().map(|coordinate| {
-        let docs = docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind));
-        let field = field(&coordinate.name);
-        quote!(#docs pub #field: T)
-    });
-    let scalar = coordinates.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData<T>));
-    quote! {
-        #[doc = #title]
-        #derives
-        #visibility struct #name<T = f64> { #(#members,)* #scalar }
-    }
-}
-
-/// The fields of a type with what they are called, and their number, for the macros of the runtime.
-fn named<'a>(names: impl Iterator<Item = &'a Name>) -> TokenStream {
-    let (mut members, mut count) = (Tokens::default(), 0);
-    for name in names {
-        members.ident(&field(name));
-        members.append(string(&name.text));
-        count += 1;
-    }
-    let mut all = Tokens::default();
-    all.group(Delimiter::Bracket, members);
-    all.append(Literal::usize_unsuffixed(count));
-    all.into()
-}
-
-/// Of more groups than this nobody tries all branches.
-pub(super) const MOST_BRANCHING: usize = 16;
-
 /// The side of each group that has two solutions and, where the position has a closed form, the turn of each angle
 /// whose number matters.
-pub(super) fn branch(
-    mechanism: &Mechanism,
-    types: &Types,
-    Branches { sides, turns }: &Branches,
-    is_assembled: bool,
-    private: &TokenStream,
-) -> TokenStream {
-    let visibility = &mechanism.visibility;
-    let Types { driver, branch, derives, .. } = types;
-    let turns: &[AngleTurn] = if is_assembled { turns } else { &[] };
+fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
+    let visibility = &program.signatures.mechanism.visibility;
+    let (driver, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
+    let Position { sides, turns, is_closed, .. } = &program.position;
+    let turns = if *is_closed { turns.as_slice() } else { &[] };
+    let derives = derives();
     let title = comment(&format!(" Which solution is meant of each group of [`{driver}`] that has two."));
-    let members = sides.iter().map(|(side, choice)| {
+    let choices: Vec<(Ident, TokenStream)> = sides
+        .iter()
+        .map(|(side, choice)| {
+            let choice = ident(choice.name());
+            (ident(side), quote!(#root::__rt::#choice))
+        })
+        .collect();
+    let names: Vec<&Ident> = choices.iter().map(|(side, _)| side).collect();
+    let members = sides.iter().zip(&choices).map(|((text, choice), (side, of))| {
         let [first, second] = choice.words().map(str::to_lowercase);
-        let docs = comment(&format!(" Of the group of `{side}`: {first} or {second}."));
-        let choice = ident(choice.name());
-        quote!(#[doc = #docs] pub #side: #private::#choice)
+        let docs = comment(&format!(" Of the group of `{text}`: {first} or {second}."));
+        quote!(#[doc = #docs] pub #side: #of)
     });
-    let turn_members = turns.iter().map(|AngleTurn { field, coordinate, .. }| {
+    let turn_members = turns.iter().map(|turn| {
         let docs = comment(&format!(
-            " The turn of `{coordinate}`: 0 for its principal value, between -pi and pi; n adds 2 pi n."
+            " The turn of `{}`: 0 for its principal value, between -pi and pi; n adds 2 pi n.",
+            turn.coordinate
         ));
+        let field = ident(&turn.field);
         quote!(#[doc = #docs] pub #field: i32)
     });
-    let zeros: Vec<TokenStream> = turns.iter().map(|AngleTurn { field, .. }| quote!(#field: 0)).collect();
+    let zeros: Vec<TokenStream> = turns
+        .iter()
+        .map(|turn| {
+            let field = ident(&turn.field);
+            quote!(#field: 0)
+        })
+        .collect();
     let new = (sides.len() <= MOST_ARGUMENTS).then(|| {
-        let arguments = sides.iter().map(|(side, choice)| {
-            let choice = ident(choice.name());
-            quote!(#side: #private::#choice)
-        });
-        let names = sides.iter().map(|(side, _)| side);
+        let arguments = choices.iter().map(|(side, of)| quote!(#side: #of));
         let text = comment(match turns {
             [] => " The branch with these solutions.",
             _ if sides.is_empty() => " The branch with every angle at its principal value.",
@@ -363,18 +434,18 @@ pub(super) fn branch(
     let bits = (0..sides.len()).map(|place| match place {
         0 => quote!(bits & 1),
         place => {
-            let place = Literal::usize_unsuffixed(place);
+            let place = literal(place);
             quote!((bits >> #place) & 1)
         }
     });
-    let each = sides.iter().zip(bits).map(|((side, choice), bit)| {
-        let ([first, second], choice) = (choice.words().map(ident), ident(choice.name()));
-        quote!(#side: if #bit == 0 { #private::#choice::#first } else { #private::#choice::#second })
+    let each = sides.iter().zip(&choices).zip(bits).map(|(((_, choice), (side, of)), bit)| {
+        let [first, second] = choice.words().map(ident);
+        quote!(#side: if #bit == 0 { #of::#first } else { #of::#second })
     });
     let every = match sides.len() {
         0 => quote!(::core::iter::once(Self { #(#zeros),* })),
         many => {
-            let count = Literal::u32_unsuffixed(1 << many.min(MOST_BRANCHING));
+            let count = Literal::u32_unsuffixed(1 << many.min(31));
             quote! {
                 ::core::iter::Iterator::map(0..#count, |bits: u32| Self {
                     #(#each,)* #(#zeros),*
@@ -382,7 +453,7 @@ pub(super) fn branch(
             }
         }
     };
-    let all = (sides.len() <= MOST_BRANCHING).then(|| {
+    let all = program.position.has_few_branches().then(|| {
         let text = if turns.is_empty() {
             " Every branch there could be; at a given input some may not exist."
         } else {

@@ -1,40 +1,8 @@
-//! How much work a kernel is.
+//! Operation counts of a kernel.
 
 use super::{Line, Schedule, Value};
 use crate::graph::Function;
-
-/// How much work a kernel is.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Operations {
-    pub multiplications: usize,
-    pub additions: usize,
-    pub divisions: usize,
-    /// Roots among them; sine and cosine of one angle count as one, and so do a function of the user's and its
-    /// derivatives.
-    pub functions: usize,
-}
-
-impl Operations {
-    /// Both together.
-    #[must_use]
-    pub fn plus(self, other: Self) -> Self {
-        Self {
-            multiplications: self.multiplications + other.multiplications,
-            additions: self.additions + other.additions,
-            divisions: self.divisions + other.divisions,
-            functions: self.functions + other.functions,
-        }
-    }
-
-    /// Whether nothing is done more often than in `limit`.
-    #[must_use]
-    pub fn within(self, limit: Self) -> bool {
-        self.multiplications <= limit.multiplications
-            && self.additions <= limit.additions
-            && self.divisions <= limit.divisions
-            && self.functions <= limit.functions
-    }
-}
+use crate::program::Operations;
 
 impl Schedule {
     /// The operations of all lines, but for the factorisations.

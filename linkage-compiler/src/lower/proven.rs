@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Line, Schedule, Signed, Value, ValueId};
+use super::{Line, Schedule, Value, ValueId};
 use crate::graph::{Function, SymbolId};
 
 impl Schedule {
@@ -12,7 +12,8 @@ impl Schedule {
     /// are, and so are a root, a magnitude, a sine and a cosine (IEEE 754): so what the factors are made of is
     /// finite too.
     #[must_use]
-    pub fn proven(&self, results: &[Signed]) -> Vec<bool> {
+    pub fn proven(&self) -> Vec<bool> {
+        let results = &self.results;
         let is_chord = |line: &Line| matches!(line, Line::Chord { .. });
         if !self.lines.iter().any(is_chord) {
             return vec![false; results.len()];

@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
-use super::{Given, Signed, Value, ValueId};
+use super::{Signed, Value, ValueId};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
+use crate::program::Given;
 use crate::places::{Hash, Places};
 
 /// Translates nodes to values.

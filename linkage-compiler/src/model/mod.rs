@@ -13,7 +13,7 @@ mod scope;
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, Span};
-use syn::{Attribute, Visibility};
+use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
 
 use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, Region};
@@ -89,6 +89,25 @@ pub struct Closure {
     pub rows: Vec<NodeId>,
 }
 
+impl Closure {
+    /// The user's own description, as a paragraph.
+    #[must_use]
+    pub fn description(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for attribute in self.attributes.iter().filter(|attribute| attribute.path().is_ident("doc")) {
+            if let Meta::NameValue(MetaNameValue { value: Expr::Lit(ExprLit { lit: Lit::Str(text), .. }), .. }) =
+                &attribute.meta
+            {
+                lines.push(text.value().trim().to_owned());
+            }
+        }
+        if !lines.is_empty() {
+            lines.insert(0, String::new());
+        }
+        lines
+    }
+}
+
 /// A choice of independent coordinates, by index into [`Mechanism::coordinates`].
 pub struct Driver {
     pub name: Ident,
@@ -140,6 +159,12 @@ impl Mechanism {
     #[must_use]
     pub fn is_driven_by_choice(&self) -> bool {
         !matches!(self.drivers.as_slice(), [only] if only.name == self.name)
+    }
+
+    /// The scenes that a driver drives.
+    pub fn scenes_of<'a>(&'a self, driver: &Driver) -> impl Iterator<Item = &'a Scene> {
+        let name = driver.name.to_string();
+        self.scenes.iter().filter(move |scene| self.drivers[scene.driver].name == name)
     }
 
     /// Whether its types and those of the emitted code can be told apart.

@@ -1,0 +1,125 @@
+//! The steps of a solution: what is named, judged and solved, in order.
+
+use std::collections::BTreeSet;
+
+use crate::graph::{Graph, NodeId, SymbolId};
+
+/// One step of a solution. Later steps refer to what it names by its symbol.
+#[derive(Debug, Clone)]
+pub enum Step {
+    /// Gives a value a name.
+    Let { symbol: SymbolId, node: NodeId },
+    /// Names the number of an angle: its principal value and a number of turns that is given.
+    Turn { symbol: SymbolId, principal: NodeId },
+    /// Refuses a determinant that is zero relative to `size`.
+    Guard { block: usize, determinant: NodeId, size: NodeId },
+    /// Factorises the matrix of a block given by rows, whose rows are of these sizes.
+    Factor { block: usize, matrix: Vec<Vec<NodeId>>, sizes: Vec<NodeId> },
+    /// Solves the factorised system of a block and names the solution.
+    Solve { block: usize, targets: Vec<SymbolId>, right: Vec<NodeId> },
+    /// Names the root of a product of two factors, with the sign of the branch of a block; refuses a
+    /// factor that is less than zero relative to its terms.
+    Chord { block: usize, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId> },
+    /// Refuses a determinant of linear unknowns that is zero; `numerators` are what is divided by it, `scales` the sums of
+    /// the magnitudes of their terms.
+    Solvable { block: usize, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
+    /// Names the unknowns of a block, found by Newton's method from `start`: its residual, the sizes of its
+    /// loop equations and its matrix row by row are `system`, made of the unknowns and of what is `known`.
+    Newton { block: usize, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
+    /// Names the product of the pivots of a matrix given by rows.
+    Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
+}
+
+/// The geometry of a half chord.
+#[derive(Debug, Clone, Copy)]
+pub enum ChordOf<V> {
+    /// Two links between joints: their lengths, the line between the joints, its square, and the sum of the
+    /// magnitudes of its terms.
+    Triangle { links: [V; 2], line: [V; 2], distance: V, scale: V },
+    /// A reach and an offset, with the sums of the magnitudes of their terms, and whether the reach may vanish by
+    /// cancellation.
+    Reach { scales: [V; 2], may_cancel: bool },
+}
+
+impl<V: Copy> ChordOf<V> {
+    fn values(&self) -> Vec<V> {
+        match *self {
+            Self::Triangle { links: [p, q], line: [x, y], distance, scale } => vec![p, q, x, y, distance, scale],
+            Self::Reach { scales, .. } => scales.to_vec(),
+        }
+    }
+
+    pub(crate) fn map<W>(self, mut f: impl FnMut(V) -> W) -> ChordOf<W> {
+        match self {
+            Self::Triangle { links, line, distance, scale } => ChordOf::Triangle {
+                links: links.map(&mut f),
+                line: line.map(&mut f),
+                distance: f(distance),
+                scale: f(scale),
+            },
+            Self::Reach { scales, may_cancel } => ChordOf::Reach { scales: scales.map(f), may_cancel },
+        }
+    }
+}
+
+impl Step {
+    /// The symbols that a step gives a value to.
+    #[must_use]
+    pub fn introduced(&self) -> Vec<SymbolId> {
+        match self {
+            Self::Let { symbol, .. }
+            | Self::Turn { symbol, .. }
+            | Self::Pivots { symbol, .. }
+            | Self::Chord { symbol, .. } => vec![*symbol],
+            Self::Solve { targets, .. } | Self::Newton { targets, .. } => targets.clone(),
+            Self::Guard { .. } | Self::Factor { .. } | Self::Solvable { .. } => Vec::new(),
+        }
+    }
+
+    /// The expressions of a step.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<NodeId> {
+        match self {
+            Self::Let { node, .. } => vec![*node],
+            Self::Turn { principal, .. } => vec![*principal],
+            Self::Guard { determinant, size, .. } => vec![*determinant, *size],
+            Self::Chord { factors: [low, high], size, of, .. } => {
+                [*low, *high, *size].into_iter().chain(of.values()).collect()
+            }
+            Self::Solvable { determinant, numerators, scales, .. } => {
+                std::iter::once(determinant).chain(numerators).chain(scales).copied().collect()
+            }
+            Self::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).copied().collect(),
+            Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
+            Self::Solve { right, .. } => right.clone(),
+            Self::Newton { start, known, .. } => start.iter().chain(known).copied().collect(),
+        }
+    }
+}
+
+/// The steps that `results` and the checks among them depend on; checks all stay.
+#[must_use]
+pub fn needed(graph: &Graph, steps: Vec<Step>, results: &[NodeId]) -> Vec<Step> {
+    kept(graph, steps, results, |_| true)
+}
+
+/// The same, but of the steps that solve for several symbols or refuse something all stay.
+#[must_use]
+pub fn needed_names(graph: &Graph, steps: Vec<Step>, results: &[NodeId]) -> Vec<Step> {
+    kept(graph, steps, results, |step| matches!(step, Step::Let { .. } | Step::Turn { .. }))
+}
+
+fn kept(graph: &Graph, steps: Vec<Step>, results: &[NodeId], may_go: fn(&Step) -> bool) -> Vec<Step> {
+    let mut wanted: BTreeSet<SymbolId> = graph.symbols_of(results).into_iter().collect();
+    let mut kept = Vec::new();
+    for step in steps.into_iter().rev() {
+        let introduced = step.introduced();
+        let is_wanted = introduced.is_empty() || introduced.iter().any(|symbol| wanted.contains(symbol));
+        if is_wanted || !may_go(&step) {
+            wanted.extend(graph.symbols_of(&step.nodes()));
+            kept.push(step);
+        }
+    }
+    kept.reverse();
+    kept
+}

@@ -1,0 +1,53 @@
+//! User functions: one private function each, where their paths mean what they mean to the user
+//! and a wrong type is said once.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{quote, quote_spanned};
+
+use super::names::ident;
+use crate::graph::ExternalId;
+use crate::lower::Code;
+use crate::model::{ExternalFunction, Mechanism};
+use crate::program::{Function, Taken, call_of};
+
+/// Those that some functions call, as functions of `of`.
+pub(super) fn calls(
+    mechanism: &Mechanism,
+    functions: &[Function<Code>],
+    of: &Ident,
+    root: &TokenStream,
+) -> Option<TokenStream> {
+    let bodies = functions.iter().filter_map(|function| function.body.as_ref());
+    let called: BTreeSet<ExternalId> = bodies.flat_map(|body| body.externals.iter().copied()).collect();
+    let calls = mechanism.externals.iter().filter(|external| called.contains(&external.id)).map(call);
+    let calls: Vec<TokenStream> = calls.collect();
+    (!calls.is_empty()).then(|| quote!(impl<T: #root::__rt::Real> #of<T> { #(#calls)* }))
+}
+
+fn call(external: &ExternalFunction) -> TokenStream {
+    let ExternalFunction { path, attributes, arguments, names, .. } = external;
+    // What does not fit the function is said of its name.
+    let place = path.segments.last().map_or_else(Span::call_site, |segment| segment.ident.span());
+    let place = Span::call_site().located_at(place);
+    // No argument hides the function.
+    let reserved: BTreeSet<String> = path.get_ident().map(ToString::to_string).into_iter().collect();
+    let mut taken = Taken::new(&reserved);
+    let arguments: Vec<Ident> = arguments.iter().map(|name| Ident::new(&taken.unique(name), place)).collect();
+    let fields: Vec<String> = names.iter().map(|name| name.field.clone()).collect();
+    let texts: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
+    let docs = attributes.iter().filter(|attribute| attribute.path().is_ident("doc"));
+    let text = format!(" `({})` of the user's function.", texts.join(", "));
+    let scalars = texts.iter().map(|_| quote!(T));
+    let result = if texts.len() == 1 { quote!(T) } else { quote!((#(#scalars),*)) };
+    let (name, call) = (ident(&call_of(&fields)), quote_spanned!(place=> #path(#(#arguments),*)));
+    quote! {
+        #(#docs)*
+        #[doc = #text]
+        #[inline]
+        fn #name(#(#arguments: T),*) -> #result {
+            #call
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Functions of a program as Rust.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::expression::argument;
+use super::names::{comment, ident};
+use crate::lower::Code;
+use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value, count};
+
+/// A function with its description; without a body a stub that only has the right signature.
+pub(super) fn function(function: &Function<Code>) -> TokenStream {
+    let Function { name, doc, access, arguments, returns, is_fallible, body } = function;
+    let doc = description(doc, body.as_ref().map(|code| code.operations).unwrap_or_default());
+    let name = ident(name);
+    let arguments = arguments.iter().map(|Argument { name, passed }| {
+        let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(name)));
+        match passed {
+            Passed::ByValue(of) => quote!(#name: #of),
+            Passed::ByReference(of) => quote!(#name: &#of),
+            Passed::Converted(of) => quote!(#name: impl __rt::Into<#of>),
+            Passed::Turns => quote!(#name: &impl __rt::Turn<T>),
+        }
+    });
+    let attributes = match access {
+        Access::Public if !is_fallible && !matches!(returns, Type::Branches { .. }) => quote!(#[must_use] pub),
+        Access::Public => quote!(pub),
+        Access::Inlined => quote!(#[inline]),
+        Access::Cold => quote!(#[cold]),
+    };
+    let returns = if *is_fallible { quote!(__rt::Result<#returns, __rt::Error>) } else { quote!(#returns) };
+    let body = match body {
+        Some(Code { statements, value, .. }) => {
+            let value = match value {
+                Value::Plain(value) if *is_fallible => quote!(__rt::Ok(#value)),
+                Value::Plain(value) | Value::Result(value) => quote!(#value),
+            };
+            quote!(#(#statements)* #value)
+        }
+        None => quote!(::core::unreachable!()),
+    };
+    quote! {
+        #doc
+        #attributes fn #name(&self #(, #arguments)*) -> #returns { #body }
+    }
+}
+
+/// The lines of a description, and the work of the function.
+fn description(lines: &[String], work: Operations) -> TokenStream {
+    let mut lines: Vec<String> = lines.to_vec();
+    if work != Operations::default() {
+        lines.extend([String::new(), format!("Operations: {}.", count(work))]);
+    }
+    let lines = lines.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
+    let text = comment(&lines.collect::<Vec<_>>().join("\n"));
+    quote!(#[doc = #text])
+}

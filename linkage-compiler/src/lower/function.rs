@@ -1,0 +1,369 @@
+//! A planned function as statements: its formulas shared, ordered, named and proven finite where that is possible.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashSet;
+
+use super::lines::{Writer, direction_name};
+use super::names::Names;
+use super::{Schedule, Value, ValueId, schedule};
+use crate::derivation::Derivation;
+use crate::graph::{ExternalId, Function as Elementary, NodeId, SymbolId};
+use crate::program::{
+    Access, Body, Expression, Function, Given, Kernel, Operations, Pattern, PosePlan, Shape, Source, Statement, Taken, Value as Returned,
+};
+
+/// What the functions of one driver or scene have in common.
+pub struct Context<'a> {
+    pub derivation: &'a Derivation,
+    pub pose: &'a PosePlan,
+    /// Names that the user gave to expressions.
+    pub named: &'a [(NodeId, String)],
+    /// What no value may be called: the arguments.
+    pub reserved: &'a BTreeSet<String>,
+    /// The arguments that hold a pose, say which solution of a group is meant, and in which turn an angle is.
+    pub pose_argument: &'a str,
+    pub branch: &'a str,
+    pub turn: &'a str,
+    /// The work of the functions lowered so far.
+    pub works: BTreeMap<String, Operations>,
+}
+
+/// The lowered body of a function.
+#[derive(Debug, Clone)]
+pub struct Code {
+    pub statements: Vec<Statement>,
+    pub value: Returned,
+    pub operations: Operations,
+    /// The arguments that it uses.
+    pub uses: BTreeSet<String>,
+    /// The user functions that it calls.
+    pub externals: BTreeSet<ExternalId>,
+}
+
+/// Lowers a function.
+pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code> {
+    let Function { name, doc, access, arguments, returns, is_fallible, body } = planned;
+    let mut body = body.map(|body| self::body(body, context));
+    if let (Some(code), Access::Cold) = (&mut body, access) {
+        // It is not called where all is well.
+        code.operations = Operations::default();
+    }
+    if let Some(code) = &body {
+        context.works.insert(name.clone(), code.operations);
+    }
+    Function { name, doc, access, arguments, returns, is_fallible, body }
+}
+
+fn body(body: Body, context: &Context) -> Code {
+    let Body { before, kernel, after, value, locals, uses, calls, mut operations } = body;
+    for call in calls {
+        operations += context.works.get(&call).copied().unwrap_or_default();
+    }
+    let mut uses: BTreeSet<String> = uses.into_iter().collect();
+    let mut formulas = kernel.map_or_else(|| Formulas::none(context), |kernel| Formulas::of(&kernel, context));
+    uses.append(&mut formulas.uses);
+    operations += formulas.operations;
+    let locals: Vec<String> = locals.iter().map(|wish| formulas.taken.unique(wish)).collect();
+    let finished = Finished { results: &formulas.results, locals: &locals };
+    let mut statements = Vec::new();
+    for statement in before {
+        // An argument is converted only if it is used.
+        if matches!(&statement, Statement::Let(Pattern::Typed(name, _), _) if !uses.contains(name)) {
+            continue;
+        }
+        finished.statement(statement, &formulas, &mut statements);
+    }
+    statements.append(&mut formulas.statements);
+    for statement in after {
+        finished.statement(statement, &formulas, &mut statements);
+    }
+    let value = match value {
+        Returned::Plain(value) => Returned::Plain(finished.expression(value)),
+        Returned::Result(value) => Returned::Result(finished.expression(value)),
+    };
+    Code { statements, value, operations, uses, externals: formulas.externals }
+}
+
+/// A lowered kernel.
+struct Formulas<'a> {
+    statements: Vec<Statement>,
+    results: Vec<Expression>,
+    /// For each result, whether it is finite wherever the function gets so far.
+    is_proven: Vec<bool>,
+    dyads: Vec<Option<usize>>,
+    /// The values that say of a dyad whether its triangle is plain.
+    plain: Vec<String>,
+    taken: Taken<'a>,
+    uses: BTreeSet<String>,
+    externals: BTreeSet<ExternalId>,
+    operations: Operations,
+}
+
+impl<'a> Formulas<'a> {
+    /// Those of a function that has no kernel.
+    fn none(context: &Context<'a>) -> Self {
+        Self {
+            statements: Vec::new(),
+            results: Vec::new(),
+            is_proven: Vec::new(),
+            dyads: Vec::new(),
+            plain: Vec::new(),
+            taken: Taken::new(context.reserved),
+            uses: BTreeSet::new(),
+            externals: BTreeSet::new(),
+            operations: Operations::default(),
+        }
+    }
+
+    fn of(kernel: &Kernel, context: &Context<'a>) -> Self {
+        let derivation = context.derivation;
+        let nothing = Given::default();
+        let given = if kernel.is_on_pose { &context.pose.given } else { &nothing };
+        let nodes: Vec<NodeId> = kernel.results.iter().map(|output| output.node).collect();
+        let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, context.named);
+        let is_proven = schedule.proven();
+        let mut names = Names::new(&derivation.graph, context.reserved);
+        // The user's own names come first, so that they stay as they are.
+        let own: BTreeSet<SymbolId> = kernel.steps.iter().flat_map(|step| step.introduced()).collect();
+        let symbols: BTreeSet<SymbolId> = schedule.symbols().filter(|symbol| !own.contains(symbol)).collect();
+        for &symbol in &symbols {
+            names.introduce(symbol);
+        }
+        let (mut statements, mut uses) = (Vec::new(), BTreeSet::new());
+        for source in &kernel.sources {
+            if let Some(statement) = taken_apart(source, &symbols, &names) {
+                statements.extend(statement);
+                uses.extend(source.argument.clone());
+            }
+        }
+        if kernel.is_on_pose && directions(&mut statements, context, &schedule, &mut names) {
+            uses.insert(context.pose_argument.to_owned());
+        }
+        let arguments = (context.branch, context.turn);
+        let mut writer = Writer::new((derivation, kernel), arguments, &schedule, names);
+        writer.statements = statements;
+        let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);
+        writer.plain = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
+        writer.write();
+        let results = writer.all_signed(&schedule.results);
+        let Writer { mut statements, names, externals, plain, .. } = writer;
+        let mut taken = names.taken;
+        let results = kernel.results.iter().zip(results).map(|(output, result)| match &output.name {
+            Some(wish) if is_formula(&result) => {
+                let name = taken.unique(wish);
+                statements.push(Statement::Let(Pattern::Name(name.clone()), result));
+                Expression::Name(name)
+            }
+            _ => result,
+        });
+        let results = results.collect();
+        let (dyads, plain) = (kernel.dyads.clone(), plain.into_values().flatten().collect());
+        let operations = schedule.operations();
+        Self { statements, results, is_proven, dyads, plain, taken, uses, externals, operations }
+    }
+}
+
+/// True if a value is neither a name nor nought or one.
+fn is_formula(value: &Expression) -> bool {
+    match value {
+        Expression::Name(_) => false,
+        Expression::Number(number) => !number.is_zero() && !number.is_one(),
+        _ => true,
+    }
+}
+
+/// `let Type { field, other: name, .. } = *value;` with the fields that are used; none if no field is.
+fn taken_apart(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Option<Statement>> {
+    let entry = |symbol: &SymbolId| match used.contains(symbol) {
+        true => Pattern::Name(names.symbol(*symbol)),
+        false => Pattern::Ignored,
+    };
+    let pattern = match &source.shape {
+        Shape::Argument(symbol) => return symbol.is_some_and(|symbol| used.contains(&symbol)).then_some(None),
+        Shape::Columns { rows, symbols } => {
+            let columns = symbols.chunks(*rows).map(|column| Pattern::List(column.iter().map(entry).collect()));
+            Pattern::List(columns.collect())
+        }
+        Shape::List(symbols) => Pattern::List(symbols.iter().map(entry).collect()),
+        Shape::Fields { of, fields, is_whole } => {
+            let is_used = |(_, symbol): &&(String, SymbolId)| used.contains(symbol);
+            let local = |(field, symbol): &(String, SymbolId)| (field.clone(), names.symbol(*symbol));
+            let named: Vec<(String, String)> = fields.iter().filter(is_used).map(local).collect();
+            if named.is_empty() {
+                return None;
+            }
+            let is_whole = *is_whole && named.len() == fields.len();
+            Pattern::Struct { of: of.clone(), fields: named, is_whole }
+        }
+    };
+    Some(Some(Statement::Let(pattern, source.from.clone())))
+}
+
+/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used; true if any is.
+fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Schedule, names: &mut Names) -> bool {
+    let mut used: Vec<(NodeId, Elementary, ValueId)> = Vec::new();
+    for &id in schedule.used() {
+        if let Value::Direction(function, angle) = schedule.value(id) {
+            used.push((*angle, *function, id));
+        }
+    }
+    used.sort_unstable();
+    for parts in used.chunk_by(|one, other| one.0 == other.0) {
+        let field = context.pose.direction(parts[0].0);
+        let (mut patterns, mut values) = (Vec::new(), Vec::new());
+        for &(_, function, id) in parts {
+            patterns.push(Pattern::Name(names.give(id, &direction_name(function, field))));
+            let part = if function == Elementary::Sin { "im" } else { "re" };
+            values.push(Expression::name(context.pose_argument).field(field).field(part));
+        }
+        let (pattern, value) = match (patterns.pop(), values.pop()) {
+            (Some(pattern), Some(value)) if patterns.is_empty() => (pattern, value),
+            (pattern, value) => (
+                Pattern::Tuple(patterns.into_iter().chain(pattern).collect()),
+                Expression::Tuple(values.into_iter().chain(value).collect()),
+            ),
+        };
+        statements.push(Statement::Let(pattern, value));
+    }
+    !used.is_empty()
+}
+
+/// Puts results and local values in the places of their numbers.
+struct Finished<'a> {
+    results: &'a [Expression],
+    locals: &'a [String],
+}
+
+impl Finished<'_> {
+    fn statement(&self, statement: Statement, formulas: &Formulas, out: &mut Vec<Statement>) {
+        match statement {
+            Statement::Let(pattern, value) => {
+                out.push(Statement::Let(self.pattern(pattern), self.expression(value)));
+            }
+            Statement::Do(value) => out.push(Statement::Do(self.expression(value))),
+            Statement::Assign(place, value) => {
+                out.push(Statement::Assign(self.expression(place), self.expression(value)));
+            }
+            Statement::Check { what, values, blame } => {
+                let values = self.expressions(values);
+                out.extend(check(&what, values, blame));
+            }
+            Statement::CheckPosition => self.check_position(formulas, out),
+            Statement::Unless(conditions, inside) => {
+                let mut lines = Vec::new();
+                for statement in inside {
+                    self.statement(statement, formulas, &mut lines);
+                }
+                out.push(Statement::Unless(self.expressions(conditions), lines));
+            }
+        }
+    }
+
+    /// The numbers of a position: those of dyads need a check only where a triangle is not plain.
+    fn check_position(&self, formulas: &Formulas, out: &mut Vec<Statement>) {
+        let unproven = self.results.iter().zip(&formulas.dyads).zip(&formulas.is_proven);
+        let unproven = unproven.filter(|(_, is_proven)| !**is_proven).map(|(value, _)| value);
+        let (of_dyads, others): (Vec<_>, Vec<_>) = unproven.partition(|(_, dyad)| dyad.is_some());
+        let [of_dyads, others] = [of_dyads, others]
+            .map(|values| check("the position", values.into_iter().map(|(value, _)| value.clone()).collect(), None));
+        out.extend(others);
+        let plain: Vec<Expression> = formulas.plain.iter().map(Expression::name).collect();
+        if plain.is_empty() {
+            out.extend(of_dyads);
+        } else if let Some(of_dyads) = of_dyads {
+            out.push(Statement::Unless(plain, vec![of_dyads]));
+        }
+    }
+
+    fn expressions(&self, values: Vec<Expression>) -> Vec<Expression> {
+        values.into_iter().map(|value| self.expression(value)).collect()
+    }
+
+    fn boxed(&self, value: Box<Expression>) -> Box<Expression> {
+        Box::new(self.expression(*value))
+    }
+
+    fn expression(&self, value: Expression) -> Expression {
+        use Expression as E;
+        match value {
+            E::Result(place) => self.results[place].clone(),
+            E::Local(place) => E::Name(self.locals[place].clone()),
+            E::Sum(terms) => {
+                E::Sum(terms.into_iter().map(|(negative, term)| (negative, self.expression(term))).collect())
+            }
+            E::Product(factors) => E::Product(self.expressions(factors)),
+            E::Quotient(parts) => E::Quotient(Box::new(parts.map(|part| self.expression(part)))),
+            E::Square(value) => E::Square(self.boxed(value)),
+            E::Negative(value) => E::Negative(self.boxed(value)),
+            E::Elementary(function, arguments) => E::Elementary(function, self.expressions(arguments)),
+            E::Field(value, name) => E::Field(self.boxed(value), name),
+            E::Index(value, place) => E::Index(self.boxed(value), place),
+            E::List(values) => E::List(self.expressions(values)),
+            E::Repeated(value, count) => E::Repeated(self.boxed(value), count),
+            E::Tuple(values) => E::Tuple(self.expressions(values)),
+            E::Struct(of, members, rest) => {
+                let members = members.into_iter().map(|(name, value)| (name, self.expression(value))).collect();
+                E::Struct(of, members, rest.map(|rest| self.boxed(rest)))
+            }
+            E::Runtime(name, arguments) => E::Runtime(name, self.expressions(arguments)),
+            E::Associated(of, name, arguments) => E::Associated(of, name, self.expressions(arguments)),
+            E::Method(value, name, arguments) => E::Method(self.boxed(value), name, self.expressions(arguments)),
+            E::Try(value) => E::Try(self.boxed(value)),
+            E::Borrowed(value) => E::Borrowed(self.boxed(value)),
+            E::Behind(value) => E::Behind(self.boxed(value)),
+            E::Closure { arguments, statements, value, moves } => {
+                E::Closure { arguments, statements, value: self.boxed(value), moves }
+            }
+            finished @ (E::Name(_) | E::Number(_) | E::Text(_) | E::Count(_) | E::Constant(_)) => finished,
+        }
+    }
+
+    fn pattern(&self, pattern: Pattern) -> Pattern {
+        let all = |patterns: Vec<Pattern>| patterns.into_iter().map(|pattern| self.pattern(pattern)).collect();
+        match pattern {
+            Pattern::Local(place) => Pattern::Name(self.locals[place].clone()),
+            Pattern::Mutable(inside) => Pattern::Mutable(Box::new(self.pattern(*inside))),
+            Pattern::First(inside) => Pattern::First(Box::new(self.pattern(*inside))),
+            Pattern::List(patterns) => Pattern::List(all(patterns)),
+            Pattern::Tuple(patterns) => Pattern::Tuple(all(patterns)),
+            finished => finished,
+        }
+    }
+}
+
+/// `finite(NAME, what, [values])?;`, each value once; none if all are nought or one.
+fn check(what: &str, values: Vec<Expression>, blame: Option<Expression>) -> Option<Statement> {
+    let mut seen = FxHashSet::default();
+    let values = values.into_iter().filter(|value| match value {
+        Expression::Name(name) => seen.insert(name.clone()),
+        other => is_formula(other),
+    });
+    let values: Vec<Expression> = values.collect();
+    if values.is_empty() {
+        return None;
+    }
+    let check = [Expression::mechanism(), Expression::text(what), Expression::List(values)];
+    let check = Expression::runtime("finite", check);
+    let check = match blame {
+        Some(blame) => check.method("or_else", [blame]),
+        None => check,
+    };
+    Some(Statement::Do(check.tried()))
+}
+
+impl Schedule {
+    /// The symbols that are used.
+    fn symbols(&self) -> impl Iterator<Item = SymbolId> {
+        self.used().iter().filter_map(|&id| match self.value(id) {
+            Value::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        })
+    }
+
+    /// True if some line uses a symbol.
+    pub(super) fn uses(&self, symbol: SymbolId) -> bool {
+        self.symbols().any(|used| used == symbol)
+    }
+}
+

@@ -1,0 +1,316 @@
+//! Lines of a schedule as statements with names.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::names::Names;
+use super::{Line, Schedule, Signed, Value, ValueId};
+use crate::derivation::{ChordOf, Derivation};
+use crate::graph::{ExternalId, Function, SymbolId};
+use crate::program::{Expression, Kernel, Pattern, Statement, Type, call_of};
+
+/// Writes the lines of one schedule.
+pub(super) struct Writer<'a, 'n> {
+    pub(super) derivation: &'a Derivation,
+    pub(super) kernel: &'a Kernel,
+    /// The arguments that say which solution of a group is meant, and in which turn an angle is.
+    pub(super) branch: &'a str,
+    pub(super) turn: &'a str,
+    pub(super) schedule: &'a Schedule,
+    pub(super) names: Names<'n>,
+    pub(super) statements: Vec<Statement>,
+    /// The user functions that are called.
+    pub(super) externals: BTreeSet<ExternalId>,
+    /// For a dyad whose triangle may be plain, the value that says so.
+    pub(super) plain: BTreeMap<usize, Option<String>>,
+    /// The factorisations, by block.
+    factors: BTreeMap<usize, String>,
+}
+
+impl<'a, 'n> Writer<'a, 'n> {
+    pub(super) fn new(
+        (derivation, kernel): (&'a Derivation, &'a Kernel),
+        (branch, turn): (&'a str, &'a str),
+        schedule: &'a Schedule,
+        names: Names<'n>,
+    ) -> Self {
+        Self {
+            derivation,
+            kernel,
+            branch,
+            turn,
+            schedule,
+            names,
+            statements: Vec::new(),
+            externals: BTreeSet::new(),
+            plain: BTreeMap::new(),
+            factors: BTreeMap::new(),
+        }
+    }
+
+    pub(super) fn write(&mut self) {
+        let schedule: &'a Schedule = self.schedule;
+        for line in &schedule.lines {
+            self.line(line);
+        }
+    }
+
+    fn line(&mut self, line: &'a Line) {
+        match line {
+            Line::Let(id) => {
+                // What a value is made of has names before it has one itself.
+                let value = self.computed(*id);
+                let name = self.names.invent(self.schedule, *id);
+                self.let_name(name, value);
+            }
+            Line::SineCosine { sine, cosine, angle } => {
+                let angle = self.signed(*angle);
+                let pair = [*sine, *cosine].map(|id| Pattern::Name(self.names.invent(self.schedule, id)));
+                self.let_pattern(Pattern::Tuple(pair.to_vec()), angle.method("sine_cosine", []));
+            }
+            Line::SinesCosines(several) => {
+                let angles: Vec<Expression> = several.iter().map(|one| self.signed(one.angle)).collect();
+                let pairs = several.iter().map(|one| Pattern::Tuple(vec![self.pattern(one.sine), self.pattern(one.cosine)]));
+                let pairs = pairs.collect();
+                let call = Expression::associated(Type::Scalar, "sines_cosines", [Expression::List(angles)]);
+                self.let_pattern(Pattern::List(pairs), call);
+            }
+            Line::External { function, arguments, values } => {
+                let arguments = self.all_signed(arguments);
+                let call = call_of(self.derivation.graph.external_names(*function));
+                let mut patterns: Vec<Pattern> = values.iter().map(|value| self.pattern(*value)).collect();
+                let pattern = match (patterns.len(), patterns.pop()) {
+                    (1, Some(only)) => only,
+                    (_, last) => Pattern::Tuple(patterns.into_iter().chain(last).collect()),
+                };
+                self.let_pattern(pattern, Expression::associated(Type::Itself, call, arguments));
+                self.externals.insert(*function);
+            }
+            Line::Name { symbol, value } => self.name(*symbol, *value),
+            Line::Turn { symbol, principal } => {
+                let principal = self.signed(*principal);
+                let name = self.names.introduce(*symbol);
+                let number = match self.kernel.turns.get(symbol) {
+                    Some(&place) => {
+                        Expression::name(self.turn).method("number", [Expression::Count(place), principal])
+                    }
+                    None => principal,
+                };
+                self.let_name(name, number);
+            }
+            Line::Guard { block, determinant, size } => {
+                let arguments = [self.signed(*determinant), self.signed(*size)];
+                let call = self.judged("regular", *block, arguments);
+                self.statements.push(Statement::Do(call.tried()));
+            }
+            Line::Factor { block, matrix, sizes } => {
+                let arguments = [self.columns(matrix), Expression::List(self.all_signed(sizes))];
+                let call = [Expression::mechanism(), self.group(*block)].into_iter().chain(arguments);
+                let call = Expression::associated(Type::Runtime("Factorization", Vec::new()), "new", call).tried();
+                let name = self.names.taken.unique("factors");
+                // Where nothing is solved for, the check is still wanted.
+                let solves = |line: &Line| matches!(line, Line::Solve { block: other, .. } if other == block);
+                if self.schedule.lines.iter().any(solves) {
+                    self.let_name(name.clone(), call);
+                } else {
+                    self.statements.push(Statement::Do(call));
+                }
+                self.factors.insert(*block, name);
+            }
+            Line::Solve { block, targets, right } => {
+                let right = Expression::List(self.all_signed(right));
+                let targets = targets.iter().map(|target| match self.schedule.uses(*target) {
+                    true => Pattern::Name(self.names.introduce(*target)),
+                    false => Pattern::Ignored,
+                });
+                let targets = targets.collect();
+                let solution = Expression::name(&self.factors[block]).method("solve", [right]);
+                self.let_pattern(Pattern::List(targets), solution);
+            }
+            Line::Solvable { block, determinant, numerators, scales } => {
+                let determinant = self.signed(*determinant);
+                let [numerators, scales] = [numerators, scales].map(|values| Expression::List(self.all_signed(values)));
+                let call = self.judged("solvable", *block, [determinant, numerators, scales]);
+                self.statements.push(Statement::Do(call.tried()));
+            }
+            Line::Chord { block, symbol, factors, size, of } => self.chord((*block, *symbol), *factors, *size, *of),
+            Line::Pivots { symbol, matrix } => {
+                let columns = self.columns(matrix);
+                let name = self.names.introduce(*symbol);
+                self.let_name(name, Expression::runtime("product_of_pivots", [columns]));
+            }
+            Line::Newton { block, targets, start, system, .. } => {
+                let start = Expression::List(self.all_signed(start));
+                let evaluation = self.evaluation(targets, system);
+                let call = self.judged("newton_group", *block, [start, evaluation]).tried();
+                let targets = targets.iter().map(|&target| Pattern::Name(self.names.introduce(target))).collect();
+                self.let_pattern(Pattern::List(targets), call);
+            }
+        }
+    }
+
+    /// A value under the name of a symbol.
+    fn name(&mut self, symbol: SymbolId, value: Signed) {
+        let is_number = matches!(self.schedule.value(value.value), Value::Constant(_));
+        let is_new = !value.negative && !is_number && self.names.get(self.schedule, value.value).is_none();
+        let definition = self.signed(value);
+        let name = self.names.introduce(symbol);
+        self.let_name(name.clone(), definition);
+        if is_new {
+            self.names.set(value.value, name);
+        }
+    }
+
+    fn chord(
+        &mut self,
+        (block, symbol): (usize, SymbolId),
+        factors: [Signed; 2],
+        size: Signed,
+        of: ChordOf<Signed>,
+    ) {
+        let factors = Expression::List(factors.map(|value| self.signed(value)).to_vec());
+        let size = self.signed(size);
+        let of = of.map(|value| self.signed(value));
+        let side = Expression::name(self.branch).field(self.derivation.blocks[block].branch(self.derivation));
+        let name = Pattern::Name(self.names.introduce(symbol));
+        let plain = match self.plain.get_mut(&block) {
+            Some(plain) => {
+                let name = self.names.taken.unique(&format!("is_plain_{}", block + 1));
+                Pattern::Name(plain.insert(name).clone())
+            }
+            None => Pattern::Ignored,
+        };
+        let list = |values: [Expression; 2]| Expression::List(values.to_vec());
+        let (pattern, call) = match of {
+            ChordOf::Triangle { links, line, distance, scale } => {
+                let arguments = [factors, list([size, distance]), list(links), list(line), scale, side];
+                (Pattern::Tuple(vec![name, plain]), self.judged("elbow_chord", block, arguments))
+            }
+            ChordOf::Reach { scales, may_cancel } => {
+                let chord = if may_cancel { "reach_chord" } else { "chord" };
+                (name, self.judged(chord, block, [factors, size, list(scales), side]))
+            }
+        };
+        self.let_pattern(pattern, call.tried());
+    }
+
+    /// The evaluation of a block by Newton's method: its residual, the sizes of its equations, and its matrix column by
+    /// column.
+    fn evaluation(&mut self, unknowns: &[SymbolId], system: &'a Schedule) -> Expression {
+        let context = (self.derivation, self.kernel);
+        let mut inner = Writer::new(context, (self.branch, self.turn), system, self.names.within());
+        let arguments = unknowns.iter().map(|&unknown| Pattern::Name(inner.names.introduce(unknown)));
+        let arguments = vec![Pattern::List(arguments.collect())];
+        inner.write();
+        let results = inner.all_signed(&system.results);
+        self.externals.append(&mut inner.externals);
+        let count = unknowns.len();
+        let (residual, rest) = results.split_at(count);
+        let (sizes, rows) = rest.split_at(count);
+        let column = |column: usize| Expression::List(rows.iter().skip(column).step_by(count).cloned().collect());
+        let columns = Expression::List((0..count).map(column).collect());
+        let value = Expression::Tuple(vec![
+            Expression::List(residual.to_vec()),
+            Expression::List(sizes.to_vec()),
+            columns,
+        ]);
+        Expression::Closure { arguments, statements: inner.statements, value: Box::new(value), moves: false }
+    }
+
+    /// A call that refuses a group by its name.
+    fn judged(
+        &self,
+        function: &'static str,
+        block: usize,
+        arguments: impl IntoIterator<Item = Expression>,
+    ) -> Expression {
+        let judged = [Expression::mechanism(), self.group(block)];
+        Expression::runtime(function, judged.into_iter().chain(arguments))
+    }
+
+    fn group(&self, block: usize) -> Expression {
+        Expression::text(self.derivation.blocks[block].names(self.derivation))
+    }
+
+    fn let_name(&mut self, name: String, value: Expression) {
+        self.let_pattern(Pattern::Name(name), value);
+    }
+
+    fn let_pattern(&mut self, pattern: Pattern, value: Expression) {
+        self.statements.push(Statement::Let(pattern, value));
+    }
+
+    fn pattern(&mut self, value: Option<ValueId>) -> Pattern {
+        value.map_or(Pattern::Ignored, |value| Pattern::Name(self.names.invent(self.schedule, value)))
+    }
+
+    /// The columns of a matrix given by rows.
+    fn columns(&self, matrix: &[Vec<Signed>]) -> Expression {
+        let column = |column: usize| Expression::List(matrix.iter().map(|row| self.signed(row[column])).collect());
+        Expression::List((0..matrix.len()).map(column).collect())
+    }
+
+    pub(super) fn all_signed(&self, values: &[Signed]) -> Vec<Expression> {
+        values.iter().map(|value| self.signed(*value)).collect()
+    }
+
+    /// A value, by its name if it has one.
+    pub(super) fn signed(&self, Signed { negative, value }: Signed) -> Expression {
+        let name = self.names.get(self.schedule, value).map(Expression::name);
+        let inside = match (name, self.schedule.value(value)) {
+            (Some(name), _) => name,
+            // -(a - b) is b - a.
+            (None, Value::Sum(terms)) if negative && terms.iter().any(|term| term.negative) => {
+                let flip = |term: &Signed| Signed { negative: !term.negative, ..*term };
+                let mut terms: Vec<Signed> = terms.iter().map(flip).collect();
+                terms.sort_by_key(|term| term.negative);
+                return self.sum(&terms);
+            }
+            (None, Value::Constant(number)) if number.is_zero() => return Expression::Number(*number),
+            (None, _) => self.computed(value),
+        };
+        if negative { Expression::Negative(Box::new(inside)) } else { inside }
+    }
+
+    fn positive(&self, value: ValueId) -> Expression {
+        self.signed(Signed { negative: false, value })
+    }
+
+    fn sum(&self, terms: &[Signed]) -> Expression {
+        let term = |(place, term): (usize, &Signed)| match self.signed(*term) {
+            // Of the first term, which has no sign before it, a difference is turned round.
+            first if place == 0 => match first {
+                Expression::Negative(inside) => (true, *inside),
+                first => (false, first),
+            },
+            _ => (term.negative, self.positive(term.value)),
+        };
+        Expression::Sum(terms.iter().enumerate().map(term).collect())
+    }
+
+    /// How a value is computed, even if it has a name.
+    fn computed(&self, value: ValueId) -> Expression {
+        match self.schedule.value(value) {
+            Value::Symbol(symbol) => Expression::Name(self.names.symbol(*symbol)),
+            Value::Constant(number) => Expression::Number(*number),
+            Value::Sum(terms) => self.sum(terms),
+            Value::Product(factors) => {
+                Expression::Product(factors.iter().map(|&factor| self.positive(factor)).collect())
+            }
+            Value::Quotient(above, below) => {
+                Expression::Quotient(Box::new([self.positive(*above), self.positive(*below)]))
+            }
+            Value::Square(base) => Expression::Square(Box::new(self.positive(*base))),
+            Value::Call(function, arguments) => Expression::Elementary(*function, self.all_signed(arguments)),
+            // Directions and user functions have lines of their own, which name them.
+            Value::Direction(function, _) => Expression::name(function.operation().name),
+            Value::External(external, _) => {
+                Expression::name(self.derivation.graph.external_name(external).unwrap_or_default())
+            }
+        }
+    }
+}
+
+/// The name of the sine or cosine of a direction.
+pub(super) fn direction_name(function: Function, angle: &str) -> String {
+    format!("{}_{angle}", function.operation().name)
+}

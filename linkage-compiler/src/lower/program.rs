@@ -1,0 +1,51 @@
+//! A planned program, function by function.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::function::{Code, Context, function};
+use crate::derivation::Derivation;
+use crate::program::{Body, Derived, Function, Operations, Program, SceneProgram};
+
+/// Lowers all functions of a driver and of its scenes.
+#[must_use]
+pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Program<'a, Code> {
+    let Program { signatures, position, functions, scenes, derived } = planned;
+    let Some(derived) = derived else {
+        let functions = functions.into_iter().map(Function::without_body).collect();
+        return Program { signatures, position, functions, scenes: Vec::new(), derived: None };
+    };
+    let reserved = signatures.arguments.reserved();
+    let mut context = context(derivation, &derived, &reserved, &signatures.arguments, BTreeMap::new());
+    let functions = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
+    let works = context.works.iter().map(|(name, work)| (signatures.types.function(name), *work));
+    let works: BTreeMap<String, Operations> = works.collect();
+    let scenes = scenes.into_iter().map(|scene| {
+        let SceneProgram { signatures, functions } = scene;
+        let mut reserved = signatures.arguments.reserved();
+        reserved.insert(signatures.field.clone());
+        let mut context = self::context(derivation, &derived, &reserved, &signatures.arguments, works.clone());
+        let functions = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
+        SceneProgram { signatures, functions }
+    });
+    let scenes = scenes.collect();
+    Program { signatures, position, functions, scenes, derived: Some(derived) }
+}
+
+fn context<'c>(
+    derivation: &'c Derivation,
+    derived: &'c Derived,
+    reserved: &'c BTreeSet<String>,
+    arguments: &'c crate::program::Arguments,
+    works: BTreeMap<String, Operations>,
+) -> Context<'c> {
+    Context {
+        derivation,
+        pose: &derived.pose,
+        named: &derived.named,
+        reserved,
+        pose_argument: &arguments.pose,
+        branch: &arguments.branch,
+        turn: &arguments.turn,
+        works,
+    }
+}

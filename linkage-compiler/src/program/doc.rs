@@ -1,0 +1,44 @@
+//! Descriptions of functions, line by line.
+
+use super::operations::Operations;
+
+pub fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
+    lines.map(str::to_owned).to_vec()
+}
+
+/// A paragraph of formulas, if there are any.
+pub fn fenced(lines: impl Iterator<Item = String>) -> Vec<String> {
+    let mut block = vec![String::new(), "```text".to_owned()];
+    block.extend(lines);
+    block.push("```".to_owned());
+    if block.len() > 3 { block } else { Vec::new() }
+}
+
+pub fn count(operations: Operations) -> String {
+    let Operations { multiplications, additions, divisions, functions } = operations;
+    let parts = [
+        (functions, "function", "functions"),
+        (divisions, "division", "divisions"),
+        (multiplications, "multiplication", "multiplications"),
+        (additions, "addition", "additions"),
+    ];
+    let mut text = String::new();
+    for (count, one, many) in parts {
+        if count > 0 {
+            text.push_str(if text.is_empty() { "" } else { ", " });
+            text.push_str(&count.to_string());
+            text.push(' ');
+            text.push_str(if count == 1 { one } else { many });
+        }
+    }
+    text
+}
+
+/// The description of a function without `Result`, which says what it gives for numbers that are not finite.
+pub fn without_result(mut docs: Vec<String>) -> Vec<String> {
+    docs.extend(lines([
+        "",
+        "Nothing is refused: results of numbers that are not finite are not finite either, or mean nothing.",
+    ]));
+    docs
+}

@@ -1,0 +1,211 @@
+//! Psi and its Jacobians.
+
+use super::doc::{fenced, lines, without_result};
+use super::expression::{Expression, Pattern, Statement};
+use super::function::{Body, results};
+use super::plan::{Plan, unnamed};
+use crate::derivation::{Row, Step};
+use crate::graph::NodeId;
+
+/// A matrix larger than this is written entry by entry if most entries are zero.
+const LARGEST_DENSE: usize = 16;
+
+impl Plan<'_, '_> {
+    pub(super) fn equations(&mut self) {
+        self.residual();
+        self.jacobians();
+        self.jacobian_sizes();
+        self.determinants();
+    }
+
+    fn residual(&mut self) {
+        let (residual, sizes) = (self.derivation.residual.clone(), self.derivation.sizes.clone());
+        let mut doc = lines(["The closures Psi(q), zero where the mechanism is closed."]);
+        doc.extend(self.numbered("Psi", &residual));
+        for closure in &self.signatures.mechanism.closures {
+            doc.extend(closure.description());
+        }
+        let body = self.vector_of(residual);
+        self.add(self.signatures.residual(), without_result(doc), body);
+        let doc = lines(["The sum of the magnitudes of each closure's terms: what makes a residual small or large."]);
+        let body = self.vector_of(sizes);
+        self.add(self.signatures.closure_sizes(), without_result(doc), body);
+    }
+
+    fn vector_of(&self, nodes: Vec<NodeId>) -> Body {
+        let rows: Vec<Row> = nodes.into_iter().map(|node| Row::from([(0, node)])).collect();
+        self.matrix_function(&rows, 1)
+    }
+
+    fn jacobians(&mut self) {
+        let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
+        let (j, a) = (self.derivation.jacobian_unknowns(), self.derivation.jacobian_inputs());
+        let [unknowns, inputs] = [&self.signatures.driver.unknowns, &self.signatures.driver.inputs];
+        let order = self.signatures.mechanism.coordinate_order(self.signatures.driver);
+        let mut doc = vec![format!("The constraint Jacobian J = `Psi_u`; its columns are {}.", self.list(unknowns))];
+        doc.extend(self.entries("J", &j));
+        let body = self.matrix_function(&j, u);
+        let mut doc_of_inputs =
+            vec![format!("The constraint Jacobian of the inputs A = `Psi_v`; its columns are {}.", self.list(inputs))];
+        doc_of_inputs.extend(self.entries("A", &a));
+        let body_of_inputs = self.matrix_function(&a, v);
+        self.add(self.signatures.jacobian_unknowns(), without_result(doc), body);
+        self.add(self.signatures.jacobian_inputs(), without_result(doc_of_inputs), body_of_inputs);
+
+        let doc = vec![format!("The whole constraint Jacobian `Psi_q`; its columns are {}.", self.list(&order))];
+        let pose = &self.signatures.arguments.pose;
+        let names = |places: &[usize]| -> Vec<String> {
+            places.iter().map(|&place| self.signatures.mechanism.coordinates[place].name.field.clone()).collect()
+        };
+        let part = |places: &[usize], function: &str| {
+            let columns = Pattern::List(names(places).into_iter().map(Pattern::Name).collect());
+            Statement::Let(columns, Expression::call(function, [Expression::name(pose)]).columns())
+        };
+        let all = Expression::List(names(&order).into_iter().map(Expression::Name).collect());
+        let mut body = Body::plain(Expression::matrix_from(all)).using([pose]);
+        body.before = vec![
+            part(&self.signatures.driver.unknowns, "jacobian_unknowns"),
+            part(&self.signatures.driver.inputs, "jacobian_inputs"),
+        ];
+        self.add(self.signatures.jacobian(), without_result(doc), body);
+    }
+
+    fn jacobian_sizes(&mut self) {
+        let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
+        let [of_unknowns, of_inputs] = self.derivation.jacobian_sizes();
+        let (of_unknowns, of_inputs) = (entries(&of_unknowns, u), entries(&of_inputs, v));
+        let nodes = of_unknowns.iter().chain(&of_inputs).map(|(_, _, node)| *node);
+        let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
+        let mut body = Body { kernel: Some(kernel), ..Body::default() };
+        let first = of_unknowns.len();
+        let matrices = [
+            body.matrix(&places(&of_unknowns, 0), u, u),
+            body.matrix(&places(&of_inputs, first), u, v),
+        ];
+        let body = Body { value: super::Value::Plain(Expression::Tuple(matrices.to_vec())), ..body };
+        let doc = lines(["The largest magnitude that each entry of J and of A could have at these lengths."]);
+        self.add(self.signatures.jacobian_sizes(), without_result(doc), body);
+    }
+
+    fn determinants(&mut self) {
+        let pose = self.signatures.arguments.pose.clone();
+        let mut doc = lines(["det J, zero in the singular configurations."]);
+        match self.derivation.determinant() {
+            Some(node) => doc.extend(fenced([self.law("det J", node)].into_iter())),
+            None => doc.extend(lines(["Of blocks of more than two unknowns it is the product of the pivots."])),
+        }
+        let (mut steps, mut factors, mut laws) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, block) in self.derivation.blocks.clone().iter().enumerate() {
+            let names = block.names(self.derivation);
+            let Some(determinant) = block.determinant else {
+                let symbol = self.derivation.graph.symbol(format!("pivots_{}", number + 1));
+                steps.push(Step::Pivots { symbol, matrix: self.derivation.block_matrix(block) });
+                factors.push(self.derivation.graph.variable(symbol));
+                laws.push(format!("{names} ({}): the product of the pivots", block.group.words()));
+                continue;
+            };
+            let varies = self.derivation.graph.constant_value(determinant.value).is_none();
+            let named = self.derivation.graph.variable(determinant.symbol);
+            factors.push(if varies { named } else { determinant.value });
+            laws.push(format!("{names} ({}): {}", block.group.words(), self.text(determinant.value)));
+        }
+        let count = factors.len();
+        let names: Vec<String> = match count {
+            1 => vec!["determinant".to_owned()],
+            _ => (1..=count).map(|number| format!("determinant_{number}")).collect(),
+        };
+        let mut product: Vec<Expression> = names.iter().map(Expression::name).collect();
+        if self.derivation.is_odd
+            && let Some(first) = product.first_mut()
+        {
+            *first = Expression::Negative(Box::new(first.clone()));
+        }
+        let product = match product.as_slice() {
+            [only] => only.clone(),
+            _ => Expression::Product(product),
+        };
+        let mut body = Body::plain(product).using([&pose]);
+        let names = Pattern::List(names.into_iter().map(Pattern::Name).collect());
+        body.before =
+            vec![Statement::Let(names, Expression::call("block_determinants", [Expression::name(&pose)]))];
+        self.add(self.signatures.determinant(), without_result(doc), body);
+
+        let mut doc = lines(["The determinants of the blocks of J, in the order in which the blocks are solved."]);
+        doc.extend(fenced(laws.into_iter()));
+        let kernel = self.on_pose(Vec::new(), steps, unnamed(factors));
+        let body = Body::of(kernel, Expression::List(results(0..count)));
+        self.add(self.signatures.block_determinants(count), without_result(doc), body);
+    }
+
+    /// A function of the pose that returns a matrix given by rows.
+    fn matrix_function(&self, rows: &[Row], columns: usize) -> Body {
+        let entries = entries(rows, columns);
+        let nodes = entries.iter().map(|(_, _, node)| *node);
+        let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
+        let mut body = Body { kernel: Some(kernel), ..Body::default() };
+        let matrix = body.matrix(&places(&entries, 0), rows.len(), columns);
+        Body { value: super::Value::Plain(matrix), ..body }
+    }
+
+    /// `name_1 = …` of each row.
+    pub(super) fn numbered(&self, name: &str, nodes: &[NodeId]) -> Vec<String> {
+        fenced(nodes.iter().enumerate().map(|(row, &node)| self.law(format_args!("{name}_{}", row + 1), node)))
+    }
+
+    /// `name_12 = …` of each entry.
+    fn entries(&self, name: &str, rows: &[Row]) -> Vec<String> {
+        let entries = rows.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |(j, &node)| (i, j, node)));
+        fenced(entries.map(|(i, j, node)| self.law(format_args!("{name}_{}{}", i + 1, j + 1), node)))
+    }
+
+    /// Coordinates as they were written.
+    fn list(&self, places: &[usize]) -> String {
+        let names = places.iter().map(|&place| &self.signatures.mechanism.coordinates[place].name.text);
+        names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Row, column and node of each entry, column by column.
+fn entries(rows: &[Row], columns: usize) -> Vec<(usize, usize, NodeId)> {
+    let column = |c: usize| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?)));
+    (0..columns).flat_map(column).collect()
+}
+
+/// Row, column and value of entries that are the results from a place on.
+pub(super) fn places<N>(entries: &[(usize, usize, N)], from: usize) -> Vec<(usize, usize, Expression)> {
+    let places = entries.iter().enumerate();
+    places.map(|(place, (row, column, _))| (*row, *column, Expression::Result(from + place))).collect()
+}
+
+impl Body {
+    /// A matrix from its entries, which come column by column, after the statements that it needs; entries that are
+    /// not named are zero.
+    pub(super) fn matrix(
+        &mut self,
+        entries: &[(usize, usize, Expression)],
+        rows: usize,
+        columns: usize,
+    ) -> Expression {
+        if rows * columns <= LARGEST_DENSE || 2 * entries.len() >= rows * columns {
+            let mut flat = vec![Expression::zero(); rows * columns];
+            for (row, column, value) in entries {
+                flat[column * rows + row] = value.clone();
+            }
+            return Expression::matrix(&flat, rows);
+        }
+        if entries.is_empty() {
+            return Expression::associated(super::Type::Runtime("SMatrix", Vec::new()), "zeros", []);
+        }
+        let matrix = self.local("matrix");
+        let Expression::Local(place) = matrix else { return matrix };
+        let zeros = Expression::Repeated(Box::new(Expression::zero()), rows);
+        let zeros = Expression::Repeated(Box::new(zeros), columns);
+        self.after.push(Statement::Let(Pattern::Mutable(Box::new(Pattern::Local(place))), zeros));
+        for (row, column, value) in entries {
+            let entry = Expression::Index(Box::new(matrix.clone()), *column);
+            let entry = Expression::Index(Box::new(entry), *row);
+            self.after.push(Statement::Assign(entry, value.clone()));
+        }
+        Expression::matrix_from(matrix)
+    }
+}

@@ -1,0 +1,215 @@
+//! Expressions, patterns and types of the emitted program.
+
+use crate::graph::{Function, Number};
+
+/// An expression.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Expression {
+    /// `self`, an argument, or a local value.
+    Name(String),
+    /// A result of the kernel, by its place.
+    Result(usize),
+    /// A local value that gets its name when the function is lowered.
+    Local(usize),
+
+    // Arithmetic.
+    Number(Number),
+    /// The terms, each with whether it is taken away.
+    Sum(Vec<(bool, Expression)>),
+    Product(Vec<Expression>),
+    Quotient(Box<[Expression; 2]>),
+    Square(Box<Expression>),
+    Negative(Box<Expression>),
+    Elementary(Function, Vec<Expression>),
+
+    // Data.
+    Text(String),
+    Count(usize),
+    /// A constant of the program, such as `Self::NAME`.
+    Constant(&'static str),
+    Field(Box<Expression>, String),
+    Index(Box<Expression>, usize),
+    List(Vec<Expression>),
+    /// `[value; count]`
+    Repeated(Box<Expression>, usize),
+    Tuple(Vec<Expression>),
+    /// `Type { field: value, ..rest }`
+    Struct(Type, Vec<(String, Expression)>, Option<Box<Expression>>),
+
+    // Calls.
+    /// A function of the runtime.
+    Runtime(&'static str, Vec<Expression>),
+    /// An associated function of a type.
+    Associated(Type, String, Vec<Expression>),
+    /// A method.
+    Method(Box<Expression>, String, Vec<Expression>),
+    /// `value?`
+    Try(Box<Expression>),
+    /// `&value`
+    Borrowed(Box<Expression>),
+    /// `*value`
+    Behind(Box<Expression>),
+    /// `|arguments| { statements value }`; `moves` if it owns what it uses.
+    Closure { arguments: Vec<Pattern>, statements: Vec<Statement>, value: Box<Expression>, moves: bool },
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Statement {
+    /// `let pattern = value;`
+    Let(Pattern, Expression),
+    /// `value;`
+    Do(Expression),
+    /// `place = value;`
+    Assign(Expression, Expression),
+    /// `if !(all conditions) { … }`
+    Unless(Vec<Expression>, Vec<Statement>),
+    /// Refuses values that are not finite; `blame` is what says more exactly which.
+    Check { what: String, values: Vec<Expression>, blame: Option<Expression> },
+    /// Refuses numbers of a position that are not finite, but for those that a plain triangle proves finite.
+    CheckPosition,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Pattern {
+    Name(String),
+    Local(usize),
+    Mutable(Box<Pattern>),
+    Typed(String, Type),
+    Ignored,
+    List(Vec<Pattern>),
+    /// `[first, ..]`
+    First(Box<Pattern>),
+    Tuple(Vec<Pattern>),
+    /// `Type { field: name, .. }`
+    Struct {
+        of: Type,
+        fields: Vec<(String, String)>,
+        is_whole: bool,
+    },
+}
+
+/// A type.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Type {
+    /// The scalar `T`.
+    Scalar,
+    /// `Self`
+    Itself,
+    /// A type of the mechanism over the scalar: `Name<T>`.
+    Own(String),
+    /// A type of the mechanism without a scalar: `Name`.
+    Bare(String),
+    /// One quantity for each of the points or outputs: `Name<Item>`.
+    Each(String, Box<Type>),
+    Vector(usize),
+    Matrix(usize, usize),
+    /// `Vector2<T>`
+    Plane,
+    /// A type of the runtime with these sizes: `Name<T, 2>`.
+    Runtime(&'static str, Vec<usize>),
+    /// A type of the runtime around another: `Name<Item>`.
+    Around(&'static str, Box<Type>),
+    List(Box<Type>, usize),
+    Tuple(Vec<Type>),
+    /// The positions on all branches: an iterator of results.
+    Branches { branch: String, pose: String },
+}
+
+impl Expression {
+    pub fn name(name: impl Into<String>) -> Self {
+        Self::Name(name.into())
+    }
+
+    pub fn own() -> Self {
+        Self::name("self")
+    }
+
+    /// The name of the mechanism or the scene, as errors give it.
+    pub fn mechanism() -> Self {
+        Self::Constant("Self::NAME")
+    }
+
+    pub fn text(text: impl Into<String>) -> Self {
+        Self::Text(text.into())
+    }
+
+    #[must_use]
+    pub fn field(self, name: impl Into<String>) -> Self {
+        Self::Field(Box::new(self), name.into())
+    }
+
+    #[must_use]
+    pub fn method(self, name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
+        Self::Method(Box::new(self), name.into(), arguments.into_iter().collect())
+    }
+
+    #[must_use]
+    pub fn tried(self) -> Self {
+        Self::Try(Box::new(self))
+    }
+
+    #[must_use]
+    pub fn borrowed(self) -> Self {
+        Self::Borrowed(Box::new(self))
+    }
+
+    #[must_use]
+    pub fn behind(self) -> Self {
+        Self::Behind(Box::new(self))
+    }
+
+    pub fn runtime(name: &'static str, arguments: impl IntoIterator<Item = Self>) -> Self {
+        Self::Runtime(name, arguments.into_iter().collect())
+    }
+
+    /// A function of a type.
+    pub fn associated(of: Type, name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
+        Self::Associated(of, name.into(), arguments.into_iter().collect())
+    }
+
+    /// A call of another function of the same type.
+    pub fn call(name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
+        Self::own().method(name, arguments)
+    }
+
+    pub fn structure(of: Type, members: impl IntoIterator<Item = (String, Self)>) -> Self {
+        Self::Struct(of, members.into_iter().collect(), None)
+    }
+
+    /// A column vector.
+    pub fn vector(entries: Vec<Self>) -> Self {
+        Self::associated(Type::Runtime("SVector", Vec::new()), "from", [Self::List(entries)])
+    }
+
+    /// A matrix from its entries, column by column.
+    pub fn matrix(entries: &[Self], rows: usize) -> Self {
+        let columns = entries.chunks(rows).map(|column| Self::List(column.to_vec())).collect();
+        Self::matrix_from(Self::List(columns))
+    }
+
+    pub fn matrix_from(columns: Self) -> Self {
+        Self::associated(Type::Runtime("SMatrix", Vec::new()), "from", [columns])
+    }
+
+    /// The columns of a matrix as lists.
+    #[must_use]
+    pub fn columns(self) -> Self {
+        self.field("data").field("0")
+    }
+
+    pub fn zero() -> Self {
+        Self::Number(Number::ZERO)
+    }
+
+    /// Expressions in lists of lists of so many each, the outer ones first.
+    pub fn nested(values: Vec<Self>, sizes: &[usize]) -> Vec<Self> {
+        let Some((_, inner)) = sizes.split_first() else { return values };
+        let each = sizes.iter().product::<usize>().max(1);
+        let mut lists = Vec::new();
+        let mut values = values.into_iter().peekable();
+        while values.peek().is_some() {
+            lists.push(Self::List(Self::nested(values.by_ref().take(each).collect(), inner)));
+        }
+        lists
+    }
+}

@@ -1,0 +1,116 @@
+//! How far an input can go.
+
+use super::doc::lines;
+use super::expression::{Expression, Pattern, Statement, Type};
+use super::function::{Body, Source};
+use super::names::Arguments;
+use super::plan::{Plan, unnamed};
+use crate::model::Kind;
+
+impl Plan<'_, '_> {
+    /// `limits`, or of several inputs one function each.
+    pub(super) fn limits(&mut self) {
+        // The bounds refer to the steps of a position of their own.
+        self.assembly = self.derivation.assembly();
+        for place in 0..self.signatures.inputs() {
+            self.limits_of(place);
+        }
+    }
+
+    fn limits_of(&mut self, place: usize) {
+        let Arguments { inputs, branch, guess, position: here, .. } = self.signatures.arguments.clone();
+        let coordinate = &self.signatures.mechanism.coordinates[self.signatures.driver.inputs[place]];
+        let (name, kind) = (coordinate.name.clone(), coordinate.kind);
+        let input = self.derivation.inputs[place];
+        let (bounds, is_searched) = self.derivation.bounds(&self.assembly, input);
+        let one = self.derivation.graph.one();
+        let nodes = bounds.iter().flat_map(|bound| bound.coefficients.into_iter().chain([bound.rate.unwrap_or(one)]));
+        let nodes = unnamed(nodes);
+        // They are taken apart by reference: the position needs them whole.
+        let source = Source { from: Expression::name(&inputs), ..self.inputs(&inputs, |c| c.value) };
+        let kernel = self.kernel(vec![source], Vec::new(), nodes);
+
+        let bounds = bounds.iter().enumerate().map(|(number, bound)| {
+            let group = Expression::text(self.derivation.blocks[bound.block].names(self.derivation));
+            let group = Expression::Tuple(vec![Expression::Count(bound.block), group]);
+            let result = |place: usize| Expression::Result(4 * number + place);
+            let mut arguments = vec![group, Expression::List((0..3).map(result).collect())];
+            let kind = if bound.rate.is_some() {
+                arguments.push(result(3));
+                "Bound::Angle"
+            } else {
+                "Bound::Length"
+            };
+            Expression::runtime(kind, arguments)
+        });
+        let bounds = Expression::List(bounds.collect());
+        let position = || Expression::name(&here);
+        let search = match kind {
+            _ if !is_searched => Expression::Constant("Search::Nothing"),
+            Kind::Angle => Expression::Constant("Search::Turn"),
+            _ => {
+                let sizes = Expression::call("closure_sizes", [position().borrowed()]).method("sum", []);
+                let four = Expression::Number(crate::graph::Number::integer(4));
+                Expression::runtime("Search::Length", [Expression::Product(vec![four, sizes])])
+            }
+        };
+        let on = Expression::name(&branch);
+        let moved = Expression::Struct(
+            Type::Bare(self.signatures.types.coordinates.clone()),
+            vec![(name.field.clone(), Expression::name(&name.field))],
+            Some(Box::new(position().method("coordinates", []))),
+        );
+        // The position nearest to the last one, in the same turn.
+        let near = Expression::call("assemble_near", [moved.borrowed(), on.clone()]);
+        let inputs_type = Type::Bare(self.signatures.types.inputs.clone());
+        let is_near = !self.position.is_closed || !self.position.turns.is_empty();
+        let (last, again) = if is_near {
+            (Pattern::Name(here.clone()), near)
+        } else {
+            // A single input leaves no other to be taken over.
+            let others = (self.signatures.inputs() > 1).then(|| Box::new(Expression::name(&inputs)));
+            let moved = vec![(name.field.clone(), Expression::name(&name.field))];
+            let moved = Expression::Struct(inputs_type.clone(), moved, others);
+            (Pattern::Ignored, Expression::call("assemble", [moved, on.clone()]))
+        };
+        let closure = |arguments: Vec<Pattern>, value: Expression| Expression::Closure {
+            arguments,
+            statements: Vec::new(),
+            value: Box::new(value),
+            moves: false,
+        };
+        let again = closure(vec![last, Pattern::Name(name.field.clone())], again);
+        let determinants = closure(
+            vec![Pattern::Name(here.clone())],
+            Expression::call("block_determinants", [position()]),
+        );
+        let (start, first) = if self.position.is_closed {
+            let start = Expression::name(&inputs).method("into", []);
+            (start, Expression::call("assemble", [Expression::name(&inputs), on]))
+        } else {
+            let start = Expression::associated(inputs_type, "from", [Expression::name(&guess)]);
+            (start, Expression::call("assemble_near", [Expression::name(&guess), on]))
+        };
+        let value = Expression::name(&inputs).field(&name.field);
+        let arguments = [Expression::mechanism(), value, position(), bounds, search, again, determinants];
+        let mut body = Body::result(Expression::runtime("limits", arguments)).using([&inputs, &branch, &guess]);
+        body.before = vec![
+            Statement::Let(Pattern::Name(inputs), start),
+            Statement::Let(Pattern::Name(here.clone()), first.tried()),
+        ];
+        body.kernel = Some(kernel);
+        let others = if self.signatures.inputs() == 1 { "" } else { ", the other inputs held" };
+        let doc = lines([
+            &format!(
+                "The `{}` between which the mechanism can be assembled on a branch about a position{others}:",
+                name.text
+            ),
+            "in closed form for groups that depend on the inputs alone, directly or through linear equations, bracketed for",
+            "the others. Inputs at which a group is undetermined on the way are passed.",
+            "",
+            "# Errors",
+            "Those of the position asked about, `NotFinite` if a number is not finite.",
+        ]);
+        self.add(self.signatures.limits(&self.position, place), doc, body);
+    }
+}

@@ -1,0 +1,103 @@
+//! The emitted program as data: which functions a mechanism gets, before they are lowered and printed.
+//!
+//! [`plan`] says of each function of a driver and of its scenes what it is called, takes and returns, the steps and
+//! formulas of its kernel, and what is made of the results. [`stub`] gives the functions of a mechanism with mistakes.
+
+mod branch;
+mod doc;
+mod equations;
+mod expression;
+mod function;
+mod limits;
+mod names;
+mod operations;
+mod plan;
+mod pose;
+mod position;
+mod quantities;
+mod rates;
+mod ratio_derivatives;
+mod scene;
+mod sensitivity;
+mod signatures;
+
+use std::collections::BTreeSet;
+
+pub use branch::{AngleTurn, Position};
+pub use doc::count;
+pub use expression::{Expression, Pattern, Statement, Type};
+pub use function::{Access, Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value};
+pub use names::{Arguments, LONGEST_NAME, Taken, TypeNames, call_of};
+pub use operations::Operations;
+pub use pose::{Given, PosePlan};
+pub use scene::SceneSignatures;
+pub use signatures::{Family, Signatures};
+
+use crate::derivation::{Derivation, Formulas};
+use crate::graph::NodeId;
+use crate::model::{Driver, Mechanism};
+use plan::Plan;
+use scene::ScenePlan;
+
+/// The program of one driver of a mechanism; `B` is the body of a function, planned or lowered.
+pub struct Program<'a, B> {
+    pub signatures: Signatures<'a>,
+    pub position: Position,
+    pub functions: Vec<Function<B>>,
+    pub scenes: Vec<SceneProgram<'a, B>>,
+    /// Missing in a stub.
+    pub derived: Option<Derived>,
+}
+
+/// The program of one scene.
+pub struct SceneProgram<'a, B> {
+    pub signatures: SceneSignatures<'a>,
+    pub functions: Vec<Function<B>>,
+}
+
+/// What functions and types are made of.
+pub struct Derived {
+    pub pose: PosePlan,
+    pub formulas: Formulas,
+    /// The expressions that have names.
+    pub named: Vec<(NodeId, String)>,
+}
+
+/// Plans the functions of a driver and of its scenes.
+pub fn plan<'a>(
+    mechanism: &'a Mechanism,
+    driver: &'a Driver,
+    derivation: &mut Derivation,
+) -> Program<'a, Body> {
+    let mut plan = Plan::of(mechanism, driver, derivation);
+    let mut scenes = Vec::new();
+    for (number, scene) in mechanism.scenes_of(driver).enumerate() {
+        if mechanism.graph.budget().is_spent() {
+            break;
+        }
+        scenes.extend(ScenePlan::of(&mut plan, scene, number).map(ScenePlan::into_program));
+    }
+    let Plan { signatures, position, mut functions, pose, formulas, named, .. } = plan;
+    // A private function is there only if it is called.
+    let all = || scenes.iter().flat_map(|scene: &SceneProgram<Body>| &scene.functions).chain(&functions);
+    let called: BTreeSet<&String> = all().filter_map(|function| function.body.as_ref()).flat_map(|body| &body.calls).collect();
+    let is_called = |name: &String| called.contains(name) || called.contains(&signatures.types.function(name));
+    let kept: Vec<bool> =
+        functions.iter().map(|function| function.access == Access::Public || is_called(&function.name)).collect();
+    let mut kept = kept.into_iter();
+    functions.retain(|_| kept.next().unwrap_or(true));
+    Program { signatures, position, functions, scenes, derived: Some(Derived { pose, formulas, named }) }
+}
+
+/// The program of a mechanism with mistakes: functions without bodies.
+pub fn stub<'a, B>(mechanism: &'a Mechanism, driver: &'a Driver) -> Program<'a, B> {
+    let (signatures, position) = (Signatures::new(mechanism, driver), Position::guessed(mechanism, driver));
+    let functions = signatures.all(&position).into_iter().map(Function::without_body).collect();
+    let scenes = mechanism.scenes_of(driver).map(|scene| {
+        let signatures = SceneSignatures::new(mechanism, driver, scene);
+        let functions = signatures.all().into_iter().map(Function::without_body).collect();
+        SceneProgram { signatures, functions }
+    });
+    let scenes = scenes.collect();
+    Program { signatures, position, functions, scenes, derived: None }
+}

@@ -1,0 +1,189 @@
+//! Names of the emitted program.
+
+use std::collections::BTreeSet;
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::model::{Driver, Mechanism};
+
+/// A longer name says less than a number.
+pub const LONGEST_NAME: usize = 36;
+
+/// The names in use.
+#[derive(Debug, Clone)]
+pub struct Taken<'a> {
+    /// Words that no value may be called, such as the arguments.
+    reserved: &'a BTreeSet<String>,
+    names: FxHashSet<String>,
+    /// The next number of a stem, so that the thousandth name is found as fast as the second.
+    numbers: FxHashMap<String, usize>,
+}
+
+impl<'a> Taken<'a> {
+    pub fn new(reserved: &'a BTreeSet<String>) -> Self {
+        Self { reserved, names: FxHashSet::default(), numbers: FxHashMap::default() }
+    }
+
+    /// The name wished for, or one like it that is not taken.
+    pub fn unique(&mut self, wish: &str) -> String {
+        if self.claim(wish) { wish.to_owned() } else { self.numbered(wish, 2) }
+    }
+
+    fn claim(&mut self, name: &str) -> bool {
+        !self.reserved.contains(name) && self.names.insert(name.to_owned())
+    }
+
+    /// The stem with the next number, from `first` on.
+    pub fn numbered(&mut self, stem: &str, first: usize) -> String {
+        let mut number = self.numbers.get(stem).copied().unwrap_or(first);
+        loop {
+            let name = format!("{stem}_{number}");
+            number += 1;
+            if self.claim(&name) {
+                self.numbers.insert(stem.to_owned(), number);
+                return name;
+            }
+        }
+    }
+}
+
+/// The name of the direction of an angle: that of the coordinate, or one made of a short sum such as
+/// `phi2 - delta`.
+pub fn angle_name(text: &str) -> String {
+    let mut name = String::new();
+    let mut separate = false;
+    for letter in text.chars() {
+        let word = match letter {
+            '-' => "minus",
+            '+' => "plus",
+            '*' => "times",
+            '/' => "over",
+            letter if letter.is_alphanumeric() || letter == '_' => {
+                if separate && !name.is_empty() {
+                    name.push('_');
+                }
+                separate = false;
+                name.push(letter);
+                continue;
+            }
+            _ => {
+                separate = true;
+                continue;
+            }
+        };
+        if !name.is_empty() {
+            name.push('_');
+        }
+        name.push_str(word);
+        separate = true;
+    }
+    let starts_well = name.chars().next().is_some_and(|first| first.is_alphabetic() || first == '_');
+    if starts_well && name.len() <= LONGEST_NAME { name } else { "angle".to_owned() }
+}
+
+/// The private function that calls a user function.
+pub fn call_of(names: &[String]) -> String {
+    format!("extern_{}", names.first().map_or("", String::as_str))
+}
+
+/// The names of the types of one driver, or of one of its scenes.
+#[derive(Debug, Clone)]
+pub struct TypeNames {
+    /// The type that the functions belong to.
+    pub itself: String,
+    /// The driver, with the kinematics.
+    pub driver: String,
+    pub inputs: String,
+    pub unknowns: String,
+    pub pose: String,
+    pub coordinates: String,
+    pub points: String,
+    pub outputs: String,
+    pub motion: String,
+    pub branch: String,
+}
+
+impl TypeNames {
+    pub fn new(mechanism: &Mechanism, driver: &Driver) -> Self {
+        let (own, shared) = (&driver.name, &mechanism.name);
+        Self {
+            itself: own.to_string(),
+            driver: own.to_string(),
+            inputs: format!("{own}Inputs"),
+            unknowns: format!("{own}Unknowns"),
+            pose: format!("{own}Pose"),
+            coordinates: format!("{shared}Coordinates"),
+            points: format!("{shared}Points"),
+            outputs: format!("{shared}Outputs"),
+            motion: format!("{own}Motion"),
+            branch: format!("{own}Branch"),
+        }
+    }
+
+    /// The name under which scenes know a function of the driver.
+    pub fn function(&self, name: &str) -> String {
+        format!("{}::{name}", self.driver)
+    }
+}
+
+/// The arguments and local values that functions have in common.
+#[derive(Debug, Clone)]
+pub struct Arguments {
+    pub pose: String,
+    pub q: String,
+    pub rate: String,
+    pub acceleration: String,
+    pub jerk: String,
+    pub right: String,
+    pub branch: String,
+    pub turn: String,
+    pub inputs: String,
+    pub guess: String,
+    pub position: String,
+    pub ratios: String,
+    pub velocity: String,
+    pub time: String,
+}
+
+impl Arguments {
+    pub fn new(mechanism: &Mechanism) -> Self {
+        let name = |wish: &str| argument(mechanism, wish);
+        Self {
+            pose: name("pose"),
+            q: name("q"),
+            rate: name("rate"),
+            acceleration: name("acceleration"),
+            jerk: name("jerk"),
+            right: name("right"),
+            branch: name("branch"),
+            turn: name("turn"),
+            inputs: name("inputs"),
+            guess: name("guess"),
+            position: name("position"),
+            ratios: name("ratios"),
+            velocity: name("velocity"),
+            time: mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time)).to_owned(),
+        }
+    }
+
+    /// The words that no value may be called.
+    pub fn reserved(&self) -> BTreeSet<String> {
+        let Self { pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity, time: _ } =
+            self;
+        let all = [pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity];
+        all.into_iter().cloned().chain(["self".to_owned()]).collect()
+    }
+}
+
+/// The name of an argument, which no name of the user's has.
+pub fn argument(mechanism: &Mechanism, wish: &str) -> String {
+    let parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
+    let parameters = parameters.map(|parameter| &parameter.name.field);
+    let coordinates = mechanism.coordinates.iter().map(|coordinate| &coordinate.name.field);
+    let all: BTreeSet<&String> = parameters.chain(coordinates).collect();
+    let mut name = wish.to_owned();
+    while all.contains(&name) {
+        name.push('_');
+    }
+    name
+}

@@ -1,0 +1,267 @@
+//! The plan of a driver: its pose, its functions, and what they are made of.
+
+use std::cell::RefCell;
+
+use super::branch::Position;
+use super::expression::{Expression, Type};
+use super::function::{Body, Function, Kernel, Output, Shape, Source, results};
+use super::pose::PosePlan;
+use super::signatures::{Family, Signatures};
+use crate::derivation::{Assembly, Coordinate, Derivation, Form, Formulas, Step};
+use crate::graph::{NodeId, SymbolId, Texts};
+use crate::model::{Driver, Mechanism, Request};
+
+/// A driver whose functions are planned one by one.
+pub struct Plan<'d, 'a> {
+    pub signatures: Signatures<'a>,
+    pub derivation: &'d mut Derivation,
+    pub formulas: Formulas,
+    pub pose: PosePlan,
+    pub assembly: Assembly,
+    pub position: Position,
+    /// The expressions that have names: the user's own, and those of points and outputs.
+    pub named: Vec<(NodeId, String)>,
+    pub functions: Vec<Function<Body>>,
+    /// The formulas written so far.
+    texts: RefCell<Texts>,
+}
+
+impl<'d, 'a> Plan<'d, 'a> {
+    /// Plans the functions of a driver.
+    pub fn of(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &'d mut Derivation) -> Self {
+        let mut plan = Plan::new(mechanism, driver, derivation);
+        let wants = |request| mechanism.requests.contains(&request);
+        plan.position();
+        if wants(Request::Limits) {
+            plan.limits();
+        }
+        plan.equations();
+        plan.velocity();
+        plan.acceleration();
+        if wants(Request::Jerk) {
+            plan.jerk();
+        }
+        plan.quantities(Family::Points);
+        plan.quantities(Family::Outputs);
+        plan.motion();
+        if wants(Request::VelocityRatioDerivatives) {
+            plan.ratio_derivatives();
+        }
+        if wants(Request::Sensitivity) {
+            plan.sensitivity();
+        }
+        if !plan.derivation.scenes.is_empty() {
+            plan.layers();
+        }
+        plan
+    }
+}
+
+impl<'d, 'a> Plan<'d, 'a> {
+    fn new(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &'d mut Derivation) -> Self {
+        let pose = PosePlan::new(derivation);
+        let formulas = Formulas::new(derivation);
+        let position = Position::guessed(mechanism, driver);
+        let mut plan = Self {
+            signatures: Signatures::new(mechanism, driver),
+            named: mechanism.named.clone(),
+            derivation,
+            formulas,
+            pose,
+            assembly: Assembly::default(),
+            position,
+            functions: Vec::new(),
+            texts: RefCell::default(),
+        };
+        plan.name_quantities();
+        plan
+    }
+
+    /// Parts of formulas that are a point, an output or a rate of one are called so.
+    fn name_quantities(&mut self) {
+        const ENDINGS: [&str; 4] = ["", "_rate", "_acceleration", "_jerk"];
+        for family in [Family::Points, Family::Outputs] {
+            let names = family.names(self.signatures.mechanism);
+            for (quantity, name) in self.quantities_of(family).to_vec().iter().zip(names) {
+                let orders = [&quantity.value, &quantity.rate, &quantity.acceleration, &quantity.jerk];
+                // An acceleration of an output is seldom a part of anything else.
+                let orders = orders.into_iter().zip(ENDINGS).take(if family == Family::Points { 4 } else { 2 });
+                for (nodes, ending) in orders {
+                    let axes = family.axes().iter().zip(nodes);
+                    self.named.extend(axes.map(|(axis, &node)| (node, format!("{name}{axis}{ending}"))));
+                }
+            }
+        }
+    }
+
+    /// Adds a function with its description and its body.
+    pub(super) fn add(&mut self, signature: Function<Body>, doc: Vec<String>, body: Body) {
+        self.functions.push(Function { doc, body: Some(body), ..signature });
+    }
+
+    // Formulas.
+
+    pub(super) fn text(&self, node: NodeId) -> String {
+        self.texts.borrow_mut().of(&self.derivation.graph, node).to_owned()
+    }
+
+    /// `name = formula`
+    pub(super) fn law(&self, name: impl std::fmt::Display, node: NodeId) -> String {
+        format!("{name} = {}", self.text(node))
+    }
+
+    pub(super) fn rates(&self, of: &[usize]) -> Vec<SymbolId> {
+        of.iter().map(|&index| self.derivation.coordinates[index].rate).collect()
+    }
+
+    pub(super) fn accelerations(&self, of: &[usize]) -> Vec<SymbolId> {
+        of.iter().map(|&index| self.derivation.coordinates[index].acceleration).collect()
+    }
+
+    pub(super) fn variables(&mut self, symbols: &[SymbolId]) -> Vec<NodeId> {
+        symbols.iter().map(|&symbol| self.derivation.graph.variable(symbol)).collect()
+    }
+
+    /// The names of symbols as wishes for the names of results.
+    pub(super) fn outputs(&mut self, symbols: &[SymbolId]) -> Vec<Output> {
+        let nodes = self.variables(symbols);
+        let name = |symbol: &SymbolId| self.derivation.graph.symbol_name(*symbol);
+        nodes.into_iter().zip(symbols).map(|(node, symbol)| Output::named(node, name(symbol))).collect()
+    }
+
+    /// Steps that name W.
+    pub(super) fn ratio_steps(&mut self) -> Vec<Step> {
+        let ratios = self.derivation.ratios.clone();
+        let systems = ratios.into_iter().enumerate();
+        let systems: Vec<_> = systems.map(|(input, ratios)| (self.derivation.ratio_side(input), ratios)).collect();
+        self.derivation.solution(&systems, Form::Factored)
+    }
+
+    /// Without a pose the determinants are computed where they are checked.
+    pub(super) fn with_determinants(&self, steps: Vec<Step>) -> Vec<Step> {
+        let with = |step: Step| {
+            let block = if let Step::Guard { block, .. } = step { Some(block) } else { None };
+            let determinant = block.and_then(|block| self.derivation.blocks[block].determinant);
+            let named = determinant.map(|d| Step::Let { symbol: d.symbol, node: d.value });
+            named.into_iter().chain([step])
+        };
+        steps.into_iter().flat_map(with).collect()
+    }
+
+    /// The results to be checked where some are the user's own, in the order of the coordinates from a place on: the
+    /// unknowns, and the inputs that are in no loop equation. Rates of unknowns are sums of multiples of the rates of
+    /// the other inputs, so that they are not finite where those are not.
+    pub(super) fn checked(&self, from: usize) -> Vec<Expression> {
+        let (derivation, rows) = (&self.derivation, self.derivation.jacobian_inputs());
+        let is_idle = |place: usize| {
+            let mut entries = rows.iter().filter_map(|row| row.get(&place));
+            entries.all(|&entry| derivation.graph.is_zero(entry))
+        };
+        let idle = derivation.inputs.iter().enumerate().filter(|(place, _)| is_idle(*place));
+        let checked = derivation.unknowns.iter().chain(idle.map(|(_, index)| index));
+        checked.map(|&index| Expression::Result(from + index)).collect()
+    }
+
+    // Sources of symbols.
+
+    pub(super) fn parameters(&self) -> Source {
+        let fields = self.signatures.mechanism.parameters.iter();
+        let fields = fields.map(|parameter| (parameter.name.field.clone(), parameter.symbol)).collect();
+        Source {
+            argument: None,
+            from: Expression::own().behind(),
+            shape: Shape::Fields { of: Type::Itself, fields, is_whole: true },
+        }
+    }
+
+    fn pose_source(&self) -> Source {
+        let values = self.pose.values.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
+        let determinants = self.pose.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
+        let externals = self.pose.externals.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
+        let fields = values.chain(determinants).chain(externals).collect();
+        let argument = self.signatures.arguments.pose.clone();
+        Source {
+            from: Expression::name(&argument).behind(),
+            argument: Some(argument),
+            shape: Shape::Fields {
+                of: self.signatures.pose_type(),
+                fields,
+                is_whole: self.pose.directions.is_empty(),
+            },
+        }
+    }
+
+    /// What a pose holds beside directions and coordinates: determinants, and values of user functions.
+    pub(super) fn computed(&self) -> Source {
+        let determinants = self.pose.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
+        let externals = self.pose.externals.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
+        let fields = determinants.chain(externals).collect();
+        let (of, pose) = (Type::Bare(self.signatures.types.pose.clone()), &self.signatures.arguments.pose);
+        let shape = Shape::Fields { of, fields, is_whole: false };
+        Source { argument: Some(pose.clone()), from: Expression::name(pose), shape }
+    }
+
+    /// All coordinates, or their rates and so on, from an argument that is a reference.
+    pub(super) fn coordinates(&self, argument: &str, symbol: fn(&Coordinate) -> SymbolId) -> Source {
+        let fields = self.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c))).collect();
+        Source {
+            argument: Some(argument.to_owned()),
+            from: Expression::name(argument).behind(),
+            shape: Shape::Fields { of: self.signatures.coordinates_type(), fields, is_whole: true },
+        }
+    }
+
+    /// The inputs, or their rates and so on, from an argument that has still to be converted.
+    pub(super) fn inputs(&self, argument: &str, symbol: fn(&Coordinate) -> SymbolId) -> Source {
+        let coordinates = self.derivation.inputs.iter().map(|&index| &self.derivation.coordinates[index]);
+        let fields = coordinates.map(|c| (c.name.clone(), symbol(c))).collect();
+        Source {
+            argument: Some(argument.to_owned()),
+            from: Expression::name(argument).method("into", []),
+            shape: Shape::Fields { of: Type::Own(self.signatures.types.inputs.clone()), fields, is_whole: true },
+        }
+    }
+
+    /// The columns of a matrix that another function gives for the pose.
+    pub(super) fn columns(&self, function: &str, symbols: Vec<SymbolId>) -> Source {
+        let pose = &self.signatures.arguments.pose;
+        Source {
+            argument: Some(pose.clone()),
+            from: Expression::call(function, [Expression::name(pose)]).tried().columns(),
+            shape: Shape::Columns { rows: self.signatures.unknowns(), symbols },
+        }
+    }
+
+    // Kernels.
+
+    /// A kernel on the parameters and what else it is given.
+    pub(super) fn kernel(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Kernel {
+        let sources = std::iter::once(self.parameters()).chain(sources).collect();
+        Kernel { sources, steps, results, ..Kernel::default() }
+    }
+
+    /// A kernel on a pose and what else it is given.
+    pub(super) fn on_pose(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Kernel {
+        let sources = std::iter::once(self.pose_source()).chain(sources).collect();
+        Kernel { is_on_pose: true, ..self.kernel(sources, steps, results) }
+    }
+
+    // Values.
+
+    /// The fields of the coordinates, in their order.
+    pub(super) fn fields(&self) -> Vec<String> {
+        self.derivation.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect()
+    }
+
+    /// Coordinates from as many results.
+    pub(super) fn coordinates_of(&self, from: usize) -> Expression {
+        let fields = self.fields();
+        let values = results(from..from + fields.len());
+        Expression::structure(self.signatures.coordinates_type(), fields.into_iter().zip(values))
+    }
+}
+
+/// The formulas as results without names.
+pub(super) fn unnamed(nodes: impl IntoIterator<Item = NodeId>) -> Vec<Output> {
+    nodes.into_iter().map(Output::from).collect()
+}

@@ -1,0 +1,147 @@
+//! The fields of a pose: the direction of every angle that a formula takes a sine or cosine of, the inputs and the
+//! coordinates whose number matters, the determinants, and the values of user functions.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap;
+
+use super::names::{Taken, angle_name};
+use crate::derivation::{ContactFormula, Derivation, Row};
+use crate::graph::{Function, Node, NodeId, SymbolId, Texts};
+
+/// Formulas that a kernel need not compute.
+#[derive(Debug, Clone, Default)]
+pub struct Given {
+    /// The angles whose sine and cosine are given.
+    pub directions: BTreeSet<NodeId>,
+    /// Expressions that are given by a name.
+    pub values: FxHashMap<NodeId, SymbolId>,
+}
+
+/// The fields of a pose.
+#[derive(Debug, Clone)]
+pub struct PosePlan {
+    /// Angles and the fields that hold their directions.
+    pub directions: BTreeMap<NodeId, String>,
+    /// Coordinates held as numbers: index, field, symbol.
+    pub values: Vec<(usize, String, SymbolId)>,
+    /// Determinants that vary: block, field, symbol.
+    pub determinants: Vec<(usize, String, SymbolId)>,
+    /// Values of user functions: expression, field, symbol.
+    pub externals: Vec<(NodeId, String, SymbolId)>,
+    /// Formulas that a kernel on a pose need not compute.
+    pub given: Given,
+}
+
+impl PosePlan {
+    pub fn new(derivation: &mut Derivation) -> Self {
+        let formulas = formulas(derivation);
+        let numeric: Vec<NodeId> = formulas.iter().copied().chain(formulas_of_scenes(derivation)).collect();
+        let graph = &mut derivation.graph;
+        // Sines inside the determinant alone are taken when the pose is made.
+        let mut angles = BTreeSet::new();
+        let mut bare = BTreeSet::new();
+        let mut externals = BTreeSet::new();
+        let stops = |id: NodeId| {
+            graph.constant_value(id).is_some()
+                || matches!(graph.node(id), Node::Call(Function::Sin | Function::Cos, _) | Node::External(..))
+        };
+        for id in graph.sweep(&formulas, |_| false, stops) {
+            match graph.node(id) {
+                _ if graph.constant_value(id).is_some() => {}
+                Node::Call(Function::Sin | Function::Cos, angle) => {
+                    angles.insert(angle[0]);
+                }
+                Node::Symbol(symbol) => {
+                    bare.insert(*symbol);
+                }
+                Node::External(..) => {
+                    externals.insert(id);
+                }
+                _ => {}
+            }
+        }
+        let mut texts = Texts::default();
+        let nothing = BTreeSet::new();
+        let mut taken = Taken::new(&nothing);
+        let mut unique = |wish: String| taken.unique(&wish);
+        let mut determinants = Vec::new();
+        for (number, block) in derivation.blocks.iter().enumerate() {
+            if let Some(determinant) = block.determinant
+                && graph.constant_value(determinant.value).is_none()
+            {
+                let name = graph.symbol_name(determinant.symbol).to_owned();
+                determinants.push((number, unique(name), determinant.symbol));
+            }
+        }
+        let directions: BTreeMap<NodeId, String> =
+            angles.iter().map(|&angle| (angle, unique(angle_name(texts.of(graph, angle))))).collect();
+        let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
+        bare.extend(graph.needed_as_numbers(&numeric));
+        bare.extend(derivation.inputs.iter().map(|&input| derivation.coordinates[input].value));
+        let mut values = Vec::new();
+        for (index, coordinate) in derivation.coordinates.iter().enumerate() {
+            let has_direction = bare_angles.contains(&coordinate.value);
+            if has_direction && bare.contains(&coordinate.value) {
+                values.push((index, unique(format!("{}_angle", coordinate.name)), coordinate.value));
+            } else if !has_direction {
+                values.push((index, unique(coordinate.name.clone()), coordinate.value));
+            }
+        }
+        let mut of_functions = Vec::new();
+        for id in externals {
+            let Node::External(external, _) = graph.node(id) else { continue };
+            let name = graph.external_name(external).unwrap_or_default().to_owned();
+            let field = unique(name);
+            of_functions.push((id, field.clone(), graph.symbol(field)));
+        }
+        let by_name = of_functions.iter().map(|(node, _, symbol)| (*node, *symbol)).collect();
+        let given = Given { directions: angles, values: by_name };
+        Self { directions, values, determinants, externals: of_functions, given }
+    }
+
+    /// The angles whose directions a pose holds.
+    pub fn angles(&self) -> impl Iterator<Item = NodeId> {
+        self.directions.keys().copied()
+    }
+
+    pub fn direction(&self, angle: NodeId) -> &str {
+        self.directions.get(&angle).map_or("", String::as_str)
+    }
+}
+
+/// The formulas of the scenes that hold coordinates not only by the motion of the mechanism.
+fn formulas_of_scenes(derivation: &Derivation) -> impl Iterator<Item = NodeId> {
+    derivation.scenes.iter().flat_map(|scene| {
+        let energies = [scene.potential, scene.applied, scene.dissipated];
+        let contacts = scene.contacts.iter().flat_map(|contact| {
+            match &contact.law {
+                // It acts along a rate.
+                ContactFormula::Friction { limit, .. } => vec![*limit],
+                ContactFormula::Stop { range: [lower, upper], .. } => vec![*lower, *upper, contact.value],
+            }
+        });
+        scene.forces.iter().copied().chain(energies).chain(contacts)
+    })
+}
+
+fn formulas(derivation: &Derivation) -> Vec<NodeId> {
+    let mut formulas: Vec<NodeId> = derivation.residual.clone();
+    formulas.extend(&derivation.sizes);
+    formulas.extend(derivation.jacobian.iter().flat_map(Row::values));
+    formulas.extend(&derivation.gamma);
+    formulas.extend(derivation.eta.iter().flatten());
+    formulas.extend(derivation.ratio_derivatives.iter().flat_map(|second| second.terms.iter().flatten()));
+    formulas.extend(derivation.sensitivity.iter().flat_map(|first| first.jacobian.iter().flat_map(Row::values)));
+    formulas.extend(derivation.blocks.iter().filter_map(|block| Some(block.determinant?.size)));
+    for quantity in derivation.points.iter().chain(&derivation.outputs) {
+        formulas.extend(&quantity.value);
+        formulas.extend(quantity.jacobian.iter().flat_map(Row::values));
+        formulas.extend(&quantity.rate);
+        formulas.extend(&quantity.acceleration);
+        formulas.extend(&quantity.jerk);
+        formulas.extend(quantity.along_inputs.iter().flatten());
+        formulas.extend(quantity.by_parameters.iter().flat_map(Row::values));
+    }
+    formulas
+}

@@ -1,0 +1,308 @@
+//! The position: ready for use at coordinates, near a guess, and group by group in closed form.
+
+use super::branch::Position;
+use super::doc::{lines, without_result};
+use super::expression::{Expression, Pattern, Statement, Type};
+use super::function::{Body, Kernel, Output, Shape, Source, Value};
+use super::names::Arguments;
+use super::plan::{Plan, unnamed};
+use crate::derivation::{Step, needed_names};
+use crate::graph::{Function as Elementary, NodeId, SymbolId};
+
+const ASSEMBLE: [&str; 5] = [
+    "The position at these inputs in closed form: group by group, on the branch that is asked for.",
+    "",
+    "# Errors",
+    "`Unbuildable` if a group does not reach, `Undetermined` if it can stand anywhere, as between joints that",
+    "coincide, `NotFinite` if a number is not finite.",
+];
+
+impl Plan<'_, '_> {
+    pub(super) fn position(&mut self) {
+        self.pose_at();
+        self.solve();
+        self.assemble();
+        if self.position.is_closed {
+            self.branches();
+        }
+        self.branch_of();
+    }
+
+    fn pose_at(&mut self) {
+        let q = self.signatures.arguments.q.clone();
+        let blocks = &self.derivation.blocks;
+        let determinants = self.pose.determinants.iter();
+        let determinants: Vec<NodeId> =
+            determinants.filter_map(|(block, _, _)| Some(blocks[*block].determinant?.value)).collect();
+        let circular = self.directions();
+        let numbers: Vec<SymbolId> = self.pose.values.iter().map(|(_, _, symbol)| *symbol).collect();
+        let numbers = self.variables(&numbers);
+        let externals = self.pose.externals.iter().map(|(node, ..)| *node);
+        let results = determinants.into_iter().chain(circular).chain(numbers).chain(externals);
+        let kernel = self.kernel(vec![self.coordinates(&q, |c| c.value)], Vec::new(), unnamed(results));
+        let body = Body::of(kernel, self.pose_of_results());
+        let calls = match self.signatures.mechanism.externals.as_slice() {
+            [] => "",
+            _ => ", one call for each function of the user's",
+        };
+        let doc =
+            [format!("The position at these coordinates, ready for use: one sine and cosine for each angle{calls}.")];
+        self.add(self.signatures.pose_at(), without_result(doc.to_vec()), body);
+    }
+
+    fn solve(&mut self) {
+        let guess = &self.signatures.arguments.guess;
+        let body = Body::result(Expression::runtime("newton", [Expression::own(), Expression::name(guess)]));
+        let body = body.using([guess]);
+        let doc = lines([
+            "The position near `guess` whose inputs are those of `guess`, by Newton's method.",
+            "",
+            "# Errors",
+            "`NotConverged` if no position is found, `NotFinite` if a number is not finite.",
+        ]);
+        self.add(self.signatures.solve(), doc, body);
+    }
+
+    /// Cosine and sine of each angle that a pose holds.
+    fn directions(&mut self) -> Vec<NodeId> {
+        let angles: Vec<NodeId> = self.pose.angles().collect();
+        let graph = &mut self.derivation.graph;
+        let both = [Elementary::Cos, Elementary::Sin];
+        angles.into_iter().flat_map(|angle| both.map(|function| graph.call(function, &[angle]))).collect()
+    }
+
+    /// A pose from results: determinants, cosines and sines, numbers, and values of user functions.
+    fn pose_of_results(&self) -> Expression {
+        let mut next = (0..).map(Expression::Result);
+        let mut take = || next.next().unwrap_or_else(Expression::zero);
+        let mut members = Vec::new();
+        for (_, field, _) in &self.pose.determinants {
+            members.push((field.clone(), take()));
+        }
+        for field in self.pose.directions.values() {
+            members.push((field.clone(), Expression::runtime("unit", [take(), take()])));
+        }
+        let numbers = self.pose.values.iter().map(|(_, field, _)| field);
+        for field in numbers.chain(self.pose.externals.iter().map(|(_, field, _)| field)) {
+            members.push((field.clone(), take()));
+        }
+        Expression::structure(self.signatures.pose_type(), members)
+    }
+
+    fn assemble(&mut self) {
+        self.assembly = self.derivation.assembly();
+        let (steps, results) = self.position_steps();
+        let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
+        let steps = needed_names(&self.derivation.graph, steps, &nodes);
+        self.position = Position::new(self.derivation, &self.pose, &self.assembly, &steps);
+        let Arguments { inputs, branch, turn, guess, .. } = self.signatures.arguments.clone();
+        let source = if !self.position.is_closed {
+            self.guess()
+        } else if self.position.turns.is_empty() {
+            self.inputs(&inputs, |c| c.value)
+        } else {
+            Source { from: Expression::name(&inputs), ..self.inputs(&inputs, |c| c.value) }
+        };
+        let turns = self.position.turns.iter().enumerate();
+        let kernel = Kernel {
+            turns: turns.map(|(place, turn)| (turn.symbol, place)).collect(),
+            dyads: self.dyads(),
+            ..self.kernel(vec![source], steps, results)
+        };
+        let mut body = Body::of(kernel, self.pose_of_results());
+        body.after.push(Statement::CheckPosition);
+        if !self.position.sides.is_empty() {
+            body.uses.push(branch.clone());
+        }
+        if !self.position.is_closed {
+            if !self.position.turns.is_empty() {
+                body.before = self.nearest_turns(&guess, &turn);
+            }
+            let doc = self.near_doc();
+            self.add(self.signatures.assemble_near(), doc, body);
+        } else if self.position.turns.is_empty() {
+            self.add(self.signatures.assemble(), lines(ASSEMBLE), body);
+        } else {
+            let doc = lines(["The position at these inputs on this branch, with angles in the turns that are given."]);
+            self.add(self.signatures.assemble_in_turns(), doc, body.using([&turn]));
+            self.assemble_by_turns();
+        }
+    }
+
+    /// `assemble` and `assemble_near` of a mechanism with angles whose number matters.
+    fn assemble_by_turns(&mut self) {
+        let Arguments { inputs, branch, turn, guess, .. } = self.signatures.arguments.clone();
+        let [v, on, near] = [&inputs, &branch, &guess].map(Expression::name);
+        let fields = self.position.turns.iter().map(|turn| on.clone().field(&turn.field));
+        let turns = Expression::runtime("Turns", [Expression::List(fields.collect())]).borrowed();
+        let call = Expression::call("assemble_in_turns", [v.method("into", []), on.clone(), turns]);
+        let body = Body { calls: vec!["assemble_in_turns".to_owned()], ..Body::result(call) };
+        self.add(self.signatures.assemble(), lines(ASSEMBLE), body.using([&inputs, &branch]));
+
+        let names: Vec<_> = self.position.turns.iter().map(|turn| format!("`{}`", turn.coordinate)).collect();
+        let doc = lines([
+            "The position at the inputs of a guess in closed form, on the branch that is asked for, but in the turns of",
+            &format!("{} that are nearest to the guess.", names.join(", ")),
+            "",
+            "# Errors",
+            "Those of `assemble`, and `OutOfRange` if a guess is more turns away than a branch can count.",
+        ]);
+        let inputs = Type::Bare(self.signatures.types.inputs.clone());
+        let inputs = Expression::associated(inputs, "from", [near]);
+        let call = Expression::call("assemble_in_turns", [inputs, on, Expression::name(&turn).borrowed()]);
+        let mut body = Body::result(call).using([&guess, &branch]);
+        body.before = self.nearest_turns(&guess, &turn);
+        self.add(self.signatures.assemble_near(), doc, body);
+    }
+
+    /// The turns nearest to a guess, under the name of the argument that holds turns.
+    fn nearest_turns(&self, guess: &str, turn: &str) -> Vec<Statement> {
+        let near = self.position.turns.iter().map(|turn| Expression::name(guess).field(&turn.coordinate));
+        let near = Expression::List(near.collect());
+        let countable = Expression::runtime("countable", [Expression::mechanism(), near.clone()]);
+        let nearest = Type::Runtime("NearestTurns", Vec::new());
+        let nearest = Expression::associated(nearest, "new", [near]);
+        vec![Statement::Do(countable.tried()), Statement::Let(Pattern::Name(turn.to_owned()), nearest)]
+    }
+
+    /// The inputs of a guess, and the unknowns that have no closed form under names of their own.
+    fn guess(&self) -> Source {
+        let coordinates = &self.derivation.coordinates;
+        let inputs = self.derivation.inputs.iter().map(|&index| (index, coordinates[index].value));
+        let fields = inputs.chain(self.assembly.guesses.iter().copied());
+        let fields: Vec<_> = fields.map(|(index, symbol)| (coordinates[index].name.clone(), symbol)).collect();
+        let is_whole = fields.len() == coordinates.len();
+        let guess = &self.signatures.arguments.guess;
+        Source {
+            argument: Some(guess.clone()),
+            from: Expression::name(guess).behind(),
+            shape: Shape::Fields { of: self.signatures.coordinates_type(), fields, is_whole },
+        }
+    }
+
+    fn near_doc(&self) -> Vec<String> {
+        let is_iterated = |block: usize| {
+            let mut steps = self.assembly.steps.iter();
+            steps.any(|step| matches!(step, Step::Newton { block: other, .. } if *other == block))
+        };
+        let blocks = self.derivation.blocks.iter().enumerate().filter(|(number, _)| is_iterated(*number));
+        let iterated: Vec<_> = blocks.map(|(_, block)| block.names(self.derivation)).collect();
+        lines([
+            "The position at the inputs of a guess: group by group, in closed form on the branch that is asked for,",
+            &format!("but {} by Newton's method from the guess.", iterated.join(", then ")),
+            "",
+            "# Errors",
+            "`Unbuildable` if a group does not reach, `Undetermined` if it can stand anywhere, `NotConverged` if",
+            "Newton's method finds no position, `OtherBranch` if it finds one beyond a dead point, `NotFinite` if a",
+            "number is not finite.",
+        ])
+    }
+
+    /// The steps of a position, and the results that make a pose.
+    fn position_steps(&mut self) -> (Vec<Step>, Vec<Output>) {
+        let determinants: Vec<NodeId> =
+            self.pose.determinants.iter().map(|(block, _, _)| self.assembly.determinants[block]).collect();
+        let circular = self.directions();
+        let circular = self.assembly.solved(&mut self.derivation.graph, &circular);
+        let numbers: Vec<SymbolId> = self.pose.values.iter().map(|(_, _, symbol)| *symbol).collect();
+        let numbers = self.variables(&numbers);
+        let externals: Vec<NodeId> = self.pose.externals.iter().map(|(node, ..)| *node).collect();
+        let externals = self.assembly.solved(&mut self.derivation.graph, &externals);
+        let mut names: Vec<String> = self.pose.determinants.iter().map(|(_, field, _)| field.clone()).collect();
+        names.extend(self.pose.directions.values().flat_map(|field| [format!("cos_{field}"), format!("sin_{field}")]));
+        names.extend(self.pose.values.iter().map(|(_, field, _)| field.clone()));
+        names.extend(self.pose.externals.iter().map(|(_, field, _)| field.clone()));
+        let nodes = determinants.into_iter().chain(circular).chain(numbers).chain(externals);
+        let results = nodes.zip(names).map(|(node, name)| Output::named(node, name)).collect();
+        (self.assembly.steps.clone(), results)
+    }
+
+    /// For each result of a position the dyad that it is solved by, if there is one.
+    fn dyads(&self) -> Vec<Option<usize>> {
+        let dyad_of = |symbol: Option<SymbolId>| symbol.and_then(|s| self.assembly.of_dyads.get(&s).copied());
+        let mut dyads = vec![None; self.pose.determinants.len()];
+        dyads.extend(self.pose.angles().flat_map(|angle| [dyad_of(self.derivation.graph.as_symbol(angle)); 2]));
+        dyads.extend(self.pose.values.iter().map(|(_, _, symbol)| dyad_of(Some(*symbol))));
+        dyads.extend(self.pose.externals.iter().map(|_| None));
+        dyads
+    }
+
+    /// All positions at some inputs.
+    fn branches(&mut self) {
+        if !self.position.has_few_branches() {
+            return;
+        }
+        let Arguments { inputs, branch, .. } = self.signatures.arguments.clone();
+        let all = Expression::associated(Type::Bare(self.signatures.types.branch.clone()), "all", []);
+        let assemble = Expression::call("assemble", [Expression::name(&inputs), Expression::name(&branch)]);
+        let assemble = Expression::Closure {
+            arguments: vec![Pattern::Name(branch)],
+            statements: Vec::new(),
+            value: Box::new(assemble),
+            moves: true,
+        };
+        let mut body = Body::plain(Expression::runtime("existing", [all, assemble])).using([&inputs]);
+        let converted = Expression::name(&inputs).method("into", []);
+        body.before = vec![Statement::Let(Pattern::Name(inputs), converted)];
+        let doc = lines([
+            "Every position that exists at these inputs, each with its branch.",
+            "",
+            "# Errors",
+            "`NotFinite` if a number is not finite; a branch that cannot be assembled is left out, and one on which a group",
+            "is undetermined.",
+        ]);
+        self.add(self.signatures.branches(), doc, body);
+    }
+
+    fn branch_of(&mut self) {
+        let Arguments { pose, branch, turn, .. } = self.signatures.arguments.clone();
+        // Newton's method starts from a guess, which says the turns as well.
+        let turns = if self.position.is_closed { self.position.turns.as_slice() } else { &[] };
+        let of = Type::Bare(self.signatures.types.branch.clone());
+        let on = Expression::name(&pose);
+        let sides = self.assembly.chords.iter().zip(&self.position.sides).filter_map(|(chord, (side, _))| {
+            let (_, field, _) = self.pose.determinants.iter().find(|(block, ..)| *block == chord.block)?;
+            let determinant = on.clone().field(field);
+            let determinant =
+                if chord.is_opposite { Expression::Negative(Box::new(determinant)) } else { determinant };
+            Some((side.clone(), Expression::runtime("side_of", [determinant])))
+        });
+        let zeros = turns.iter().map(|turn| (turn.field.clone(), Expression::Count(0)));
+        let members = Expression::structure(of.clone(), sides.chain(zeros));
+        let mut doc = lines([
+            "The branch that a position belongs to, by the signs of determinants; nothing is refused: of one that is not a",
+            "number the sign tells as well.",
+        ]);
+        let mut body = Body::plain(members.clone());
+        if !turns.is_empty() {
+            doc = lines([
+                "The branch that a position belongs to, by the signs of determinants, and by assembling it for the turns:",
+                "`assemble` on the branch gives the numbers of the angles back. Nothing is refused: of a determinant that is",
+                "not a number the sign tells as well, and the turn of such an angle is 0.",
+            ]);
+            let given = self.pose.values.iter().filter(|(index, ..)| self.derivation.inputs.contains(index));
+            let given = given.map(|(index, field, _)| {
+                (self.derivation.coordinates[*index].name.clone(), on.clone().field(field))
+            });
+            let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), given);
+            let numbers = Expression::List(turns.iter().map(|turn| on.clone().field(&turn.number)).collect());
+            let nearest = Type::Runtime("NearestTurns", Vec::new());
+            let nearest = Expression::associated(nearest, "new", [numbers]);
+            let at = [inputs, Expression::name(&branch), Expression::name(&turn).borrowed()];
+            let counted = Pattern::List(turns.iter().map(|turn| Pattern::Name(turn.field.clone())).collect());
+            body.before = vec![
+                Statement::Let(Pattern::Name(branch.clone()), members),
+                Statement::Let(Pattern::Name(turn.clone()), nearest),
+                // Where nothing can be assembled, the turns are those of the numbers alone.
+                Statement::Let(Pattern::Ignored, Expression::call("assemble_in_turns", at)),
+                Statement::Let(counted, Expression::name(&turn).method("turns", [])),
+            ];
+            let turns = turns.iter().map(|turn| (turn.field.clone(), Expression::name(&turn.field))).collect();
+            body.value = Value::Plain(Expression::Struct(of, turns, Some(Box::new(Expression::name(&branch)))));
+        }
+        if !self.position.sides.is_empty() || !turns.is_empty() {
+            body.uses.push(pose);
+        }
+        self.add(self.signatures.branch_of(), doc, body);
+    }
+}

@@ -1,0 +1,124 @@
+//! Points and outputs: value, rate, acceleration, jerk and their own velocity ratios.
+
+use super::doc::{fenced, lines};
+use super::expression::Expression;
+use super::function::{Body, results};
+use super::names::Arguments;
+use super::plan::{Plan, unnamed};
+use super::signatures::{Family, ORDERS};
+use crate::derivation::{Quantity, QuantityFormulas};
+use crate::graph::NodeId;
+
+impl Plan<'_, '_> {
+    pub(super) fn quantities_of(&self, family: Family) -> &[Quantity] {
+        match family {
+            Family::Points => &self.derivation.points,
+            Family::Outputs => &self.derivation.outputs,
+        }
+    }
+
+    pub(super) fn formulas_of(&self, family: Family) -> &[QuantityFormulas] {
+        match family {
+            Family::Points => &self.formulas.points,
+            Family::Outputs => &self.formulas.outputs,
+        }
+    }
+
+    /// `name_ending = formula` of each component, for the description.
+    pub(super) fn laws(&self, family: Family, name: &str, ending: &str, nodes: &[NodeId]) -> Vec<String> {
+        let components = family.axes().iter().zip(nodes);
+        components.map(|(axis, &node)| self.law(format_args!("{name}{axis}_{ending}"), node)).collect()
+    }
+
+    pub(super) fn quantities(&mut self, family: Family) {
+        if !self.signatures.has(family) {
+            return;
+        }
+        for order in 0..self.signatures.orders() {
+            self.derived(family, order);
+        }
+        self.quantity_ratios(family);
+    }
+
+    /// The values, or their derivatives by time.
+    fn derived(&mut self, family: Family, order: usize) {
+        let Arguments { rate, acceleration, jerk, .. } = self.signatures.arguments.clone();
+        let word = family.word();
+        let meaning = match order {
+            0 if family == Family::Points => "The positions of the points.".to_owned(),
+            0 => "The values of the outputs.".to_owned(),
+            1 => format!("The rates of the {word}s at the velocity q'."),
+            2 => format!("The accelerations of the {word}s at the velocity q' and the acceleration q''."),
+            _ => format!("The jerks of the {word}s at the velocity q', the acceleration q'' and the jerk q'''."),
+        };
+        let mut doc = vec![meaning];
+        if order == 0 {
+            let axes: &[&str] = if family == Family::Points { &[".x", ".y"] } else { &[""] };
+            let names = family.names(self.signatures.mechanism);
+            let formulas = names.iter().zip(self.quantities_of(family)).flat_map(|(name, quantity)| {
+                axes.iter().zip(&quantity.value).map(move |(axis, &node)| (format!("{name}{axis}"), node))
+            });
+            doc.extend(fenced(formulas.map(|(name, node)| self.law(name, node))));
+        }
+        doc.extend(lines(["", "# Errors", "`NotFinite` where a formula has no finite value."]));
+        let part = |quantity: &Quantity| match order {
+            0 => quantity.value.clone(),
+            1 => quantity.rate.clone(),
+            2 => quantity.acceleration.clone(),
+            _ => quantity.jerk.clone(),
+        };
+        let nodes: Vec<NodeId> = self.quantities_of(family).iter().flat_map(part).collect();
+        let count = nodes.len();
+        let sources = [
+            self.coordinates(&rate, |c| c.rate),
+            self.coordinates(&acceleration, |c| c.acceleration),
+            self.coordinates(&jerk, |c| c.jerk),
+        ];
+        let kernel = self.on_pose(sources.into_iter().take(order).collect(), Vec::new(), unnamed(nodes));
+        let (finite, sizes): (_, &[usize]) =
+            if family == Family::Points { ("finite_points", &[2]) } else { ("finite_outputs", &[]) };
+        let values = Expression::List(Expression::nested(results(0..count), sizes));
+        let name = Expression::text(format!("{word}{}", ORDERS[order]));
+        let value = Expression::runtime(finite, [Expression::mechanism(), name, values]);
+        let body = Body { kernel: Some(kernel), ..Body::result(value) };
+        self.add(self.signatures.quantities(family, order), doc, body);
+    }
+
+    /// `W_l = l_u W + l_v`.
+    fn quantity_ratios(&mut self, family: Family) {
+        let v = self.signatures.inputs();
+        let (word, dimension) = (family.word(), family.dimension());
+        let mut laws = Vec::new();
+        for (name, formulas) in family.names(self.signatures.mechanism).iter().zip(self.formulas_of(family)) {
+            for (&input, nodes) in self.derivation.inputs.iter().zip(&formulas.ratios) {
+                let by = match v {
+                    1 => "ratio".to_owned(),
+                    _ => format!("by_{}", self.derivation.coordinates[input].name),
+                };
+                laws.extend(self.laws(family, name, &by, nodes));
+            }
+        }
+        let mut doc = vec![format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'.")];
+        doc.extend(fenced(laws.into_iter()));
+        doc.extend(lines([
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
+        ]));
+        let mut nodes = Vec::new();
+        for quantity in self.quantities_of(family).to_vec() {
+            for input in 0..v {
+                nodes.extend(quantity.jacobian.iter().map(|row| self.derivation.quantity_ratio(row, input)));
+            }
+        }
+        let count = nodes.len();
+        let ratios = self.derivation.ratios.iter().flatten().copied().collect();
+        let kernel = self.on_pose(vec![self.columns("velocity_ratios", ratios)], Vec::new(), unnamed(nodes));
+        let values = Expression::List(Expression::nested(results(0..count), &[v, dimension]));
+        let value = Expression::runtime("finite_matrices", [Expression::mechanism(), Expression::text(word), values]);
+        // A call costs what the ratios cost, too.
+        let calls = vec!["velocity_ratios".to_owned()];
+        let body = Body { kernel: Some(kernel), calls, ..Body::result(value) };
+        self.add(self.signatures.quantity_ratios(family), doc, body);
+    }
+}

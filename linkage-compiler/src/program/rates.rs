@@ -1,0 +1,256 @@
+//! Linear systems in J: velocity ratios, velocities, accelerations and jerks.
+
+use std::collections::BTreeMap;
+
+use super::doc::{fenced, lines, without_result};
+use super::expression::{Expression, Type};
+use super::function::{Body, Kernel, Shape, Source, results};
+use super::names::Arguments;
+use super::plan::{Plan, unnamed};
+use super::signatures::Family;
+use crate::derivation::{Form, Quantity};
+use crate::graph::{NodeId, Number, SymbolId};
+
+impl Plan<'_, '_> {
+    pub(super) fn velocity(&mut self) {
+        self.solve_jacobian();
+        self.velocity_ratios();
+        let rate = self.signatures.arguments.rate.clone();
+        let unknowns = self.rates(&self.derivation.unknowns);
+        let side = self.derivation.velocity_side();
+        let steps = self.derivation.solution(&[(side, unknowns)], Form::Factored);
+        let all = self.all();
+        let nodes = self.variables(&self.rates(&all));
+        let kernel = self.on_pose(vec![self.inputs(&rate, |c| c.rate)], steps, unnamed(nodes));
+        let body = Body::of(kernel, self.coordinates_of(0)).checked("velocity", self.checked(0));
+        let doc = lines([
+            "The velocity q' at the input rates v'.",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
+        ]);
+        self.add(self.signatures.velocity(), doc, body);
+    }
+
+    /// The places of all coordinates.
+    fn all(&self) -> Vec<usize> {
+        (0..self.derivation.coordinates.len()).collect()
+    }
+
+    fn solve_jacobian(&mut self) {
+        let right = self.signatures.arguments.right.clone();
+        let unknowns = self.derivation.unknowns.clone();
+        let parts: Vec<SymbolId> = unknowns
+            .into_iter()
+            .map(|index| {
+                let name = format!("{}_part", self.derivation.coordinates[index].name);
+                self.derivation.graph.symbol(name)
+            })
+            .collect();
+        let u = parts.len();
+        let sides: Vec<SymbolId> = (1..=u).map(|row| self.derivation.graph.symbol(format!("right_{row}"))).collect();
+        let side = self.variables(&sides);
+        let steps = self.derivation.solution(&[(side, parts.clone())], Form::Factored);
+        let outputs = self.outputs(&parts);
+        let source = Source {
+            argument: Some(right.clone()),
+            from: Expression::name(&right).columns(),
+            shape: Shape::Columns { rows: u, symbols: sides },
+        };
+        let kernel = self.on_pose(vec![source], steps, outputs);
+        let body = Body::of(kernel, Expression::vector(results(0..u))).checked("the solution", results(0..u));
+        let doc = lines([
+            "The x of J x = `right`.",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if the solution is not finite.",
+        ]);
+        self.add(self.signatures.solve_jacobian(), doc, body);
+    }
+
+    fn velocity_ratios(&mut self) {
+        let steps = self.ratio_steps();
+        let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
+        let count = names.len();
+        let outputs = self.outputs(&names);
+        let kernel = self.on_pose(Vec::new(), steps, outputs);
+        let matrix = Expression::matrix(&results(0..count), self.signatures.unknowns());
+        let body = Body::of(kernel, matrix).checked("velocity ratios", results(0..count));
+        let mut doc = match self.signatures.inputs() {
+            1 => lines(["The velocity ratios W = -J^-1 A with u' = W v'; for one input they are the transmission ratios."]),
+            _ => lines([
+                "The velocity ratios W = -J^-1 A with u' = W v': the rate of each unknown for a unit rate of each input.",
+            ]),
+        };
+        let laws = names.iter().zip(self.formulas.ratios.iter().flatten());
+        doc.extend(fenced(laws.filter_map(|(&name, formula)| {
+            Some(self.law(self.derivation.graph.symbol_name(name), (*formula)?))
+        })));
+        doc.extend(lines([
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if a ratio is not finite.",
+        ]));
+        self.add(self.signatures.velocity_ratios(), doc, body);
+    }
+
+    /// What the functions of scenes are made of: W, then q' = (W v', v'), then u'' at v'' = 0. Of these a determinant is
+    /// refused, and nothing else: what is made of them is checked by whoever calls them.
+    pub(super) fn layers(&mut self) {
+        let Arguments { rate, ratios, velocity, .. } = self.signatures.arguments.clone();
+        let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
+        let steps = self.ratio_steps();
+        let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
+        let nodes = self.variables(&names);
+        let kernel = self.on_pose(Vec::new(), steps, unnamed(nodes));
+        let columns = Expression::List(Expression::nested(results(0..u * v), &[u]));
+        let doc = lines(["W = -J^-1 A, column by column.", "", "# Errors", "`Singular` where J has no inverse."]);
+        self.add(self.signatures.ratio_columns(), doc, Body::of(kernel, columns));
+
+        let rates = self.rates(&self.derivation.inputs.clone());
+        let rates = self.variables(&rates);
+        let mut nodes = BTreeMap::new();
+        for (place, &unknown) in self.derivation.unknowns.clone().iter().enumerate() {
+            let ratios: Vec<SymbolId> = self.derivation.ratios.iter().map(|of_input| of_input[place]).collect();
+            let terms = self.variables(&ratios).into_iter().zip(&rates);
+            let graph = &mut self.derivation.graph;
+            let terms: Vec<_> = terms.map(|(ratio, &rate)| (Number::ONE, graph.multiply(ratio, rate))).collect();
+            nodes.insert(unknown, graph.sum(&terms));
+        }
+        nodes.extend(self.derivation.inputs.iter().copied().zip(rates));
+        let by_value = Source { from: Expression::name(&rate), ..self.inputs(&rate, |c| c.rate) };
+        let columns = Source {
+            argument: Some(ratios.clone()),
+            from: Expression::name(&ratios).behind(),
+            shape: Shape::Columns { rows: u, symbols: names },
+        };
+        let outputs = unnamed(nodes.into_values());
+        let kernel = Kernel { sources: vec![columns, by_value], results: outputs, ..Kernel::default() };
+        let body = Body::of(kernel, self.coordinates_of(0));
+        let doc = without_result(lines(["The velocity q' = (W v', v')."]));
+        self.add(self.signatures.coordinate_rates(), doc, body);
+
+        let names = self.derivation.scenes.first().map(|scene| scene.bias.clone()).unwrap_or_default();
+        let side = self.derivation.bias_side();
+        let steps = self.derivation.solution(&[(side, names.clone())], Form::Entries);
+        let nodes = self.variables(&names);
+        let kernel = self.on_pose(vec![self.coordinates(&velocity, |c| c.rate)], steps, unnamed(nodes));
+        let doc = lines([
+            "u'' where the inputs do not accelerate: J u'' = -gamma.",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse.",
+        ]);
+        let body = Body::of(kernel, Expression::List(results(0..u)));
+        self.add(self.signatures.bias_accelerations(), doc, body);
+    }
+
+    pub(super) fn acceleration(&mut self) {
+        let Arguments { rate, acceleration, .. } = self.signatures.arguments.clone();
+        let gamma = self.derivation.gamma.clone();
+        let mut doc = lines(["The quadratic velocity term gamma = `(Psi_q q')_q q'`."]);
+        doc.extend(self.numbered("gamma", &gamma));
+        let count = gamma.len();
+        let kernel = self.on_pose(vec![self.coordinates(&rate, |c| c.rate)], Vec::new(), unnamed(gamma));
+        let body = Body::of(kernel, Expression::vector(results(0..count)));
+        self.add(self.signatures.gamma(), without_result(doc), body);
+
+        let unknowns = self.accelerations(&self.derivation.unknowns);
+        let side = self.derivation.acceleration_side();
+        let steps = self.derivation.solution(&[(side, unknowns)], Form::Entries);
+        let all = self.all();
+        let nodes = self.variables(&self.accelerations(&all));
+        let sources = vec![self.coordinates(&rate, |c| c.rate), self.inputs(&acceleration, |c| c.acceleration)];
+        let kernel = self.on_pose(sources, steps, unnamed(nodes));
+        let body = Body::of(kernel, self.coordinates_of(0)).checked("acceleration", self.checked(0));
+        let doc = lines([
+            "The acceleration q'' at the velocity q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
+        ]);
+        self.add(self.signatures.acceleration(), doc, body);
+    }
+
+    pub(super) fn jerk(&mut self) {
+        let Arguments { rate, acceleration, jerk, .. } = self.signatures.arguments.clone();
+        let mut doc = lines([
+            "The jerk q''' at the velocity q', the acceleration q'' and the input jerks v''': J u''' = -(A v''' + eta)",
+            "with eta = `3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q'`.",
+        ]);
+        let eta = self.derivation.eta.clone().unwrap_or_default();
+        doc.extend(self.numbered("eta", &eta));
+        doc.extend(lines(["", "# Errors", "`Singular` where J has no inverse, `NotFinite` if a rate is not finite."]));
+        let jerks: Vec<SymbolId> = self.derivation.coordinates.iter().map(|coordinate| coordinate.jerk).collect();
+        let targets = self.derivation.unknowns.iter().map(|&index| jerks[index]).collect();
+        let side = self.derivation.jerk_side();
+        let steps = self.derivation.solution(&[(side, targets)], Form::Factored);
+        let nodes = self.variables(&jerks);
+        let sources = vec![
+            self.coordinates(&rate, |c| c.rate),
+            self.coordinates(&acceleration, |c| c.acceleration),
+            self.inputs(&jerk, |c| c.jerk),
+        ];
+        let kernel = self.on_pose(sources, steps, unnamed(nodes));
+        let body = Body::of(kernel, self.coordinates_of(0)).checked("jerk", self.checked(0));
+        self.add(self.signatures.jerk(), doc, body);
+    }
+
+    /// Everything at once, in one kernel.
+    pub(super) fn motion(&mut self) {
+        let Arguments { q, rate, acceleration, .. } = self.signatures.arguments.clone();
+        let unknowns = self.derivation.unknowns.clone();
+        let sides = [
+            (self.derivation.velocity_side(), self.rates(&unknowns)),
+            (self.derivation.acceleration_side(), self.accelerations(&unknowns)),
+        ];
+        let steps = self.derivation.solution(&sides, Form::Entries);
+        let steps = self.with_determinants(steps);
+        let all = self.all();
+        let mut nodes = self.variables(&self.rates(&all));
+        nodes.extend(self.variables(&self.accelerations(&all)));
+        let values: Vec<SymbolId> = self.derivation.coordinates.iter().map(|coordinate| coordinate.value).collect();
+        nodes.extend(self.variables(&values));
+        let quantities = self.derivation.points.iter().chain(&self.derivation.outputs);
+        let of_each = |quantity: &Quantity| -> Vec<NodeId> {
+            [&quantity.value, &quantity.rate, &quantity.acceleration].into_iter().flatten().copied().collect()
+        };
+        let quantities: Vec<NodeId> = quantities.flat_map(of_each).collect();
+        nodes.extend(quantities);
+        let sources = vec![
+            self.coordinates(&q, |c| c.value),
+            self.inputs(&rate, |c| c.rate),
+            self.inputs(&acceleration, |c| c.acceleration),
+        ];
+        let (count, total) = (all.len(), nodes.len());
+        let kernel = self.kernel(sources, steps, unnamed(nodes));
+        let mut members = vec![
+            ("position".to_owned(), Expression::name(&q).behind()),
+            ("velocity".to_owned(), self.coordinates_of(0)),
+            ("acceleration".to_owned(), self.coordinates_of(count)),
+        ];
+        let points = 3 * count + 6 * self.signatures.mechanism.points.len();
+        for (family, function, values, sizes) in [
+            (Family::Points, "point_motions", results(3 * count..points), &[3, 2][..]),
+            (Family::Outputs, "output_motions", results(points..total), &[3][..]),
+        ] {
+            if self.signatures.has(family) {
+                let values = Expression::List(Expression::nested(values, sizes));
+                let motions = Expression::runtime(function, [Expression::mechanism(), values]).tried();
+                members.push((format!("{}s", family.word()), motions));
+            }
+        }
+        // No rate need be other than finite where a coordinate is.
+        let checked = [self.checked(0), self.checked(count), results(2 * count..3 * count)].concat();
+        let motion = Type::Bare(self.signatures.types.motion.clone());
+        let body = Body::of(kernel, Expression::structure(motion, members)).checked("motion", checked).using([&q]);
+        let doc = lines([
+            "Everything at once at coordinates that close the mechanism: velocity, acceleration, points and outputs,",
+            "every shared subexpression computed once.",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
+        ]);
+        self.add(self.signatures.motion(), doc, body);
+    }
+}

@@ -1,0 +1,110 @@
+//! The derivatives of the velocity ratios, of the unknowns and of points and outputs.
+
+use super::doc::{fenced, lines};
+use super::expression::Expression;
+use super::function::{Body, Output, results};
+use super::plan::Plan;
+use super::signatures::Family;
+use crate::derivation::{Form, Step, needed};
+use crate::graph::{NodeId, SymbolId};
+
+const ERRORS: [&str; 3] =
+    ["", "# Errors", "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value."];
+
+impl Plan<'_, '_> {
+    /// Steps that name W and L, and L by pair of inputs and unknown.
+    fn ratio_derivative_steps(&mut self) -> (Vec<Step>, Vec<Vec<NodeId>>) {
+        let systems = self.derivation.ratio_derivative_systems();
+        let (steps, mut solved) = self.derivation.solve(&systems, Form::Entries);
+        let derivatives = solved.split_off(self.derivation.inputs.len());
+        (steps, derivatives)
+    }
+
+    /// A symmetric matrix from its entries by pair of inputs.
+    fn symmetric(&self, entries: &[Expression]) -> Expression {
+        let count = self.derivation.inputs.len();
+        let Some(derivatives) = &self.derivation.ratio_derivatives else { return Expression::zero() };
+        let place = |k: usize, j: usize| entries[derivatives.place(j, k)].clone();
+        let columns: Vec<Expression> = (0..count).flat_map(|k| (0..count).map(move |j| place(k, j))).collect();
+        Expression::matrix(&columns, count)
+    }
+
+    pub(super) fn ratio_derivatives(&mut self) {
+        let mut doc = lines([
+            "The derivatives of the velocity ratios, d2u/dv dv: of each unknown a symmetric matrix `L` with",
+            "u'' = W v'' + v' . `L` v'; from `J L_jk = -(Psi_q w_j)_q w_k`, where `w_j = (W_j, e_j)`.",
+        ]);
+        let second = self.derivation.ratio_derivatives.iter();
+        let names: Vec<SymbolId> = second.flat_map(|second| second.names.iter().flatten()).copied().collect();
+        let laws = names.iter().zip(self.formulas.ratio_derivatives.iter().flatten());
+        doc.extend(fenced(laws.filter_map(|(&name, formula)| {
+            Some(self.law(self.derivation.graph.symbol_name(name), (*formula)?))
+        })));
+        doc.extend(lines(ERRORS));
+        let (steps, solved) = self.ratio_derivative_steps();
+        let solved = solved.concat();
+        let steps = needed(&self.derivation.graph, steps, &solved);
+        let name = |name: &SymbolId| self.derivation.graph.symbol_name(*name);
+        let outputs = solved.into_iter().zip(&names).map(|(node, symbol)| Output::named(node, name(symbol)));
+        let kernel = self.on_pose(Vec::new(), steps, outputs.collect());
+        let (u, all) = (self.signatures.unknowns(), results(0..names.len()));
+        let matrices = (0..u).map(|unknown| {
+            let entries: Vec<Expression> = all.iter().skip(unknown).step_by(u).cloned().collect();
+            self.symmetric(&entries)
+        });
+        let body = Body::of(kernel, Expression::List(matrices.collect()));
+        let body = body.checked("velocity ratio derivatives", all);
+        self.add(self.signatures.ratio_derivatives(), doc, body);
+        for family in [Family::Points, Family::Outputs] {
+            if self.signatures.has(family) {
+                self.quantity_ratio_derivatives(family);
+            }
+        }
+    }
+
+    fn quantity_ratio_derivatives(&mut self, family: Family) {
+        let mut doc = lines([match family {
+            Family::Points => "The second derivatives of the points by the inputs: of x and of y a symmetric matrix.",
+            Family::Outputs => "The second derivatives of the outputs by the inputs: of each a symmetric matrix.",
+        }]);
+        let second = self.derivation.ratio_derivatives.as_ref();
+        let endings = second.map(|second| second.endings.clone()).unwrap_or_default();
+        let names = family.names(self.signatures.mechanism);
+        let mut laws = Vec::new();
+        for (name, formulas) in names.iter().zip(self.formulas_of(family)) {
+            for (ending, nodes) in endings.iter().zip(&formulas.ratio_derivatives) {
+                laws.extend(self.laws(family, name, ending, nodes));
+            }
+        }
+        doc.extend(fenced(laws.into_iter()));
+        doc.extend(lines(ERRORS));
+        let (steps, solved) = self.ratio_derivative_steps();
+        let mut outputs = Vec::new();
+        for (name, quantity) in names.iter().zip(self.quantities_of(family).to_vec()) {
+            let derivatives = self.derivation.quantity_ratio_derivatives(&quantity, &solved);
+            for (ending, components) in endings.iter().zip(derivatives) {
+                let axes = family.axes().iter().zip(components);
+                outputs.extend(axes.map(|(axis, node)| Output::named(node, format!("{name}{axis}_{ending}"))));
+            }
+        }
+        let nodes: Vec<NodeId> = outputs.iter().map(|output| output.node).collect();
+        let steps = needed(&self.derivation.graph, steps, &nodes);
+        let kernel = self.on_pose(Vec::new(), steps, outputs);
+        let dimension = family.dimension();
+        let all = results(0..nodes.len());
+        let of_each = all.chunks(endings.len() * dimension).map(|entries| {
+            let component = |axis: usize| {
+                let entries: Vec<Expression> = entries.iter().skip(axis).step_by(dimension).cloned().collect();
+                self.symmetric(&entries)
+            };
+            match dimension {
+                1 => component(0),
+                _ => Expression::List((0..dimension).map(component).collect()),
+            }
+        });
+        let group = super::Type::Bare(self.signatures.each_name(family).to_owned());
+        let value = Expression::structure(group, names.into_iter().zip(of_each));
+        let body = Body::of(kernel, value).checked(&format!("{} ratio derivatives", family.word()), all);
+        self.add(self.signatures.quantity_ratio_derivatives(family), doc, body);
+    }
+}

@@ -1,0 +1,117 @@
+//! The functions of a scene with frictions and stops: its contacts, and the equations of motion before they are solved.
+
+use super::ScenePlan;
+use crate::derivation::ContactFormula;
+use crate::graph::{NodeId, SymbolId};
+use crate::program::doc::{fenced, lines};
+use crate::program::expression::{Expression, Type};
+use crate::program::function::{Body, Output, Value, results};
+use crate::program::plan::unnamed;
+
+impl ScenePlan<'_, '_, '_> {
+    /// Each friction and stop with its scalar, the derivatives of that, and its numbers.
+    pub(super) fn contacts(&mut self) {
+        let mut doc = lines(["The frictions and stops at a position and the velocity q', in the order of the scene."]);
+        let formulas = self.scene.contacts.iter().map(|contact| {
+            let value = self.plan.text(contact.value);
+            match &contact.law {
+                ContactFormula::Friction { limit, .. } => {
+                    format!("{}: |f| <= {} along {value}", contact.label, self.plan.text(*limit))
+                }
+                ContactFormula::Stop { range: [lower, upper], restitution } => {
+                    let [lower, upper, restitution] = [lower, upper, restitution].map(|&node| self.plan.text(node));
+                    format!("{}: {lower} <= {value} <= {upper}, s'+ = -({restitution}) s'-", contact.label)
+                }
+            }
+        });
+        doc.extend(fenced(formulas));
+        doc.extend(lines([
+            "",
+            "# Errors",
+            "`NotFinite` with the name of the effect that has no finite value, `Negative` with that of the friction whose",
+            "limit is negative.",
+        ]));
+        let zero = self.plan.derivation.graph.zero();
+        let derivation = &self.plan.derivation;
+        let (u, v) = (derivation.unknowns.len(), derivation.inputs.len());
+        let (mut nodes, mut contacts): (Vec<NodeId>, Vec<Expression>) = (Vec::new(), Vec::new());
+        for contact in &self.scene.contacts {
+            let first = nodes.len();
+            let entries = derivation.unknowns.iter().chain(&derivation.inputs);
+            nodes.extend(entries.map(|index| contact.row.get(index).copied().unwrap_or(zero)));
+            nodes.extend([contact.value, contact.bias]);
+            let (law, numbers): (_, &[&str]) = match &contact.law {
+                ContactFormula::Friction { limit, .. } => {
+                    nodes.push(*limit);
+                    ("ContactLaw::Friction", &["limit"])
+                }
+                ContactFormula::Stop { range, restitution } => {
+                    nodes.extend(range);
+                    nodes.push(*restitution);
+                    ("ContactLaw::Stop", &["lower", "upper", "restitution"])
+                }
+            };
+            let result = |place: usize| Expression::Result(first + place);
+            let along = [
+                ("value", result(u + v)),
+                ("unknowns", Expression::vector(results(first..first + u))),
+                ("inputs", Expression::vector(results(first + u..first + u + v))),
+                ("bias", result(u + v + 1)),
+            ];
+            let numbers = numbers.iter().enumerate().map(|(at, name)| (*name, result(u + v + 2 + at)));
+            contacts.push(structure(
+                "Contact",
+                [
+                    ("name", Expression::text(&contact.label)),
+                    ("along", structure("Along", along)),
+                    ("law", structure(law, numbers)),
+                ],
+            ));
+        }
+        let rate = &self.signatures.arguments.rate;
+        let sources = vec![self.plan.coordinates(rate, |c| c.rate)];
+        let body = self.on_pose(sources, Vec::new(), unnamed(nodes));
+        let sound = Expression::runtime("sound", [Expression::mechanism(), Expression::List(contacts)]);
+        let body = Body { value: Value::Result(sound), ..body };
+        self.add(self.signatures.contacts(), doc, body);
+    }
+
+    /// M, Q, W and u'' at v'' = 0 in one function.
+    pub(super) fn equations(&mut self) {
+        let (u, v) = (self.plan.signatures.unknowns(), self.signatures.inputs.len());
+        let matrix: Vec<NodeId> = self.scene.mass_matrix.iter().flatten().flatten().copied().collect();
+        let names = self.pair_names("inertia");
+        let mut outputs: Vec<Output> =
+            matrix.into_iter().zip(names).map(|(node, name)| Output::named(node, name)).collect();
+        outputs.extend(self.force_outputs());
+        let ratios: Vec<SymbolId> = self.plan.derivation.ratios.iter().flatten().copied().collect();
+        outputs.extend(self.plan.variables(&ratios).into_iter().map(Output::from));
+        outputs.extend(self.plan.variables(&self.scene.bias).into_iter().map(Output::from));
+        let count = outputs.len();
+        let body = self.on_motion(outputs);
+        let body = self.blamed(body, "the equations of motion", results(0..count));
+        let body = self.with_rates(body);
+        let (forces, ratios) = (v * v + v, v * v + v + u * v);
+        let members = [
+            ("mass", Expression::matrix(&results(0..v * v), v)),
+            ("forces", Expression::vector(results(v * v..forces))),
+            ("ratios", Expression::matrix(&results(forces..ratios), u)),
+            ("bias", Expression::vector(results(ratios..count))),
+        ];
+        let body = Body { value: Value::Plain(structure("Equations", members)), ..body };
+        let doc = lines([
+            "M and Q of M v'' = Q without frictions and stops, W of u' = W v', and u'' at v'' = 0.",
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` with the name of the body or the effect that has no finite",
+            "value.",
+        ]);
+        self.add(self.signatures.equations(), doc, body);
+    }
+}
+
+/// A type of the runtime with its members.
+fn structure<'m>(of: &'static str, members: impl IntoIterator<Item = (&'m str, Expression)>) -> Expression {
+    let members = members.into_iter().map(|(name, value)| (name.to_owned(), value));
+    Expression::structure(Type::Runtime(of, Vec::new()), members)
+}

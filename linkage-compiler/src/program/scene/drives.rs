@@ -1,0 +1,93 @@
+//! The laws of drives, and the forces that they take.
+
+use super::{ERRORS, ScenePlan};
+use crate::derivation::Prescribed;
+use crate::graph::NodeId;
+use crate::program::doc::{lines, without_result};
+use crate::program::expression::Expression;
+use crate::program::function::{Body, Output, Value, results};
+use crate::program::operations::Operations;
+use crate::program::plan::unnamed;
+
+impl ScenePlan<'_, '_, '_> {
+    /// The driven inputs as they are called in descriptions.
+    fn driven(&self) -> String {
+        let names = self.signatures.driven.iter().map(|&at| format!("`{}`", self.signatures.inputs[at]));
+        names.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The laws of the driven inputs with their derivatives.
+    pub(super) fn drives(&mut self) {
+        let doc = vec![format!("The value, the rate and the acceleration that are prescribed of {}.", self.driven())];
+        let laws = self.scene.drives.values();
+        let nodes = laws.flat_map(|Prescribed { value, rate, acceleration }| [*value, *rate, *acceleration]);
+        let nodes: Vec<NodeId> = nodes.collect();
+        let count = nodes.len();
+        let kernel = self.on_parameters(unnamed(nodes));
+        let body = Body::of(kernel, Expression::List(Expression::nested(results(0..count), &[3])));
+        self.add(self.signatures.drives(), without_result(doc), body);
+    }
+
+    /// Inverse dynamics: `M_d v'' - Q_d`.
+    pub(super) fn drive_forces(&mut self) {
+        let mut doc = vec![
+            format!("The forces, of angles the torques, that drive {} by inverse dynamics: M v'' - Q,", self.driven()),
+            "at this position and these rates of the inputs.".to_owned(),
+        ];
+        if !self.signatures.scene.contacts.is_empty() {
+            doc[1] = "at this position and these rates of the inputs, without frictions and stops.".to_owned();
+        }
+        doc.extend(lines(ERRORS));
+        let (mut body, forces) = self.driving(Vec::new());
+        body = self.blamed(body, "the driving force", forces.clone());
+        let body = Body { value: Value::Plain(Expression::List(forces)), ..self.with_rates(body) };
+        self.add(self.signatures.drive_forces(), doc, body);
+    }
+
+    /// A body that computes first other results and then the forces of the drives, and these.
+    pub(super) fn driving(&mut self, others: Vec<Output>) -> (Body, Vec<Expression>) {
+        let driven = self.signatures.driven.clone();
+        let free = match self.scene.mass_matrix {
+            Some(_) => self.signatures.free.clone(),
+            None => Vec::new(),
+        };
+        let first = others.len();
+        let mut outputs = others;
+        outputs.extend(self.minor(&free, &free).into_iter().map(Output::from));
+        outputs.extend(self.right_sides(&free).into_iter().map(Output::from));
+        outputs.extend(self.minor(&driven, &free).into_iter().map(Output::from));
+        let sides = self.right_sides(&driven);
+        let inputs = self.signatures.inputs.clone();
+        let name = |at: &usize| format!("{}_drive", inputs[*at]);
+        for (side, at) in sides.into_iter().zip(&driven) {
+            let force = self.plan.derivation.graph.negate(side);
+            // Without a free input this is the force; with one, what is added to it has the name.
+            outputs.push(Output { node: force, name: free.is_empty().then(|| name(at)) });
+        }
+        let entries = first..first + free.len().pow(2);
+        let right = entries.end..entries.end + free.len();
+        let coupling = right.end..right.end + free.len() * driven.len();
+        let forces = results(coupling.end..outputs.len());
+        let mut body = self.on_motion(outputs);
+        if free.is_empty() {
+            return (body, forces);
+        }
+        let accelerations = self.solve_free(&mut body, results(entries), results(right));
+        body.operations += Operations {
+            multiplications: coupling.len(),
+            additions: coupling.len(),
+            ..Operations::default()
+        };
+        let coupling = results(coupling);
+        let rows = coupling.chunks(free.len()).zip(forces).zip(&driven);
+        let forces = rows.map(|((row, force), at)| {
+            let terms = row.iter().zip(&accelerations);
+            let terms = terms.map(|(entry, a)| Expression::Product(vec![entry.clone(), a.clone()]));
+            let sum = std::iter::once(force).chain(terms).map(|term| (false, term)).collect();
+            (name(at), Expression::Sum(sum))
+        });
+        let forces: Vec<(String, Expression)> = forces.collect();
+        let forces = forces.into_iter().map(|(name, sum)| body.bound(name, sum)).collect();
+        (body, forces)
+    }
+}

@@ -1,0 +1,70 @@
+//! Energy and power.
+
+use super::{ERRORS, ScenePlan};
+use crate::program::doc::lines;
+use crate::program::expression::{Expression, Type};
+use crate::program::function::{Body, Output, Value, results};
+
+impl ScenePlan<'_, '_, '_> {
+    pub(super) fn energy(&mut self) {
+        let mut doc = lines(["The kinetic energy, and the potential energy of gravity, springs and potentials."]);
+        doc.extend(lines(["", "# Errors", "`Singular` where J has no inverse, `NotFinite` if it is not finite."]));
+        let members = ["kinetic", "potential"];
+        let nodes = [self.scene.kinetic, self.scene.potential];
+        let outputs = nodes.into_iter().zip(members).map(|(node, name)| Output::named(node, name)).collect();
+        let body = self.on_motion(outputs).checked("the energy", results(0..2));
+        let body = self.with_rates(body);
+        let members = members.map(str::to_owned).into_iter().zip(results(0..2));
+        let energy = Expression::structure(Type::Runtime("Energy", Vec::new()), members);
+        self.add(self.signatures.energy(), doc, Body { value: Value::Plain(energy), ..body });
+    }
+
+    pub(super) fn power(&mut self) {
+        let has_contacts = !self.signatures.scene.contacts.is_empty();
+        let driven = self.signatures.driven.clone();
+        let mut doc = match (has_contacts, driven.is_empty()) {
+            (false, _) => lines([
+                "The power of forces, torques and drives, and that of dampers: the energy changes by their difference.",
+            ]),
+            (true, true) => lines([
+                "The power of forces and torques, and that of dampers and frictions, which take limit |s'|: between",
+                "impacts the energy changes by their difference.",
+            ]),
+            (true, false) => lines([
+                "The power of forces and torques, and that of dampers and frictions, which take limit |s'|. That of the",
+                "drives depends on what sticks, and is not among them.",
+            ]),
+        };
+        doc.extend(lines(ERRORS));
+        let are_drives_known = !has_contacts && !driven.is_empty();
+        let mut outputs = vec![
+            Output { node: self.scene.applied, name: (!are_drives_known).then(|| "applied".to_owned()) },
+            Output::named(self.scene.dissipated, "dissipated"),
+        ];
+        let (body, applied) = if are_drives_known {
+            let inputs = driven.iter().map(|&at| self.plan.derivation.inputs[at]).collect::<Vec<_>>();
+            let speeds = self.plan.rates(&inputs);
+            let speeds = self.plan.variables(&speeds);
+            outputs.extend(speeds.into_iter().map(Output::from));
+            let has_forces = !self.plan.derivation.graph.is_zero(self.scene.applied);
+            let (mut body, forces) = self.driving(outputs);
+            let speeds = results(2..2 + driven.len());
+            let terms = forces.into_iter().zip(speeds).map(|(force, speed)| Expression::Product(vec![force, speed]));
+            let all: Vec<Expression> = has_forces.then_some(Expression::Result(0)).into_iter().chain(terms).collect();
+            let sum = match all.as_slice() {
+                [only] => only.clone(),
+                _ => Expression::Sum(all.into_iter().map(|term| (false, term)).collect()),
+            };
+            let applied = body.bound("applied".to_owned(), sum);
+            (body, applied)
+        } else {
+            (self.on_motion(outputs), Expression::Result(0))
+        };
+        let values = [applied, Expression::Result(1)];
+        let body = self.blamed(body, "the power", values.to_vec());
+        let body = self.with_rates(body);
+        let members = ["applied", "dissipated"].map(str::to_owned).into_iter().zip(values);
+        let power = Expression::structure(Type::Runtime("Power", Vec::new()), members);
+        self.add(self.signatures.power(), doc, Body { value: Value::Plain(power), ..body });
+    }
+}

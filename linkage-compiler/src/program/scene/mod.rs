@@ -1,0 +1,250 @@
+//! The functions of a scene: mass matrix, forces, accelerations, drives, energy and power.
+
+mod contacts;
+mod drives;
+mod energy;
+mod equilibrium;
+mod motion;
+mod reactions;
+mod signatures;
+mod unreduced;
+mod validity;
+
+use std::collections::BTreeSet;
+
+use super::expression::{Expression, Pattern, Statement, Type};
+use super::function::{Body, Function, Kernel, Output, Shape, Source};
+use super::SceneProgram;
+use super::plan::Plan;
+use crate::derivation::{Scene, Step};
+use crate::graph::{NodeId, SymbolId};
+use crate::model::{self, Wish};
+pub use signatures::SceneSignatures;
+
+const ERRORS: [&str; 4] = [
+    "",
+    "# Errors",
+    "`Singular` where J has no inverse, `NotFinite` with the name of the body or the effect that has no finite",
+    "value.",
+];
+
+/// A scene whose functions are planned one by one.
+pub struct ScenePlan<'p, 'd, 'a> {
+    plan: &'p mut Plan<'d, 'a>,
+    pub signatures: SceneSignatures<'a>,
+    pub scene: Scene,
+    pub functions: Vec<Function<Body>>,
+    /// True if there is an effect that may have no finite value, and if some function asks which.
+    is_blamable: bool,
+    blames: bool,
+}
+
+impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
+/// Plans the functions of a scene of a driver; `number` is its place among the scenes of the driver.
+pub fn of(
+    plan: &'p mut Plan<'d, 'a>,
+    scene: &'a model::Scene,
+    number: usize,
+) -> Option<Self> {
+    let derived = plan.derivation.scenes.get(number)?.clone();
+    let mut parts = derived.parts.iter().flat_map(|(_, parts)| parts);
+    let is_blamable = parts.any(|&part| plan.derivation.graph.constant_value(part).is_none());
+    let signatures = SceneSignatures::new(plan.signatures.mechanism, plan.signatures.driver, scene);
+    let mut planned =
+        ScenePlan { plan, signatures, scene: derived, functions: Vec::new(), is_blamable, blames: false };
+    let has_inertia = scene.inertia.is_some();
+    if has_inertia {
+        planned.mass_matrix();
+    }
+    planned.forces();
+    if has_inertia {
+        planned.rates();
+        planned.unreduced();
+    }
+    if !planned.signatures.driven.is_empty() {
+        planned.drives();
+        planned.drive_forces();
+    }
+    let wishes = [Wish::Energy, Wish::Power, Wish::Reactions, Wish::Equilibrium];
+    for wish in wishes.into_iter().filter(|wish| scene.wishes.contains(wish)) {
+        match wish {
+            Wish::Energy => planned.energy(),
+            Wish::Power => planned.power(),
+            Wish::Reactions => planned.reactions(),
+            Wish::Equilibrium => planned.equilibrium(),
+        }
+    }
+    if !scene.contacts.is_empty() {
+        planned.contacts();
+        planned.equations();
+    }
+    planned.check();
+    if planned.blames {
+        planned.blame();
+    }
+    Some(planned)
+}
+
+    pub fn into_program(self) -> SceneProgram<'a, Body> {
+        SceneProgram { signatures: self.signatures, functions: self.functions }
+    }
+}
+
+impl ScenePlan<'_, '_, '_> {
+    fn add(&mut self, signature: Function<Body>, doc: Vec<String>, body: Body) {
+        self.functions.push(Function { doc, body: Some(body), ..signature });
+    }
+
+    /// The field that holds the mechanism.
+    fn mechanism(&self) -> Expression {
+        Expression::own().field(&self.signatures.field)
+    }
+
+    // Sources of symbols.
+
+    /// The parameters of the mechanism and of the scene, and time.
+    fn given(&self) -> Vec<Source> {
+        let of = |parameter: &model::Parameter| (parameter.name.field.clone(), parameter.symbol);
+        let mechanism = self.signatures.mechanism;
+        let scene = self.signatures.scene.parameters.iter().map(|&at| of(&mechanism.scene_parameters[at]));
+        let fields = |of: Type, fields: Vec<(String, SymbolId)>, is_whole| Shape::Fields { of, fields, is_whole };
+        vec![
+            Source {
+                argument: None,
+                from: self.mechanism(),
+                shape: fields(
+                    Type::Bare(self.signatures.types.driver.clone()),
+                    mechanism.parameters.iter().map(of).collect(),
+                    true,
+                ),
+            },
+            // The mechanism is a field as well.
+            Source {
+                argument: None,
+                from: Expression::own().behind(),
+                shape: fields(Type::Itself, scene.collect(), false),
+            },
+            Source {
+                argument: Some(self.signatures.arguments.time.clone()),
+                from: Expression::name(&self.signatures.arguments.time),
+                shape: Shape::Argument(mechanism.time),
+            },
+        ]
+    }
+
+    /// A kernel on parameters and time.
+    fn on_parameters(&self, results: Vec<Output>) -> Kernel {
+        Kernel { sources: self.given(), results, ..Kernel::default() }
+    }
+
+    /// The pose at q, under the name of the argument that holds one.
+    fn pose_at(&self, body: &mut Body) {
+        let (q, pose) = (&self.signatures.arguments.q, &self.signatures.arguments.pose);
+        let call = self.mechanism().method("pose_at", [Expression::name(q)]);
+        body.before.push(Statement::Let(Pattern::Name(pose.clone()), call));
+        body.uses.push(q.clone());
+        body.calls.push(self.of_driver("pose_at"));
+    }
+
+    /// The name under which the work of a function of the driver is known.
+    fn of_driver(&self, function: &str) -> String {
+        self.signatures.types.function(function)
+    }
+
+    /// A body on coordinates and what else it is given, without any motion.
+    fn on_pose(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Body {
+        let mut body = Body::default();
+        self.pose_at(&mut body);
+        let mut all = self.given();
+        all.extend([self.plan.coordinates(&self.signatures.arguments.q, |c| c.value), self.plan.computed()]);
+        all.extend(sources);
+        body.kernel = Some(Kernel { sources: all, steps, results, is_on_pose: true, ..Kernel::default() });
+        body
+    }
+
+    /// A body on coordinates and the rates of the inputs: W, then q' = (W v', v'), then u'' at v'' = 0, as far as the
+    /// results need them.
+    fn on_motion(&mut self, results: Vec<Output>) -> Body {
+        let arguments = self.signatures.arguments.clone();
+        let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
+        let used: BTreeSet<SymbolId> = self.plan.derivation.graph.symbols_of(&nodes).into_iter().collect();
+        let derivation = &self.plan.derivation;
+        let needs_bias = self.scene.bias.iter().any(|bias| used.contains(bias));
+        let mut unknowns = derivation.unknowns.iter().map(|&unknown| &derivation.coordinates[unknown]);
+        let needs_velocity = needs_bias || unknowns.any(|unknown| used.contains(&unknown.rate));
+        let needs_ratios = derivation.ratios.iter().flatten().any(|ratio| used.contains(ratio));
+        let mut body = self.on_pose(Vec::new(), Vec::new(), results);
+        let ratios = Expression::name(&arguments.ratios);
+        let call = self.mechanism().method("ratio_columns", [Expression::name(&arguments.pose).borrowed()]).tried();
+        body.calls.push(self.of_driver("ratio_columns"));
+        body.before.push(if needs_ratios || needs_velocity {
+            Statement::Let(Pattern::Name(arguments.ratios.clone()), call)
+        } else {
+            Statement::Do(call)
+        });
+        let rate = Expression::name(&arguments.rate);
+        let mut sources = Vec::new();
+        if needs_ratios {
+            let symbols = derivation.ratios.iter().flatten().copied().collect();
+            let rows = derivation.unknowns.len();
+            sources.push(Source { argument: None, from: ratios.clone(), shape: Shape::Columns { rows, symbols } });
+        }
+        if needs_velocity {
+            let call = self.mechanism().method("coordinate_rates", [ratios.borrowed(), rate.clone()]);
+            body.before.push(Statement::Let(Pattern::Name(arguments.velocity.clone()), call));
+            body.calls.push(self.of_driver("coordinate_rates"));
+            body.uses.push(arguments.rate.clone());
+            let from = Expression::name(&arguments.velocity);
+            sources.push(Source { argument: None, from, ..self.plan.coordinates(&arguments.rate, |c| c.rate) });
+        } else {
+            sources.push(Source { from: rate, ..self.plan.inputs(&arguments.rate, |c| c.rate) });
+        }
+        if needs_bias {
+            let on = [Expression::name(&arguments.pose).borrowed(), Expression::name(&arguments.velocity).borrowed()];
+            let from = self.mechanism().method("bias_accelerations", on).tried();
+            body.calls.push(self.of_driver("bias_accelerations"));
+            sources.push(Source { argument: None, from, shape: Shape::List(self.scene.bias.clone()) });
+        }
+        if let Some(kernel) = &mut body.kernel {
+            kernel.sources.extend(sources);
+        }
+        body
+    }
+
+    /// A check that is made more precise only where it fails.
+    fn blamed(&mut self, mut body: Body, what: &str, values: Vec<Expression>) -> Body {
+        let arguments = &self.signatures.arguments;
+        let is_formula = |value: &Expression| match value {
+            Expression::Result(place) => {
+                let graph = &self.plan.derivation.graph;
+                let node = body.kernel.as_ref().map(|kernel| kernel.results[*place].node);
+                node.is_none_or(|node| graph.as_number(node).is_none_or(|number| !number.is_zero() && !number.is_one()))
+            }
+            _ => true,
+        };
+        let blame = (self.is_blamable && values.iter().any(is_formula)).then(|| {
+            let state = [&arguments.time, &arguments.q, &arguments.rate];
+            body.uses.extend(state.map(String::clone));
+            let blame = Expression::call("blame", state.map(Expression::name));
+            let refused = Expression::runtime("Err", [Expression::name("error")]);
+            Expression::Closure {
+                arguments: vec![Pattern::Name("error".to_owned())],
+                statements: Vec::new(),
+                value: Box::new(blame.method("and", [refused])),
+                moves: false,
+            }
+        });
+        self.blames |= blame.is_some();
+        body.after.push(Statement::Check { what: what.to_owned(), values, blame });
+        body
+    }
+
+    /// The rates by their name, which a body may use more than once.
+    fn with_rates(&self, mut body: Body) -> Body {
+        let rate = &self.signatures.arguments.rate;
+        let inputs = Type::Own(self.signatures.types.inputs.clone());
+        let converted = Expression::name(rate).method("into", []);
+        body.before.insert(0, Statement::Let(Pattern::Typed(rate.clone(), inputs), converted));
+        body
+    }
+}

@@ -1,0 +1,163 @@
+//! M, Q and the accelerations of a scene.
+
+use super::{ERRORS, ScenePlan};
+use crate::derivation::Prescribed;
+use crate::graph::{NodeId, Number};
+use crate::program::doc::{fenced, lines};
+use crate::program::expression::{Expression, Pattern, Statement, Type};
+use crate::program::function::{Body, Output, Value, results};
+use crate::program::operations::Operations;
+
+impl ScenePlan<'_, '_, '_> {
+    pub(super) fn mass_matrix(&mut self) {
+        let v = self.signatures.inputs.len();
+        let entries: Vec<NodeId> = self.scene.mass_matrix.iter().flatten().flatten().copied().collect();
+        let mut doc =
+            lines(["The mass matrix reduced to the inputs, M = sum m `W_G`' `W_G` + j w' w: M v'' = `forces`."]);
+        let upper = entries.iter().enumerate().filter(|(index, _)| index / v <= index % v);
+        doc.extend(fenced(upper.map(|(index, &node)| match v {
+            1 => self.plan.law("M", node),
+            _ => self.plan.law(format_args!("M_{}{}", index / v + 1, index % v + 1), node),
+        })));
+        doc.extend(lines([
+            "",
+            "# Errors",
+            "`Singular` where J has no inverse, `NotFinite` if an entry is not finite.",
+        ]));
+        let count = entries.len();
+        let names = self.pair_names("inertia");
+        let outputs = entries.into_iter().zip(names).map(|(node, name)| Output::named(node, name)).collect();
+        let body = self.on_motion(outputs).checked("the mass matrix", results(0..count));
+        let body = Body { value: Value::Plain(Expression::matrix(&results(0..count), v)), ..body };
+        self.add(self.signatures.mass_matrix(), doc, body);
+    }
+
+    /// `theta1_theta4_inertia`
+    pub(super) fn pair_names(&self, what: &str) -> Vec<String> {
+        let names = &self.signatures.inputs;
+        let pair = |a: &String, b: &String| if a == b { format!("{a}_{what}") } else { format!("{a}_{b}_{what}") };
+        names.iter().flat_map(|a| names.iter().map(move |b| pair(a, b))).collect()
+    }
+
+    /// Q as results with names.
+    pub(super) fn force_outputs(&self) -> Vec<Output> {
+        let named = self.scene.forces.iter().zip(&self.signatures.inputs);
+        named.map(|(&node, input)| Output::named(node, format!("{input}_force"))).collect()
+    }
+
+    pub(super) fn forces(&mut self) {
+        let quadratic = match self.signatures.scene.inertia {
+            Some(_) => ", with the quadratic velocity terms: M v'' = Q.",
+            None => ".",
+        };
+        let mut doc = vec![format!("The generalised forces Q of the inputs{quadratic}")];
+        let laws = self.signatures.inputs.iter().zip(&self.scene.forces);
+        doc.extend(fenced(laws.map(|(input, &force)| self.plan.law(format_args!("Q_{input}"), force))));
+        doc.extend(lines(ERRORS));
+        let count = self.scene.forces.len();
+        let body = self.on_motion(self.force_outputs());
+        let body = self.blamed(body, "the forces", results(0..count));
+        let body = Body { value: Value::Plain(Expression::vector(results(0..count))), ..self.with_rates(body) };
+        self.add(self.signatures.forces(), doc, body);
+    }
+
+    /// M of some rows and columns.
+    pub(super) fn minor(&self, rows: &[usize], columns: &[usize]) -> Vec<NodeId> {
+        let matrix = self.scene.mass_matrix.as_deref().unwrap_or_default();
+        rows.iter().flat_map(|&row| columns.iter().map(move |&column| matrix[row][column])).collect()
+    }
+
+    /// `Q - M_d a_d` of some inputs, with the accelerations of the driven ones.
+    pub(super) fn right_sides(&mut self, rows: &[usize]) -> Vec<NodeId> {
+        let graph = &mut self.plan.derivation.graph;
+        let mut sides = Vec::new();
+        for &row in rows {
+            let mut terms = vec![(Number::ONE, self.scene.forces[row])];
+            for (column, Prescribed { acceleration, .. }) in &self.scene.drives {
+                if let Some(matrix) = &self.scene.mass_matrix {
+                    terms.push((Number::MINUS_ONE, graph.multiply(matrix[row][*column], *acceleration)));
+                }
+            }
+            sides.push(graph.sum(&terms));
+        }
+        sides
+    }
+
+    /// Solves for the accelerations of the free inputs, from results that are the entries of M and the right sides; gives
+    /// them as local values.
+    pub(super) fn solve_free(&self, body: &mut Body, entries: Vec<Expression>, sides: Vec<Expression>) -> Vec<Expression> {
+        let free = self.signatures.free.iter().map(|&at| self.signatures.inputs[at].as_str());
+        let free: Vec<&str> = free.collect();
+        let names: Vec<Expression> = free.iter().map(|input| body.local(format!("{input}_acceleration"))).collect();
+        if names.is_empty() {
+            return names;
+        }
+        let count = names.len();
+        let texts = Expression::List(free.into_iter().map(Expression::text).collect());
+        let columns = Expression::List(Expression::nested(entries, &[count]));
+        let arguments = [Expression::mechanism(), texts, columns, Expression::List(sides)];
+        let pattern = names.iter().filter_map(|name| match name {
+            Expression::Local(place) => Some(Pattern::Local(*place)),
+            _ => None,
+        });
+        let pattern = Pattern::List(pattern.collect());
+        body.after.push(Statement::Let(pattern, Expression::runtime("reduced", arguments).tried()));
+        // One division a pivot, and the two triangles.
+        let pairs = count * (count - 1) / 2;
+        let inner: usize = (0..count).map(|left| left * (left + 1) / 2 * 2).sum();
+        body.operations += Operations {
+            divisions: count * (count + 1) / 2,
+            multiplications: inner / 2 * 2 + 2 * pairs,
+            additions: inner / 2 * 2 + 2 * pairs,
+            functions: 0,
+        };
+        names
+    }
+
+    /// q' and v'' in one function, and v'' alone by the same.
+    pub(super) fn rates(&mut self) {
+        let all: Vec<usize> = (0..self.plan.derivation.coordinates.len()).collect();
+        let free = self.signatures.free.clone();
+        let symbols = self.plan.rates(&all);
+        let mut outputs: Vec<Output> = self.plan.variables(&symbols).into_iter().map(Output::from).collect();
+        outputs.extend(self.minor(&free, &free).into_iter().map(Output::from));
+        outputs.extend(self.right_sides(&free).into_iter().map(Output::from));
+        let laws = self.scene.drives.values().zip(&self.signatures.driven);
+        outputs.extend(laws.map(|(law, &at)| {
+            Output::named(law.acceleration, format!("{}_acceleration", self.signatures.inputs[at]))
+        }));
+        let entries = all.len()..all.len() + free.len().pow(2);
+        let sides = entries.end..entries.end + free.len();
+        let laws = sides.end..outputs.len();
+        let mut body = self.on_motion(outputs);
+        let accelerations = self.solve_free(&mut body, results(entries), results(sides));
+        let mut accelerations: Vec<(usize, Expression)> = free.into_iter().zip(accelerations).collect();
+        accelerations.extend(self.signatures.driven.iter().copied().zip(results(laws)));
+        accelerations.sort_by_key(|(at, _)| *at);
+        let accelerations: Vec<Expression> = accelerations.into_iter().map(|(_, value)| value).collect();
+        let checked = [accelerations.clone(), self.plan.checked(0)].concat();
+        let body = self.blamed(body, "the acceleration", checked);
+        let body = self.with_rates(body);
+        let inputs = self.signatures.inputs.iter().cloned().zip(accelerations);
+        let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), inputs);
+        let fields = self.plan.fields().into_iter().zip(results(0..all.len()));
+        let coordinates = Type::Bare(self.signatures.types.coordinates.clone());
+        let coordinates = Expression::structure(coordinates, fields);
+        let body = Body { value: Value::Plain(Expression::Tuple(vec![coordinates, inputs])), ..body };
+        let mut errors = lines(ERRORS);
+        errors.push("`NoInertia` where an input could accelerate without a force.".to_owned());
+        let mut doc = lines([
+            "The velocity q' = (W v', v') and the input accelerations v'' of M v'' = Q: what an integrator takes.",
+        ]);
+        doc.extend(errors.clone());
+        self.add(self.signatures.rates(), doc, body);
+
+        let mut doc = lines(["The accelerations v'' of the inputs: M v'' = Q, and the laws of what is driven."]);
+        doc.extend(errors);
+        let arguments = &self.signatures.arguments;
+        let state = [&arguments.time, &arguments.q, &arguments.rate];
+        let rates = Expression::call("rates", state.map(Expression::name)).tried();
+        let body = Body::plain(rates.field("1")).using(state);
+        self.add(self.signatures.acceleration(), doc, body);
+    }
+}

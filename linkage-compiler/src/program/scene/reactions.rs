@@ -1,0 +1,56 @@
+//! The forces that keep the loops closed.
+
+use super::{ERRORS, ScenePlan};
+use crate::derivation::needed;
+use crate::graph::SymbolId;
+use crate::program::doc::lines;
+use crate::program::expression::{Expression, Pattern, Statement};
+use crate::program::function::{Body, Source, Value, results};
+use crate::program::names::Arguments;
+use crate::program::plan::unnamed;
+
+impl ScenePlan<'_, '_, '_> {
+    pub(super) fn reactions(&mut self) {
+        let Some(reactions) = self.scene.reactions.clone() else { return };
+        let mut doc = lines([
+            "The reactions lambda of the closures in the motion that the scene gives, two for each `loop` and one for",
+            "each `equation`: `M q'' + Psi_q' lambda = F`. A loop is cut where its two sides meet, and lambda is the force",
+            "with which the left side pulls there at the right side.",
+        ]);
+        doc.extend(lines(ERRORS));
+        let Arguments { time, q, rate, acceleration, pose, .. } = self.signatures.arguments.clone();
+        let steps = self.plan.derivation.transposed_solution(&reactions);
+        let nodes = self.plan.variables(&reactions.names);
+        let steps = needed(&self.plan.derivation.graph, steps, &nodes);
+        let used = |of: fn(&crate::derivation::Coordinate) -> SymbolId| {
+            let derivation = &self.plan.derivation;
+            let nodes: Vec<_> = steps.iter().flat_map(|step| step.nodes()).collect();
+            let used = derivation.graph.symbols_of(&nodes);
+            derivation.coordinates.iter().any(|coordinate| used.contains(&of(coordinate)))
+        };
+        let (takes_rate, takes_acceleration) = (used(|c| c.rate), used(|c| c.acceleration));
+        let count = nodes.len();
+        let by_name = |name: &str, source: Source| Source { argument: None, from: Expression::name(name), ..source };
+        let sources = vec![
+            by_name(&rate, self.plan.coordinates(&rate, |c| c.rate)),
+            by_name(&acceleration, self.plan.coordinates(&acceleration, |c| c.acceleration)),
+        ];
+        let mut body = self.on_pose(sources, steps, unnamed(nodes)).checked("the reactions", results(0..count));
+        let at = |name: &str| Expression::name(name);
+        let on = at(&pose).borrowed();
+        if takes_acceleration {
+            let both = Pattern::Tuple(vec![Pattern::Name(rate.clone()), Pattern::Name(acceleration.clone())]);
+            let rates = Expression::call("rates", [at(&time), at(&q), at(&rate)]).tried();
+            body.before.push(Statement::Let(both, rates));
+            let all = self.mechanism().method("acceleration", [on, at(&rate).borrowed(), at(&acceleration)]).tried();
+            body.before.push(Statement::Let(Pattern::Name(acceleration), all));
+            body.uses.extend([time, rate]);
+        } else if takes_rate {
+            let velocity = self.mechanism().method("velocity", [on, at(&rate)]).tried();
+            body.before.push(Statement::Let(Pattern::Name(rate.clone()), velocity));
+            body.uses.push(rate);
+        }
+        let body = Body { value: Value::Plain(Expression::vector(results(0..count))), ..body };
+        self.add(self.signatures.reactions(), doc, body);
+    }
+}

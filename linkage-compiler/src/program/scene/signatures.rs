@@ -1,0 +1,169 @@
+//! The functions of a scene by their names, arguments and results.
+
+use crate::model::{self, Driver, Mechanism, Wish};
+use crate::program::expression::Type;
+use crate::program::function::{Access, Argument, Body, Function, Passed};
+use crate::program::names::{Arguments, TypeNames, argument};
+use crate::program::signatures::{fallible, total};
+
+/// The functions of one scene, without bodies.
+pub struct SceneSignatures<'a> {
+    pub mechanism: &'a Mechanism,
+    pub scene: &'a model::Scene,
+    pub types: TypeNames,
+    pub arguments: Arguments,
+    /// The field of the mechanism.
+    pub field: String,
+    /// The inputs by field, and the places of those that are free and of those that are driven.
+    pub inputs: Vec<String>,
+    pub free: Vec<usize>,
+    pub driven: Vec<usize>,
+    unknowns: usize,
+}
+
+impl<'a> SceneSignatures<'a> {
+    pub fn new(mechanism: &'a Mechanism, driver: &'a Driver, scene: &'a model::Scene) -> Self {
+        let is_driven = |place: &usize| scene.drives.iter().any(|drive| drive.input == driver.inputs[*place]);
+        let (driven, free) = (0..driver.inputs.len()).partition(is_driven);
+        let inputs = driver.inputs.iter().map(|&index| mechanism.coordinates[index].name.field.clone());
+        Self {
+            mechanism,
+            scene,
+            types: TypeNames { itself: scene.name.to_string(), ..TypeNames::new(mechanism, driver) },
+            arguments: Arguments::new(mechanism),
+            field: argument(mechanism, "mechanism"),
+            inputs: inputs.collect(),
+            free,
+            driven,
+            unknowns: driver.unknowns.len(),
+        }
+    }
+
+    /// All of them, in the order in which they are emitted.
+    pub fn all(&self) -> Vec<Function<Body>> {
+        let (scene, mut all) = (self.scene, Vec::new());
+        let has_inertia = scene.inertia.is_some();
+        if has_inertia {
+            all.push(self.mass_matrix());
+        }
+        all.push(self.forces());
+        if has_inertia {
+            all.extend([self.rates(), self.acceleration(), self.unreduced()]);
+        }
+        if !self.driven.is_empty() {
+            all.extend([self.drives(), self.drive_forces()]);
+        }
+        let wishes = [Wish::Energy, Wish::Power, Wish::Reactions, Wish::Equilibrium];
+        for wish in wishes.into_iter().filter(|wish| scene.wishes.contains(wish)) {
+            match wish {
+                Wish::Energy => all.push(self.energy()),
+                Wish::Power => all.push(self.power()),
+                Wish::Reactions => all.push(self.reactions()),
+                Wish::Equilibrium => all.extend([self.balance(), self.equilibrium()]),
+            }
+        }
+        if !scene.contacts.is_empty() {
+            all.extend([self.contacts(), self.equations()]);
+        }
+        all.push(self.check());
+        all
+    }
+
+    pub fn mass_matrix(&self) -> Function<Body> {
+        let v = self.inputs.len();
+        fallible("mass_matrix", [self.coordinates(&self.arguments.q)], Type::Matrix(v, v))
+    }
+
+    pub fn forces(&self) -> Function<Body> {
+        fallible("forces", self.state(), Type::Vector(self.inputs.len()))
+    }
+
+    pub fn rates(&self) -> Function<Body> {
+        let of = Type::Tuple(vec![self.coordinates_type(), Type::Own(self.types.inputs.clone())]);
+        fallible("rates", self.state(), of)
+    }
+
+    pub fn acceleration(&self) -> Function<Body> {
+        fallible("acceleration", self.state(), Type::Own(self.types.inputs.clone()))
+    }
+
+    pub fn unreduced(&self) -> Function<Body> {
+        fallible("unreduced", self.whole_state(), Type::Runtime("Unreduced", vec![self.unknowns, self.inputs.len()]))
+    }
+
+    pub fn drives(&self) -> Function<Body> {
+        let laws = Type::List(Box::new(Type::Scalar), 3);
+        total("drives", [self.time()], Type::List(Box::new(laws), self.driven.len()))
+    }
+
+    pub fn drive_forces(&self) -> Function<Body> {
+        fallible("drive_forces", self.state(), Type::List(Box::new(Type::Scalar), self.driven.len()))
+    }
+
+    pub fn energy(&self) -> Function<Body> {
+        let arguments = self.state().into_iter().skip(1);
+        fallible("energy", arguments, Type::Runtime("Energy", Vec::new()))
+    }
+
+    pub fn power(&self) -> Function<Body> {
+        fallible("power", self.state(), Type::Runtime("Power", Vec::new()))
+    }
+
+    pub fn reactions(&self) -> Function<Body> {
+        fallible("reactions", self.state(), Type::Vector(self.unknowns))
+    }
+
+    pub fn balance(&self) -> Function<Body> {
+        let arguments = [self.time(), self.coordinates(&self.arguments.q)];
+        fallible("balance", arguments, Type::Runtime("Balance", vec![self.free.len()]))
+    }
+
+    pub fn equilibrium(&self) -> Function<Body> {
+        fallible("equilibrium", [self.time(), self.coordinates(&self.arguments.guess)], self.coordinates_type())
+    }
+
+    pub fn contacts(&self) -> Function<Body> {
+        let contact = Type::Runtime("Contact", vec![self.unknowns, self.inputs.len()]);
+        let of = Type::List(Box::new(contact), self.scene.contacts.len());
+        fallible("contacts", self.whole_state(), of)
+    }
+
+    pub fn equations(&self) -> Function<Body> {
+        fallible("equations", self.state(), Type::Runtime("Equations", vec![self.unknowns, self.inputs.len()]))
+    }
+
+    pub fn check(&self) -> Function<Body> {
+        fallible("check", [], Type::Tuple(Vec::new()))
+    }
+
+    pub fn blame(&self) -> Function<Body> {
+        let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
+        let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
+        let arguments = [self.time(), self.coordinates(&self.arguments.q), rate];
+        Function { access: Access::Cold, ..fallible("blame", arguments, Type::Tuple(Vec::new())) }
+    }
+
+    /// t, q and v'.
+    fn state(&self) -> [Argument; 3] {
+        let rate = Passed::Converted(Type::Own(self.types.inputs.clone()));
+        let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
+        [self.time(), self.coordinates(&self.arguments.q), rate]
+    }
+
+    /// t, q and q'.
+    fn whole_state(&self) -> [Argument; 3] {
+        [self.time(), self.coordinates(&self.arguments.q), self.coordinates(&self.arguments.rate)]
+    }
+
+    fn time(&self) -> Argument {
+        Argument { name: self.arguments.time.clone(), passed: Passed::ByValue(Type::Scalar) }
+    }
+
+    fn coordinates(&self, name: &str) -> Argument {
+        Argument { name: name.to_owned(), passed: Passed::ByReference(self.coordinates_type()) }
+    }
+
+    fn coordinates_type(&self) -> Type {
+        Type::Own(self.types.coordinates.clone())
+    }
+}

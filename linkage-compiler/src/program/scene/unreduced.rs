@@ -1,0 +1,61 @@
+//! Mass matrix and forces in all coordinates.
+
+use std::collections::BTreeMap;
+
+use super::ScenePlan;
+use crate::program::doc::lines;
+use crate::program::expression::{Expression, Type};
+use crate::program::function::{Body, Output, Value, results};
+
+impl ScenePlan<'_, '_, '_> {
+    pub(super) fn unreduced(&mut self) {
+        let Some(unreduced) = self.scene.unreduced.clone() else { return };
+        let (u, v) = (self.plan.signatures.unknowns(), self.plan.signatures.inputs());
+        let names = self.plan.fields();
+        let inertia = |(row, column): (usize, usize)| match row == column {
+            true => format!("{}_inertia", names[row]),
+            false => format!("{}_{}_inertia", names[row], names[column]),
+        };
+        let entries = unreduced.mass_matrix.iter().map(|(&place, &node)| Output::named(node, inertia(place)));
+        let forces = unreduced.forces.iter().zip(&names);
+        let forces = forces.map(|(&node, name)| Output::named(node, format!("{name}_force")));
+        let outputs: Vec<Output> = entries.chain(forces).collect();
+        let count = outputs.len();
+        let rate = &self.signatures.arguments.rate;
+        let sources = vec![self.plan.coordinates(rate, |c| c.rate)];
+        let mut body = self.on_pose(sources, Vec::new(), outputs).checked("the equations of motion", results(0..count));
+        let entries: BTreeMap<(usize, usize), usize> =
+            unreduced.mass_matrix.keys().enumerate().map(|(result, &place)| (place, result)).collect();
+        // Each entry above the diagonal is below it as well.
+        let block = |rows: &[usize], columns: &[usize]| -> Vec<(usize, usize, Expression)> {
+            let mut block = Vec::new();
+            for (j, &column) in columns.iter().enumerate() {
+                for (i, &row) in rows.iter().enumerate() {
+                    let result = entries.get(&(row.min(column), row.max(column)));
+                    block.extend(result.map(|&result| (i, j, Expression::Result(result))));
+                }
+            }
+            block
+        };
+        let derivation = &self.plan.derivation;
+        let (unknowns, inputs) = (&derivation.unknowns, &derivation.inputs);
+        let matrices = [
+            body.matrix(&block(unknowns, unknowns), u, u),
+            body.matrix(&block(unknowns, inputs), u, v),
+            body.matrix(&block(inputs, inputs), v, v),
+        ];
+        let force = |at: &usize| Expression::Result(entries.len() + at);
+        let forces = [unknowns, inputs].map(|places| Expression::vector(places.iter().map(force).collect()));
+        let members = ["unknowns", "mixed", "inputs", "unknown_forces", "input_forces"].map(str::to_owned);
+        let members = members.into_iter().zip(matrices.into_iter().chain(forces));
+        let value = Expression::structure(Type::Runtime("Unreduced", Vec::new()), members);
+        let body = Body { value: Value::Plain(value), ..body };
+        let doc = lines([
+            "The inertia and the forces in all coordinates, at the rates of all coordinates: `M q'' + Psi_q' lambda = F`.",
+            "",
+            "# Errors",
+            "`NotFinite` if an entry is not finite.",
+        ]);
+        self.add(self.signatures.unreduced(), doc, body);
+    }
+}

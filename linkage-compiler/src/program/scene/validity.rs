@@ -1,0 +1,76 @@
+//! Which parameters a scene refuses, and which body or effect has no finite value.
+
+use super::ScenePlan;
+use crate::derivation::ContactFormula;
+use crate::graph::NodeId;
+use crate::program::doc::lines;
+use crate::program::expression::{Expression, Statement};
+use crate::program::function::{Body, Value};
+use crate::program::plan::unnamed;
+
+impl ScenePlan<'_, '_, '_> {
+    pub(super) fn check(&mut self) {
+        let doc = match self.signatures.scene.contacts.as_slice() {
+            [] => lines([
+                "Refuses parameters that no body has.",
+                "",
+                "# Errors",
+                "`Negative` if a mass or an inertia is negative, `NotFinite` if it is not finite, with its name.",
+            ]),
+            _ => lines([
+                "Refuses parameters that no body, no friction and no stop has.",
+                "",
+                "# Errors",
+                "With its name: `Negative` if a mass, an inertia or a friction is negative, `NoRange` if nothing is left between",
+                "stops, `Restitution` if one is not between 0 and 1, `NotFinite` if a number is not finite.",
+            ]),
+        };
+        let mut nodes: Vec<NodeId> = self.scene.masses.iter().map(|(_, node)| *node).collect();
+        let masses = self.labelled(self.scene.masses.iter().map(|(label, _)| label.as_str()), 0, 1);
+        let mut stops = Vec::new();
+        for contact in &self.scene.contacts {
+            if let ContactFormula::Stop { range, restitution } = contact.law {
+                stops.push(contact.label.as_str());
+                nodes.extend(range);
+                nodes.push(restitution);
+            }
+        }
+        let masses = Expression::runtime("not_negative::<T, _>", [Expression::mechanism(), masses]);
+        let mut body = Body { kernel: Some(self.on_parameters(unnamed(nodes))), ..Body::default() };
+        body.value = if stops.is_empty() {
+            Value::Result(masses)
+        } else {
+            body.after.push(Statement::Do(masses.tried()));
+            let stops = self.labelled(stops.into_iter(), self.scene.masses.len(), 3);
+            Value::Result(Expression::runtime("stops", [Expression::mechanism(), stops]))
+        };
+        self.add(self.signatures.check(), doc, body);
+    }
+
+    /// `[("label", result, …), …]`, each with so many results from a place on.
+    fn labelled<'l>(&self, labels: impl Iterator<Item = &'l str>, from: usize, each: usize) -> Expression {
+        let entry = |(at, label): (usize, &str)| {
+            let results = (0..each).map(|place| Expression::Result(from + each * at + place));
+            Expression::Tuple(std::iter::once(Expression::text(label)).chain(results).collect())
+        };
+        Expression::List(labels.enumerate().map(entry).collect())
+    }
+
+    /// Which body or effect has no finite value.
+    pub(super) fn blame(&mut self) {
+        let (mut labels, mut nodes) = (Vec::new(), Vec::new());
+        for (label, parts) in &self.scene.parts {
+            let graph = &self.plan.derivation.graph;
+            for &part in parts.iter().filter(|&&part| graph.constant_value(part).is_none()) {
+                labels.push(label.clone());
+                nodes.push(part);
+            }
+        }
+        let values = self.labelled(labels.iter().map(String::as_str), 0, 1);
+        let body = self.on_motion(unnamed(nodes));
+        let finite = Expression::runtime("finite_each::<T, _>", [Expression::mechanism(), values]);
+        let body = Body { value: Value::Result(finite), ..body };
+        let doc = lines(["Refuses the body or the effect that has no finite value, by its name."]);
+        self.add(self.signatures.blame(), doc, body);
+    }
+}

@@ -1,0 +1,115 @@
+//! Sensitivities to the parameters, of the unknowns and of points and outputs.
+
+use super::doc::{fenced, lines};
+use super::equations::places;
+use super::expression::{Expression, Statement};
+use super::function::{Body, Value};
+use super::plan::{Plan, unnamed};
+use super::signatures::Family;
+use crate::algebra::simplify;
+use crate::derivation::{Form, Step, needed};
+use crate::graph::{NodeId, SymbolId};
+
+const ERRORS: [&str; 3] =
+    ["", "# Errors", "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value."];
+
+impl Plan<'_, '_> {
+    pub(super) fn sensitivity(&mut self) {
+        let (u, p) = (self.signatures.unknowns(), self.signatures.mechanism.parameters.len());
+        let columns = self.signatures.mechanism.parameters.iter();
+        let columns: Vec<String> = columns.map(|parameter| format!("`{}`", parameter.name.text)).collect();
+        let mut doc = lines([
+            "The sensitivity du/dp = -J^-1 `Psi_p` of the unknowns to the parameters, at fixed inputs; its columns",
+            &format!("are {}.", columns.join(", ")),
+        ]);
+        let systems = self.derivation.sensitivity_systems();
+        let names = systems.iter().flat_map(|(_, names)| names);
+        let laws = names.zip(self.formulas.sensitivities.iter().flatten());
+        let laws = laws.filter_map(|(&name, formula)| Some((name, (*formula)?)));
+        let laws = laws.filter(|(_, formula)| !self.derivation.graph.is_zero(*formula));
+        doc.extend(fenced(laws.map(|(name, formula)| self.law(self.derivation.graph.symbol_name(name), formula))));
+        doc.extend(lines(ERRORS));
+        let (mut steps, solved) = self.derivation.solve(&systems, Form::Factored);
+        // The length of a link turns its own side of J: cos^2 + sin^2 is 1.
+        let given = self.pose.angles().collect();
+        for step in &mut steps {
+            if let Step::Let { node, .. } = step {
+                *node = simplify(&mut self.derivation.graph, &[*node], &given)[0];
+            }
+        }
+        // du/dp by parameter and unknown: names, or zero.
+        let entries = (0..p).flat_map(|column| (0..u).map(move |row| (row, column)));
+        let entries = entries.zip(solved.concat()).map(|((row, column), node)| (row, column, node));
+        let entries: Vec<_> = entries.filter(|(_, _, node)| !self.derivation.graph.is_zero(*node)).collect();
+        let nodes: Vec<NodeId> = entries.iter().map(|(_, _, node)| *node).collect();
+        let steps = needed(&self.derivation.graph, steps, &nodes);
+        let kernel = self.on_pose(Vec::new(), steps, unnamed(nodes));
+        let mut body = Body { kernel: Some(kernel), ..Body::default() };
+        let matrix = body.matrix(&places(&entries, 0), u, p);
+        let value = body.finite_matrix("sensitivity", "sensitivity", matrix);
+        let body = Body { value: Value::Plain(value), ..body };
+        self.add(self.signatures.sensitivity(), doc, body);
+        for family in [Family::Points, Family::Outputs] {
+            if self.signatures.has(family) {
+                self.quantity_sensitivities(family, &solved);
+            }
+        }
+    }
+
+    fn quantity_sensitivities(&mut self, family: Family, solved: &[Vec<NodeId>]) {
+        let (word, dimension) = (family.word(), family.dimension());
+        let names = family.names(self.signatures.mechanism);
+        let mut doc = vec![
+            format!(
+                "The sensitivity of the {word}s to the parameters at fixed inputs, through the unknowns and their own formulas:"
+            ),
+            "`dl/dp = l_p + l_u du/dp`.".to_owned(),
+        ];
+        let mut laws = Vec::new();
+        for (name, formulas) in names.iter().zip(self.formulas_of(family)) {
+            for (parameter, nodes) in self.signatures.mechanism.parameters.iter().zip(&formulas.sensitivities) {
+                if nodes.iter().any(|&node| !self.derivation.graph.is_zero(node)) {
+                    laws.extend(self.laws(family, name, &format!("by_{}", parameter.name.field), nodes));
+                }
+            }
+        }
+        doc.extend(fenced(laws.into_iter()));
+        doc.extend(lines(ERRORS));
+        let mut nodes = Vec::new();
+        for quantity in self.quantities_of(family).to_vec() {
+            nodes.extend(self.derivation.quantity_sensitivities(&quantity, solved).concat());
+        }
+        let first = self.derivation.sensitivity.iter();
+        let symbols: Vec<SymbolId> = first.flat_map(|first| first.names.iter().flatten()).copied().collect();
+        let source = self.columns("sensitivity", symbols);
+        let kernel = self.on_pose(vec![source], Vec::new(), unnamed(nodes.iter().copied()));
+        // A call costs what the sensitivity of the unknowns costs, too.
+        let calls = vec!["sensitivity".to_owned()];
+        let mut body = Body { kernel: Some(kernel), calls, ..Body::default() };
+        let columns = nodes.len() / (names.len() * dimension);
+        let entries: Vec<_> = nodes.iter().enumerate().collect();
+        let mut members = Vec::new();
+        for (name, entries) in names.iter().zip(entries.chunks(columns * dimension)) {
+            let entries = entries.iter().enumerate().filter(|(_, (_, node))| !self.derivation.graph.is_zero(**node));
+            let entries = entries.map(|(index, (place, _))| {
+                (index % dimension, index / dimension, Expression::Result(*place))
+            });
+            let matrix = body.matrix(&entries.collect::<Vec<_>>(), dimension, columns);
+            let value = body.finite_matrix(&format!("{name}_sensitivity"), word, matrix);
+            members.push((name.clone(), value));
+        }
+        let group = super::Type::Bare(self.signatures.each_name(family).to_owned());
+        let body = Body { value: Value::Plain(Expression::structure(group, members)), ..body };
+        self.add(self.signatures.quantity_sensitivities(family), doc, body);
+    }
+}
+
+impl Body {
+    /// Gives a matrix a name and refuses one that is not finite.
+    fn finite_matrix(&mut self, wish: &str, what: &str, matrix: Expression) -> Expression {
+        let name = self.bound(wish, matrix);
+        let check = [Expression::mechanism(), Expression::text(what), name.clone().borrowed()];
+        self.after.push(Statement::Do(Expression::runtime("finite_matrix", check).tried()));
+        name
+    }
+}

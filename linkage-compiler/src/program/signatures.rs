@@ -1,0 +1,400 @@
+//! The functions of a driver by their names, arguments and results: all that a stub has.
+
+use super::branch::Position;
+use super::expression::Type;
+use super::function::{Access, Argument, Body, Function, Passed};
+use super::names::{Arguments, TypeNames};
+use crate::model::{Driver, Mechanism, Request};
+
+/// The functions of one driver of a mechanism, without bodies.
+pub struct Signatures<'a> {
+    pub mechanism: &'a Mechanism,
+    pub driver: &'a Driver,
+    pub types: TypeNames,
+    pub arguments: Arguments,
+}
+
+/// The points or the outputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    Points,
+    Outputs,
+}
+
+impl Family {
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Points => "point",
+            Self::Outputs => "output",
+        }
+    }
+
+    /// The components of one: 2 of a point, 1 of an output.
+    pub fn dimension(self) -> usize {
+        self.axes().len()
+    }
+
+    /// The endings of the names of the components.
+    pub fn axes(self) -> &'static [&'static str] {
+        match self {
+            Self::Points => &["_x", "_y"],
+            Self::Outputs => &[""],
+        }
+    }
+
+    /// Their field names.
+    pub fn names(self, mechanism: &Mechanism) -> Vec<String> {
+        match self {
+            Self::Points => mechanism.points.iter().map(|point| point.name.field.clone()).collect(),
+            Self::Outputs => mechanism.outputs.iter().map(|output| output.name.field.clone()).collect(),
+        }
+    }
+}
+
+/// How often a quantity is derived by time, and what it is then called.
+pub const ORDERS: [&str; 4] = ["s", "_velocities", "_accelerations", "_jerks"];
+
+impl<'a> Signatures<'a> {
+    pub fn new(mechanism: &'a Mechanism, driver: &'a Driver) -> Self {
+        let (types, arguments) = (TypeNames::new(mechanism, driver), Arguments::new(mechanism));
+        Self { mechanism, driver, types, arguments }
+    }
+
+    /// All of them, in the order in which they are emitted.
+    pub fn all(&self, position: &Position) -> Vec<Function<Body>> {
+        let wants = |request| self.mechanism.requests.contains(&request);
+        let families = || [Family::Points, Family::Outputs].into_iter().filter(|&family| self.has(family));
+        let mut all = vec![self.pose_at(), self.solve()];
+        all.extend(self.assemblies(position));
+        all.push(self.branch_of());
+        if wants(Request::Limits) {
+            all.extend((0..self.driver.inputs.len()).map(|place| self.limits(position, place)));
+        }
+        all.extend([
+            self.residual(),
+            self.closure_sizes(),
+            self.jacobian_unknowns(),
+            self.jacobian_inputs(),
+            self.jacobian(),
+            self.jacobian_sizes(),
+            self.determinant(),
+            self.block_determinants(position.blocks),
+            self.solve_jacobian(),
+            self.velocity_ratios(),
+            self.velocity(),
+            self.gamma(),
+            self.acceleration(),
+        ]);
+        if wants(Request::Jerk) {
+            all.push(self.jerk());
+        }
+        for family in families() {
+            all.extend((0..self.orders()).map(|order| self.quantities(family, order)));
+            all.push(self.quantity_ratios(family));
+        }
+        all.push(self.motion());
+        if wants(Request::VelocityRatioDerivatives) {
+            all.push(self.ratio_derivatives());
+            all.extend(families().map(|family| self.quantity_ratio_derivatives(family)));
+        }
+        if wants(Request::Sensitivity) {
+            all.push(self.sensitivity());
+            all.extend(families().map(|family| self.quantity_sensitivities(family)));
+        }
+        all
+    }
+
+    /// True if something of a family is declared.
+    pub fn has(&self, family: Family) -> bool {
+        match family {
+            Family::Points => !self.mechanism.points.is_empty(),
+            Family::Outputs => !self.mechanism.outputs.is_empty(),
+        }
+    }
+
+    /// The orders of derivatives that points and outputs have functions for.
+    pub fn orders(&self) -> usize {
+        if self.mechanism.requests.contains(&Request::Jerk) { 4 } else { 3 }
+    }
+
+    pub fn unknowns(&self) -> usize {
+        self.driver.unknowns.len()
+    }
+
+    pub fn inputs(&self) -> usize {
+        self.driver.inputs.len()
+    }
+
+    // Position.
+
+    pub fn pose_at(&self) -> Function<Body> {
+        total("pose_at", [self.coordinates(&self.arguments.q)], self.pose_type())
+    }
+
+    pub fn solve(&self) -> Function<Body> {
+        let solution = Type::Around("Solution", Box::new(self.coordinates_type()));
+        fallible("solve", [self.coordinates(&self.arguments.guess)], solution)
+    }
+
+    /// The functions that assemble a position, and the one that goes through all branches.
+    pub fn assemblies(&self, position: &Position) -> Vec<Function<Body>> {
+        if !position.is_closed {
+            return vec![self.assemble_near()];
+        }
+        let mut all = Vec::new();
+        if !position.turns.is_empty() {
+            all.push(self.assemble_in_turns());
+        }
+        all.push(self.assemble());
+        if !position.turns.is_empty() {
+            all.push(self.assemble_near());
+        }
+        if position.has_few_branches() {
+            all.push(self.branches());
+        }
+        all
+    }
+
+    pub fn assemble(&self) -> Function<Body> {
+        fallible("assemble", [self.converted(&self.arguments.inputs), self.branch()], self.pose_type())
+    }
+
+    pub fn assemble_near(&self) -> Function<Body> {
+        fallible("assemble_near", [self.coordinates(&self.arguments.guess), self.branch()], self.pose_type())
+    }
+
+    pub fn assemble_in_turns(&self) -> Function<Body> {
+        let inputs = Passed::ByValue(Type::Own(self.types.inputs.clone()));
+        let inputs = Argument { name: self.arguments.inputs.clone(), passed: inputs };
+        let turn = Argument { name: self.arguments.turn.clone(), passed: Passed::Turns };
+        inlined(fallible("assemble_in_turns", [inputs, self.branch(), turn], self.pose_type()))
+    }
+
+    pub fn branches(&self) -> Function<Body> {
+        let of = Type::Branches { branch: self.types.branch.clone(), pose: self.types.pose.clone() };
+        total("branches", [self.converted(&self.arguments.inputs)], of)
+    }
+
+    pub fn branch_of(&self) -> Function<Body> {
+        total("branch_of", [self.pose()], Type::Bare(self.types.branch.clone()))
+    }
+
+    /// The limits of one input, by its place.
+    pub fn limits(&self, position: &Position, place: usize) -> Function<Body> {
+        let from = match position.is_closed {
+            true => self.converted(&self.arguments.inputs),
+            false => self.coordinates(&self.arguments.guess),
+        };
+        let name = match self.inputs() {
+            1 => "limits".to_owned(),
+            _ => format!("limits_of_{}", self.mechanism.coordinates[self.driver.inputs[place]].name.field),
+        };
+        fallible(name, [from, self.branch()], Type::Runtime("Limits", Vec::new()))
+    }
+
+    // Equations and their derivatives.
+
+    pub fn residual(&self) -> Function<Body> {
+        total("residual", [self.pose()], Type::Vector(self.unknowns()))
+    }
+
+    pub fn closure_sizes(&self) -> Function<Body> {
+        total("closure_sizes", [self.pose()], Type::Vector(self.unknowns()))
+    }
+
+    pub fn jacobian_unknowns(&self) -> Function<Body> {
+        total("jacobian_unknowns", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns()))
+    }
+
+    pub fn jacobian_inputs(&self) -> Function<Body> {
+        total("jacobian_inputs", [self.pose()], Type::Matrix(self.unknowns(), self.inputs()))
+    }
+
+    pub fn jacobian(&self) -> Function<Body> {
+        total("jacobian", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns() + self.inputs()))
+    }
+
+    pub fn jacobian_sizes(&self) -> Function<Body> {
+        let of = [self.unknowns(), self.inputs()].map(|columns| Type::Matrix(self.unknowns(), columns));
+        total("jacobian_sizes", [self.pose()], Type::Tuple(of.to_vec()))
+    }
+
+    pub fn determinant(&self) -> Function<Body> {
+        total("determinant", [self.pose()], Type::Scalar)
+    }
+
+    pub fn block_determinants(&self, blocks: usize) -> Function<Body> {
+        total("block_determinants", [self.pose()], Type::List(Box::new(Type::Scalar), blocks))
+    }
+
+    // Linear systems in J.
+
+    pub fn solve_jacobian(&self) -> Function<Body> {
+        let vector = Type::Vector(self.unknowns());
+        let right =
+            Argument { name: self.arguments.right.clone(), passed: Passed::ByReference(vector.clone()) };
+        fallible("solve_jacobian", [self.pose(), right], vector)
+    }
+
+    pub fn velocity_ratios(&self) -> Function<Body> {
+        fallible("velocity_ratios", [self.pose()], Type::Matrix(self.unknowns(), self.inputs()))
+    }
+
+    // What scenes are made of.
+
+    /// W, column by column.
+    pub fn ratio_columns(&self) -> Function<Body> {
+        inlined(fallible("ratio_columns", [self.pose()], self.columns()))
+    }
+
+    fn columns(&self) -> Type {
+        Type::List(Box::new(Type::List(Box::new(Type::Scalar), self.unknowns())), self.inputs())
+    }
+
+    pub fn coordinate_rates(&self) -> Function<Body> {
+        let ratios = Argument { name: self.arguments.ratios.clone(), passed: Passed::ByReference(self.columns()) };
+        let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
+        let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
+        inlined(total("coordinate_rates", [ratios, rate], self.coordinates_type()))
+    }
+
+    pub fn bias_accelerations(&self) -> Function<Body> {
+        let arguments = [self.pose(), self.coordinates(&self.arguments.velocity)];
+        let of = Type::List(Box::new(Type::Scalar), self.unknowns());
+        inlined(fallible("bias_accelerations", arguments, of))
+    }
+
+    pub fn velocity(&self) -> Function<Body> {
+        fallible("velocity", [self.pose(), self.converted(&self.arguments.rate)], self.coordinates_type())
+    }
+
+    pub fn gamma(&self) -> Function<Body> {
+        total("gamma", [self.pose(), self.coordinates(&self.arguments.rate)], Type::Vector(self.unknowns()))
+    }
+
+    pub fn acceleration(&self) -> Function<Body> {
+        let Arguments { rate, acceleration, .. } = &self.arguments;
+        let arguments = [self.pose(), self.coordinates(rate), self.converted(acceleration)];
+        fallible("acceleration", arguments, self.coordinates_type())
+    }
+
+    pub fn jerk(&self) -> Function<Body> {
+        let Arguments { rate, acceleration, jerk, .. } = &self.arguments;
+        let arguments =
+            [self.pose(), self.coordinates(rate), self.coordinates(acceleration), self.converted(jerk)];
+        fallible("jerk", arguments, self.coordinates_type())
+    }
+
+    pub fn motion(&self) -> Function<Body> {
+        let Arguments { q, rate, acceleration, .. } = &self.arguments;
+        let arguments = [self.coordinates(q), self.converted(rate), self.converted(acceleration)];
+        fallible("motion", arguments, Type::Own(self.types.motion.clone()))
+    }
+
+    // Points and outputs.
+
+    /// Values, rates, accelerations or jerks.
+    pub fn quantities(&self, family: Family, order: usize) -> Function<Body> {
+        let Arguments { rate, acceleration, jerk, .. } = &self.arguments;
+        let motion = [rate, acceleration, jerk].into_iter().take(order).map(|argument| self.coordinates(argument));
+        let arguments = std::iter::once(self.pose()).chain(motion);
+        let item = if family == Family::Points { Type::Plane } else { Type::Scalar };
+        fallible(format!("{}{}", family.word(), ORDERS[order]), arguments, self.each(family, item))
+    }
+
+    pub fn quantity_ratios(&self, family: Family) -> Function<Body> {
+        let item = Type::Matrix(family.dimension(), self.inputs());
+        fallible(format!("{}_ratios", family.word()), [self.pose()], self.each(family, item))
+    }
+
+    pub fn ratio_derivatives(&self) -> Function<Body> {
+        let of = Type::List(Box::new(Type::Matrix(self.inputs(), self.inputs())), self.unknowns());
+        fallible("velocity_ratio_derivatives", [self.pose()], of)
+    }
+
+    pub fn quantity_ratio_derivatives(&self, family: Family) -> Function<Body> {
+        let matrix = Type::Matrix(self.inputs(), self.inputs());
+        let item = if family == Family::Points { Type::List(Box::new(matrix), 2) } else { matrix };
+        fallible(format!("{}_ratio_derivatives", family.word()), [self.pose()], self.each(family, item))
+    }
+
+    pub fn sensitivity(&self) -> Function<Body> {
+        fallible("sensitivity", [self.pose()], Type::Matrix(self.unknowns(), self.mechanism.parameters.len()))
+    }
+
+    pub fn quantity_sensitivities(&self, family: Family) -> Function<Body> {
+        let item = Type::Matrix(family.dimension(), self.mechanism.parameters.len());
+        fallible(format!("{}_sensitivities", family.word()), [self.pose()], self.each(family, item))
+    }
+
+    // Arguments and types.
+
+    fn pose(&self) -> Argument {
+        Argument { name: self.arguments.pose.clone(), passed: Passed::ByReference(self.pose_type()) }
+    }
+
+    fn branch(&self) -> Argument {
+        let of = Type::Bare(self.types.branch.clone());
+        Argument { name: self.arguments.branch.clone(), passed: Passed::ByValue(of) }
+    }
+
+    fn coordinates(&self, name: &str) -> Argument {
+        Argument { name: name.to_owned(), passed: Passed::ByReference(self.coordinates_type()) }
+    }
+
+    fn converted(&self, name: &str) -> Argument {
+        let of = Type::Own(self.types.inputs.clone());
+        Argument { name: name.to_owned(), passed: Passed::Converted(of) }
+    }
+
+    pub fn pose_type(&self) -> Type {
+        Type::Own(self.types.pose.clone())
+    }
+
+    pub fn coordinates_type(&self) -> Type {
+        Type::Own(self.types.coordinates.clone())
+    }
+
+    fn each(&self, family: Family, item: Type) -> Type {
+        Type::Each(self.each_name(family).to_owned(), Box::new(item))
+    }
+
+    /// The type that holds one of each.
+    pub fn each_name(&self, family: Family) -> &str {
+        match family {
+            Family::Points => &self.types.points,
+            Family::Outputs => &self.types.outputs,
+        }
+    }
+}
+
+/// A public function that always has a result.
+pub fn total(
+    name: impl Into<String>,
+    arguments: impl IntoIterator<Item = Argument>,
+    returns: Type,
+) -> Function<Body> {
+    Function {
+        name: name.into(),
+        doc: Vec::new(),
+        access: Access::Public,
+        arguments: arguments.into_iter().collect(),
+        returns,
+        is_fallible: false,
+        body: None,
+    }
+}
+
+/// A private function that others call.
+fn inlined(function: Function<Body>) -> Function<Body> {
+    Function { access: Access::Inlined, ..function }
+}
+
+/// A public function that may refuse.
+pub fn fallible(
+    name: impl Into<String>,
+    arguments: impl IntoIterator<Item = Argument>,
+    returns: Type,
+) -> Function<Body> {
+    Function { is_fallible: true, ..total(name, arguments, returns) }
+}
