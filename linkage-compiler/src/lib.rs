@@ -13,7 +13,6 @@ pub mod emit;
 pub mod graph;
 pub mod lower;
 pub mod model;
-mod places;
 pub mod program;
 pub mod structure;
 pub mod syntax;

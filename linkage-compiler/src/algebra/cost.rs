@@ -1,4 +1,4 @@
-//! What an expression costs, and thereby which of two equal ones is kept.
+//! The cost of an expression, which decides which of two equal ones is kept.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ pub struct Cost {
     pub divisions: usize,
     pub multiplications: usize,
     pub additions: usize,
-    /// Of equal work the shorter expression is better.
+    /// The length, which decides between expressions of equal work.
     pub nodes: usize,
 }
 

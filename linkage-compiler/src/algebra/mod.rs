@@ -1,13 +1,11 @@
 //! Identities that make a formula shorter or more accurate, and the cost that chooses among them.
 //!
-//! The families of identities stand in files of their own: `rational`, `trigonometric`,
-//! `modulus`, `determinant`. Each offers other forms of an expression; [`cost()`] chooses among them, and
-//! [`equality`] proves that they are the same. What a rule takes for granted, such as a divisor that
-//! is not zero, is recorded by the graph.
+//! Each family of identities is a file: `rational`, `trigonometric`, `modulus`, `determinant`. Each offers
+//! other forms of an expression, and [`cost()`] chooses among them; the tests prove that all forms are equal.
+//! The graph records the conditions that a rule assumes, such as a divisor that is not zero.
 
 pub mod cost;
 mod determinant;
-pub mod equality;
 mod modulus;
 mod rational;
 mod trigonometric;
@@ -30,7 +28,7 @@ const MOST_ROUNDS: usize = 8;
 const LARGEST: usize = 400;
 
 /// The cheapest form that the identities find of each of `roots`, where sines and cosines of the
-/// angles in `given` are at hand. Larger expressions than somebody would read are left as they are.
+/// angles in `given` are at hand. Expressions too long to be read are left as they are.
 pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -> Vec<NodeId> {
     let mut better: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     let nodes = graph.reachable(roots);
@@ -54,7 +52,7 @@ pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -
     roots.iter().map(|root| better[root]).collect()
 }
 
-/// The cheapest form found of one node so far, and what it takes for granted.
+/// The cheapest form found of one node so far, and the conditions that it assumes.
 struct Forms<'a> {
     given: &'a BTreeSet<NodeId>,
     best: NodeId,

@@ -9,7 +9,6 @@ use std::collections::BTreeSet;
 use rustc_hash::FxHashMap;
 
 use super::{Assembly, Derivation};
-use crate::algebra::equality::{Verdict, is_zero};
 use crate::algebra::simplify;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use super::step::Step;
@@ -88,7 +87,7 @@ impl Derivation {
         let slope = graph.partial(&[function], input)[0];
         let curvature = graph.partial(&[slope], input)[0];
         let third = graph.partial(&[curvature], input)[0];
-        let rate = if is_zero(graph, third) == Verdict::Equal {
+        let rate = if vanishes(graph, third) {
             None
         } else {
             let rates = rates(graph, function, input);
@@ -96,7 +95,7 @@ impl Derivation {
                 let square = graph.power(rate, 2);
                 let opposite = graph.multiply(square, slope);
                 let circular = graph.add(third, opposite);
-                is_zero(graph, circular) == Verdict::Equal
+                vanishes(graph, circular)
             })?)
         };
         let (variable, zero) = (graph.variable(input), graph.zero());
@@ -131,6 +130,12 @@ impl Derivation {
             function = self.graph.replace(&[function], &by)[0];
         }
     }
+}
+
+/// True if an expression is zero, as far as the identities tell.
+fn vanishes(graph: &mut Graph, id: NodeId) -> bool {
+    let form = simplify(graph, &[id], &BTreeSet::new())[0];
+    graph.is_zero(form)
 }
 
 /// The rates at which the angles in a function turn with an input, as far as they are constant.

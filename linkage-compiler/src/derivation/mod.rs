@@ -162,17 +162,15 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let gamma = graph.differentiate(&psi_rate, &rates);
 
     let is_odd = structure::is_odd(&blocks);
-    let mut blocks: Vec<Block> = blocks
-        .into_iter()
-        .map(|block| {
-            let rows: Vec<NodeId> = block.equations.iter().map(|&equation| residual[equation]).collect();
-            let symbols: Vec<SymbolId> =
-                block.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
-            let group = Group::of(&mut graph, &rows, &symbols);
-            self::block(&mut graph, &jacobian, &unknowns, block, group)
-        })
-        .collect();
-    name_determinants(&mut graph, &mut blocks);
+    let mut parts = Vec::new();
+    for block in blocks {
+        let rows: Vec<NodeId> = block.equations.iter().map(|&equation| residual[equation]).collect();
+        let symbols: Vec<SymbolId> = block.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
+        let group = Group::of(&mut graph, &rows, &symbols);
+        let determinant = determinant(&mut graph, &jacobian, &unknowns, &block);
+        parts.push((block, group, determinant));
+    }
+    let blocks = with_names(&mut graph, parts);
     let ratios = ratios::names(&mut graph, &coordinates, &unknowns, &inputs);
     // A pose has the directions of the closures at hand.
     let given = angles(&graph, &residual);
@@ -226,38 +224,47 @@ fn angles(graph: &Graph, roots: &[NodeId]) -> BTreeSet<NodeId> {
 /// The place of each coordinate in q.
 type Places = BTreeMap<SymbolId, usize>;
 
-fn block(graph: &mut Graph, jacobian: &[Row], unknowns: &[usize], block: structure::Block, group: Group) -> Block {
-    let method = block.method();
-    let structure::Block { equations, unknowns: places } = block;
+/// The determinant of a block in closed form and its size.
+fn determinant(
+    graph: &mut Graph,
+    jacobian: &[Row],
+    unknowns: &[usize],
+    block: &structure::Block,
+) -> Option<(NodeId, NodeId)> {
     let zero = graph.zero();
-    let entry =
-        |row: usize, column: usize| jacobian[equations[row]].get(&unknowns[places[column]]).copied().unwrap_or(zero);
-    let determinant = (method == Method::ClosedForm).then(|| {
-        let value = match places.len() {
+    let entry = |row: usize, column: usize| {
+        jacobian[block.equations[row]].get(&unknowns[block.unknowns[column]]).copied().unwrap_or(zero)
+    };
+    (block.method() == Method::ClosedForm).then(|| {
+        let value = match block.unknowns.len() {
             1 => entry(0, 0),
             _ => algebra::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
         };
-        let size = magnitude::of_determinant(graph, value);
-        Determinant { value, symbol: SymbolId::NONE, size }
-    });
-    Block { equations, unknowns: places, group, determinant }
+        (value, magnitude::of_determinant(graph, value))
+    })
 }
 
-/// A mechanism with one determinant calls it so; of several each has the number of its block.
-fn name_determinants(graph: &mut Graph, blocks: &mut [Block]) {
-    let variable = |graph: &Graph, block: &Block| {
-        block.determinant.is_some_and(|determinant| graph.constant_value(determinant.value).is_none())
-    };
-    let single = blocks.iter().filter(|block| variable(graph, block)).count() == 1;
-    for (number, block) in blocks.iter_mut().enumerate() {
-        let name = match (single, variable(graph, block)) {
-            (true, true) => "determinant".to_owned(),
-            _ => format!("determinant_{}", number + 1),
-        };
-        if let Some(determinant) = &mut block.determinant {
-            determinant.symbol = graph.symbol(name);
-        }
+/// A block with the value and the size of its determinant, which has no name yet.
+type Unnamed = (structure::Block, Group, Option<(NodeId, NodeId)>);
+
+/// Blocks with their determinants named: a mechanism with one determinant calls it so; of several each has the
+/// number of its block.
+fn with_names(graph: &mut Graph, parts: Vec<Unnamed>) -> Vec<Block> {
+    let is_variable = |graph: &Graph, value: NodeId| graph.constant_value(value).is_none();
+    let values = parts.iter().filter_map(|(_, _, determinant)| Some(determinant.as_ref()?.0));
+    let is_single = values.filter(|&value| is_variable(graph, value)).count() == 1;
+    let mut blocks = Vec::new();
+    for (index, (block, group, determinant)) in parts.into_iter().enumerate() {
+        let structure::Block { equations, unknowns } = block;
+        let determinant = determinant.map(|(value, size)| {
+            let number = index + 1;
+            let is_only = is_single && is_variable(graph, value);
+            let name = if is_only { "determinant".to_owned() } else { format!("determinant_{number}") };
+            Determinant { value, symbol: graph.symbol(name), size }
+        });
+        blocks.push(Block { equations, unknowns, group, determinant });
     }
+    blocks
 }
 
 fn jacobian(graph: &mut Graph, rows: &[NodeId], places: &Places) -> Vec<Row> {

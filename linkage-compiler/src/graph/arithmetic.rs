@@ -49,13 +49,13 @@ impl Graph {
             return any;
         }
         let mut constant = Number::ZERO;
-        let mut terms: Vec<(NodeId, Number)> = Vec::with_capacity(items.len() + 2);
+        let mut terms: Vec<(NodeId, Number)> = Vec::new();
         let mut collect = |coefficient: Number, term: NodeId| {
             let entry = entry(&mut terms, term, Number::ZERO);
             *entry = entry.plus(coefficient);
         };
         for &(coefficient, item) in items {
-            match &self.nodes[item.index()] {
+            match self.node(item) {
                 Node::Constant(value) => constant = constant.plus(coefficient.multiply(*value)),
                 Node::Sum { constant: inner, terms } if terms.len() <= LONGEST_MERGED => {
                     constant = constant.plus(coefficient.multiply(*inner));
@@ -67,7 +67,7 @@ impl Graph {
                     let total = coefficient.multiply(*inner);
                     let monic = self.monic(factors.clone());
                     // 2 * (a + b) is a product with a coefficient whose monic part is a sum.
-                    match &self.nodes[monic.index()] {
+                    match self.node(monic) {
                         Node::Sum { constant: k, terms } if terms.len() <= LONGEST_MERGED => {
                             constant = constant.plus(total.multiply(*k));
                             for (factor, term) in terms {
@@ -82,7 +82,7 @@ impl Graph {
         }
         let collected = terms;
         self.budget.spend(collected.len());
-        let mut terms = Vec::with_capacity(collected.len());
+        let mut terms = Vec::new();
         for &(term, coefficient) in &collected {
             if coefficient.is_zero() {
                 self.drop_term(term);
@@ -122,7 +122,7 @@ impl Graph {
             return any;
         }
         let mut coefficient = Number::ONE;
-        let mut factors: Vec<(NodeId, i32)> = Vec::with_capacity(items.len() + 2);
+        let mut factors: Vec<(NodeId, i32)> = Vec::new();
         let mut overflow = false;
         let mut divisors: Vec<NodeId> = Vec::new();
         let mut collect = |base: NodeId, exponent: Option<i32>| {
@@ -133,8 +133,9 @@ impl Graph {
             }
         };
         for &(item, exponent) in items {
-            match &self.nodes[item.index()] {
+            match self.node(item) {
                 Node::Constant(value) => {
+                    let value = *value;
                     if value.is_zero() && exponent <= 0 {
                         self.fault.get_or_insert(Fault::DivisionByZero);
                     }
@@ -167,16 +168,12 @@ impl Graph {
                 self.conditions.insert(Condition::NonZero(divisor));
             }
         }
-        let mut cancels = false;
         for &(base, exponent) in &factors {
-            cancels |= exponent == 0;
             if exponent == 0 || coefficient.is_zero() {
                 self.drop_term(base);
             }
         }
-        if cancels {
-            factors.retain(|(_, exponent)| *exponent != 0);
-        }
+        factors.retain(|(_, exponent)| *exponent != 0);
         let factors = self.grouped(factors);
         if coefficient.is_zero() || factors.is_empty() {
             return self.number(coefficient);
@@ -197,24 +194,9 @@ impl Graph {
 
 /// The value of a key in an ascending list, put there if it is not.
 fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
-    // Most keys come in ascending order.
-    if list.last().is_none_or(|(last, _)| last.0 < key.0) {
-        list.push((key, empty));
-        let last = list.len() - 1;
-        return &mut list[last].1;
-    }
-    let (mut index, mut end) = (0, list.len());
-    let keys = list.as_slice();
-    while index < end {
-        let middle = index.midpoint(end);
-        if keys[middle].0 < key {
-            index = middle + 1;
-        } else {
-            end = middle;
-        }
-    }
-    if keys[index].0 != key {
-        list.insert(index, (key, empty));
-    }
-    &mut list[index].1
+    let place = list.binary_search_by_key(&key, |(key, _)| *key).unwrap_or_else(|place| {
+        list.insert(place, (key, empty));
+        place
+    });
+    &mut list[place].1
 }

@@ -1,24 +1,23 @@
-//! Functions of the user's: nothing is known of them but their names, and that some derivatives come
-//! with their value.
+//! User functions: their names are known, and which derivatives come with their value, nothing else.
 
 use super::{Graph, Node, NodeId};
 
-/// A function of the user's in a [`Graph`].
+/// The number of a user function in a [`Graph`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ExternalId(u32);
+pub struct ExternalId(usize);
 
-/// A function of the user's, or a derivative of it.
+/// A user function, or a derivative of it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct External {
     pub function: ExternalId,
-    /// How often it is derived by each of its arguments.
-    pub by: Vec<u32>,
+    /// The order of the derivative by each of its arguments.
+    pub by: Vec<usize>,
 }
 
 impl ExternalId {
     #[must_use]
     pub fn index(self) -> usize {
-        self.0 as usize
+        self.0
     }
 }
 
@@ -28,7 +27,7 @@ impl External {
     pub fn new(function: ExternalId, arguments: usize, order: usize) -> Self {
         let mut by = vec![0; arguments];
         if let Some(first) = by.first_mut() {
-            *first = u32::try_from(order).unwrap_or(u32::MAX);
+            *first = order;
         }
         Self { function, by }
     }
@@ -37,7 +36,7 @@ impl External {
     #[must_use]
     pub fn order(&self) -> Option<usize> {
         let (first, rest) = self.by.split_first()?;
-        rest.iter().all(|&times| times == 0).then_some(*first as usize)
+        rest.iter().all(|&times| times == 0).then_some(*first)
     }
 
     /// The derivative of this by one of its arguments.
@@ -52,29 +51,29 @@ impl Graph {
     /// A function by the names of its value and of its derivatives by the first argument, in order.
     pub fn external(&mut self, names: Vec<String>) -> ExternalId {
         self.externals.push(names);
-        ExternalId(u32::try_from(self.externals.len() - 1).unwrap_or(u32::MAX))
+        ExternalId(self.externals.len() - 1)
     }
 
-    /// The names of the value and the derivatives that are given.
+    /// The names of the value and of the derivatives that the user gives, in order.
     #[must_use]
     pub fn external_names(&self, function: ExternalId) -> &[String] {
         &self.externals[function.index()]
     }
 
-    /// The name of what is given, or none if it is not given.
+    /// The name of the user's Rust function for this derivative, if there is one.
     #[must_use]
     pub fn external_name(&self, external: &External) -> Option<&str> {
         self.external_names(external.function).get(external.order()?).map(String::as_str)
     }
 
-    /// A function of the user's at some arguments.
+    /// A user function at some arguments.
     pub fn apply(&mut self, external: External, arguments: Vec<NodeId>) -> NodeId {
         self.intern(Node::External(external, arguments))
     }
 
-    /// The functions and derivatives that expressions of this graph take, given or not.
+    /// The functions and derivatives that expressions of this graph call, whether the user gives them or not.
     pub fn applied(&self) -> impl Iterator<Item = &External> {
-        self.nodes.iter().filter_map(|node| match node {
+        self.nodes.iter().filter_map(|node| match &**node {
             Node::External(external, _) => Some(external),
             _ => None,
         })

@@ -1,5 +1,5 @@
-//! The op table: what each elementary function is called, what it is worth, how it is
-//! derived and how Rust spells it. One row a function; everything else reads the table.
+//! The op table: the name, value and derivatives of each elementary function. One row a function; everything else
+//! reads the table.
 
 use super::{Graph, NodeId, Number};
 
@@ -26,16 +26,14 @@ type Partials = fn(graph: &mut Graph, arguments: &[NodeId], value: NodeId) -> Ve
 /// One row of the op table.
 pub struct Operation {
     pub function: Function,
-    /// The name in the `linkage!` language.
+    /// The name in the `linkage!` language, and of the method of nalgebra's `RealField` that computes it.
     pub name: &'static str,
     pub arity: usize,
     /// The value, for the interpreter; takes `arity` numbers.
     pub value: fn(&[f64]) -> f64,
     pub partials: Partials,
-    /// Whether it has no value at some finite arguments.
-    pub partial: bool,
-    /// The method of nalgebra's `RealField` that computes it.
-    pub method: &'static str,
+    /// True if it has no value at some finite arguments.
+    pub may_be_undefined: bool,
 }
 
 /// The table, in the order of [`Function`].
@@ -47,8 +45,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].sin(),
         // d sin x = cos x
         partials: |g, x, _| vec![g.call(Function::Cos, &[x[0]])],
-        partial: false,
-        method: "sin",
+        may_be_undefined: false,
     },
     Operation {
         function: Function::Cos,
@@ -60,8 +57,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let sine = g.call(Function::Sin, &[x[0]]);
             vec![g.negate(sine)]
         },
-        partial: false,
-        method: "cos",
+        may_be_undefined: false,
     },
     Operation {
         function: Function::Tan,
@@ -74,8 +70,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let one = g.one();
             vec![g.add(one, square)]
         },
-        partial: true,
-        method: "tan",
+        may_be_undefined: true,
     },
     Operation {
         function: Function::Asin,
@@ -84,8 +79,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].asin(),
         // d asin x = 1 / sqrt((1 - x)(1 + x))
         partials: |g, x, _| vec![inverse_half_chord(g, x[0])],
-        partial: true,
-        method: "asin",
+        may_be_undefined: true,
     },
     Operation {
         function: Function::Acos,
@@ -97,8 +91,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let inverse = inverse_half_chord(g, x[0]);
             vec![g.negate(inverse)]
         },
-        partial: true,
-        method: "acos",
+        may_be_undefined: true,
     },
     Operation {
         function: Function::Atan,
@@ -112,8 +105,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let sum = g.add(one, square);
             vec![g.power(sum, -1)]
         },
-        partial: false,
-        method: "atan",
+        may_be_undefined: false,
     },
     Operation {
         function: Function::Atan2,
@@ -128,8 +120,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let by_x = g.divide(yx[0], square);
             vec![by_y, g.negate(by_x)]
         },
-        partial: false,
-        method: "atan2",
+        may_be_undefined: false,
     },
     Operation {
         function: Function::Sqrt,
@@ -141,8 +132,7 @@ pub const OPERATIONS: [Operation; 12] = [
             let inverse = g.power(root, -1);
             vec![g.scale(Number::ratio(1, 2), inverse)]
         },
-        partial: true,
-        method: "sqrt",
+        may_be_undefined: true,
     },
     Operation {
         function: Function::Abs,
@@ -151,8 +141,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].abs(),
         // d |x| = x / |x|, undefined at 0
         partials: |g, x, modulus| vec![g.divide(x[0], modulus)],
-        partial: false,
-        method: "abs",
+        may_be_undefined: false,
     },
     Operation {
         function: Function::Exp,
@@ -161,8 +150,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].exp(),
         // d e^x = e^x
         partials: |_, _, value| vec![value],
-        partial: false,
-        method: "exp",
+        may_be_undefined: false,
     },
     Operation {
         function: Function::Ln,
@@ -171,8 +159,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].ln(),
         // d ln x = 1 / x
         partials: |g, x, _| vec![g.power(x[0], -1)],
-        partial: true,
-        method: "ln",
+        may_be_undefined: true,
     },
     Operation {
         function: Function::Hypot,
@@ -181,8 +168,7 @@ pub const OPERATIONS: [Operation; 12] = [
         value: |x| x[0].hypot(x[1]),
         // d hypot(x, y) = (x dx + y dy) / hypot(x, y)
         partials: |g, xy, modulus| vec![g.divide(xy[0], modulus), g.divide(xy[1], modulus)],
-        partial: false,
-        method: "hypot",
+        may_be_undefined: false,
     },
 ];
 

@@ -5,13 +5,13 @@ use rustc_hash::FxHashMap;
 use super::{External, Graph, Node, NodeId, SymbolId};
 
 impl Graph {
-    /// The values of `roots` where `bind` gives the value of each symbol; functions of the user's have none.
+    /// The values of `roots` where `bind` gives the value of each symbol; user functions are not a number.
     #[must_use]
     pub fn evaluate(&self, roots: &[NodeId], bind: impl Fn(SymbolId) -> f64) -> Vec<f64> {
         self.evaluate_with(roots, bind, |_, _| f64::NAN)
     }
 
-    /// The same where `external` gives the values of the user's functions and of their derivatives.
+    /// The values of `roots` where `external` gives those of user functions and of their derivatives.
     #[must_use]
     pub fn evaluate_with(
         &self,

@@ -17,6 +17,7 @@ mod replace;
 mod sweep;
 
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 pub use external::{External, ExternalId};
 pub use function::{Function, OPERATIONS, Operation};
@@ -24,20 +25,22 @@ pub use node::{Condition, Fault, Node, NodeId, SymbolId};
 pub use number::Number;
 pub use print::{Name, Printer, Texts};
 
+use rustc_hash::FxHashMap;
+
 use crate::budget::Budget;
-use crate::places::Places;
 
 /// An arena of expressions.
 #[derive(Debug, Clone, Default)]
 pub struct Graph {
-    nodes: Vec<Node>,
-    ids: Places,
+    /// The nodes in the order in which they were made; the table of their ids holds the same ones.
+    nodes: Vec<Rc<Node>>,
+    ids: FxHashMap<Rc<Node>, NodeId>,
     /// The value of each node that holds no symbol.
     values: Vec<Option<f64>>,
-    /// Whether a node has no value for some values of its symbols.
-    partial: Vec<bool>,
+    /// True of each node that has no value for some values of its symbols.
+    may_be_undefined: Vec<bool>,
     symbols: Vec<String>,
-    /// The names of the value and the derivatives of each function of the user's.
+    /// The names of the value and the derivatives of each user function.
     externals: Vec<Vec<String>>,
     fault: Option<Fault>,
     conditions: BTreeSet<Condition>,
@@ -59,32 +62,32 @@ impl Graph {
         Self { budget: budget.clone(), ..Self::default() }
     }
 
-    /// The remaining work; once nothing is left, expressions are no longer made, and any node stands for them.
+    /// The remaining work; once nothing is left, no expressions are made, and any node is returned in their place.
     #[must_use]
     pub fn budget(&self) -> &Budget {
         &self.budget
     }
 
-    /// Some node if so much work cannot be done.
+    /// Any node, if so much work cannot be done.
     fn unaffordable(&self, steps: usize) -> Option<NodeId> {
-        (!self.budget.spend(steps) && !self.nodes.is_empty()).then(|| NodeId::new(0))
+        (!self.budget.spend(steps) && !self.nodes.is_empty()).then_some(NodeId(0))
     }
 
     /// A new name; two symbols of one name are two symbols.
     pub fn symbol(&mut self, name: impl Into<String>) -> SymbolId {
         self.budget.spend(STEPS_OF_A_SYMBOL);
         self.symbols.push(name.into());
-        SymbolId(u32::try_from(self.symbols.len() - 1).unwrap_or(u32::MAX))
+        SymbolId(self.symbols.len() - 1)
     }
 
     #[must_use]
     pub fn symbol_name(&self, symbol: SymbolId) -> &str {
-        &self.symbols[symbol.0 as usize]
+        &self.symbols[symbol.0]
     }
 
     #[must_use]
     pub fn node(&self, id: NodeId) -> &Node {
-        &self.nodes.as_slice()[id.index()]
+        &self.nodes[id.index()]
     }
 
     /// The number of distinct expressions.
@@ -101,7 +104,7 @@ impl Graph {
     /// The value of an expression without symbols.
     #[must_use]
     pub fn constant_value(&self, id: NodeId) -> Option<f64> {
-        self.values.as_slice()[id.index()]
+        self.values[id.index()]
     }
 
     /// The exact value of a node that is a plain constant.
@@ -126,12 +129,12 @@ impl Graph {
         self.as_number(id).is_some_and(Number::is_zero)
     }
 
-    /// What went wrong since the last call, if anything did.
+    /// The first fault since the last call, if there was one.
     pub fn take_fault(&mut self) -> Option<Fault> {
         self.fault.take()
     }
 
-    /// The result of an attempt with what it takes for granted; nothing if it goes wrong.
+    /// The result of an attempt with the conditions that it assumes; none if it has a fault.
     pub fn attempt<V>(&mut self, make: impl FnOnce(&mut Self) -> Option<V>) -> Option<(V, BTreeSet<Condition>)> {
         let (fault, conditions) = (self.fault.take(), self.take_conditions());
         let made = make(self);
@@ -140,38 +143,39 @@ impl Graph {
         made.filter(|_| !failed).map(|made| (made, conditions))
     }
 
-    /// What has been taken for granted since the last call.
+    /// The conditions assumed since the last call.
     pub fn take_conditions(&mut self) -> BTreeSet<Condition> {
         std::mem::take(&mut self.conditions)
     }
 
-    /// Whether an expression has no value for some values of its symbols.
+    /// True if an expression has no value for some values of its symbols.
     #[must_use]
-    pub fn is_partial(&self, id: NodeId) -> bool {
-        self.partial[id.index()]
+    pub fn may_be_undefined(&self, id: NodeId) -> bool {
+        self.may_be_undefined[id.index()]
     }
 
-    /// Records what is taken for granted.
+    /// Records that conditions are assumed.
     pub fn assume(&mut self, conditions: BTreeSet<Condition>) {
         self.conditions.extend(conditions);
     }
 
     /// Records that a term is dropped.
     fn drop_term(&mut self, term: NodeId) {
-        if self.is_partial(term) {
+        if self.may_be_undefined(term) {
             self.conditions.insert(Condition::Defined(term));
         }
     }
 
-    fn has_partial_value(&self, node: &Node) -> bool {
+    fn has_gaps(&self, node: &Node) -> bool {
         match node {
             Node::Constant(_) | Node::Pi | Node::Symbol(_) => false,
-            Node::Sum { terms, .. } => terms.iter().any(|(_, term)| self.is_partial(*term)),
+            Node::Sum { terms, .. } => terms.iter().any(|(_, term)| self.may_be_undefined(*term)),
             Node::Product { factors, .. } => factors.iter().any(|&(base, exponent)| {
-                self.is_partial(base) || (exponent < 0 && self.values[base.index()].is_none())
+                self.may_be_undefined(base) || (exponent < 0 && self.values[base.index()].is_none())
             }),
             Node::Call(function, arguments) => {
-                function.operation().partial || arguments.iter().any(|&argument| self.is_partial(argument))
+                function.operation().may_be_undefined
+                    || arguments.iter().any(|&argument| self.may_be_undefined(argument))
             }
             // A table ends somewhere.
             Node::External(..) => true,
@@ -179,9 +183,8 @@ impl Graph {
     }
 
     fn intern(&mut self, node: Node) -> NodeId {
-        let hash = node.hash();
-        if let Some(place) = self.ids.find(hash, |place| self.nodes[place] == node) {
-            return NodeId::new(place);
+        if let Some(&id) = self.ids.get(&node) {
+            return id;
         }
         if let Some(any) = self.unaffordable(STEPS_OF_A_NODE + STEPS_OF_A_PART * node.parts()) {
             return any;
@@ -190,13 +193,14 @@ impl Graph {
         if value.is_some_and(|value| !value.is_finite()) || self.is_out_of_range(&node) {
             self.fault.get_or_insert(Fault::OutOfRange);
         }
-        let id = NodeId::new(self.nodes.len());
+        let id = NodeId(self.nodes.len());
         self.values.push(value);
         // What has a value has no symbols that could take it away.
-        let partial = value.is_none() && self.has_partial_value(&node);
-        self.partial.push(partial);
-        self.ids.insert(hash, self.nodes.len());
-        self.nodes.push(node);
+        let may_be_undefined = value.is_none() && self.has_gaps(&node);
+        self.may_be_undefined.push(may_be_undefined);
+        let node = Rc::new(node);
+        self.nodes.push(Rc::clone(&node));
+        self.ids.insert(node, id);
         id
     }
 
@@ -221,13 +225,7 @@ impl Graph {
 
     /// The product of the factors that are constants.
     fn constant_factor(&self, factors: &[(NodeId, i32)]) -> f64 {
-        let mut product = 1.0;
-        for &(base, exponent) in factors {
-            if let Some(value) = self.constant_value(base) {
-                product *= value.powi(exponent);
-            }
-        }
-        product
+        factors.iter().filter_map(|&(base, exponent)| Some(self.constant_value(base)?.powi(exponent))).product()
     }
 
     pub fn number(&mut self, value: Number) -> NodeId {
@@ -265,7 +263,7 @@ impl Graph {
         }
     }
 
-    /// Whether the first coefficient as written is negative: the sign to take out of an odd function.
+    /// True if the first coefficient as written is negative: the sign to take out of an odd function.
     #[must_use]
     pub fn leads_negative(&self, id: NodeId) -> bool {
         match self.node(id) {

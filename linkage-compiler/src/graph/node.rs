@@ -1,18 +1,17 @@
-//! What a graph is made of: nodes and names by number, and what may be wrong or taken for granted.
+//! Nodes and their ids, faults, and the conditions under which a shorter expression is equal.
 
 use super::{External, Function, Number};
-use crate::places::Hash;
 
 /// An expression of a [`Graph`](super::Graph).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct NodeId(pub(super) u32);
+pub struct NodeId(pub(super) usize);
 
 /// A name of a [`Graph`](super::Graph): parameter, coordinate, rate, or a quantity solved for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct SymbolId(pub(super) u32);
+pub struct SymbolId(pub(super) usize);
 
-/// What an expression is made of.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// An expression in terms of others.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Node {
     Constant(Number),
     Pi,
@@ -30,7 +29,7 @@ pub enum Node {
         factors: Vec<(NodeId, i32)>,
     },
     Call(Function, Vec<NodeId>),
-    /// A function of the user's, or a derivative of it.
+    /// A user function, or a derivative of it.
     External(External, Vec<NodeId>),
 }
 
@@ -43,7 +42,7 @@ pub enum Fault {
     ExponentOverflow,
 }
 
-/// What was taken for granted when something was cancelled: where it fails, the expression as
+/// A condition that was assumed when something was cancelled: where it fails, the expression as
 /// written has no value although the shorter one may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Condition {
@@ -64,71 +63,28 @@ impl std::fmt::Display for Fault {
 }
 
 impl SymbolId {
-    /// No symbol at all.
-    pub const NONE: Self = Self(u32::MAX);
+    /// No symbol at all: a field that a pattern does not name.
+    pub const NONE: Self = Self(usize::MAX);
 
     pub(crate) fn index(self) -> usize {
-        self.0 as usize
+        self.0
     }
 }
 
 impl NodeId {
-    pub(super) fn new(index: usize) -> Self {
-        Self(u32::try_from(index).unwrap_or(u32::MAX))
-    }
-
     pub(crate) fn index(self) -> usize {
-        self.0 as usize
+        self.0
     }
 }
 
 impl Node {
-    /// How many parts it has.
+    /// The number of its parts.
     pub(super) fn parts(&self) -> usize {
         match self {
             Self::Constant(_) | Self::Pi | Self::Symbol(_) => 0,
             Self::Sum { terms, .. } => terms.len(),
             Self::Product { factors, .. } => factors.len(),
             Self::Call(_, arguments) | Self::External(_, arguments) => arguments.len(),
-        }
-    }
-
-    pub(super) fn hash(&self) -> Hash {
-        match self {
-            Self::Constant(number) => number.hashed(Hash::of(0)),
-            Self::Pi => Hash::of(1),
-            Self::Symbol(symbol) => Hash::of(2).with(u64::from(symbol.0)),
-            Self::Sum { constant, terms } => {
-                let mut hash = constant.hashed(Hash::of(3));
-                for (coefficient, term) in terms {
-                    hash = coefficient.hashed(hash).with(u64::from(term.0));
-                }
-                hash
-            }
-            Self::Product { coefficient, factors } => {
-                let mut hash = coefficient.hashed(Hash::of(4));
-                for (base, exponent) in factors {
-                    hash = hash.with(u64::from(base.0) << 32 | u64::from(exponent.cast_unsigned()));
-                }
-                hash
-            }
-            Self::Call(function, arguments) => {
-                let mut hash = Hash::of(5).with(*function as u64);
-                for argument in arguments {
-                    hash = hash.with(u64::from(argument.0));
-                }
-                hash
-            }
-            Self::External(external, arguments) => {
-                let mut hash = Hash::of(6).with(external.function.index() as u64);
-                for &times in &external.by {
-                    hash = hash.with(u64::from(times));
-                }
-                for argument in arguments {
-                    hash = hash.with(u64::from(argument.0));
-                }
-                hash
-            }
         }
     }
 }

@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use crate::places::Hash;
-
 /// A constant: an exact ratio in lowest terms with a positive denominator, or a float.
 ///
 /// Arithmetic on ratios is exact; a result whose numerator or denominator leaves `i64`
@@ -125,7 +123,7 @@ impl Number {
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         match (self, other) {
-            // Most sums are of a term and nought.
+            // Most sums are of a term and zero.
             (sum @ Self::Ratio(..), Self::Ratio(0, _)) | (Self::Ratio(0, _), sum @ Self::Ratio(..)) => sum,
             (Self::Ratio(a, b), Self::Ratio(c, d)) => {
                 let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
@@ -212,14 +210,6 @@ impl std::hash::Hash for Number {
 }
 
 impl Number {
-    /// A hash with this number added to it.
-    pub(crate) fn hashed(self, hash: Hash) -> Hash {
-        match self {
-            Self::Ratio(n, d) => hash.with(n.cast_unsigned()).with(d.cast_unsigned()),
-            Self::Float(value) => hash.with(value.to_bits()),
-        }
-    }
-
     fn key(self) -> (bool, i64, i64) {
         match self {
             Self::Ratio(n, d) => (true, n, d),

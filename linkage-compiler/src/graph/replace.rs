@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use super::{Graph, Node, NodeId};
 
 impl Graph {
-    /// The roots with nodes replaced; what a replacement is made of stays as it is.
+    /// The roots with nodes replaced; the parts of a replacement stay as they are.
     pub fn replace(&mut self, roots: &[NodeId], by: &FxHashMap<NodeId, NodeId>) -> Vec<NodeId> {
         let mut new = by.clone();
         for id in self.reachable(roots) {
@@ -17,7 +17,7 @@ impl Graph {
         roots.iter().map(|root| new[root]).collect()
     }
 
-    /// The same node with other parts; `parts` holds all of them.
+    /// A node with other parts; `parts` holds all of them.
     pub(crate) fn rebuilt(&mut self, id: NodeId, parts: &FxHashMap<NodeId, NodeId>) -> NodeId {
         if self.children(id).iter().all(|child| parts[child] == *child) {
             return id;

@@ -26,12 +26,6 @@ use translate::Builder;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ValueId(usize);
 
-impl ValueId {
-    pub(crate) fn index(self) -> usize {
-        self.0
-    }
-}
-
 /// A value or its negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Signed {
@@ -40,7 +34,7 @@ pub struct Signed {
 }
 
 /// How a value is computed; signs have been moved to the sums and results that use it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Value {
     Symbol(SymbolId),
     /// The sine or cosine of an angle whose direction is given.
@@ -51,7 +45,7 @@ pub enum Value {
     Quotient(ValueId, ValueId),
     Square(ValueId),
     Call(Function, Vec<Signed>),
-    /// A function of the user's or a derivative of it.
+    /// A user function or a derivative of it.
     External(External, Vec<Signed>),
 }
 
@@ -66,7 +60,7 @@ pub enum Line {
     },
     /// The sines and cosines of several angles at once, those that are used.
     SinesCosines(Vec<Circular>),
-    /// One call of a function of the user's, for its value and its derivatives: those that are used.
+    /// One call of a user function, for its value and its derivatives: those that are used.
     External {
         function: ExternalId,
         arguments: Vec<Signed>,
@@ -155,28 +149,28 @@ pub fn schedule(
     nodes.extend(results);
     let introduced: BTreeSet<SymbolId> = steps.iter().flat_map(Step::introduced).collect();
     let (mut values, translated) = Builder::translate_all(graph, given, &nodes);
-    let roots: Vec<Signed> = nodes.iter().map(|&node| translated.of(node)).collect();
+    let roots: Vec<Signed> = nodes.iter().map(|node| translated[node]).collect();
     graph.budget().spend(nodes.len() + values.len());
     sharing::share(&mut values, &roots, graph.budget());
     let mut names: Vec<(ValueId, String)> = Vec::new();
     for (node, name) in named {
-        if let Some(Signed { negative: false, value }) = translated.get(*node) {
+        if let Some(Signed { negative: false, value }) = translated.get(node).copied() {
             names.push((value, name.clone()));
         }
     }
     names.sort_by_key(|(value, _)| *value);
     let mut ordering = Ordering::new(graph, values, &roots);
     ordering.gather_sines(&introduced);
-    let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| translated.of(*node)).collect() };
+    let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| translated[node]).collect() };
     for step in steps {
         for node in step.nodes() {
-            ordering.require(translated.of(node).value, matches!(step, Step::Let { .. } | Step::Turn { .. }));
+            ordering.require(translated[&node].value, matches!(step, Step::Let { .. } | Step::Turn { .. }));
         }
         ordering.lines.push(match step {
-            Step::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated.of(*node) },
-            Step::Turn { symbol, principal } => Line::Turn { symbol: *symbol, principal: translated.of(*principal) },
+            Step::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated[node] },
+            Step::Turn { symbol, principal } => Line::Turn { symbol: *symbol, principal: translated[principal] },
             Step::Guard { block, determinant, size } => {
-                Line::Guard { block: *block, determinant: translated.of(*determinant), size: translated.of(*size) }
+                Line::Guard { block: *block, determinant: translated[determinant], size: translated[size] }
             }
             Step::Factor { block, matrix, sizes } => {
                 let matrix = matrix.iter().map(|row| signed(row)).collect();
@@ -188,13 +182,13 @@ pub fn schedule(
             Step::Chord { block, symbol, factors, size, of } => Line::Chord {
                 block: *block,
                 symbol: *symbol,
-                factors: factors.map(|node| translated.of(node)),
-                size: translated.of(*size),
-                of: of.map(|node| translated.of(node)),
+                factors: factors.map(|node| translated[&node]),
+                size: translated[size],
+                of: of.map(|node| translated[&node]),
             },
             Step::Solvable { block, determinant, numerators, scales } => Line::Solvable {
                 block: *block,
-                determinant: translated.of(*determinant),
+                determinant: translated[determinant],
                 numerators: signed(numerators),
                 scales: signed(scales),
             },
@@ -239,7 +233,7 @@ impl Value {
         }
     }
 
-    /// Numbers stand before names, and names before what is made of them.
+    /// The place among factors: numbers come before names, and names before the values made of them.
     fn rank(&self) -> usize {
         match self {
             Self::Constant(_) => 0,
@@ -252,7 +246,7 @@ impl Value {
 impl Schedule {
     #[must_use]
     pub fn value(&self, id: ValueId) -> &Value {
-        &self.values.as_slice()[id.0]
+        &self.values[id.0]
     }
 
     /// The name that the user gave to a value.
@@ -264,7 +258,7 @@ impl Schedule {
         (*value == id).then_some(name)
     }
 
-    /// Every value that the lines stand on, ascending.
+    /// Every value that the lines depend on, ascending.
     #[must_use]
     pub fn used(&self) -> &[ValueId] {
         &self.used

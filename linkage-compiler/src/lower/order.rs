@@ -1,4 +1,4 @@
-//! Which values get a line of their own, and in what order.
+//! The values that get a line of their own, in the order of their lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,25 +13,21 @@ const DEEPEST_INLINE: usize = 5;
 /// Decides which values get a line, and in what order.
 pub(super) struct Ordering {
     pub(super) values: Vec<Value>,
-    uses: Box<[usize]>,
+    uses: Vec<usize>,
     /// The nesting of a value written inline; zero once it has a name.
-    height: Box<[Option<usize>]>,
+    height: Vec<Option<usize>>,
     pub(super) lines: Vec<Line>,
     /// Sines and cosines that are used, by function and argument.
     circular: FxHashMap<(Function, Signed), ValueId>,
-    /// What is used of each function of the user's, by its arguments: the value and its derivatives.
+    /// The value and the derivatives that are used of each user function, by its arguments.
     externals: FxHashMap<(ExternalId, Vec<Signed>), Vec<Option<ValueId>>>,
 }
 
 impl Ordering {
     pub(super) fn new(graph: &Graph, values: Vec<Value>, roots: &[Signed]) -> Self {
-        let mut uses = vec![0; values.len()].into_boxed_slice();
-        let mut height = vec![None; values.len()].into_boxed_slice();
+        let (mut uses, mut height) = (vec![0; values.len()], vec![None; values.len()]);
         let (mut circular, mut externals) = (FxHashMap::default(), FxHashMap::default());
-        let mut stack = Vec::with_capacity(2 * roots.len());
-        for root in roots {
-            stack.push(root.value);
-        }
+        let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
         while let Some(id) = stack.pop() {
             uses[id.0] += 1;
             if uses[id.0] > 1 {
@@ -58,42 +54,30 @@ impl Ordering {
         Self { height, values, uses, lines: Vec::new(), circular, externals }
     }
 
-    /// Every value that the roots stand on, ascending.
+    /// Every value that the roots depend on, ascending.
     pub(super) fn used(&self) -> Vec<ValueId> {
-        let mut used = Vec::new();
-        for (index, &uses) in self.uses.iter().enumerate() {
-            if uses > 0 {
-                used.push(ValueId(index));
-            }
-        }
-        used
+        (0..self.uses.len()).filter(|&index| self.uses[index] > 0).map(ValueId).collect()
     }
 
-    /// Emits the lines that `root` stands on; `named` if its own line is about to follow.
+    /// Emits the lines that `root` depends on; `named` if its own line is about to follow.
     pub(super) fn require(&mut self, root: ValueId, named: bool) {
-        let mut stack = Vec::with_capacity(16);
-        stack.push((root, false));
+        let mut stack = vec![(root, false)];
         while let Some((id, expanded)) = stack.pop() {
-            let (values, heights) = (self.values.as_slice(), &self.height);
+            let (values, heights) = (&self.values, &self.height);
             if heights[id.0].is_some() {
                 continue;
             }
             let value = &values[id.0];
             if !expanded {
                 stack.push((id, true));
-                let mut low = stack.len();
+                let first = stack.len();
                 value.each_part(|part| {
                     if heights[part.0].is_none() {
                         stack.push((part, false));
                     }
                 });
                 // The first part is to come out first.
-                let mut high = stack.len();
-                while low + 1 < high {
-                    high -= 1;
-                    stack.swap(low, high);
-                    low += 1;
-                }
+                stack[first..].reverse();
                 continue;
             }
             if named && id == root && !matches!(value, Value::External(..)) {
@@ -102,10 +86,8 @@ impl Ordering {
             }
             let mut height = 0;
             value.each_part(|part| {
-                if let Some(inside) = heights[part.0]
-                    && inside >= height
-                {
-                    height = inside + 1;
+                if let Some(inside) = heights[part.0] {
+                    height = height.max(inside + 1);
                 }
             });
             let deserves = self.uses[id.0] > 1 || height > DEEPEST_INLINE;
@@ -179,7 +161,7 @@ impl Ordering {
         true
     }
 
-    /// Writes all that is used of a function of the user's as one call.
+    /// Writes all that is used of a user function as one call.
     fn call(&mut self, id: ValueId) -> bool {
         let Value::External(external, arguments) = &self.values[id.0] else { return false };
         let (function, arguments) = (external.function, arguments.clone());

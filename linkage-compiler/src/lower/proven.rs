@@ -1,4 +1,4 @@
-//! What needs no verdict of its own: values that are finite wherever the chords before them exist.
+//! Values that need no check of their own: they are finite wherever the chords before them exist.
 
 use rustc_hash::FxHashMap;
 
@@ -6,7 +6,7 @@ use super::{Line, Schedule, Value, ValueId};
 use crate::graph::{Function, SymbolId};
 
 impl Schedule {
-    /// Which of the results are finite where all chords exist and the other results are finite.
+    /// For each result, true if it is finite where all chords exist and the other results are finite.
     ///
     /// A chord is accepted only if both its factors are finite. A sum, product or square is finite only if its parts
     /// are, and so are a root, a magnitude, a sine and a cosine (IEEE 754): so what the factors are made of is
@@ -22,7 +22,7 @@ impl Schedule {
             schedule: self,
             named: FxHashMap::default(),
             finite: vec![false; self.values.len()],
-            judged: vec![false; self.values.len()],
+            checked: vec![false; self.values.len()],
         };
         let (mut chords, mut factors_of_all) = (Vec::new(), Vec::new());
         for line in &self.lines {
@@ -46,7 +46,7 @@ impl Schedule {
         }
         for result in results {
             let id = proven.itself(result.value);
-            proven.judged[id.0] = true;
+            proven.checked[id.0] = true;
         }
         results.iter().map(|result| proven.is_finite(proven.itself(result.value))).collect()
     }
@@ -54,15 +54,15 @@ impl Schedule {
 
 struct Proven<'a> {
     schedule: &'a Schedule,
-    /// What is called by a symbol.
+    /// The value that each symbol names.
     named: FxHashMap<SymbolId, ValueId>,
     finite: Vec<bool>,
-    /// The results.
-    judged: Vec<bool>,
+    /// True of the results, which are checked.
+    checked: Vec<bool>,
 }
 
 impl Proven<'_> {
-    /// What these values are made of is finite.
+    /// Records that the parts of these values are finite.
     fn follow(&mut self, mut stack: Vec<ValueId>) {
         while let Some(id) = stack.pop() {
             let id = self.itself(id);
@@ -86,8 +86,8 @@ impl Proven<'_> {
         self.finite[id.0]
             || match value(id) {
                 Value::Call(Function::Sin | Function::Cos, angle) => self.finite[self.itself(angle[0].value).0],
-                // Its arguments have no verdict but that of their own.
-                Value::Call(Function::Atan2, parts) => parts.iter().all(|part| self.judged[self.itself(part.value).0]),
+                // Its arguments have to be checked themselves.
+                Value::Call(Function::Atan2, parts) => parts.iter().all(|part| self.checked[self.itself(part.value).0]),
                 // Half a chord, for instance.
                 Value::Product(factors) => {
                     matches!(*factors.as_slice(), [number, other] if is_small(number) && self.finite[self.itself(other).0])
@@ -96,7 +96,7 @@ impl Proven<'_> {
             }
     }
 
-    /// What a value is without its names.
+    /// The value behind its names.
     fn itself(&self, id: ValueId) -> ValueId {
         let mut id = id;
         // Each name is followed once: where work ended early, a value may be called by its own name.

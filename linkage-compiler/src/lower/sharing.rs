@@ -3,41 +3,41 @@
 //!
 //! This is the greedy elimination of two-term common subexpressions (A. Hosangadi, F. Fallah,
 //! R. Kastner, "Optimizing polynomial expressions by algebraic factorization and common subexpression
-//! elimination", IEEE TCAD 25, 2006). A new pair is never more frequent than the one that it comes from,
-//! so that the pairs are gone through by their frequency once; what is out of date is put back.
+//! elimination", IEEE TCAD 25, 2006). The pairs wait in a heap by their frequency; one that has become less frequent is
+//! put back.
 //!
 //! It ends because no part stands twice in a list: a pair is then held once a list, what takes its place makes
 //! the list shorter by one, and pairs are only held again by a list that has become shorter.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use rustc_hash::FxHashMap;
+
 use super::{Signed, Value, ValueId};
 use crate::budget::Budget;
-use crate::places::{Hash, Places};
 
-/// Of a sum or product of more parts than this only neighbours are paired: the pairs of a list grow
-/// with the square of its length.
+/// The longest sum or product of which all parts are paired; of a longer one neighbours are, since the pairs of a
+/// list grow with the square of its length.
 const LONGEST_PAIRED: usize = 8;
 
-/// Two parts of one list, the older first, and whether their signs differ; packed, since pairs are
-/// compared and looked up more than anything else.
+/// Two parts of one list, the older first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-struct Pair(u64);
+struct Pair {
+    first: ValueId,
+    second: ValueId,
+    /// True if their signs differ.
+    opposed: bool,
+}
 
 impl Pair {
     fn new(a: Signed, b: Signed) -> Self {
-        let (first, second) = if a.value < b.value { (a.value, b.value) } else { (b.value, a.value) };
-        Self(((first.0 as u64) << 32) | ((second.0 as u64) << 1) | u64::from(a.negative != b.negative))
+        let opposed = a.negative != b.negative;
+        Self { first: a.value.min(b.value), second: a.value.max(b.value), opposed }
     }
 
-    fn first(self) -> ValueId {
-        ValueId((self.0 >> 32) as usize)
-    }
-
-    fn second(self) -> ValueId {
-        ValueId((self.0 as u32 >> 1) as usize)
-    }
-
-    fn opposed(self) -> bool {
-        self.0 & 1 == 1
+    fn holds(self, value: ValueId) -> bool {
+        self.first == value || self.second == value
     }
 }
 
@@ -54,36 +54,28 @@ struct List {
     is_new: bool,
 }
 
-/// Rewrites the sums and products that `roots` stand on until no two of them share a pair.
+/// Rewrites the sums and products that `roots` depend on until no two of them share a pair.
 pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget) {
-    let mut seen = vec![false; values.len()].into_boxed_slice();
-    let mut stack = Vec::with_capacity(2 * roots.len());
-    for root in roots {
-        stack.push(root.value);
-    }
+    let mut is_used = vec![false; values.len()];
+    let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
     while let Some(id) = stack.pop() {
-        if !std::mem::replace(&mut seen[id.0], true) {
+        if !std::mem::replace(&mut is_used[id.0], true) {
             values[id.0].each_part(|part| stack.push(part));
         }
     }
     for kind in [Kind::Sums, Kind::Products] {
-        let mut lists = Vec::new();
-        let (all, mut next) = (values.as_slice(), 0);
-        while next < seen.len() {
-            let index = next;
-            next += 1;
-            let parts = match (kind, &all[index]) {
-                (Kind::Sums, Value::Sum(terms)) if seen[index] => terms.clone(),
-                (Kind::Products, Value::Product(factors)) if seen[index] => {
+        let used = values.iter().zip(&is_used).enumerate().filter(|(_, (_, is_used))| **is_used);
+        let lists = used.filter_map(|(index, (value, _))| {
+            let parts = match (kind, value) {
+                (Kind::Sums, Value::Sum(terms)) => terms.clone(),
+                (Kind::Products, Value::Product(factors)) => {
                     factors.iter().map(|&value| Signed { negative: false, value }).collect()
                 }
-                _ => continue,
+                _ => return None,
             };
-            lists.push(List { value: ValueId(index), parts, is_new: false });
-        }
-        if lists.len() > 1 {
-            Sharing::new(kind, lists, values.len(), budget).run(values);
-        }
+            Some(List { value: ValueId(index), parts, is_new: false })
+        });
+        Sharing::new(kind, lists.collect(), values.len(), budget).run(values);
     }
 }
 
@@ -91,99 +83,44 @@ struct Sharing<'a> {
     kind: Kind,
     budget: &'a Budget,
     lists: Vec<List>,
-    /// Which parts stand in several lists, or may come to, being lists themselves: a pair with any
+    /// True of the parts that stand in several lists, or may come to, being lists themselves: a pair with any
     /// other part is held once at most.
-    frequent: Box<[bool]>,
+    frequent: Vec<bool>,
     /// The places of the lists that hold a pair.
-    holders: Vec<(Pair, Holders)>,
-    places: Places,
-    /// The pairs held by as many lists, each as often as it came to be.
-    frequencies: Vec<Vec<Pair>>,
-}
-
-/// The places of lists; most pairs are held by one only.
-struct Holders {
-    first: Option<usize>,
-    others: Vec<usize>,
-}
-
-impl Holders {
-    const NONE: Self = Self { first: None, others: Vec::new() };
-
-    fn iter(&self) -> impl Iterator<Item = usize> {
-        self.first.iter().chain(&self.others).copied()
-    }
-
-    fn len(&self) -> usize {
-        usize::from(self.first.is_some()) + self.others.len()
-    }
-
-    /// How many there are now.
-    fn add(&mut self, place: usize) -> usize {
-        if self.first.is_none() {
-            self.first = Some(place);
-        } else {
-            self.others.push(place);
-        }
-        self.len()
-    }
-
-    fn remove(&mut self, place: usize) {
-        if self.first == Some(place) {
-            self.first = (!self.others.is_empty()).then(|| self.others.remove(0));
-        } else {
-            self.others.retain(|&other| other != place);
-        }
-    }
+    holders: FxHashMap<Pair, Vec<usize>>,
+    /// The pairs that more than one list held when they came to be, with the number of lists. Of pairs equally
+    /// frequent the oldest comes first, so that the result does not depend on chance.
+    candidates: BinaryHeap<(usize, Reverse<Pair>)>,
 }
 
 impl<'a> Sharing<'a> {
     fn new(kind: Kind, lists: Vec<List>, values: usize, budget: &'a Budget) -> Self {
-        let [mut met, mut frequent] = [(); 2].map(|()| vec![false; values].into_boxed_slice());
+        let (mut met, mut frequent) = (vec![false; values], vec![false; values]);
         for list in &lists {
             frequent[list.value.0] = true;
             for part in &list.parts {
                 frequent[part.value.0] |= std::mem::replace(&mut met[part.value.0], true);
             }
         }
-        let (holders, places, frequencies) = (Vec::new(), Places::default(), Vec::new());
-        Self { kind, budget, lists, frequent, holders, places, frequencies }
+        Self { kind, budget, lists, frequent, holders: FxHashMap::default(), candidates: BinaryHeap::new() }
     }
 
     fn run(mut self, values: &mut Vec<Value>) {
-        let mut pairs = Vec::new();
         for place in 0..self.lists.len() {
-            self.pairs(place, &mut pairs);
-            for &pair in &pairs {
+            for pair in self.pairs(place) {
                 self.hold(pair, place);
             }
         }
-        while let Some(mut equal) = self.frequencies.pop() {
-            let count = self.frequencies.len();
-            // Of pairs equally frequent the oldest is taken, so that the result does not depend on chance.
-            in_order(&mut equal);
-            self.frequencies.push(Vec::new());
-            let mut next = 0;
-            while next < equal.len() && !self.budget.is_spent() {
-                let pair = equal[next];
-                next += 1;
-                let Some(index) = self.find(pair) else { continue };
-                let now = self.holders[index].1.len();
-                if now < count {
-                    if now > 1 {
-                        self.frequencies[now].push(pair);
-                    }
-                    continue;
-                }
-                let of = std::mem::replace(&mut self.holders[index].1, Holders::NONE);
-                self.merge(pair, &of, values, &mut pairs);
-                // What has come to be as frequent stands in line with the others.
-                for new in std::mem::take(&mut self.frequencies[count]) {
-                    let place = next + equal[next..].partition_point(|&other| other < new);
-                    equal.insert(place, new);
-                }
+        while let Some((count, Reverse(pair))) = self.candidates.pop()
+            && !self.budget.is_spent()
+        {
+            let now = self.holders.get(&pair).map_or(0, Vec::len);
+            if now == count {
+                let of = self.holders.remove(&pair).unwrap_or_default();
+                self.merge(pair, &of, values);
+            } else if now > 1 {
+                self.candidates.push((now, Reverse(pair)));
             }
-            self.frequencies.pop();
         }
         for List { value, parts, .. } in self.lists.into_iter().filter(|list| list.is_new) {
             values[value.0] = match self.kind {
@@ -194,123 +131,80 @@ impl<'a> Sharing<'a> {
     }
 
     /// Puts one sum or product in place of a pair in all lists that hold it.
-    fn merge(&mut self, pair: Pair, of: &Holders, values: &mut Vec<Value>, pairs: &mut Vec<Pair>) {
-        let whole = of.iter().map(|place| &self.lists[place]).find(|list| list.parts.len() == 2);
+    fn merge(&mut self, pair: Pair, of: &[usize], values: &mut Vec<Value>) {
+        let whole = of.iter().map(|&place| &self.lists[place]).find(|list| list.parts.len() == 2);
         // The sign with which the older part stands in the shared sum.
         let (shared, sign) = match whole {
-            Some(whole) => (whole.value, sign_of(&whole.parts, pair.first())),
+            Some(whole) => (whole.value, sign_of(&whole.parts, pair.first)),
             None => {
-                let second = Signed { negative: pair.opposed(), value: pair.second() };
+                let second = Signed { negative: pair.opposed, value: pair.second };
                 values.push(match self.kind {
-                    Kind::Sums => Value::Sum(vec![Signed { negative: false, value: pair.first() }, second]),
-                    Kind::Products => Value::Product(vec![pair.first(), pair.second()]),
+                    Kind::Sums => Value::Sum(vec![Signed { negative: false, value: pair.first }, second]),
+                    Kind::Products => Value::Product(vec![pair.first, pair.second]),
                 });
                 (ValueId(values.len() - 1), false)
             }
         };
-        for place in of.iter() {
+        for &place in of {
             let List { value, parts, .. } = &self.lists[place];
             // A list that holds the shared value and its parts keeps both.
             if *value != shared && parts.iter().all(|part| part.value != shared) {
-                self.replace(place, pair, shared, sign, pairs);
+                self.replace(place, pair, shared, sign);
             }
         }
     }
 
     /// Puts the shared pair into a list in place of its two parts.
-    fn replace(&mut self, place: usize, pair: Pair, shared: ValueId, sign: bool, pairs: &mut Vec<Pair>) {
-        let is_long = self.lists[place].parts.len() > LONGEST_PAIRED;
+    fn replace(&mut self, place: usize, pair: Pair, shared: ValueId, sign: bool) {
         // Of a short list the pairs of what stays stay.
-        let touches = |pair: Pair, value: ValueId| pair.first() == value || pair.second() == value;
-        self.pairs(place, pairs);
-        for &other in pairs.iter() {
-            if (is_long || touches(other, pair.first()) || touches(other, pair.second()))
-                && let Some(index) = self.find(other)
+        let is_long = self.lists[place].parts.len() > LONGEST_PAIRED;
+        for other in self.pairs(place) {
+            if (is_long || other.holds(pair.first) || other.holds(pair.second))
+                && let Some(holders) = self.holders.get_mut(&other)
             {
-                self.holders[index].1.remove(place);
+                holders.retain(|&holder| holder != place);
             }
         }
         let List { parts, is_new, .. } = &mut self.lists[place];
-        let negative = sign_of(parts, pair.first()) != sign;
-        parts.retain(|part| part.value != pair.first() && part.value != pair.second());
+        let negative = sign_of(parts, pair.first) != sign;
+        parts.retain(|part| !pair.holds(part.value));
         // The shared part leads; of a sum, what is added stands before what is taken away.
         parts.insert(0, Signed { negative, value: shared });
         if negative {
             parts.sort_by_key(|part| part.negative);
         }
         *is_new = true;
-        self.pairs(place, pairs);
-        for &other in pairs.iter() {
-            if is_long || touches(other, shared) {
+        for other in self.pairs(place) {
+            if is_long || other.holds(shared) {
                 self.hold(other, place);
             }
         }
     }
 
-    fn find(&self, pair: Pair) -> Option<usize> {
-        self.places.find(Hash::of(pair.0), |index| self.holders[index].0 == pair)
-    }
-
     fn hold(&mut self, pair: Pair, place: usize) {
-        let index = self.find(pair).unwrap_or_else(|| {
-            self.places.insert(Hash::of(pair.0), self.holders.len());
-            self.holders.push((pair, Holders::NONE));
-            self.holders.len() - 1
-        });
-        let count = self.holders[index].1.add(place);
-        if count > 1 {
-            if self.frequencies.len() <= count {
-                self.frequencies.resize(count + 1, Vec::new());
-            }
-            self.frequencies[count].push(pair);
+        let holders = self.holders.entry(pair).or_default();
+        holders.push(place);
+        if holders.len() > 1 {
+            self.candidates.push((holders.len(), Reverse(pair)));
         }
     }
 
     /// The pairs of a list. No part stands twice in it: equal factors are a square, equal terms have a coefficient.
-    fn pairs(&self, place: usize, pairs: &mut Vec<Pair>) {
-        pairs.clear();
-        let parts = self.lists[place].parts.as_slice();
+    fn pairs(&self, place: usize) -> Vec<Pair> {
+        let parts = &self.lists[place].parts;
         self.budget.spend(parts.len());
         let reach = if parts.len() > LONGEST_PAIRED { 1 } else { parts.len() };
-        let mut first = 0;
-        while first < parts.len() {
-            let (a, mut second) = (parts[first], first + 1);
-            let end = if self.is_frequent(a) { parts.len().min(second + reach) } else { second };
-            while second < end {
-                if self.is_frequent(parts[second]) {
-                    pairs.push(Pair::new(a, parts[second]));
-                }
-                second += 1;
-            }
-            first += 1;
+        let mut pairs = Vec::new();
+        for (index, &a) in parts.iter().enumerate().filter(|(_, a)| self.is_frequent(**a)) {
+            let others = parts[index + 1..].iter().take(reach).filter(|b| self.is_frequent(**b));
+            pairs.extend(others.map(|&b| Pair::new(a, b)));
         }
+        pairs
     }
 
     fn is_frequent(&self, part: Signed) -> bool {
         // What is shared already stands wherever its pair stood.
-        part.value.0 >= self.frequent.len() || self.frequent[part.value.0]
-    }
-}
-
-/// Sorts pairs: a thousand, which is more than most kernels have, by Shell's method with the gaps of M. Ciura ("Best
-/// increments for the average case of shellsort", FCT 2001), since unoptimised the library's spends its time on calls.
-fn in_order(pairs: &mut [Pair]) {
-    const MANY: usize = 1000;
-    if pairs.len() > MANY {
-        pairs.sort_unstable();
-        return;
-    }
-    for gap in [301, 132, 57, 23, 10, 4, 1] {
-        let mut sorted = gap;
-        while sorted < pairs.len() {
-            let (pair, mut place) = (pairs[sorted], sorted);
-            while place >= gap && pairs[place - gap].0 > pair.0 {
-                pairs[place] = pairs[place - gap];
-                place -= gap;
-            }
-            pairs[place] = pair;
-            sorted += 1;
-        }
+        self.frequent.get(part.value.0).is_none_or(|is_frequent| *is_frequent)
     }
 }
 

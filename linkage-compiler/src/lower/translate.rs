@@ -3,68 +3,38 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Signed, Value, ValueId};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 use crate::program::Given;
-use crate::places::{Hash, Places};
 
 /// Translates nodes to values.
 pub(super) struct Builder<'a> {
     graph: &'a Graph,
     given: &'a Given,
     values: Vec<Value>,
-    ids: Places,
-    of: Translated,
-    /// The number of the last list that each value was met in, and that of this list.
-    met: Vec<usize>,
-    list: usize,
-}
-
-/// What each node became, by its index: every part is looked up again and again. Packed, and 0 for a node that
-/// no root stands on, since a list of zeros costs nothing.
-#[derive(Default)]
-pub(super) struct Translated(Box<[u64]>);
-
-impl Translated {
-    pub(super) fn get(&self, node: NodeId) -> Option<Signed> {
-        match self.0.get(node.index()) {
-            None | Some(0) => None,
-            Some(packed) => Some(Signed { negative: packed & 1 == 1, value: ValueId((packed >> 1) as usize - 1) }),
-        }
-    }
-
-    /// What a node became that a root stands on.
-    pub(super) fn of(&self, node: NodeId) -> Signed {
-        self.get(node).unwrap_or(Signed { negative: false, value: ValueId(usize::MAX) })
-    }
-
-    fn set(&mut self, node: NodeId, Signed { negative, value }: Signed) {
-        self.0[node.index()] = ((value.0 as u64 + 1) << 1) | u64::from(negative);
-    }
+    ids: FxHashMap<Value, ValueId>,
+    /// The value of each node so far.
+    of: FxHashMap<NodeId, Signed>,
 }
 
 impl<'a> Builder<'a> {
-    /// The values that the roots stand on, and which of them each node became.
-    pub(super) fn translate_all(graph: &'a Graph, given: &'a Given, roots: &[NodeId]) -> (Vec<Value>, Translated) {
-        let (values, ids, of) = (Vec::new(), Places::default(), Translated::default());
-        let mut builder = Self { graph, given, values, ids, of, met: Vec::new(), list: 0 };
-        builder.build(roots);
-        (builder.values, builder.of)
-    }
-
-    fn build(&mut self, roots: &[NodeId]) {
-        let ordered = self.graph.sweep(roots, |_| false, |id| self.is_leaf(id));
-        let shared = self.shared_divisors(&ordered);
-        self.of.0 = vec![0; ordered.last().map_or(0, |last| last.index() + 1)].into_boxed_slice();
+    /// The values that the roots depend on, and the one of each node among them.
+    pub(super) fn translate_all(
+        graph: &'a Graph,
+        given: &'a Given,
+        roots: &[NodeId],
+    ) -> (Vec<Value>, FxHashMap<NodeId, Signed>) {
+        let (values, ids, of) = (Vec::new(), FxHashMap::default(), FxHashMap::default());
+        let mut builder = Self { graph, given, values, ids, of };
+        let ordered = graph.sweep(roots, |_| false, |id| builder.is_leaf(id));
+        let shared = builder.shared_divisors(&ordered);
         for id in ordered {
-            let signed = match self.leaf(id) {
-                Some(signed) => signed,
-                None => self.translate(id, &shared),
-            };
-            self.of.set(id, signed);
+            let signed = builder.leaf(id).unwrap_or_else(|| builder.translate(id, &shared));
+            builder.of.insert(id, signed);
         }
+        (builder.values, builder.of)
     }
 
     fn is_leaf(&self, id: NodeId) -> bool {
@@ -105,13 +75,10 @@ impl<'a> Builder<'a> {
     }
 
     fn intern(&mut self, value: Value) -> ValueId {
-        let hash = hash(&value);
-        let place = self.ids.find(hash, |place| self.values[place] == value).unwrap_or_else(|| {
-            self.ids.insert(hash, self.values.len());
-            self.values.push(value);
-            self.values.len() - 1
-        });
-        ValueId(place)
+        *self.ids.entry(value).or_insert_with_key(|value| {
+            self.values.push(value.clone());
+            ValueId(self.values.len() - 1)
+        })
     }
 
     fn positive(&mut self, value: Value) -> Signed {
@@ -127,7 +94,7 @@ impl<'a> Builder<'a> {
             Node::Sum { constant, terms } => {
                 let mut signed = Vec::new();
                 for &(coefficient, term) in terms {
-                    let term = self.of.of(term);
+                    let term = self.of[&term];
                     let value = self.scaled(coefficient.absolute(), term.value);
                     signed.push(Signed { negative: term.negative != coefficient.is_negative(), value });
                 }
@@ -138,7 +105,7 @@ impl<'a> Builder<'a> {
             }
             Node::Product { coefficient, factors } => self.product(*coefficient, factors, shared),
             Node::Call(function, arguments) => {
-                let mut arguments: Vec<Signed> = arguments.iter().map(|argument| self.of.of(*argument)).collect();
+                let mut arguments: Vec<Signed> = arguments.iter().map(|argument| self.of[argument]).collect();
                 if *function == Function::Hypot {
                     // It does not see them.
                     arguments.iter_mut().for_each(|argument| argument.negative = false);
@@ -146,7 +113,7 @@ impl<'a> Builder<'a> {
                 self.positive(Value::Call(*function, arguments))
             }
             Node::External(external, arguments) => {
-                let arguments = arguments.iter().map(|argument| self.of.of(*argument)).collect();
+                let arguments = arguments.iter().map(|argument| self.of[argument]).collect();
                 self.positive(Value::External(external.clone(), arguments))
             }
             Node::Constant(_) | Node::Pi | Node::Symbol(_) => self.constant(Number::ZERO),
@@ -174,7 +141,7 @@ impl<'a> Builder<'a> {
     /// The terms of a sum with each value once: those that differ in the signs inside them alone are one value.
     fn collected(&mut self, mut terms: Vec<Signed>) -> Vec<Signed> {
         // What is collected may be a value that is there already.
-        while self.meets_twice(terms.iter().map(|term| term.value)) {
+        while has_twice(terms.iter().map(|term| term.value)) {
             let mut order = Vec::new();
             let mut counts: FxHashMap<ValueId, i64> = FxHashMap::default();
             for term in terms {
@@ -184,7 +151,7 @@ impl<'a> Builder<'a> {
                 });
                 *count += if term.negative { -1 } else { 1 };
             }
-            terms = Vec::with_capacity(order.len());
+            terms = Vec::new();
             for value in order {
                 let count = counts[&value];
                 if count != 0 {
@@ -205,9 +172,9 @@ impl<'a> Builder<'a> {
             }
             _ => true,
         });
-        while self.meets_twice(factors.iter().copied()) {
+        while has_twice(factors.iter().copied()) {
             factors.sort_unstable();
-            let mut once = Vec::with_capacity(factors.len());
+            let mut once = Vec::new();
             for factor in factors {
                 match once.pop_if(|last| *last == factor) {
                     // Not equal to the next, even if that is the same factor a third time.
@@ -220,14 +187,6 @@ impl<'a> Builder<'a> {
         (constant, factors)
     }
 
-    /// True if a value stands twice in a list.
-    fn meets_twice(&mut self, list: impl Iterator<Item = ValueId>) -> bool {
-        self.list += 1;
-        self.met.resize(self.values.len(), 0);
-        let (number, met) = (self.list, &mut self.met);
-        list.into_iter().any(|value| std::mem::replace(&mut met[value.0], number) == number)
-    }
-
     fn product(
         &mut self,
         coefficient: Number,
@@ -236,14 +195,13 @@ impl<'a> Builder<'a> {
     ) -> Signed {
         let mut constant = coefficient;
         let mut negative = false;
-        // With room for the number before them.
-        let (mut above, mut below) = (Vec::with_capacity(factors.len() + 1), Vec::new());
+        let (mut above, mut below) = (Vec::new(), Vec::new());
         for &(base, exponent) in factors {
             if let Some(value) = self.graph.constant_value(base) {
                 constant = constant.multiply(Number::Float(value.powi(exponent)));
                 continue;
             }
-            let signed = self.of.of(base);
+            let signed = self.of[&base];
             negative ^= signed.negative && exponent % 2 != 0;
             let factors = if exponent > 0 { &mut above } else { &mut below };
             self.power(signed.value, exponent.unsigned_abs(), factors);
@@ -255,7 +213,7 @@ impl<'a> Builder<'a> {
             return Signed { negative, value };
         }
         let divisor_value = self.multiply(Number::ONE, below);
-        let value = if !shared.is_empty() && shared.contains(&divisor(factors)) {
+        let value = if shared.contains(&divisor(factors)) {
             let one = self.constant(Number::ONE).value;
             let inverse = self.intern(Value::Quotient(one, divisor_value));
             above.push(inverse);
@@ -293,24 +251,10 @@ impl<'a> Builder<'a> {
         match factors.as_slice() {
             &[only] => only,
             _ => {
-                if !self.is_in_order(&factors) {
-                    factors.sort_unstable_by_key(|&id| (self.values[id.0].rank(), id));
-                }
+                factors.sort_unstable_by_key(|&id| (self.values[id.0].rank(), id));
                 self.intern(Value::Product(factors))
             }
         }
-    }
-
-    fn is_in_order(&self, factors: &[ValueId]) -> bool {
-        let mut last = (0, ValueId(0));
-        for &id in factors {
-            let next = (self.values[id.0].rank(), id);
-            if next < last {
-                return false;
-            }
-            last = next;
-        }
-        true
     }
 
     fn scaled(&mut self, factor: Number, value: ValueId) -> ValueId {
@@ -333,35 +277,8 @@ fn divisor(factors: &[(NodeId, i32)]) -> Vec<(NodeId, i32)> {
     factors.iter().filter(|(_, exponent)| *exponent < 0).copied().collect()
 }
 
-fn hash(value: &Value) -> Hash {
-    let each_signed = |hash: Hash, parts: &[Signed]| {
-        let mut hash = hash;
-        for part in parts {
-            hash = hash.with((part.value.index() as u64) << 1 | u64::from(part.negative));
-        }
-        hash
-    };
-    match value {
-        Value::Symbol(symbol) => Hash::of(0).with(symbol.index() as u64),
-        Value::Direction(function, angle) => Hash::of(1).with(*function as u64).with(angle.index() as u64),
-        Value::Constant(number) => number.hashed(Hash::of(2)),
-        Value::Sum(terms) => each_signed(Hash::of(3), terms),
-        Value::Product(factors) => {
-            let mut hash = Hash::of(4);
-            for factor in factors {
-                hash = hash.with(factor.index() as u64);
-            }
-            hash
-        }
-        Value::Quotient(above, below) => Hash::of(5).with(above.index() as u64).with(below.index() as u64),
-        Value::Square(base) => Hash::of(6).with(base.index() as u64),
-        Value::Call(function, arguments) => each_signed(Hash::of(7).with(*function as u64), arguments),
-        Value::External(external, arguments) => {
-            let mut hash = Hash::of(8).with(external.function.index() as u64);
-            for &times in &external.by {
-                hash = hash.with(u64::from(times));
-            }
-            each_signed(hash, arguments)
-        }
-    }
+/// True if a list holds a value twice.
+fn has_twice(mut list: impl Iterator<Item = ValueId>) -> bool {
+    let mut met = FxHashSet::default();
+    !list.all(|value| met.insert(value))
 }

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::iter::Peekable;
 use std::str::Chars;
 
-use linkage_compiler::algebra::equality::{Verdict, compare};
 use linkage_compiler::graph::{Function, Graph, NodeId, Number, SymbolId};
+use linkage_equality::{Answer, compare};
 
 /// A graph with names.
 #[derive(Default)]
@@ -27,7 +27,7 @@ impl Formulas {
         node
     }
 
-    pub fn compare(&mut self, left: &str, right: &str) -> Verdict {
+    pub fn compare(&mut self, left: &str, right: &str) -> Answer {
         let (left, right) = (self.node(left), self.node(right));
         compare(&self.graph, left, right)
     }

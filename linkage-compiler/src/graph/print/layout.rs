@@ -1,4 +1,4 @@
-//! What is a sum, a fraction or a power, which signs are written and what needs brackets.
+//! Layout of formulas: sums, fractions and powers, the signs that are written and the brackets that are needed.
 
 use crate::graph::{External, Graph, Node, NodeId, Number, SymbolId};
 
@@ -93,7 +93,7 @@ impl Layout<'_, '_> {
         self.pieces.get(id).is_some_and(|piece| piece.hidden)
     }
 
-    /// A function of the user's, or a derivative of it: in mathematics by the name of its value with primes.
+    /// A user function, or a derivative of it: in mathematics by the name of its value with primes.
     fn external(&self, out: &mut String, external: &External) {
         let names = self.graph.external_names(external.function);
         let order = external.order().unwrap_or(names.len());
@@ -207,7 +207,7 @@ impl Layout<'_, '_> {
         }
     }
 
-    /// Where a factor stands among others: names, functions, sums in brackets, determinants.
+    /// The place of a factor among others: names, functions, sums in brackets, determinants.
     fn place(&self, id: NodeId) -> u8 {
         match (self.graph.node(id), self.names) {
             (Node::Pi | Node::Constant(_), _) => 0,

@@ -15,7 +15,7 @@ use layout::{Binding, Layout};
 /// without bound: from here on a part is shown as an ellipsis.
 const LONGEST: usize = 400;
 
-/// The same for the source of a formula, of which a reader sees two thirds: θ₃ for `theta3`.
+/// The limit for the source of a formula, of which a reader sees two thirds: θ₃ for `theta3`.
 const LONGEST_SOURCE: usize = LONGEST + LONGEST / 2;
 
 /// A part that is written.
@@ -23,7 +23,7 @@ const LONGEST_SOURCE: usize = LONGEST + LONGEST / 2;
 struct Piece {
     body: String,
     binding: Binding,
-    /// Whether an ellipsis stands for it.
+    /// True if an ellipsis is written in its place.
     hidden: bool,
 }
 

@@ -1,6 +1,6 @@
 //! How names are written in the source of a formula.
 
-/// What a symbol stands for, which tells how it is shown. Names are those of the language, such
+/// The meaning of a symbol, which decides how it is shown. Names are those of the language, such
 /// as `theta3` or `z_t`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Name<'a> {

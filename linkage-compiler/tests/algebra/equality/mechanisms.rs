@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use linkage_compiler::algebra::determinant;
-use linkage_compiler::algebra::equality::{Verdict, compare, is_zero};
 use linkage_compiler::graph::{NodeId, Number, SymbolId};
+use linkage_equality::{Answer, compare, is_zero};
 
 use crate::formula::Formulas;
 
@@ -93,9 +93,9 @@ fn the_combined_determinant_is_the_determinant() {
         let graph = &mut formulas.graph;
         let (main, other) = (graph.multiply(a, d), graph.multiply(b, c));
         let plain = graph.subtract(main, other);
-        assert_eq!(compare(graph, determinant, plain), Verdict::Equal);
+        assert_eq!(compare(graph, determinant, plain), Answer::Equal);
         let wrong = graph.add(main, other);
-        assert_eq!(compare(graph, determinant, wrong), Verdict::Different);
+        assert_eq!(compare(graph, determinant, wrong), Answer::Different);
     }
 }
 
@@ -108,9 +108,9 @@ fn velocity_ratios_solve_the_derived_closure() {
             // J W + A = 0, row by row.
             let (a, b) = (graph.multiply(a, first), graph.multiply(b, second));
             let rest = graph.sum(&[(Number::ONE, a), (Number::ONE, b), (Number::ONE, input)]);
-            assert_eq!(is_zero(graph, rest), Verdict::Equal);
+            assert_eq!(is_zero(graph, rest), Answer::Equal);
             let wrong = graph.sum(&[(Number::ONE, a), (Number::ONE, b), (Number::MINUS_ONE, input)]);
-            assert_eq!(is_zero(graph, wrong), Verdict::Different);
+            assert_eq!(is_zero(graph, wrong), Answer::Different);
         }
     }
 }
@@ -145,9 +145,9 @@ fn both_methods_for_accelerations_agree() {
             let driven = graph.multiply(ratio, alpha);
             let second = graph.subtract(driven, correction);
             assert_ne!(first, second);
-            assert_eq!(compare(graph, first, second), Verdict::Equal);
+            assert_eq!(compare(graph, first, second), Answer::Equal);
             let wrong = graph.add(driven, correction);
-            assert_eq!(compare(graph, first, wrong), Verdict::Different);
+            assert_eq!(compare(graph, first, wrong), Answer::Different);
         }
     }
 }
@@ -160,11 +160,11 @@ fn closures_do_not_change_along_the_motion() {
         let mut seeds = derived.seeds(one);
         let graph = &mut derived.formulas.graph;
         for rate in graph.differentiate(&derived.rows, &seeds) {
-            assert_eq!(is_zero(graph, rate), Verdict::Equal);
+            assert_eq!(is_zero(graph, rate), Answer::Equal);
         }
         // With one of the ratios left out they do.
         seeds.remove(&derived.coordinates[1]);
         let rates = graph.differentiate(&derived.rows, &seeds);
-        assert!(rates.iter().any(|&rate| is_zero(graph, rate) == Verdict::Different));
+        assert!(rates.iter().any(|&rate| is_zero(graph, rate) == Answer::Different));
     }
 }

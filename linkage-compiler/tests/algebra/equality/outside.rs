@@ -1,7 +1,7 @@
 //! What is not decided, and what is in spite of functions outside the class.
 
-use linkage_compiler::algebra::equality::{MOST_TERMS, Reason, Verdict, compare, is_zero};
 use linkage_compiler::graph::{External, Number};
+use linkage_equality::{Answer, MOST_TERMS, Reason, compare, is_zero};
 
 use crate::formula::Formulas;
 
@@ -22,11 +22,11 @@ fn functions_outside_the_class_are_not_decided() {
         ("abs(x)^2", "x^2", &["abs"]),
         ("sqrt(x)", "sqrt(x) + sqrt(y)", &["sqrt"]),
     ] {
-        let verdict = Formulas::default().compare(left, right);
-        let Verdict::Undecided(Reason::OutsideClass(name)) = verdict else { panic!("{left}, {right}: {verdict}") };
+        let answer = Formulas::default().compare(left, right);
+        let Answer::Undecided(Reason::OutsideClass(name)) = answer else { panic!("{left}, {right}: {answer}") };
         assert!(functions.contains(&name), "{left}, {right}: {name}");
         let message = format!("cannot decide: `{name}` is not rational in sines and cosines");
-        assert_eq!(verdict.to_string(), message);
+        assert_eq!(answer.to_string(), message);
     }
 }
 
@@ -44,10 +44,10 @@ fn functions_outside_the_class_may_cancel() {
         ("sin(x/(1 + y))*2*cos(x/(1 + y))", "sin(2*x/(1 + y))"),
         ("sin((x*y - x)/(y - 1))", "sin(x)"),
     ] {
-        assert_eq!(Formulas::default().compare(left, right), Verdict::Equal, "{left} = {right}");
+        assert_eq!(Formulas::default().compare(left, right), Answer::Equal, "{left} = {right}");
     }
     // The function is gone from the difference, which is 2 a.
-    assert_eq!(Formulas::default().compare("sqrt(x) + a", "sqrt(x) - a"), Verdict::Different);
+    assert_eq!(Formulas::default().compare("sqrt(x) + a", "sqrt(x) - a"), Answer::Different);
 }
 
 #[test]
@@ -61,12 +61,12 @@ fn functions_of_the_user_are_letters() {
     let (one, same) = (apply(lift, 0, left), apply(lift, 0, right));
     let strangers = [apply(lift, 0, third), apply(lift, 1, left), apply(other, 0, left)];
     assert_ne!(one, same);
-    assert_eq!(compare(g, one, same), Verdict::Equal);
+    assert_eq!(compare(g, one, same), Answer::Equal);
     for stranger in strangers {
-        let verdict = compare(g, one, stranger);
-        let Verdict::Undecided(Reason::External(name)) = &verdict else { panic!("{verdict}") };
+        let answer = compare(g, one, stranger);
+        let Answer::Undecided(Reason::External(name)) = &answer else { panic!("{answer}") };
         assert!(["lift", "other"].contains(&name.as_str()));
-        assert_eq!(verdict.to_string(), format!("cannot decide: nothing is known of the function `{name}`"));
+        assert_eq!(answer.to_string(), format!("cannot decide: nothing is known of the function `{name}`"));
     }
 }
 
@@ -77,13 +77,13 @@ fn numbers_that_are_not_exact_are_not_decided() {
     let float = formulas.graph.number(Number::Float(0.1));
     let exact = formulas.graph.number(Number::ratio(1, 10));
     let (left, right) = (formulas.graph.multiply(float, x), formulas.graph.multiply(exact, x));
-    let inexact = Verdict::Undecided(Reason::Inexact(Number::Float(0.1)));
+    let inexact = Answer::Undecided(Reason::Inexact(Number::Float(0.1)));
     assert_eq!(compare(&formulas.graph, left, right), inexact);
     assert_eq!(inexact.to_string(), "cannot decide: the number 0.1 is not exact");
     let y = formulas.node("y");
     let both = formulas.graph.add(left, y);
     let difference = formulas.graph.subtract(both, left);
-    assert_eq!(compare(&formulas.graph, difference, y), Verdict::Equal);
+    assert_eq!(compare(&formulas.graph, difference, y), Answer::Equal);
     let sine = formulas.graph.call(linkage_compiler::graph::Function::Sin, &[left]);
     assert_eq!(is_zero(&formulas.graph, sine), inexact);
 }
@@ -97,8 +97,8 @@ fn undefined_expressions_are_not_decided() {
         ("1/(1 - 1)", "x"),
         ("sqrt(1/(sin(2*x) - 2*sin(x)*cos(x)))", "x"),
     ] {
-        let verdict = Formulas::default().compare(left, right);
-        assert_eq!(verdict, Verdict::Undecided(Reason::Undefined), "{left}, {right}");
+        let answer = Formulas::default().compare(left, right);
+        assert_eq!(answer, Answer::Undecided(Reason::Undefined), "{left}, {right}");
     }
 }
 
@@ -112,14 +112,14 @@ fn angles_and_constants_beyond_what_is_known() {
         ("(x + y + z + sin(x) + sin(y) + sin(z))^20", "1", Reason::TooManyTerms),
     ] {
         let mut formulas = Formulas::default();
-        let verdict = formulas.compare(left, right);
-        assert!(verdict == Verdict::Undecided(reason), "{left}, {right}: {verdict}");
+        let answer = formulas.compare(left, right);
+        assert!(answer == Answer::Undecided(reason), "{left}, {right}: {answer}");
     }
     // Nobody has proved that pi and sin(1) are independent, but the values differ.
-    assert_eq!(Formulas::default().compare("pi*sin(1)", "sin(pi^2)"), Verdict::Different);
+    assert_eq!(Formulas::default().compare("pi*sin(1)", "sin(pi^2)"), Answer::Different);
     // An angle as large as this leaves no digit to tell.
-    let verdict = Formulas::default().compare("pi*sin(1) + cos(pi^9)", "2");
-    assert_eq!(verdict, Verdict::Undecided(Reason::Constants));
+    let answer = Formulas::default().compare("pi*sin(1) + cos(pi^9)", "2");
+    assert_eq!(answer, Answer::Undecided(Reason::Constants));
     let text = Reason::TooManyTerms.to_string();
     assert!(text.contains(&MOST_TERMS.to_string()) && text.starts_with("cannot decide: "), "{text}");
 }
@@ -127,5 +127,5 @@ fn angles_and_constants_beyond_what_is_known() {
 #[test]
 fn an_expression_too_long_is_equal_to_itself() {
     let long = "(x + y + z + sin(x) + sin(y) + sin(z))^20";
-    assert_eq!(Formulas::default().compare(long, long), Verdict::Equal);
+    assert_eq!(Formulas::default().compare(long, long), Answer::Equal);
 }

@@ -3,8 +3,8 @@
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use linkage_compiler::algebra::equality::{Verdict, compare};
 use linkage_compiler::graph::{Function, NodeId, Number};
+use linkage_equality::{Answer, compare};
 
 use crate::formula::Formulas;
 
@@ -358,8 +358,8 @@ fn true_identities() {
             formulas.graph.text(left),
             formulas.graph.text(right)
         );
-        let verdict = compare(&formulas.graph, left, right);
-        assert_eq!(verdict, Verdict::Equal, "{expression:?} = {rewritten:?}");
+        let answer = compare(&formulas.graph, left, right);
+        assert_eq!(answer, Answer::Equal, "{expression:?} = {rewritten:?}");
         proved += 1;
     }
     assert!(alike < CASES / 2, "{alike} pairs were one node");
@@ -378,8 +378,8 @@ fn false_identities() {
         if formulas.graph.take_fault().is_some() || formulas.apart(left, right).is_none_or(|apart| apart < 1e-6) {
             continue;
         }
-        let verdict = compare(&formulas.graph, left, right);
-        assert_eq!(verdict, Verdict::Different, "{expression:?} = {rewritten:?}");
+        let answer = compare(&formulas.graph, left, right);
+        assert_eq!(answer, Answer::Different, "{expression:?} = {rewritten:?}");
         refuted += 1;
     }
 }

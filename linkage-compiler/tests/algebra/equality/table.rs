@@ -1,6 +1,6 @@
 //! A table of trigonometry.
 
-use linkage_compiler::algebra::equality::Verdict;
+use linkage_equality::Answer;
 
 use crate::formula::Formulas;
 
@@ -66,7 +66,7 @@ const TABLE: [(&str, &str); 48] = [
 fn identities_of_the_table() {
     for (left, right) in TABLE {
         let mut formulas = Formulas::default();
-        assert_eq!(formulas.compare(left, right), Verdict::Equal, "{left} = {right}");
+        assert_eq!(formulas.compare(left, right), Answer::Equal, "{left} = {right}");
     }
 }
 
@@ -76,9 +76,9 @@ fn the_table_with_a_mistake() {
     for (left, right) in TABLE {
         let mut formulas = Formulas::default();
         let wrong = format!("{right} + sin(x)/1000");
-        assert_eq!(formulas.compare(left, &wrong), Verdict::Different, "{left} = {wrong}");
+        assert_eq!(formulas.compare(left, &wrong), Answer::Different, "{left} = {wrong}");
         let wrong = format!("({right})*1000001/1000000");
-        assert_eq!(formulas.compare(left, &wrong), Verdict::Different, "{left} = {wrong}");
+        assert_eq!(formulas.compare(left, &wrong), Answer::Different, "{left} = {wrong}");
     }
 }
 
@@ -93,6 +93,6 @@ fn constants_close_to_each_other_are_told_apart() {
         ("cos(355)", "-1"),
         ("sin(pi/180)", "pi/180"),
     ] {
-        assert_eq!(formulas.compare(left, right), Verdict::Different, "{left} and {right}");
+        assert_eq!(formulas.compare(left, right), Answer::Different, "{left} and {right}");
     }
 }

@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use linkage_compiler::algebra::equality::{Verdict, compare};
 use linkage_compiler::algebra::simplify;
 use linkage_compiler::graph::{Condition, Function, Graph, Node, NodeId, Number, SymbolId};
+use linkage_equality::{Answer, compare};
 
 const CASES: usize = 1500;
 const SYMBOLS: usize = 4;
@@ -245,9 +245,9 @@ fn simplest_forms_mean_what_was_written() {
         let conditions = graph.take_conditions();
         shorter += usize::from(simplest != written);
         match compare(&graph, written, simplest) {
-            Verdict::Equal => proved += usize::from(simplest != written),
-            Verdict::Different => panic!("{} became {}", graph.text(written), graph.text(simplest)),
-            Verdict::Undecided(_) => {}
+            Answer::Equal => proved += usize::from(simplest != written),
+            Answer::Different => panic!("{} became {}", graph.text(written), graph.text(simplest)),
+            Answer::Undecided(_) => {}
         }
         for _ in 0..8 {
             // Small whole numbers meet zero divisors often.

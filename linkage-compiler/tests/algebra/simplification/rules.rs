@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use linkage_compiler::algebra::equality::{Reason, Verdict, compare};
 use linkage_compiler::algebra::simplify;
 use linkage_compiler::graph::{Condition, NodeId};
+use linkage_equality::{Answer, Reason, compare};
 
 use crate::formula::Formulas;
 
@@ -17,10 +17,10 @@ fn simplified(text: &str, given: &[&str]) -> (String, Vec<String>) {
     let written = formulas.graph.take_conditions();
     assert!(written.is_empty(), "{text} loses something as it is written: {written:?}");
     let after = simplify(&mut formulas.graph, &[before], &given)[0];
-    let verdict = compare(&formulas.graph, before, after);
+    let answer = compare(&formulas.graph, before, after);
     assert!(
-        matches!(verdict, Verdict::Equal | Verdict::Undecided(Reason::OutsideClass(_))),
-        "{text} became {}: {verdict}",
+        matches!(answer, Answer::Equal | Answer::Undecided(Reason::OutsideClass(_))),
+        "{text} became {}: {answer}",
         formulas.graph.text(after)
     );
     let conditions = formulas.graph.take_conditions();

@@ -1,4 +1,4 @@
-//! What a difference that is not zero formally says about the values.
+//! The values of a difference that is not zero formally.
 //!
 //! Functions of the symbols are independent without exception (Ax). Constants are known to be so
 //! only in part: pi alone (Lindemann), or exponentials of algebraic numbers alone (Lindemann and
@@ -7,10 +7,10 @@
 
 use std::collections::BTreeMap;
 
-use super::fraction::Fraction;
-use super::normal_form::NormalForms;
-use super::polynomial::{Polynomial, Powers};
-use super::{Reason, Verdict};
+use crate::fraction::Fraction;
+use crate::normal_form::NormalForms;
+use crate::polynomial::{Polynomial, Powers};
+use crate::{Answer, Reason};
 
 /// A sum of terms is not zero if it exceeds this part of their absolute sum: rounding errors are
 /// many orders of magnitude smaller.
@@ -68,20 +68,20 @@ impl Complex {
     }
 }
 
-/// Whether a fraction is zero.
-pub(super) fn verdict(forms: &NormalForms, difference: &Fraction) -> Verdict {
+/// Decides if a fraction is zero.
+pub(super) fn answer(forms: &NormalForms, difference: &Fraction) -> Answer {
     if difference.numerator.is_zero() {
-        return Verdict::Equal;
+        return Answer::Equal;
     }
     let parts = difference.denominator.keys().chain([&difference.numerator]);
     match parts.clone().find_map(|part| part.terms().find_map(|(monomial, _)| forms.outside(&monomial.powers))) {
-        Some(reason) => Verdict::Undecided(reason),
-        None if parts.clone().all(|part| is_nonzero(forms, part)) => Verdict::Different,
-        None => Verdict::Undecided(Reason::Constants),
+        Some(reason) => Answer::Undecided(reason),
+        None if parts.clone().all(|part| is_nonzero(forms, part)) => Answer::Different,
+        None => Answer::Undecided(Reason::Constants),
     }
 }
 
-/// Whether a polynomial with terms is certainly not zero: one coefficient of the functions of the
+/// True if a polynomial with terms is certainly not zero: one coefficient of the functions of the
 /// symbols is not.
 fn is_nonzero(forms: &NormalForms, polynomial: &Polynomial) -> bool {
     let mut coefficients: BTreeMap<Powers, Coefficient> = BTreeMap::new();

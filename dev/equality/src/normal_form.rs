@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::fraction::{Denominator, Fraction};
-use super::independence::{Complex, Constant};
-use super::polynomial::{Index, Monomial, Polynomial, Powers, Ring};
-use super::ratio::Ratio;
-use super::{HIGHEST_ORDER, Outcome, Reason};
-use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
+use linkage_compiler::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 
-/// What a variable of the polynomials stands for.
+use crate::fraction::{Denominator, Fraction};
+use crate::independence::{Complex, Constant};
+use crate::polynomial::{Index, Monomial, Polynomial, Powers, Ring};
+use crate::ratio::Ratio;
+use crate::{HIGHEST_ORDER, Outcome, Reason};
+
+/// The meaning of a variable of the polynomials.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Meaning {
     Pi,
@@ -22,12 +23,12 @@ enum Meaning {
     Exponential(Monomial, Denominator),
 }
 
-/// What is known of a variable.
+/// The properties of a variable.
 pub(super) struct Variable {
     meaning: Meaning,
     /// Why nothing can be said of a difference that holds it.
     pub(super) outside: Option<Reason>,
-    /// What it is, if it depends on no symbol.
+    /// The constant that it is, if it depends on no symbol.
     pub(super) constant: Option<Constant>,
 }
 
@@ -162,7 +163,7 @@ impl<'g> NormalForms<'g> {
                 return Err(Reason::TooLarge.into());
             }
         }
-        Err(super::Halt::Order(u32::try_from(multiple).unwrap_or(u32::MAX)))
+        Err(crate::Halt::Order(u32::try_from(multiple).unwrap_or(u32::MAX)))
     }
 
     fn letter(&mut self, meaning: Meaning) -> Outcome<Polynomial> {

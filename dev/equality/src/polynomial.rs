@@ -8,10 +8,11 @@ use std::cell::Cell;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::cyclotomic::Cyclotomic;
-use super::ratio::Ratio;
-use super::{MOST_TERMS, Outcome, Reason};
-use crate::budget::Budget;
+use linkage_compiler::budget::Budget;
+
+use crate::cyclotomic::Cyclotomic;
+use crate::ratio::Ratio;
+use crate::{MOST_TERMS, Outcome, Reason};
 
 /// An element with more conjugates than this is not inverted.
 const MOST_CONJUGATES: usize = 16;
@@ -156,7 +157,7 @@ impl Polynomial {
         self.0.len() == 1 && self.0.get(&Monomial::default()) == Some(&Ratio::ONE)
     }
 
-    /// Whether there is one power product only, times roots of unity.
+    /// True if there is one power product only, times roots of unity.
     pub(super) fn is_unit(&self) -> bool {
         let mut powers = self.0.keys().map(|monomial| &monomial.powers);
         powers.next().is_some_and(|first| powers.all(|other| other == first))

@@ -5,9 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use super::polynomial::{Polynomial, Ring};
-use super::ratio::Ratio;
-use super::{Outcome, Reason};
+use crate::polynomial::{Polynomial, Ring};
+use crate::ratio::Ratio;
+use crate::{Outcome, Reason};
 
 /// factor^exponent; each factor has at least two terms and is free of units.
 pub(super) type Denominator = BTreeMap<Polynomial, u32>;

@@ -27,7 +27,8 @@ mod ratio;
 
 use std::fmt;
 
-use crate::graph::{Graph, NodeId, Number};
+use linkage_compiler::graph::{Graph, NodeId, Number};
+
 use fraction::Fraction;
 use normal_form::NormalForms;
 
@@ -39,10 +40,10 @@ pub const HIGHEST_ORDER: u32 = 1440;
 
 /// The answer to a question of equality.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
+pub enum Answer {
     /// Equal wherever both are defined.
     Equal,
-    /// Of different value somewhere, indeed almost everywhere.
+    /// Different somewhere, indeed almost everywhere.
     Different,
     /// Not known.
     Undecided(Reason),
@@ -53,7 +54,7 @@ pub enum Verdict {
 pub enum Reason {
     /// The difference holds a function that is not rational in sines and cosines.
     OutsideClass(&'static str),
-    /// The difference holds this function of the user's.
+    /// The difference holds this user function.
     External(String),
     /// The difference holds the sine or cosine of a quotient of sums.
     AngleIsQuotient,
@@ -85,7 +86,7 @@ impl fmt::Display for Reason {
     }
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Equal => write!(f, "equal"),
@@ -95,7 +96,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// What ends a computation early.
+/// The cause that ends a computation early.
 #[derive(Debug)]
 enum Halt {
     Undecided(Reason),
@@ -112,33 +113,33 @@ impl From<Reason> for Halt {
 /// A computation that may end early.
 type Outcome<T> = Result<T, Halt>;
 
-/// Whether two expressions are equal wherever both are defined.
+/// Compares two expressions wherever both are defined.
 #[must_use]
-pub fn compare(graph: &Graph, a: NodeId, b: NodeId) -> Verdict {
-    let verdict = decide(graph, &[a, b], |forms| forms.of(a).minus(&forms.ring, &forms.of(b)));
+pub fn compare(graph: &Graph, a: NodeId, b: NodeId) -> Answer {
+    let answer = decide(graph, &[a, b], |forms| forms.of(a).minus(&forms.ring, &forms.of(b)));
     // An expression is equal to itself, however long; it only has to exist.
-    match verdict {
-        Verdict::Undecided(Reason::Undefined) | Verdict::Equal => verdict,
-        _ if a == b => Verdict::Equal,
-        _ => verdict,
+    match answer {
+        Answer::Undecided(Reason::Undefined) | Answer::Equal => answer,
+        _ if a == b => Answer::Equal,
+        _ => answer,
     }
 }
 
-/// Whether an expression is zero wherever it is defined.
+/// Compares an expression with zero wherever it is defined.
 #[must_use]
-pub fn is_zero(graph: &Graph, id: NodeId) -> Verdict {
+pub fn is_zero(graph: &Graph, id: NodeId) -> Answer {
     decide(graph, &[id], |forms| Ok(forms.of(id)))
 }
 
-/// Whether a difference of normal forms is zero, with roots of unity of as high an order as it takes.
-fn decide(graph: &Graph, roots: &[NodeId], difference: impl Fn(&NormalForms) -> Outcome<Fraction>) -> Verdict {
+/// Compares a difference of normal forms with zero, with roots of unity of as high an order as it takes.
+fn decide(graph: &Graph, roots: &[NodeId], difference: impl Fn(&NormalForms) -> Outcome<Fraction>) -> Answer {
     let mut order = 4;
     loop {
-        let verdict = NormalForms::new(graph, roots, order)
-            .and_then(|forms| Ok(independence::verdict(&forms, &difference(&forms)?)));
-        match verdict {
-            Ok(verdict) => return verdict,
-            Err(Halt::Undecided(reason)) => return Verdict::Undecided(reason),
+        let answer = NormalForms::new(graph, roots, order)
+            .and_then(|forms| Ok(independence::answer(&forms, &difference(&forms)?)));
+        match answer {
+            Ok(answer) => return answer,
+            Err(Halt::Undecided(reason)) => return Answer::Undecided(reason),
             // A proper multiple of the last order, so that this ends.
             Err(Halt::Order(higher)) => order = higher,
         }
