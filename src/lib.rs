@@ -71,7 +71,6 @@ macro_rules! linkage {
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod __private {
     pub use linkage_macros::linkage;
-    pub use linkage_runtime::{__derivation, __scene_derivation};
 }
 
 #[doc(hidden)]

@@ -104,7 +104,7 @@ fn equations_are_numbered_as_in_the_text() {
 
 #[test]
 fn large_matrices_are_lists_of_entries() {
-    const ONE: Formula = Formula { source: "1" };
+    const ONE: Formula = Formula { text: "1", latex: "1", mathml: "<mn>1</mn>" };
     let mut large = *FourBar::DERIVATION;
     let name = FourBar::DERIVATION.jacobian_inputs.name;
     large.jacobian_inputs =

@@ -13,6 +13,7 @@ pub mod emit;
 pub mod graph;
 pub mod lower;
 pub mod model;
+pub mod notation;
 pub mod program;
 pub mod structure;
 pub mod syntax;
@@ -23,8 +24,8 @@ use quote::quote;
 use budget::Budget;
 use derivation::Derivation;
 use diagnostics::Diagnostics;
-use program::Operations;
 use model::Mechanism;
+use program::Operations;
 
 /// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
 ///
@@ -72,12 +73,7 @@ pub fn expand_within(input: TokenStream, root: &TokenStream, budget: &Budget) ->
 
 /// Derives a mechanism, reports what only its derivatives tell, and prints its program; one driver after the other, so
 /// that only one of them is held.
-fn printed(
-    mechanism: &Mechanism,
-    budget: &Budget,
-    root: &TokenStream,
-    diagnostics: &mut Diagnostics,
-) -> TokenStream {
+fn printed(mechanism: &Mechanism, budget: &Budget, root: &TokenStream, diagnostics: &mut Diagnostics) -> TokenStream {
     let mut drivers = Vec::new();
     for driver in &mechanism.drivers {
         let before = diagnostics.len();

@@ -9,6 +9,7 @@ pub use nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
 
 pub use crate::branch::{chord, elbow_chord, existing, reach_chord, side_of, solvable};
 pub use crate::contact::{sound, stops};
+pub use crate::derivation;
 pub use crate::equilibrium::{equilibrium, on_branch};
 pub use crate::error::{finite, finite_matrix};
 pub use crate::inertia::reduced;

@@ -57,7 +57,11 @@ where
 /// # Errors
 /// [`Error::OtherBranch`] if it is not.
 pub fn on_branch<Q>(scene: &'static str, found: Solution<Q>) -> Result<Q, Error> {
-    if found.same_branch { Ok(found.coordinates) } else { Err(Error::OtherBranch { mechanism: scene, group: "a loop" }) }
+    if found.same_branch {
+        Ok(found.coordinates)
+    } else {
+        Err(Error::OtherBranch { mechanism: scene, group: "a loop" })
+    }
 }
 
 struct Forces<'a, T, F, const N: usize> {

@@ -29,7 +29,6 @@ pub mod continuation;
 pub mod derivation;
 #[cfg(feature = "drawing")]
 pub mod drawing;
-mod emitted;
 mod equations;
 mod equilibrium;
 mod error;
@@ -55,8 +54,8 @@ pub use contact::{Along, Contact, ContactLaw, Mode};
 pub use equations::Equations;
 pub use equilibrium::Balance;
 pub use error::Error;
-pub use limits::Limits;
 use error::finite;
+pub use limits::Limits;
 use linear::{Factorization, product_of_pivots, same_signs};
 pub use mechanism::{Assembly, Group, Mechanism};
 pub use motion::{OutputMotion, PointMotion};

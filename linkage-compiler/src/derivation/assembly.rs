@@ -16,10 +16,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
+use super::step::{ChordOf, Step};
 use super::{Block, Derivation, magnitude};
 use crate::algebra::{cramer, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use super::step::{ChordOf, Step};
 use crate::structure::Group;
 
 /// A vector of the plane.

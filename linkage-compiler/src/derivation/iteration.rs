@@ -4,9 +4,9 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::assembly::Assembly;
+use super::step::Step;
 use super::{Block, Derivation};
 use crate::graph::{Node, NodeId, Number, SymbolId};
-use super::step::Step;
 
 impl Derivation {
     /// Names what the groups before know, and then the unknowns.

@@ -8,10 +8,10 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
+use super::step::Step;
 use super::{Assembly, Derivation};
 use crate::algebra::simplify;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use super::step::Step;
 use crate::structure::Group;
 
 /// f(v) >= 0 where a block can be assembled.

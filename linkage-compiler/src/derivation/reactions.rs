@@ -4,9 +4,9 @@
 //! block by block from the last to the first, each block of J transposed. A `loop` of two chains is cut where they
 //! meet, and lambda is the force there with which the left side pulls at the right side.
 
+use super::step::Step;
 use super::{Derivation, Form, along_rates, solve_closed};
 use crate::graph::{Function, NodeId, Number, SymbolId};
-use super::step::Step;
 use crate::model::{self, Mechanism};
 
 /// The system of the reactions.

@@ -1,8 +1,8 @@
 //! Linear systems in J as the steps of a kernel: the blocks in order, each by its own method.
 
+use super::step::Step;
 use super::{Block, Derivation, Form, Row, solve_closed};
 use crate::graph::{NodeId, SymbolId};
-use super::step::Step;
 
 impl Derivation {
     /// Stages that solve J x = right for each right side and name the solutions, block by block, each

@@ -1,24 +1,24 @@
-//! `DERIVATION`: the derivation as data, every formula by its source.
+//! `DERIVATION`: the derivation as data, every formula in its finished notations.
 
-use proc_macro2::{Delimiter, Ident, Literal, TokenStream};
-use quote::quote;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
 use super::names::string;
-use super::tokens::Tokens;
 use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
-use crate::graph::{Condition, Name, NodeId, Printer, SymbolId};
-use crate::program::Operations;
+use crate::graph::{NodeId, SymbolId};
 use crate::model::{self, Driver, Mechanism};
+use crate::notation::{Formula, Name, Printer};
+use crate::program::Operations;
 
-/// The constant, in a scope of its own for the names that it uses.
+/// The constant of a driver.
 pub(super) fn constant(
     mechanism: &Mechanism,
     driver: &Driver,
     derivation: &Derivation,
     formulas: &Formulas,
     kernels: &[(String, Operations)],
-    private: &TokenStream,
+    root: &TokenStream,
 ) -> TokenStream {
     let [inputs, unknowns] = [&driver.inputs, &driver.unknowns].map(|places| texts(mechanism, places));
     let names = names(mechanism, derivation, &inputs, &unknowns);
@@ -32,63 +32,78 @@ pub(super) fn constant(
         inputs: &inputs,
         unknowns: &unknowns,
     };
-
-    let mut sections = Sections::of([&driver.name], [driver.name.to_string()]);
-    for (name, symbols) in [("parameters", &parameters), ("inputs", &inputs), ("unknowns", &unknowns)] {
-        sections.write(name, Some(symbols_of(symbols)));
-    }
-    sections.write("residual", Some(document.numbered("Psi", &derivation.residual)));
-    let j = document.matrix(Name::Plain("J"), None, &derivation.jacobian_unknowns(), unknowns.len());
-    sections.write("jacobian_unknowns", Some(j));
-    let a = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
-    sections.write("jacobian_inputs", Some(a));
-    let mut blocks = Tokens::default();
-    for (number, inverse) in formulas.inverses.iter().enumerate() {
-        blocks.group(Delimiter::Bracket, document.block(number, inverse.as_ref()));
-    }
-    sections.write("blocks", Some(blocks));
-    let determinant = formulas.determinant.map(|node| document.equation(Name::Determinant(None), node));
-    sections.write("determinant", determinant);
     let (by_inputs, by_pairs, by_parameters) = (document.by_inputs(), document.by_pairs(), document.by_parameters());
-    sections.write("ratios", Some(document.derivatives(&unknowns, &by_inputs, &formulas.ratios)));
+
+    let residual = document.numbered("Psi", &derivation.residual);
+    let by_unknowns = derivation.jacobian_unknowns();
+    let jacobian_unknowns = document.matrix(Name::Plain("J"), None, &by_unknowns, unknowns.len());
+    let jacobian_inputs = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
+    let blocks: Vec<_> = formulas
+        .inverses
+        .iter()
+        .enumerate()
+        .map(|(number, inverse)| document.block(number, inverse.as_ref()))
+        .collect();
+    let determinant = option(formulas.determinant.map(|node| document.equation(Name::Determinant(None), node)));
+    let ratios = document.derivatives(&unknowns, &by_inputs, &formulas.ratios);
     let asked = derivation.ratio_derivatives.is_some();
-    let second = asked.then(|| document.derivatives(&unknowns, &by_pairs, &formulas.ratio_derivatives));
-    sections.write("ratio_derivatives", second);
-    sections.write("gamma", Some(document.numbered("gamma", &derivation.gamma)));
-    let jerk = derivation.eta.as_ref().map(|eta| document.numbered("eta", eta));
-    sections.write("jerk", jerk);
-    let sensitivity = derivation.sensitivity.as_ref().map(|first| {
-        let formulas = nonzero(derivation, &formulas.sensitivities);
-        let mut both = Tokens::default();
+    let second = option(asked.then(|| document.derivatives(&unknowns, &by_pairs, &formulas.ratio_derivatives)));
+    let gamma = document.numbered("gamma", &derivation.gamma);
+    let jerk = option(derivation.eta.as_ref().map(|eta| document.numbered("eta", eta)));
+    let sensitivity = option(derivation.sensitivity.as_ref().map(|first| {
         let jacobian = document.matrix(Name::Plain("Psi_p"), None, &first.jacobian, parameters.len());
-        both.group(Delimiter::Bracket, jacobian);
-        both.group(Delimiter::Bracket, document.derivatives(&unknowns, &by_parameters, &formulas));
-        both
-    });
-    sections.write("sensitivity", sensitivity);
+        let formulas = nonzero(derivation, &formulas.sensitivities);
+        let formulas = document.derivatives(&unknowns, &by_parameters, &formulas);
+        quote!(Sensitivity { jacobian: #jacobian, formulas: #formulas })
+    }));
     let points: Vec<&str> = mechanism.points.iter().map(|point| point.name.text.as_str()).collect();
     let points = document.quantities(&points, &["x_", "y_"], &derivation.points, &formulas.points);
-    sections.write("points", Some(points));
     let outputs: Vec<&str> = mechanism.outputs.iter().map(|output| output.name.text.as_str()).collect();
     let outputs = document.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs);
-    sections.write("outputs", Some(outputs));
-    let mut conditions = Tokens::default();
-    for condition in &formulas.conditions {
-        document.condition(&mut conditions, *condition);
+    let conditions = formulas.conditions.iter().map(|&condition| formula(&document.printer.condition(condition)));
+    let conditions = list(conditions);
+    let [parameters, inputs, unknowns] = [&parameters, &inputs, &unknowns].map(|names| symbols(names));
+    let kernels = works(kernels);
+
+    let (name, text) = (&driver.name, string(&driver.name.to_string()));
+    quote! {
+        impl #name {
+            /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution and the work
+            /// of each function. It costs nothing where it is not used.
+            pub const DERIVATION: &'static #root::__rt::derivation::Derivation = {
+                use #root::__rt::derivation::*;
+                &Derivation {
+                    mechanism: #text,
+                    parameters: #parameters,
+                    inputs: #inputs,
+                    unknowns: #unknowns,
+                    residual: #residual,
+                    jacobian_unknowns: #jacobian_unknowns,
+                    jacobian_inputs: #jacobian_inputs,
+                    blocks: &[#(#blocks),*],
+                    determinant: #determinant,
+                    ratios: #ratios,
+                    ratio_derivatives: #second,
+                    gamma: #gamma,
+                    jerk: #jerk,
+                    sensitivity: #sensitivity,
+                    points: #points,
+                    outputs: #outputs,
+                    conditions: #conditions,
+                    kernels: #kernels,
+                }
+            };
+        }
     }
-    sections.write("conditions", Some(conditions));
-    sections.write("kernels", Some(works(kernels)));
-    let sections = sections.0;
-    quote!(#private::__derivation! { #sections })
 }
 
-/// The equations of motion of a scene, in a scope of its own likewise.
+/// The constant of a scene: its equations of motion.
 pub(super) fn of_scene(
     mechanism: &Mechanism,
     (driver, scene): (&Driver, &model::Scene),
     (derivation, derived): (&Derivation, &Scene),
     kernels: &[(String, Operations)],
-    private: &TokenStream,
+    root: &TokenStream,
 ) -> TokenStream {
     let [inputs, unknowns] = [&driver.inputs, &driver.unknowns].map(|places| texts(mechanism, places));
     let mut names = names(mechanism, derivation, &inputs, &unknowns);
@@ -106,44 +121,56 @@ pub(super) fn of_scene(
         inputs: &inputs,
         unknowns: &unknowns,
     };
-    let mut mass_matrix = Tokens::default();
+    let mut mass_matrix = Vec::new();
     for (row, entries) in derived.mass_matrix.iter().flatten().enumerate() {
         for (column, &entry) in entries.iter().enumerate().skip(row) {
             let name = if inputs.len() == 1 { "M".to_owned() } else { format!("M{}{}", row + 1, column + 1) };
-            document.sides(&mut mass_matrix, Name::Plain(&name), entry);
+            mass_matrix.push(document.equation(Name::Plain(&name), entry));
         }
     }
-    let mut effects = Tokens::default();
+    let mut effects = Vec::new();
     for (label, forces) in &derived.parts {
-        if forces.iter().all(|&force| graph.is_zero(force)) {
-            continue;
-        }
-        let mut sides = Tokens::default();
+        let mut equations = Vec::new();
         for (index, &force) in forces.iter().enumerate().filter(|(_, force)| !graph.is_zero(**force)) {
             let name = if forces.len() == 1 { "Q".to_owned() } else { format!("Q{}", index + 1) };
-            document.sides(&mut sides, Name::Plain(&name), force);
+            equations.push(document.equation(Name::Plain(&name), force));
         }
-        effects.append(string(label));
-        effects.group(Delimiter::Bracket, sides);
+        if !equations.is_empty() {
+            let label = string(label);
+            effects.push(quote!(Effect { name: #label, forces: &[#(#equations),*] }));
+        }
     }
     let potential = !graph.is_zero(derived.potential);
-    let potential = potential.then(|| document.equation(Name::Plain("V"), derived.potential));
-    let mut sections = Sections::of([&scene.name], [scene.name.to_string(), driver.name.to_string()]);
-    sections.write("parameters", Some(symbols_of(&own)));
-    sections.write("mass_matrix", Some(mass_matrix));
-    sections.write("forces", Some(effects));
-    sections.write("potential", potential);
-    sections.write("kernels", Some(works(kernels)));
-    let sections = sections.0;
-    quote!(#private::__scene_derivation! { #sections })
+    let potential = option(potential.then(|| document.equation(Name::Plain("V"), derived.potential)));
+    let (parameters, kernels) = (symbols(&own), works(kernels));
+    let [text, of] = [&scene.name, &driver.name].map(|name| string(&name.to_string()));
+    let name = &scene.name;
+    quote! {
+        impl #name {
+            /// The equations of motion as data: every formula as text, `LaTeX` and `MathML`, and the work of each
+            /// function. It costs nothing where it is not used.
+            pub const DERIVATION: &'static #root::__rt::derivation::Scene = {
+                use #root::__rt::derivation::*;
+                &Scene {
+                    scene: #text,
+                    mechanism: #of,
+                    parameters: #parameters,
+                    mass_matrix: &[#(#mass_matrix),*],
+                    forces: &[#(#effects),*],
+                    potential: #potential,
+                    kernels: #kernels,
+                }
+            };
+        }
+    }
 }
 
-/// What the user calls these coordinates.
+/// The names that the user gave these coordinates.
 fn texts<'a>(mechanism: &'a Mechanism, places: &[usize]) -> Vec<&'a str> {
     places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str()).collect()
 }
 
-/// What each symbol is called.
+/// The name of each symbol.
 fn names<'a>(
     mechanism: &'a Mechanism,
     derivation: &Derivation,
@@ -177,57 +204,58 @@ fn names<'a>(
     names
 }
 
-/// The formulas but for those that are zero.
+/// The formulas without those that are zero.
 fn nonzero<F: Copy + Into<Option<NodeId>>>(derivation: &Derivation, formulas: &[Vec<F>]) -> Vec<Vec<Option<NodeId>>> {
     let formula = |&formula: &F| formula.into().filter(|&node| !derivation.graph.is_zero(node));
     formulas.iter().map(|of_one| of_one.iter().map(formula).collect()).collect()
 }
 
-/// The list of these symbols.
-fn symbols_of(names: &[&str]) -> Tokens {
-    let mut inside = Tokens::default();
-    for name in names {
-        inside.append(string(name));
-    }
-    inside
+/// `&[first, second]`
+fn list(items: impl IntoIterator<Item = TokenStream>) -> TokenStream {
+    let items = items.into_iter();
+    quote!(&[#(#items),*])
 }
 
-/// The list of what each function does.
-fn works(kernels: &[(String, Operations)]) -> Tokens {
-    let mut inside = Tokens::default();
-    for (function, operations) in kernels {
+fn option(value: Option<TokenStream>) -> TokenStream {
+    match value {
+        Some(value) => quote!(::core::option::Option::Some(#value)),
+        None => quote!(::core::option::Option::None),
+    }
+}
+
+fn formula(Formula { text, latex, mathml }: &Formula) -> TokenStream {
+    // MathML is long and hardly needs escapes.
+    let (text, latex, mathml) = (string(text), string(latex), Literal::string(mathml));
+    quote!(Formula { text: #text, latex: #latex, mathml: #mathml })
+}
+
+/// The parameters or coordinates with these names.
+fn symbols(names: &[&str]) -> TokenStream {
+    list(names.iter().map(|name| {
+        let (text, shown) = (string(name), formula(&Formula::of_name(Name::Plain(name))));
+        quote!(Symbol { name: #text, formula: #shown })
+    }))
+}
+
+/// The operations of each function.
+fn works(kernels: &[(String, Operations)]) -> TokenStream {
+    list(kernels.iter().map(|(function, operations)| {
         let Operations { functions, divisions, multiplications, additions } = *operations;
-        inside.append(string(function));
-        for count in [functions, divisions, multiplications, additions] {
-            inside.append(Literal::usize_unsuffixed(count));
+        let [functions, divisions, multiplications, additions] =
+            [functions, divisions, multiplications, additions].map(Literal::usize_unsuffixed);
+        let function = string(function);
+        quote! {
+            Kernel {
+                function: #function,
+                operations: Operations {
+                    functions: #functions,
+                    divisions: #divisions,
+                    multiplications: #multiplications,
+                    additions: #additions,
+                },
+            }
         }
-    }
-    inside
-}
-
-/// What a macro of the runtime is given: a type with its names, then lists by what they are called.
-struct Sections(Tokens);
-
-impl Sections {
-    fn of<const N: usize, const M: usize>(types: [&Ident; N], names: [String; M]) -> Self {
-        let mut tokens = Tokens::default();
-        for name in types {
-            tokens.ident(name);
-        }
-        for name in names {
-            tokens.append(string(&name));
-        }
-        tokens.punct(',');
-        Self(tokens)
-    }
-
-    /// `name [list]`, or the name alone.
-    fn write(&mut self, name: &str, list: Option<Tokens>) {
-        self.0.word(name);
-        if let Some(list) = list {
-            self.0.group(Delimiter::Bracket, list);
-        }
-    }
+    }))
 }
 
 /// Writes formulas.
@@ -239,7 +267,7 @@ struct Document<'a> {
     unknowns: &'a [&'a str],
 }
 
-/// What something is derived by.
+/// The variable or variables of a derivative.
 #[derive(Clone, Copy)]
 enum By<'a> {
     One(&'a str),
@@ -269,130 +297,108 @@ impl<'a> Document<'a> {
         self.parameters.iter().map(|&by| By::One(by)).collect()
     }
 
-    /// Both sides of an equation, as lists hold them.
-    fn sides(&mut self, out: &mut Tokens, left: Name, right: NodeId) {
-        out.append(string(&left.source()));
-        out.append(string(self.printer.source(right)));
+    fn formula(&mut self, node: NodeId) -> TokenStream {
+        formula(&self.printer.formula(node))
     }
 
-    fn equation(&mut self, left: Name, right: NodeId) -> Tokens {
-        let mut out = Tokens::default();
-        self.sides(&mut out, left, right);
-        out
+    fn equation(&mut self, left: Name, right: NodeId) -> TokenStream {
+        let (left, right) = (formula(&Formula::of_name(left)), self.formula(right));
+        quote!(Equation { left: #left, right: #right })
     }
 
     /// name_1 = …, name_2 = …
-    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> Tokens {
-        let mut out = Tokens::default();
-        for (index, &node) in nodes.iter().enumerate() {
-            self.sides(&mut out, Name::Plain(&format!("{name}{}", index + 1)), node);
-        }
-        out
+    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> TokenStream {
+        list(nodes.iter().enumerate().map(|(index, &node)| {
+            let name = format!("{name}{}", index + 1);
+            self.equation(Name::Plain(&name), node)
+        }))
     }
 
-    /// `name * factor rows columns [row column entry …]`
-    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> Tokens {
-        let mut out = Tokens::default();
-        out.append(string(&name.source()));
-        if let Some(factor) = factor {
-            out.punct('*');
-            out.append(string(self.printer.source(factor)));
-        }
-        out.append(Literal::usize_unsuffixed(rows.len()));
-        out.append(Literal::usize_unsuffixed(columns));
-        let mut entries = Tokens::default();
+    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> TokenStream {
+        let name = formula(&Formula::of_name(name));
+        let factor = option(factor.map(|factor| self.formula(factor)));
+        let mut entries = Vec::new();
         for (index, row) in rows.iter().enumerate() {
             for (&column, &node) in row {
-                entries.append(Literal::usize_unsuffixed(index));
-                entries.append(Literal::usize_unsuffixed(column));
-                entries.append(string(self.printer.source(node)));
+                let (row, column) = (Literal::usize_unsuffixed(index), Literal::usize_unsuffixed(column));
+                let value = self.formula(node);
+                entries.push(quote!(Entry { row: #row, column: #column, value: #value }));
             }
         }
-        out.group(Delimiter::Bracket, entries);
-        out
+        let [rows, columns] = [rows.len(), columns].map(Literal::usize_unsuffixed);
+        quote!(Matrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &[#(#entries),*] })
     }
 
-    /// `unknowns; equations; "group" Method; [determinant]; [inverse]`
-    fn block(&mut self, number: usize, inverse: Option<&Inverse>) -> Tokens {
+    fn block(&mut self, number: usize, inverse: Option<&Inverse>) -> TokenStream {
         let block = &self.derivation.blocks[number];
         let number = (self.derivation.blocks.len() > 1).then_some(number + 1);
-        let mut out = Tokens::default();
-        for &place in &block.unknowns {
-            out.append(string(&Name::Plain(self.unknowns[place]).source()));
+        let unknowns =
+            block.unknowns.iter().map(|&place| formula(&Formula::of_name(Name::Plain(self.unknowns[place]))));
+        let unknowns = list(unknowns);
+        let equations = block.equations.iter().map(|&equation| Literal::usize_unsuffixed(equation));
+        let group = string(&block.group.words());
+        let method = format_ident!("{}", if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
+        let determinant = block.determinant.as_ref().map(|determinant| determinant.value);
+        let determinant = option(determinant.map(|value| self.equation(Name::Determinant(number), value)));
+        let inverse = inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len()));
+        let inverse = option(inverse);
+        quote! {
+            Block {
+                unknowns: #unknowns,
+                equations: &[#(#equations),*],
+                group: #group,
+                method: Method::#method,
+                determinant: #determinant,
+                inverse: #inverse,
+            }
         }
-        out.punct(';');
-        for &equation in &block.equations {
-            out.append(Literal::usize_unsuffixed(equation));
-        }
-        out.punct(';');
-        out.append(string(&block.group.words()));
-        out.word(if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
-        out.punct(';');
-        if let Some(determinant) = block.determinant {
-            out.group(Delimiter::Bracket, self.equation(Name::Determinant(number), determinant.value));
-        }
-        out.punct(';');
-        if let Some((factor, rows)) = inverse {
-            out.group(Delimiter::Bracket, self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len()));
-        }
-        out
     }
 
-    /// The derivatives of what is called so, by what it is derived by and then by name, where there is a
-    /// formula.
+    /// The derivatives of the quantities with these names, in the order of the variables, where there is a formula.
     fn derivatives<N: AsRef<str>, F: Copy + Into<Option<NodeId>>>(
         &mut self,
         of: &[N],
         by: &[By<'_>],
         formulas: &[Vec<F>],
-    ) -> Tokens {
-        let mut out = Tokens::default();
+    ) -> TokenStream {
+        let mut equations = Vec::new();
         for (by, formulas) in by.iter().zip(formulas) {
             for (of, &formula) in of.iter().zip(formulas) {
                 if let Some(node) = formula.into() {
-                    self.sides(&mut out, by.name(of.as_ref()), node);
+                    equations.push(self.equation(by.name(of.as_ref()), node));
                 }
             }
         }
-        out
+        list(equations)
     }
 
-    /// Points and outputs, each component called by its prefix and the name.
+    /// Points or outputs; the name of a component is its prefix and the name of the quantity.
     fn quantities(
         &mut self,
         names: &[&str],
         prefixes: &[&str],
         quantities: &[Quantity],
         formulas: &[QuantityFormulas],
-    ) -> Tokens {
+    ) -> TokenStream {
         let (by_inputs, by_pairs, by_parameters) = (self.by_inputs(), self.by_pairs(), self.by_parameters());
-        let mut out = Tokens::default();
-        for ((name, quantity), formulas) in names.iter().zip(quantities).zip(formulas) {
+        list(names.iter().zip(quantities).zip(formulas).map(|((name, quantity), formulas)| {
             let components: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{name}")).collect();
-            let mut values = Tokens::default();
-            for (component, &node) in components.iter().zip(&quantity.value) {
-                self.sides(&mut values, Name::Plain(component), node);
-            }
+            let values = components.iter().zip(&quantity.value);
+            let value = list(values.map(|(component, &node)| self.equation(Name::Plain(component), node)));
+            let ratios = self.derivatives(&components, &by_inputs, &formulas.ratios);
+            let second = self.derivatives(&components, &by_pairs, &formulas.ratio_derivatives);
             let first = nonzero(self.derivation, &formulas.sensitivities);
-            out.append(string(name));
-            for list in [
-                values,
-                self.derivatives(&components, &by_inputs, &formulas.ratios),
-                self.derivatives(&components, &by_pairs, &formulas.ratio_derivatives),
-                self.derivatives(&components, &by_parameters, &first),
-            ] {
-                out.group(Delimiter::Bracket, list);
+            let first = self.derivatives(&components, &by_parameters, &first);
+            let name = string(name);
+            quote! {
+                Quantity {
+                    name: #name,
+                    value: #value,
+                    ratios: #ratios,
+                    ratio_derivatives: #second,
+                    sensitivities: #first,
+                }
             }
-        }
-        out
-    }
-
-    /// What was taken for granted: x ≠ 0, or that an expression has a value.
-    fn condition(&mut self, out: &mut Tokens, condition: Condition) {
-        let (node, relation) = match condition {
-            Condition::NonZero(node) => (node, "!= 0"),
-            Condition::Defined(node) => (node, "exists"),
-        };
-        out.append(string(&format!("{} {relation}", self.printer.source(node))));
+        }))
     }
 }

@@ -8,7 +8,6 @@ mod functions;
 mod items;
 mod names;
 mod scene;
-mod tokens;
 mod traits;
 mod types;
 
@@ -24,7 +23,11 @@ use names::string;
 
 /// The items of a whole mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]
-pub fn mechanism(mechanism: &Mechanism, drivers: impl IntoIterator<Item = TokenStream>, root: &TokenStream) -> TokenStream {
+pub fn mechanism(
+    mechanism: &Mechanism,
+    drivers: impl IntoIterator<Item = TokenStream>,
+    root: &TokenStream,
+) -> TokenStream {
     let mut tokens = types::shared(mechanism, root);
     tokens.extend(drivers);
     items::bearing(tokens, &mechanism.everywhere)
@@ -42,7 +45,6 @@ pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
 #[must_use]
 pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
-    let private = quote!(#root::__private);
     let mut tokens = types::of_driver(program, derivation, root);
     let (of_pose, implemented) = (traits::of_pose(program, derivation), traits::of_driver(program, derivation));
     let text = "The name of the mechanism, as errors give it.";
@@ -50,7 +52,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
         let works = works(&program.functions);
-        tokens.extend(document::constant(mechanism, driver, derivation, &derived.formulas, &works, &private));
+        tokens.extend(document::constant(mechanism, driver, derivation, &derived.formulas, &works, root));
     }
     let order = mechanism.coordinate_order(driver);
     let fields: Vec<Ident> = order.iter().map(|&index| types::field(&mechanism.coordinates[index].name)).collect();
@@ -64,7 +66,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         if let Some(derivation) = derivation {
             let derived = (derivation, &derivation.scenes[number]);
             let works = works(&scene.functions);
-            tokens.extend(document::of_scene(mechanism, (driver, scene.signatures.scene), derived, &works, &private));
+            tokens.extend(document::of_scene(mechanism, (driver, scene.signatures.scene), derived, &works, root));
         }
     }
     tokens
@@ -95,7 +97,8 @@ fn block(
 
 /// The functions that compute something, with their work.
 fn works(functions: &[Function<Code>]) -> Vec<(String, Operations)> {
-    let works = functions.iter().filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
+    let works =
+        functions.iter().filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
     works.filter(|(_, work)| *work != Operations::default()).collect()
 }
 

@@ -104,10 +104,9 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     tokens.extend(coordinates(mechanism, &ident(&names.coordinates), &title, &members, root));
     let points = mechanism.points.iter().map(|point| (&point.name, point.attributes.as_slice()));
     let outputs = mechanism.outputs.iter().map(|output| (&output.name, output.attributes.as_slice()));
-    for (group, what, members) in [
-        (&names.points, "points", points.collect::<Vec<_>>()),
-        (&names.outputs, "outputs", outputs.collect()),
-    ] {
+    for (group, what, members) in
+        [(&names.points, "points", points.collect::<Vec<_>>()), (&names.outputs, "outputs", outputs.collect())]
+    {
         if members.is_empty() {
             continue;
         }
@@ -181,11 +180,7 @@ fn coordinates(
 }
 
 /// The types of one driver, and its parameters.
-pub(super) fn of_driver(
-    program: &Program<Code>,
-    derivation: Option<&Derivation>,
-    root: &TokenStream,
-) -> TokenStream {
+pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let (name, types, visibility) = (&driver.name, &program.signatures.types, &mechanism.visibility);
     let attributes: Vec<Attribute> = if mechanism.is_driven_by_choice() {

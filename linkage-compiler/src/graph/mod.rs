@@ -23,7 +23,7 @@ pub use external::{External, ExternalId};
 pub use function::{Function, OPERATIONS, Operation};
 pub use node::{Condition, Fault, Node, NodeId, SymbolId};
 pub use number::Number;
-pub use print::{Name, Printer, Texts};
+pub use print::Texts;
 
 use rustc_hash::FxHashMap;
 

@@ -62,15 +62,6 @@ impl std::fmt::Display for Fault {
     }
 }
 
-impl SymbolId {
-    /// No symbol at all: a field that a pattern does not name.
-    pub const NONE: Self = Self(usize::MAX);
-
-    pub(crate) fn index(self) -> usize {
-        self.0
-    }
-}
-
 impl NodeId {
     pub(crate) fn index(self) -> usize {
         self.0

@@ -10,7 +10,8 @@ use super::{Schedule, Value, ValueId, schedule};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, NodeId, SymbolId};
 use crate::program::{
-    Access, Body, Expression, Function, Given, Kernel, Operations, Pattern, PosePlan, Shape, Source, Statement, Taken, Value as Returned,
+    Access, Body, Expression, Function, Given, Kernel, Operations, Pattern, PosePlan, Shape, Source, Statement, Taken,
+    Value as Returned,
 };
 
 /// What the functions of one driver or scene have in common.
@@ -366,4 +367,3 @@ impl Schedule {
         self.symbols().any(|used| used == symbol)
     }
 }
-

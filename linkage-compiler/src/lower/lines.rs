@@ -69,7 +69,8 @@ impl<'a, 'n> Writer<'a, 'n> {
             }
             Line::SinesCosines(several) => {
                 let angles: Vec<Expression> = several.iter().map(|one| self.signed(one.angle)).collect();
-                let pairs = several.iter().map(|one| Pattern::Tuple(vec![self.pattern(one.sine), self.pattern(one.cosine)]));
+                let pairs =
+                    several.iter().map(|one| Pattern::Tuple(vec![self.pattern(one.sine), self.pattern(one.cosine)]));
                 let pairs = pairs.collect();
                 let call = Expression::associated(Type::Scalar, "sines_cosines", [Expression::List(angles)]);
                 self.let_pattern(Pattern::List(pairs), call);
@@ -90,9 +91,7 @@ impl<'a, 'n> Writer<'a, 'n> {
                 let principal = self.signed(*principal);
                 let name = self.names.introduce(*symbol);
                 let number = match self.kernel.turns.get(symbol) {
-                    Some(&place) => {
-                        Expression::name(self.turn).method("number", [Expression::Count(place), principal])
-                    }
+                    Some(&place) => Expression::name(self.turn).method("number", [Expression::Count(place), principal]),
                     None => principal,
                 };
                 self.let_name(name, number);
@@ -160,13 +159,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         }
     }
 
-    fn chord(
-        &mut self,
-        (block, symbol): (usize, SymbolId),
-        factors: [Signed; 2],
-        size: Signed,
-        of: ChordOf<Signed>,
-    ) {
+    fn chord(&mut self, (block, symbol): (usize, SymbolId), factors: [Signed; 2], size: Signed, of: ChordOf<Signed>) {
         let factors = Expression::List(factors.map(|value| self.signed(value)).to_vec());
         let size = self.signed(size);
         let of = of.map(|value| self.signed(value));
@@ -208,11 +201,8 @@ impl<'a, 'n> Writer<'a, 'n> {
         let (sizes, rows) = rest.split_at(count);
         let column = |column: usize| Expression::List(rows.iter().skip(column).step_by(count).cloned().collect());
         let columns = Expression::List((0..count).map(column).collect());
-        let value = Expression::Tuple(vec![
-            Expression::List(residual.to_vec()),
-            Expression::List(sizes.to_vec()),
-            columns,
-        ]);
+        let value =
+            Expression::Tuple(vec![Expression::List(residual.to_vec()), Expression::List(sizes.to_vec()), columns]);
         Expression::Closure { arguments, statements: inner.statements, value: Box::new(value), moves: false }
     }
 

@@ -13,13 +13,12 @@ mod translate;
 
 use std::collections::BTreeSet;
 
-
 use crate::derivation::{ChordOf, Step};
 use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
 use crate::program::Given;
 pub use function::Code;
-pub use program::program;
 use order::Ordering;
+pub use program::program;
 use translate::Builder;
 
 /// A value of a [`Schedule`].

@@ -78,10 +78,7 @@ impl Plan<'_, '_> {
         let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
         let mut body = Body { kernel: Some(kernel), ..Body::default() };
         let first = of_unknowns.len();
-        let matrices = [
-            body.matrix(&places(&of_unknowns, 0), u, u),
-            body.matrix(&places(&of_inputs, first), u, v),
-        ];
+        let matrices = [body.matrix(&places(&of_unknowns, 0), u, u), body.matrix(&places(&of_inputs, first), u, v)];
         let body = Body { value: super::Value::Plain(Expression::Tuple(matrices.to_vec())), ..body };
         let doc = lines(["The largest magnitude that each entry of J and of A could have at these lengths."]);
         self.add(self.signatures.jacobian_sizes(), without_result(doc), body);
@@ -126,8 +123,7 @@ impl Plan<'_, '_> {
         };
         let mut body = Body::plain(product).using([&pose]);
         let names = Pattern::List(names.into_iter().map(Pattern::Name).collect());
-        body.before =
-            vec![Statement::Let(names, Expression::call("block_determinants", [Expression::name(&pose)]))];
+        body.before = vec![Statement::Let(names, Expression::call("block_determinants", [Expression::name(&pose)]))];
         self.add(self.signatures.determinant(), without_result(doc), body);
 
         let mut doc = lines(["The determinants of the blocks of J, in the order in which the blocks are solved."]);
@@ -180,12 +176,7 @@ pub(super) fn places<N>(entries: &[(usize, usize, N)], from: usize) -> Vec<(usiz
 impl Body {
     /// A matrix from its entries, which come column by column, after the statements that it needs; entries that are
     /// not named are zero.
-    pub(super) fn matrix(
-        &mut self,
-        entries: &[(usize, usize, Expression)],
-        rows: usize,
-        columns: usize,
-    ) -> Expression {
+    pub(super) fn matrix(&mut self, entries: &[(usize, usize, Expression)], rows: usize, columns: usize) -> Expression {
         if rows * columns <= LARGEST_DENSE || 2 * entries.len() >= rows * columns {
             let mut flat = vec![Expression::zero(); rows * columns];
             for (row, column, value) in entries {

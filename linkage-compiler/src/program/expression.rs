@@ -50,7 +50,12 @@ pub enum Expression {
     /// `*value`
     Behind(Box<Expression>),
     /// `|arguments| { statements value }`; `moves` if it owns what it uses.
-    Closure { arguments: Vec<Pattern>, statements: Vec<Statement>, value: Box<Expression>, moves: bool },
+    Closure {
+        arguments: Vec<Pattern>,
+        statements: Vec<Statement>,
+        value: Box<Expression>,
+        moves: bool,
+    },
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -112,7 +117,10 @@ pub enum Type {
     List(Box<Type>, usize),
     Tuple(Vec<Type>),
     /// The positions on all branches: an iterator of results.
-    Branches { branch: String, pose: String },
+    Branches {
+        branch: String,
+        pose: String,
+    },
 }
 
 impl Expression {

@@ -80,10 +80,8 @@ impl Plan<'_, '_> {
             moves: false,
         };
         let again = closure(vec![last, Pattern::Name(name.field.clone())], again);
-        let determinants = closure(
-            vec![Pattern::Name(here.clone())],
-            Expression::call("block_determinants", [position()]),
-        );
+        let determinants =
+            closure(vec![Pattern::Name(here.clone())], Expression::call("block_determinants", [position()]));
         let (start, first) = if self.position.is_closed {
             let start = Expression::name(&inputs).method("into", []);
             (start, Expression::call("assemble", [Expression::name(&inputs), on]))

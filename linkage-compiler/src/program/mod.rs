@@ -64,11 +64,7 @@ pub struct Derived {
 }
 
 /// Plans the functions of a driver and of its scenes.
-pub fn plan<'a>(
-    mechanism: &'a Mechanism,
-    driver: &'a Driver,
-    derivation: &mut Derivation,
-) -> Program<'a, Body> {
+pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut Derivation) -> Program<'a, Body> {
     let mut plan = Plan::of(mechanism, driver, derivation);
     let mut scenes = Vec::new();
     for (number, scene) in mechanism.scenes_of(driver).enumerate() {
@@ -80,7 +76,8 @@ pub fn plan<'a>(
     let Plan { signatures, position, mut functions, pose, formulas, named, .. } = plan;
     // A private function is there only if it is called.
     let all = || scenes.iter().flat_map(|scene: &SceneProgram<Body>| &scene.functions).chain(&functions);
-    let called: BTreeSet<&String> = all().filter_map(|function| function.body.as_ref()).flat_map(|body| &body.calls).collect();
+    let called: BTreeSet<&String> =
+        all().filter_map(|function| function.body.as_ref()).flat_map(|body| &body.calls).collect();
     let is_called = |name: &String| called.contains(name) || called.contains(&signatures.types.function(name));
     let kept: Vec<bool> =
         functions.iter().map(|function| function.access == Access::Public || is_called(&function.name)).collect();

@@ -168,8 +168,22 @@ impl Arguments {
 
     /// The words that no value may be called.
     pub fn reserved(&self) -> BTreeSet<String> {
-        let Self { pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity, time: _ } =
-            self;
+        let Self {
+            pose,
+            q,
+            rate,
+            acceleration,
+            jerk,
+            right,
+            branch,
+            turn,
+            inputs,
+            guess,
+            position,
+            ratios,
+            velocity,
+            time: _,
+        } = self;
         let all = [pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity];
         all.into_iter().cloned().chain(["self".to_owned()]).collect()
     }

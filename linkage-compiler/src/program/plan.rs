@@ -183,11 +183,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         Source {
             from: Expression::name(&argument).behind(),
             argument: Some(argument),
-            shape: Shape::Fields {
-                of: self.signatures.pose_type(),
-                fields,
-                is_whole: self.pose.directions.is_empty(),
-            },
+            shape: Shape::Fields { of: self.signatures.pose_type(), fields, is_whole: self.pose.directions.is_empty() },
         }
     }
 

@@ -263,8 +263,7 @@ impl Plan<'_, '_> {
         let sides = self.assembly.chords.iter().zip(&self.position.sides).filter_map(|(chord, (side, _))| {
             let (_, field, _) = self.pose.determinants.iter().find(|(block, ..)| *block == chord.block)?;
             let determinant = on.clone().field(field);
-            let determinant =
-                if chord.is_opposite { Expression::Negative(Box::new(determinant)) } else { determinant };
+            let determinant = if chord.is_opposite { Expression::Negative(Box::new(determinant)) } else { determinant };
             Some((side.clone(), Expression::runtime("side_of", [determinant])))
         });
         let zeros = turns.iter().map(|turn| (turn.field.clone(), Expression::Count(0)));
@@ -281,9 +280,8 @@ impl Plan<'_, '_> {
                 "not a number the sign tells as well, and the turn of such an angle is 0.",
             ]);
             let given = self.pose.values.iter().filter(|(index, ..)| self.derivation.inputs.contains(index));
-            let given = given.map(|(index, field, _)| {
-                (self.derivation.coordinates[*index].name.clone(), on.clone().field(field))
-            });
+            let given = given
+                .map(|(index, field, _)| (self.derivation.coordinates[*index].name.clone(), on.clone().field(field)));
             let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), given);
             let numbers = Expression::List(turns.iter().map(|turn| on.clone().field(&turn.number)).collect());
             let nearest = Type::Runtime("NearestTurns", Vec::new());

@@ -77,20 +77,18 @@ impl Plan<'_, '_> {
         let matrix = Expression::matrix(&results(0..count), self.signatures.unknowns());
         let body = Body::of(kernel, matrix).checked("velocity ratios", results(0..count));
         let mut doc = match self.signatures.inputs() {
-            1 => lines(["The velocity ratios W = -J^-1 A with u' = W v'; for one input they are the transmission ratios."]),
+            1 => lines([
+                "The velocity ratios W = -J^-1 A with u' = W v'; for one input they are the transmission ratios.",
+            ]),
             _ => lines([
                 "The velocity ratios W = -J^-1 A with u' = W v': the rate of each unknown for a unit rate of each input.",
             ]),
         };
         let laws = names.iter().zip(self.formulas.ratios.iter().flatten());
-        doc.extend(fenced(laws.filter_map(|(&name, formula)| {
-            Some(self.law(self.derivation.graph.symbol_name(name), (*formula)?))
-        })));
-        doc.extend(lines([
-            "",
-            "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` if a ratio is not finite.",
-        ]));
+        doc.extend(fenced(
+            laws.filter_map(|(&name, formula)| Some(self.law(self.derivation.graph.symbol_name(name), (*formula)?))),
+        ));
+        doc.extend(lines(["", "# Errors", "`Singular` where J has no inverse, `NotFinite` if a ratio is not finite."]));
         self.add(self.signatures.velocity_ratios(), doc, body);
     }
 

@@ -37,9 +37,9 @@ impl Plan<'_, '_> {
         let second = self.derivation.ratio_derivatives.iter();
         let names: Vec<SymbolId> = second.flat_map(|second| second.names.iter().flatten()).copied().collect();
         let laws = names.iter().zip(self.formulas.ratio_derivatives.iter().flatten());
-        doc.extend(fenced(laws.filter_map(|(&name, formula)| {
-            Some(self.law(self.derivation.graph.symbol_name(name), (*formula)?))
-        })));
+        doc.extend(fenced(
+            laws.filter_map(|(&name, formula)| Some(self.law(self.derivation.graph.symbol_name(name), (*formula)?))),
+        ));
         doc.extend(lines(ERRORS));
         let (steps, solved) = self.ratio_derivative_steps();
         let solved = solved.concat();

@@ -91,9 +91,8 @@ impl Plan<'_, '_> {
         let mut members = Vec::new();
         for (name, entries) in names.iter().zip(entries.chunks(columns * dimension)) {
             let entries = entries.iter().enumerate().filter(|(_, (_, node))| !self.derivation.graph.is_zero(**node));
-            let entries = entries.map(|(index, (place, _))| {
-                (index % dimension, index / dimension, Expression::Result(*place))
-            });
+            let entries =
+                entries.map(|(index, (place, _))| (index % dimension, index / dimension, Expression::Result(*place)));
             let matrix = body.matrix(&entries.collect::<Vec<_>>(), dimension, columns);
             let value = body.finite_matrix(&format!("{name}_sensitivity"), word, matrix);
             members.push((name.clone(), value));

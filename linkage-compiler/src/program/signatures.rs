@@ -231,8 +231,7 @@ impl<'a> Signatures<'a> {
 
     pub fn solve_jacobian(&self) -> Function<Body> {
         let vector = Type::Vector(self.unknowns());
-        let right =
-            Argument { name: self.arguments.right.clone(), passed: Passed::ByReference(vector.clone()) };
+        let right = Argument { name: self.arguments.right.clone(), passed: Passed::ByReference(vector.clone()) };
         fallible("solve_jacobian", [self.pose(), right], vector)
     }
 
@@ -280,8 +279,7 @@ impl<'a> Signatures<'a> {
 
     pub fn jerk(&self) -> Function<Body> {
         let Arguments { rate, acceleration, jerk, .. } = &self.arguments;
-        let arguments =
-            [self.pose(), self.coordinates(rate), self.coordinates(acceleration), self.converted(jerk)];
+        let arguments = [self.pose(), self.coordinates(rate), self.coordinates(acceleration), self.converted(jerk)];
         fallible("jerk", arguments, self.coordinates_type())
     }
 
@@ -369,11 +367,7 @@ impl<'a> Signatures<'a> {
 }
 
 /// A public function that always has a result.
-pub fn total(
-    name: impl Into<String>,
-    arguments: impl IntoIterator<Item = Argument>,
-    returns: Type,
-) -> Function<Body> {
+pub fn total(name: impl Into<String>, arguments: impl IntoIterator<Item = Argument>, returns: Type) -> Function<Body> {
     Function {
         name: name.into(),
         doc: Vec::new(),

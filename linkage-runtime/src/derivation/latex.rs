@@ -33,7 +33,7 @@ impl Pen for Latex<'_> {
     }
 
     fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result {
-        let formulas: Vec<_> = formulas.map(|formula| format!("${}$", formula.latex())).collect();
+        let formulas: Vec<_> = formulas.map(|formula| format!("${}$", formula.latex)).collect();
         writeln!(self.out, "{role}: {}\\par", formulas.join(", "))
     }
 
@@ -46,38 +46,28 @@ impl Pen for Latex<'_> {
     }
 
     fn display(&mut self, formula: &Formula) -> fmt::Result {
-        writeln!(self.out, "\\[ {} \\]", formula.latex())
+        writeln!(self.out, "\\[ {} \\]", formula.latex)
     }
 
     fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result {
         let Equation { left, right } = equation;
-        writeln!(
-            self.out,
-            "\\begin{{equation*}} {} = {} \\tag{{{number}}} \\end{{equation*}}",
-            left.latex(),
-            right.latex()
-        )
+        writeln!(self.out, "\\begin{{equation*}} {} = {} \\tag{{{number}}} \\end{{equation*}}", left.latex, right.latex)
     }
 
     fn matrix(&mut self, matrix: &Matrix) -> fmt::Result {
-        let name = matrix.name.latex();
-        let factor = matrix.factor.map_or_else(String::new, |factor| format!("{} ", factor.latex()));
+        let name = matrix.name.latex;
+        let factor = matrix.factor.map_or_else(String::new, |factor| format!("{} ", factor.latex));
         if matrix.rows.max(matrix.columns) > LARGEST_MATRIX {
             for entry in matrix.entries {
                 let (row, column) = (entry.row + 1, entry.column + 1);
-                writeln!(
-                    self.out,
-                    "\\[ \\left({name}\\right)_{{{row},{column}}} = {factor}{} \\]",
-                    entry.value.latex()
-                )?;
+                writeln!(self.out, "\\[ \\left({name}\\right)_{{{row},{column}}} = {factor}{} \\]", entry.value.latex)?;
             }
             return Ok(());
         }
         writeln!(self.out, "\\[ {name} = {factor}\\begin{{pmatrix}}")?;
         for row in 0..matrix.rows {
-            let entries = (0..matrix.columns).map(|column| {
-                matrix.entry(row, column).map_or_else(|| "0".to_owned(), |entry| entry.latex().to_string())
-            });
+            let entries = (0..matrix.columns)
+                .map(|column| matrix.entry(row, column).map_or_else(|| "0".to_owned(), |entry| entry.latex.to_owned()));
             writeln!(self.out, "  {} \\\\", entries.collect::<Vec<_>>().join(" & "))?;
         }
         writeln!(self.out, "\\end{{pmatrix}} \\]")

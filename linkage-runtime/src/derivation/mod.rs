@@ -1,27 +1,29 @@
-//! A mechanism's derivation as data: every formula can be written as text, LaTeX and MathML.
+//! A mechanism's derivation as data: every formula as text, LaTeX and MathML.
+//!
+//! The compiler writes each [`Formula`] in all three notations, so that nothing is parsed or laid out at run time.
 //!
 //! The [`Display`](fmt::Display) of a [`Derivation`] is the whole of it in plain text;
 //! `Derivation::to_latex` a part of a LaTeX document.
 
 #[cfg(feature = "std")]
 mod latex;
-mod notation;
 pub(crate) mod outline;
 mod scene;
 mod text;
 
 use core::fmt;
 
-use notation::Notation;
 pub use scene::{Effect, Scene};
 
-/// A formula. Its [`Display`](fmt::Display) is one line of Unicode: `−l₃·l₄·sin(θ₃ − θ₄)`.
+/// A formula. Its [`Display`](fmt::Display) is the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Formula {
-    /// In the notation of the `linkage!` language: `-l3*l4*sin(theta3 - theta4)`. Besides, `x'` and
-    /// `x''` are derivatives with respect to time, `∂(x, y)` is the derivative of x with respect to y,
-    /// `|J|` and `J^-1` are the determinant and the inverse of the Jacobian or one of its blocks.
-    pub source: &'static str,
+    /// One line of Unicode: `−l₃·l₄·sin(θ₃ − θ₄)`.
+    pub text: &'static str,
+    /// For LaTeX's mathematical mode, with `amsmath`.
+    pub latex: &'static str,
+    /// Presentation MathML: one element, without the `math` element around it.
+    pub mathml: &'static str,
 }
 
 /// A parameter or coordinate.
@@ -185,36 +187,6 @@ pub struct Derivation {
     pub kernels: &'static [Kernel],
 }
 
-/// A formula by its [source](Formula::source).
-#[must_use]
-pub const fn formula(source: &'static str) -> Formula {
-    Formula { source }
-}
-
-/// left = right.
-#[must_use]
-pub const fn equation(left: &'static str, right: &'static str) -> Equation {
-    Equation { left: formula(left), right: formula(right) }
-}
-
-/// A parameter or coordinate by its name.
-#[must_use]
-pub const fn symbol(name: &'static str) -> Symbol {
-    Symbol { name, formula: formula(name) }
-}
-
-/// An entry of a matrix; rows and columns count from 0.
-#[must_use]
-pub const fn entry(row: usize, column: usize, value: &'static str) -> Entry {
-    Entry { row, column, value: formula(value) }
-}
-
-/// What one call of a function computes.
-#[must_use]
-pub const fn kernel(function: &'static str, [functions, divisions, multiplications, additions]: [usize; 4]) -> Kernel {
-    Kernel { function, operations: Operations { functions, divisions, multiplications, additions } }
-}
-
 impl Matrix {
     /// The entry there, unless it is zero; both indices count from 0.
     #[must_use]
@@ -234,34 +206,9 @@ impl Method {
     }
 }
 
-impl Formula {
-    /// For LaTeX's mathematical mode, with `amsmath`.
-    #[must_use]
-    pub fn latex(self) -> impl fmt::Display {
-        Written { source: self.source, notation: Notation::Latex }
-    }
-
-    /// Presentation MathML: one element, without the `math` element around it.
-    #[must_use]
-    pub fn mathml(self) -> impl fmt::Display {
-        Written { source: self.source, notation: Notation::MathMl }
-    }
-}
-
-struct Written {
-    source: &'static str,
-    notation: Notation,
-}
-
-impl fmt::Display for Written {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        notation::write(f, self.notation, self.source)
-    }
-}
-
 impl fmt::Display for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        notation::write(f, Notation::Unicode, self.source)
+        f.write_str(self.text)
     }
 }
 

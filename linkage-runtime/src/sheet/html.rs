@@ -21,7 +21,7 @@ pub(super) fn escape(text: &str) -> String {
 
 /// A formula in a line of text.
 pub(super) fn inline(formula: &Formula) -> String {
-    format!("<math>{}</math>", formula.mathml())
+    format!("<math>{}</math>", formula.mathml)
 }
 
 /// A formula on its own line, with its LaTeX source for those who copy it.
@@ -41,14 +41,13 @@ const LARGEST_MATRIX: usize = 6;
 pub(super) fn matrix(matrix: &Matrix, law: Option<&Law>) -> Vec<(String, String)> {
     let Matrix { name, factor, rows, columns, .. } = matrix;
     let (before, before_latex) =
-        factor.map_or_else(Default::default, |factor| (factor.mathml().to_string(), factor.latex().to_string()));
+        factor.map_or_else(Default::default, |factor| (factor.mathml.to_owned(), factor.latex.to_owned()));
     if *rows.max(columns) > LARGEST_MATRIX {
         let entries = matrix.entries.iter().map(|entry| {
             let (row, column, value) = (entry.row + 1, entry.column + 1, entry.value);
             let index = format!("<mrow><mn>{row}</mn><mo>,</mo><mn>{column}</mn></mrow>");
-            let mathml =
-                format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.mathml(), value.mathml());
-            (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.latex(), value.latex()))
+            let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.mathml, value.mathml);
+            (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.latex, value.latex))
         });
         let law = law.map(|law| (law.mathml.to_owned(), law.latex.to_owned()));
         return law.into_iter().chain(entries).collect();
@@ -58,20 +57,18 @@ pub(super) fn matrix(matrix: &Matrix, law: Option<&Law>) -> Vec<(String, String)
         let entries: Vec<_> = (0..*columns).map(|column| matrix.entry(row, column)).collect();
         mathml.push_str("<mtr>");
         for entry in &entries {
-            let entry = entry.map_or_else(|| "<mn>0</mn>".to_owned(), |entry| entry.mathml().to_string());
+            let entry = entry.map_or_else(|| "<mn>0</mn>".to_owned(), |entry| entry.mathml.to_owned());
             mathml.push_str(&format!("<mtd>{entry}</mtd>"));
         }
         mathml.push_str("</mtr>");
-        let entries: Vec<String> = entries
-            .iter()
-            .map(|entry| entry.map_or_else(|| "0".to_owned(), |entry| entry.latex().to_string()))
-            .collect();
+        let entries: Vec<String> =
+            entries.iter().map(|entry| entry.map_or_else(|| "0".to_owned(), |entry| entry.latex.to_owned())).collect();
         latex.push_str(&format!(" {} \\\\", entries.join(" & ")));
     }
     // J = ∂Ψ/∂u = (…) reads as one chain.
     let (name, name_latex) = match law {
         Some(law) => (law.mathml.to_owned(), law.latex.to_owned()),
-        None => (name.mathml().to_string(), name.latex().to_string()),
+        None => (name.mathml.to_owned(), name.latex.to_owned()),
     };
     // Fractions stay large while there is room.
     let large = *columns <= 3;

@@ -7,7 +7,7 @@ const WIDEST: usize = 58;
 
 /// The MathML of an equation; a long sum stands on lines of its own terms.
 pub(super) fn equation(equation: &Equation) -> String {
-    let (left, right) = (equation.left.mathml().to_string(), equation.right.mathml().to_string());
+    let (left, right) = (equation.left.mathml.to_owned(), equation.right.mathml.to_owned());
     if equation.right.to_string().chars().count() > WIDEST {
         let lines = lines(&right);
         if lines.len() > 1 {

@@ -21,7 +21,7 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
         symbols.find(|symbol| symbol.name == name || symbol.formula.to_string() == name)
     };
     if let Some(symbol) = symbol(name) {
-        return Some(symbol.formula.mathml().to_string());
+        return Some(symbol.formula.mathml.to_owned());
     }
     let quantities = derivation.points.iter().chain(derivation.outputs);
     let mut equations = derivation
@@ -37,10 +37,10 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
             value.iter().chain(*ratios).chain(*ratio_derivatives).chain(*sensitivities)
         }));
     if let Some(Equation { left, .. }) = equations.find(|equation| equation.left.to_string() == name) {
-        return Some(left.mathml().to_string());
+        return Some(left.mathml.to_owned());
     }
     if let Some((of, by)) = name.split_once('/') {
-        let side = |symbol: &Symbol| format!("<mrow><mo>∂</mo>{}</mrow>", symbol.formula.mathml());
+        let side = |symbol: &Symbol| format!("<mrow><mo>∂</mo>{}</mrow>", symbol.formula.mathml);
         return Some(format!("<mfrac>{}{}</mfrac>", side(symbol(of)?), side(symbol(by)?)));
     }
     let dotted = [("_rate", "˙"), ("_acceleration", "¨")];
@@ -49,7 +49,7 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
 
 /// A symbol with dots above its letter.
 fn dot(symbol: &Symbol, dots: &str) -> String {
-    let mathml = symbol.formula.mathml().to_string();
+    let mathml = symbol.formula.mathml.to_owned();
     let over = |letter: &str| format!("<mover>{letter}<mo>{dots}</mo></mover>");
     match mathml.strip_prefix("<msub>").and_then(|inside| inside.split_once("</mi>")) {
         Some((letter, rest)) => format!("<msub>{}{rest}", over(&format!("{letter}</mi>"))),

@@ -75,7 +75,7 @@ impl Page {
         self.push("<div class=\"equations\">");
         for equation in equations {
             self.equations += 1;
-            let latex = format!("{} = {}", equation.left.latex(), equation.right.latex());
+            let latex = format!("{} = {}", equation.left.latex, equation.right.latex);
             let formula = display(&lines::equation(equation), &latex);
             let number = self.equations;
             self.push(&format!(

@@ -1,30 +1,22 @@
-//! Expressions as text in the notation of the `linkage!` language: as the graph holds them, and laid out
-//! as mathematics, which is the source that the runtime spells as Unicode, LaTeX and MathML.
+//! Expressions as plain text in the notation of the `linkage!` language, as the graph holds them: doc comments of
+//! emitted functions and messages show it.
 
 mod layout;
-mod name;
 #[cfg(test)]
 mod tests;
 
-pub use name::Name;
-
-use super::{Graph, NodeId, SymbolId};
+use super::{Graph, NodeId};
 use layout::{Binding, Layout};
 
-/// A text longer than this is of no use to a reader, and a shared graph can unfold
-/// without bound: from here on a part is shown as an ellipsis.
+/// The largest length of a text in bytes. A longer one is of no use to a reader, and a shared graph can unfold
+/// without bound: an ellipsis replaces a part that is longer.
 const LONGEST: usize = 400;
-
-/// The limit for the source of a formula, of which a reader sees two thirds: θ₃ for `theta3`.
-const LONGEST_SOURCE: usize = LONGEST + LONGEST / 2;
 
 /// A part that is written.
 #[derive(Debug, Clone)]
 struct Piece {
     body: String,
     binding: Binding,
-    /// True if an ellipsis is written in its place.
-    hidden: bool,
 }
 
 /// The parts by the index of their node.
@@ -40,69 +32,28 @@ impl Pieces {
     }
 }
 
-/// Writes the sources of formulas of one graph; parts that they share are written once.
-pub struct Printer<'a> {
-    graph: &'a Graph,
-    names: &'a dyn Fn(SymbolId) -> Name<'a>,
-    longest: usize,
-    pieces: Pieces,
-}
-
-impl<'a> Printer<'a> {
-    /// A printer that shows each symbol as `names` says.
-    #[must_use]
-    pub fn new(graph: &'a Graph, names: &'a dyn Fn(SymbolId) -> Name<'a>) -> Self {
-        Self { graph, names, longest: LONGEST_SOURCE, pieces: Pieces::default() }
-    }
-
-    /// The length in bytes from which on a part is shown as an ellipsis.
-    #[must_use]
-    pub fn longest(mut self, bytes: usize) -> Self {
-        self.longest = bytes;
-        self
-    }
-
-    /// The expression as the runtime reads it.
-    pub fn source(&mut self, root: NodeId) -> &str {
-        write(self.graph, Some(self.names), &mut self.pieces, root, self.longest)
-    }
-}
-
-/// Texts of one graph; what they share is written once.
+/// Texts of one graph; parts that they share are written once.
 #[derive(Debug, Default)]
 pub struct Texts(Pieces);
 
 impl Texts {
     /// The expression as text.
     pub fn of(&mut self, graph: &Graph, root: NodeId) -> &str {
-        write(graph, None, &mut self.0, root, LONGEST)
+        let pieces = &mut self.0;
+        // Parts have smaller numbers than the nodes that hold them.
+        if pieces.0.len() <= root.index() {
+            pieces.0.resize_with(root.index() + 1, || None);
+        }
+        for id in graph.sweep(&[root], |id| pieces.get(id).is_some(), |_| false) {
+            let mut body = String::new();
+            let mut binding = Layout { graph, pieces }.write(&mut body, id);
+            if body.len() > LONGEST {
+                (body, binding) = ("…".to_owned(), Binding::Atom);
+            }
+            pieces.0[id.index()] = Some(Piece { body, binding });
+        }
+        pieces.get(root).map_or("", |piece| &piece.body)
     }
-}
-
-/// Writes every part that is not written yet.
-fn write<'a, 'p>(
-    graph: &Graph,
-    names: Option<&dyn Fn(SymbolId) -> Name<'a>>,
-    pieces: &'p mut Pieces,
-    root: NodeId,
-    longest: usize,
-) -> &'p str {
-    // Parts have smaller numbers than what is made of them.
-    if pieces.0.len() <= root.index() {
-        pieces.0.resize_with(root.index() + 1, || None);
-    }
-    for id in graph.sweep(&[root], |id| pieces.get(id).is_some(), |_| false) {
-        let mut body = String::new();
-        let binding = Layout { graph, names, pieces }.write(&mut body, id);
-        let fits = body.len() <= longest;
-        let piece = if fits {
-            Piece { body, binding, hidden: false }
-        } else {
-            Piece { body: "…".to_owned(), binding: Binding::Atom, hidden: true }
-        };
-        pieces.0[id.index()] = Some(piece);
-    }
-    pieces.get(root).map_or("", |piece| &piece.body)
 }
 
 impl Graph {

@@ -73,11 +73,8 @@ impl ScenePlan<'_, '_, '_> {
             return (body, forces);
         }
         let accelerations = self.solve_free(&mut body, results(entries), results(right));
-        body.operations += Operations {
-            multiplications: coupling.len(),
-            additions: coupling.len(),
-            ..Operations::default()
-        };
+        body.operations +=
+            Operations { multiplications: coupling.len(), additions: coupling.len(), ..Operations::default() };
         let coupling = results(coupling);
         let rows = coupling.chunks(free.len()).zip(forces).zip(&driven);
         let forces = rows.map(|((row, force), at)| {

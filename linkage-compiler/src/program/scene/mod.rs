@@ -12,9 +12,9 @@ mod validity;
 
 use std::collections::BTreeSet;
 
+use super::SceneProgram;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
-use super::SceneProgram;
 use super::plan::Plan;
 use crate::derivation::{Scene, Step};
 use crate::graph::{NodeId, SymbolId};
@@ -40,50 +40,46 @@ pub struct ScenePlan<'p, 'd, 'a> {
 }
 
 impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
-/// Plans the functions of a scene of a driver; `number` is its place among the scenes of the driver.
-pub fn of(
-    plan: &'p mut Plan<'d, 'a>,
-    scene: &'a model::Scene,
-    number: usize,
-) -> Option<Self> {
-    let derived = plan.derivation.scenes.get(number)?.clone();
-    let mut parts = derived.parts.iter().flat_map(|(_, parts)| parts);
-    let is_blamable = parts.any(|&part| plan.derivation.graph.constant_value(part).is_none());
-    let signatures = SceneSignatures::new(plan.signatures.mechanism, plan.signatures.driver, scene);
-    let mut planned =
-        ScenePlan { plan, signatures, scene: derived, functions: Vec::new(), is_blamable, blames: false };
-    let has_inertia = scene.inertia.is_some();
-    if has_inertia {
-        planned.mass_matrix();
-    }
-    planned.forces();
-    if has_inertia {
-        planned.rates();
-        planned.unreduced();
-    }
-    if !planned.signatures.driven.is_empty() {
-        planned.drives();
-        planned.drive_forces();
-    }
-    let wishes = [Wish::Energy, Wish::Power, Wish::Reactions, Wish::Equilibrium];
-    for wish in wishes.into_iter().filter(|wish| scene.wishes.contains(wish)) {
-        match wish {
-            Wish::Energy => planned.energy(),
-            Wish::Power => planned.power(),
-            Wish::Reactions => planned.reactions(),
-            Wish::Equilibrium => planned.equilibrium(),
+    /// Plans the functions of a scene of a driver; `number` is its place among the scenes of the driver.
+    pub fn of(plan: &'p mut Plan<'d, 'a>, scene: &'a model::Scene, number: usize) -> Option<Self> {
+        let derived = plan.derivation.scenes.get(number)?.clone();
+        let mut parts = derived.parts.iter().flat_map(|(_, parts)| parts);
+        let is_blamable = parts.any(|&part| plan.derivation.graph.constant_value(part).is_none());
+        let signatures = SceneSignatures::new(plan.signatures.mechanism, plan.signatures.driver, scene);
+        let mut planned =
+            ScenePlan { plan, signatures, scene: derived, functions: Vec::new(), is_blamable, blames: false };
+        let has_inertia = scene.inertia.is_some();
+        if has_inertia {
+            planned.mass_matrix();
         }
+        planned.forces();
+        if has_inertia {
+            planned.rates();
+            planned.unreduced();
+        }
+        if !planned.signatures.driven.is_empty() {
+            planned.drives();
+            planned.drive_forces();
+        }
+        let wishes = [Wish::Energy, Wish::Power, Wish::Reactions, Wish::Equilibrium];
+        for wish in wishes.into_iter().filter(|wish| scene.wishes.contains(wish)) {
+            match wish {
+                Wish::Energy => planned.energy(),
+                Wish::Power => planned.power(),
+                Wish::Reactions => planned.reactions(),
+                Wish::Equilibrium => planned.equilibrium(),
+            }
+        }
+        if !scene.contacts.is_empty() {
+            planned.contacts();
+            planned.equations();
+        }
+        planned.check();
+        if planned.blames {
+            planned.blame();
+        }
+        Some(planned)
     }
-    if !scene.contacts.is_empty() {
-        planned.contacts();
-        planned.equations();
-    }
-    planned.check();
-    if planned.blames {
-        planned.blame();
-    }
-    Some(planned)
-}
 
     pub fn into_program(self) -> SceneProgram<'a, Body> {
         SceneProgram { signatures: self.signatures, functions: self.functions }

@@ -85,7 +85,12 @@ impl ScenePlan<'_, '_, '_> {
 
     /// Solves for the accelerations of the free inputs, from results that are the entries of M and the right sides; gives
     /// them as local values.
-    pub(super) fn solve_free(&self, body: &mut Body, entries: Vec<Expression>, sides: Vec<Expression>) -> Vec<Expression> {
+    pub(super) fn solve_free(
+        &self,
+        body: &mut Body,
+        entries: Vec<Expression>,
+        sides: Vec<Expression>,
+    ) -> Vec<Expression> {
         let free = self.signatures.free.iter().map(|&at| self.signatures.inputs[at].as_str());
         let free: Vec<&str> = free.collect();
         let names: Vec<Expression> = free.iter().map(|input| body.local(format!("{input}_acceleration"))).collect();
@@ -123,9 +128,11 @@ impl ScenePlan<'_, '_, '_> {
         outputs.extend(self.minor(&free, &free).into_iter().map(Output::from));
         outputs.extend(self.right_sides(&free).into_iter().map(Output::from));
         let laws = self.scene.drives.values().zip(&self.signatures.driven);
-        outputs.extend(laws.map(|(law, &at)| {
-            Output::named(law.acceleration, format!("{}_acceleration", self.signatures.inputs[at]))
-        }));
+        outputs.extend(
+            laws.map(|(law, &at)| {
+                Output::named(law.acceleration, format!("{}_acceleration", self.signatures.inputs[at]))
+            }),
+        );
         let entries = all.len()..all.len() + free.len().pow(2);
         let sides = entries.end..entries.end + free.len();
         let laws = sides.end..outputs.len();

@@ -1,9 +1,9 @@
-//! One line of plain text.
+//! Formulas as one line of plain text.
 
-use core::fmt::{self, Write};
-
-use super::name::{Name, Word, greek, is_number, primes};
-use super::{Argument, Binding, Marks, Style, function_name, is_circular};
+use super::Formula;
+use super::name::{Name, Word, greek, is_number, matrix_name, primes};
+use super::writer::{Argument, Binding, Marks, Style, function_name, is_circular};
+use crate::graph::Function;
 
 pub(super) struct Unicode;
 
@@ -35,43 +35,47 @@ impl Style for Unicode {
         &MARKS
     }
 
-    fn number(&self, out: &mut dyn Write, digits: &str, exponent: Option<&str>) -> fmt::Result {
-        out.write_str(digits)?;
-        exponent.map_or(Ok(()), |exponent| {
-            out.write_str("·10")?;
-            self.exponent(out, exponent)
-        })
+    fn of<'f>(&self, formula: &'f Formula) -> &'f str {
+        &formula.text
     }
 
-    fn name(&self, out: &mut dyn Write, name: Name<'_>) -> fmt::Result {
+    fn number(&self, out: &mut String, digits: &str, exponent: Option<&str>) {
+        out.push_str(digits);
+        if let Some(exponent) = exponent {
+            out.push_str("·10");
+            shifted(out, exponent, Shift::Up);
+        }
+    }
+
+    fn name(&self, out: &mut String, name: Name<'_>) {
         match name {
             Name::Plain(name) => word(out, name, None),
             Name::Rate(name) => word(out, name, Some('\u{307}')),
             Name::Acceleration(name) => word(out, name, Some('\u{308}')),
             Name::Ratio { of, by } => {
-                out.write_str("∂")?;
-                word(out, of, None)?;
-                out.write_str("/∂")?;
-                word(out, by, None)
+                out.push('∂');
+                word(out, of, None);
+                out.push_str("/∂");
+                word(out, by, None);
             }
             Name::RatioDerivative { of, by: [first, second] } => {
-                out.write_str("∂²")?;
-                word(out, of, None)?;
-                out.write_str("/∂")?;
-                word(out, first, None)?;
+                out.push_str("∂²");
+                word(out, of, None);
+                out.push_str("/∂");
+                word(out, first, None);
                 if first == second {
-                    return out.write_str("²");
+                    return out.push('²');
                 }
-                out.write_str("∂")?;
-                word(out, second, None)
+                out.push('∂');
+                word(out, second, None);
             }
-            Name::Determinant(matrix) => {
-                out.write_str("det ")?;
-                word(out, matrix, None)
+            Name::Determinant(block) => {
+                out.push_str("det ");
+                word(out, &matrix_name(block), None);
             }
-            Name::Inverse(matrix) => {
-                word(out, matrix, None)?;
-                out.write_str("⁻¹")
+            Name::Inverse(block) => {
+                word(out, &matrix_name(block), None);
+                out.push_str("⁻¹");
             }
         }
     }
@@ -84,29 +88,29 @@ impl Style for Unicode {
         }
     }
 
-    fn exponent(&self, out: &mut dyn Write, exponent: &str) -> fmt::Result {
-        shifted(out, exponent, Shift::Up)
+    fn exponent(&self, out: &mut String, exponent: u32) {
+        shifted(out, &exponent.to_string(), Shift::Up);
     }
 
-    fn function(&self, out: &mut dyn Write, name: &str, exponent: &str, _argument: Argument) -> fmt::Result {
-        out.write_str(function_name(name))?;
-        if exponent != "1" && is_circular(name) {
-            self.exponent(out, exponent)?;
+    fn function(&self, out: &mut String, function: Function, exponent: u32, _argument: Argument) {
+        out.push_str(function_name(function));
+        if exponent != 1 && is_circular(function) {
+            self.exponent(out, exponent);
         }
-        out.write_str("(")
+        out.push('(');
     }
 
-    fn external(&self, out: &mut dyn Write, name: &str, order: usize, _tall: bool) -> fmt::Result {
-        word(out, name, None)?;
+    fn external(&self, out: &mut String, name: &str, order: usize, _tall: bool) {
+        word(out, name, None);
         match primes(order) {
-            Some(primes) => out.write_str(primes)?,
+            Some(primes) => out.push_str(primes),
             None => {
-                out.write_str("⁽")?;
-                raised(out, order)?;
-                out.write_str("⁾")?;
+                out.push('⁽');
+                shifted(out, &order.to_string(), Shift::Up);
+                out.push('⁾');
             }
         }
-        out.write_str("(")
+        out.push('(');
     }
 
     fn end_of_function(&self, _argument: Argument) -> &'static str {
@@ -114,37 +118,27 @@ impl Style for Unicode {
     }
 }
 
-/// A number above the line.
-fn raised(out: &mut dyn Write, number: usize) -> fmt::Result {
-    if number > 9 {
-        raised(out, number / 10)?;
-    }
-    let digit = char::from_digit((number % 10) as u32, 10).unwrap_or('0');
-    shifted(out, digit.encode_utf8(&mut [0; 4]), Shift::Up)
-}
-
 /// A word, dots above the last letter of its base.
-fn word(out: &mut dyn Write, name: &str, dots: Option<char>) -> fmt::Result {
+fn word(out: &mut String, name: &str, dots: Option<char>) {
     let name = Word::new(name);
     let mut letter = [0; 4];
     let base = greek(name.base).map_or(name.base, |(_, sign)| sign.encode_utf8(&mut letter));
     match dots {
-        Some(dots) => dotted(out, base, dots)?,
-        None => out.write_str(base)?,
+        Some(dots) => dotted(out, base, dots),
+        None => out.push_str(base),
     }
     for (index, subscript) in name.subscripts().enumerate() {
         // Few letters have a form below the line: words stand behind an underscore.
         if index == 0 && is_number(subscript) {
-            shifted(out, subscript, Shift::Down)?;
+            shifted(out, subscript, Shift::Down);
         } else {
-            out.write_str("_")?;
+            out.push('_');
             match greek(subscript) {
-                Some((_, letter)) => out.write_char(letter)?,
-                None => out.write_str(subscript)?,
+                Some((_, letter)) => out.push(letter),
+                None => out.push_str(subscript),
             }
         }
     }
-    Ok(())
 }
 
 #[derive(Clone, Copy)]
@@ -154,15 +148,14 @@ enum Shift {
 }
 
 /// Digits and a minus sign above or below the line.
-fn shifted(out: &mut dyn Write, digits: &str, shift: Shift) -> fmt::Result {
+fn shifted(out: &mut String, digits: &str, shift: Shift) {
     let (ten, minus): (&[char], char) = match shift {
         Shift::Up => (&['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'], '⁻'),
         Shift::Down => (&['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'], '₋'),
     };
     for digit in digits.chars() {
-        out.write_char(digit.to_digit(10).map_or(minus, |digit| ten[digit as usize]))?;
+        out.push(digit.to_digit(10).map_or(minus, |digit| ten[digit as usize]));
     }
-    Ok(())
 }
 
 /// The letters that have a form of their own with a dot above, and with two, in the order of those
@@ -173,20 +166,20 @@ const DOTTED: [(char, &str, &str); 2] = [
 ];
 
 /// A word with dots above its last letter.
-fn dotted(out: &mut dyn Write, word: &str, dots: char) -> fmt::Result {
-    let Some(last) = word.chars().next_back() else { return Ok(()) };
+fn dotted(out: &mut String, word: &str, dots: char) {
+    let Some(last) = word.chars().next_back() else { return };
     let table = DOTTED.iter().find(|(accent, ..)| *accent == dots);
     let whole = table.and_then(|(_, plain, dotted)| {
         plain.chars().zip(dotted.chars()).find(|(plain, _)| *plain == last).map(|(_, dotted)| dotted)
     });
     match whole {
         Some(whole) => {
-            out.write_str(&word[..word.len() - last.len_utf8()])?;
-            out.write_char(whole)
+            out.push_str(&word[..word.len() - last.len_utf8()]);
+            out.push(whole);
         }
         None => {
-            out.write_str(word)?;
-            out.write_char(dots)
+            out.push_str(word);
+            out.push(dots);
         }
     }
 }
@@ -207,9 +200,10 @@ mod tests {
         ]
         .map(|(word, dots)| {
             let mut text = String::new();
-            dotted(&mut text, word, dots).map(|()| text)
+            dotted(&mut text, word, dots);
+            text
         });
-        assert_eq!(found, ["ẋ", "crank\u{307}", "anglë", "θ\u{307}", "φ\u{308}", ""].map(|text| Ok(text.to_owned())));
+        assert_eq!(found, ["ẋ", "crank\u{307}", "anglë", "θ\u{307}", "φ\u{308}", ""]);
         for (accent, plain, dotted) in DOTTED {
             assert_eq!(plain.chars().count(), dotted.chars().count(), "{accent}");
         }

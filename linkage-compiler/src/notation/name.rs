@@ -1,9 +1,9 @@
-//! How names are shown: Greek letters, subscripts, dots.
+//! The names of symbols: Greek letters, subscripts, dots.
 
-/// What a name stands for, which tells how it is shown. Words are those of the language, such
-/// as `theta3` or `z_t`.
+/// The meaning of a symbol, which decides how it is shown. Words are those of the `linkage!` language, such as
+/// `theta3` or `z_t`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Name<'a> {
+pub enum Name<'a> {
     /// The quantity itself: θ₃.
     Plain(&'a str),
     /// Its first derivative with respect to time: θ̇₃.
@@ -14,70 +14,97 @@ pub(super) enum Name<'a> {
     Ratio { of: &'a str, by: &'a str },
     /// The derivative of a velocity ratio, ∂²`of`/∂`by`∂`by`.
     RatioDerivative { of: &'a str, by: [&'a str; 2] },
-    /// The determinant of a matrix.
-    Determinant(&'a str),
-    /// The inverse of a matrix.
-    Inverse(&'a str),
+    /// The determinant of J, or of the block of J with this number.
+    Determinant(Option<usize>),
+    /// The inverse of J, or of the block of J with this number.
+    Inverse(Option<usize>),
+}
+
+impl Name<'_> {
+    /// Whether it is written as a fraction of differentials.
+    pub(super) fn is_derivative(self) -> bool {
+        matches!(self, Self::Ratio { .. } | Self::RatioDerivative { .. })
+    }
+
+    /// The length in bytes in one line: `x'` is 2, `|J|` 3.
+    pub(super) fn length(self) -> usize {
+        match self {
+            Self::Plain(name) => name.len(),
+            Self::Rate(name) => name.len() + "'".len(),
+            Self::Acceleration(name) => name.len() + "''".len(),
+            Self::Ratio { of, by } => "∂(, )".len() + of.len() + by.len(),
+            Self::RatioDerivative { of, by: [first, second] } => {
+                "∂(, , )".len() + of.len() + first.len() + second.len()
+            }
+            Self::Determinant(block) => "||".len() + matrix_name(block).len(),
+            Self::Inverse(block) => "^-1".len() + matrix_name(block).len(),
+        }
+    }
+}
+
+/// The name of J, or of the block of J with this number.
+pub(super) fn matrix_name(block: Option<usize>) -> String {
+    block.map_or_else(|| "J".to_owned(), |block| format!("J{block}"))
 }
 
 /// Greek names, which are LaTeX's commands too, and their letters. Where there are two shapes, the
-/// plain name has the letter of running text and `var` the other.
+/// plain name has the letter of running text and `var` the other. In the order of the names.
 const GREEK: [(&str, char); 55] = [
-    ("alpha", 'α'),
-    ("beta", 'β'),
-    ("gamma", 'γ'),
-    ("delta", 'δ'),
-    ("epsilon", 'ε'),
-    ("zeta", 'ζ'),
-    ("eta", 'η'),
-    ("theta", 'θ'),
-    ("iota", 'ι'),
-    ("kappa", 'κ'),
-    ("lambda", 'λ'),
-    ("mu", 'μ'),
-    ("nu", 'ν'),
-    ("xi", 'ξ'),
-    ("omicron", 'ο'),
-    ("pi", 'π'),
-    ("rho", 'ρ'),
-    ("sigma", 'σ'),
-    ("tau", 'τ'),
-    ("upsilon", 'υ'),
-    ("phi", 'φ'),
-    ("chi", 'χ'),
-    ("psi", 'ψ'),
-    ("omega", 'ω'),
-    ("varepsilon", 'ϵ'),
-    ("vartheta", 'ϑ'),
-    ("varkappa", 'ϰ'),
-    ("varpi", 'ϖ'),
-    ("varrho", 'ϱ'),
-    ("varsigma", 'ς'),
-    ("varphi", 'ϕ'),
     ("Alpha", 'Α'),
     ("Beta", 'Β'),
-    ("Gamma", 'Γ'),
+    ("Chi", 'Χ'),
     ("Delta", 'Δ'),
     ("Epsilon", 'Ε'),
-    ("Zeta", 'Ζ'),
     ("Eta", 'Η'),
-    ("Theta", 'Θ'),
+    ("Gamma", 'Γ'),
     ("Iota", 'Ι'),
     ("Kappa", 'Κ'),
     ("Lambda", 'Λ'),
     ("Mu", 'Μ'),
     ("Nu", 'Ν'),
-    ("Xi", 'Ξ'),
+    ("Omega", 'Ω'),
     ("Omicron", 'Ο'),
+    ("Phi", 'Φ'),
     ("Pi", 'Π'),
+    ("Psi", 'Ψ'),
     ("Rho", 'Ρ'),
     ("Sigma", 'Σ'),
     ("Tau", 'Τ'),
+    ("Theta", 'Θ'),
     ("Upsilon", 'Υ'),
-    ("Phi", 'Φ'),
-    ("Chi", 'Χ'),
-    ("Psi", 'Ψ'),
-    ("Omega", 'Ω'),
+    ("Xi", 'Ξ'),
+    ("Zeta", 'Ζ'),
+    ("alpha", 'α'),
+    ("beta", 'β'),
+    ("chi", 'χ'),
+    ("delta", 'δ'),
+    ("epsilon", 'ε'),
+    ("eta", 'η'),
+    ("gamma", 'γ'),
+    ("iota", 'ι'),
+    ("kappa", 'κ'),
+    ("lambda", 'λ'),
+    ("mu", 'μ'),
+    ("nu", 'ν'),
+    ("omega", 'ω'),
+    ("omicron", 'ο'),
+    ("phi", 'φ'),
+    ("pi", 'π'),
+    ("psi", 'ψ'),
+    ("rho", 'ρ'),
+    ("sigma", 'σ'),
+    ("tau", 'τ'),
+    ("theta", 'θ'),
+    ("upsilon", 'υ'),
+    ("varepsilon", 'ϵ'),
+    ("varkappa", 'ϰ'),
+    ("varphi", 'ϕ'),
+    ("varpi", 'ϖ'),
+    ("varrho", 'ϱ'),
+    ("varsigma", 'ς'),
+    ("vartheta", 'ϑ'),
+    ("xi", 'ξ'),
+    ("zeta", 'ζ'),
 ];
 
 /// The Greek letters that LaTeX lacks, as the Latin letters that they look like.
@@ -123,27 +150,7 @@ impl<'a> Word<'a> {
 
     /// The number at its end and the words behind underscores.
     pub(super) fn subscripts(self) -> impl Iterator<Item = &'a str> + Clone {
-        core::iter::once(self.digits).chain(self.rest.split('_')).filter(|part| !part.is_empty())
-    }
-}
-
-impl<'a> Name<'a> {
-    /// A name that is a single word, with its dots.
-    pub(super) fn word(text: &'a str) -> Self {
-        match (text.strip_suffix("''"), text.strip_suffix('\'')) {
-            (Some(name), _) => Self::Acceleration(name),
-            (_, Some(name)) => Self::Rate(name),
-            _ => Self::Plain(text),
-        }
-    }
-
-    /// ∂(…)
-    pub(super) fn derivative(arguments: &'a str) -> Option<Self> {
-        let (of, by) = arguments.split_once(", ")?;
-        Some(match by.split_once(", ") {
-            Some((first, second)) => Self::RatioDerivative { of, by: [first, second] },
-            None => Self::Ratio { of, by },
-        })
+        std::iter::once(self.digits).chain(self.rest.split('_')).filter(|part| !part.is_empty())
     }
 }
 
@@ -159,7 +166,7 @@ pub(super) fn greek(word: &str) -> Option<(&'static str, char)> {
         let (letter, rest) = (letters.next()?, letters.next());
         return GREEK.iter().copied().find(|&(_, sign)| rest.is_none() && sign == letter);
     }
-    GREEK.iter().copied().find(|&(name, _)| name == word)
+    GREEK.binary_search_by_key(&word, |&(name, _)| name).ok().map(|place| GREEK[place])
 }
 
 /// What LaTeX lacks of the Greek letters, by their names.

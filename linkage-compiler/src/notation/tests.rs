@@ -1,0 +1,191 @@
+use super::{Formula, Name, Printer};
+use crate::graph::{Condition, External, Function, Graph, NodeId, Number, OPERATIONS, SymbolId};
+
+/// A graph with these symbols.
+fn graph<const N: usize>(names: [&str; N]) -> (Graph, [NodeId; N]) {
+    let mut graph = Graph::default();
+    let nodes = names.map(|name| {
+        let symbol = graph.symbol(name);
+        graph.variable(symbol)
+    });
+    (graph, nodes)
+}
+
+fn formula(graph: &Graph, node: NodeId) -> Formula {
+    let names = |symbol: SymbolId| named(graph.symbol_name(symbol));
+    Printer::new(graph, &names).formula(node)
+}
+
+fn text(graph: &Graph, node: NodeId) -> String {
+    formula(graph, node).text
+}
+
+/// `theta3.` is a rate, `theta3/theta2` a ratio, `det` the determinant.
+fn named(name: &str) -> Name<'_> {
+    match (name.split_once('/'), name.strip_suffix('.')) {
+        (Some((of, by)), _) => Name::Ratio { of, by },
+        (_, Some(name)) => Name::Rate(name),
+        _ if name == "det" => Name::Determinant(None),
+        _ => Name::Plain(name),
+    }
+}
+
+#[test]
+fn names_have_greek_letters_subscripts_and_dots() {
+    for (name, expected) in [
+        (Name::Plain("theta3"), ["θ₃", r"\theta_3"]),
+        (Name::Rate("s"), ["ṡ", r"\dot{s}"]),
+        (Name::Acceleration("s"), ["s̈", r"\ddot{s}"]),
+        (Name::Ratio { of: "theta3", by: "theta2" }, ["∂θ₃/∂θ₂", r"\frac{\partial \theta_3}{\partial \theta_2}"]),
+        (
+            Name::RatioDerivative { of: "s", by: ["x", "y"] },
+            ["∂²s/∂x∂y", r"\frac{\partial^2 s}{\partial x \partial y}"],
+        ),
+        (Name::Determinant(Some(2)), ["det J₂", r"\det J_2"]),
+        (Name::Inverse(None), ["J⁻¹", "J^{-1}"]),
+    ] {
+        let Formula { text, latex, .. } = Formula::of_name(name);
+        assert_eq!([text, latex], expected);
+    }
+}
+
+/// The language's functions, each with its own notation: LaTeX shows a user function as `\mathrm{asin}(x)`.
+#[test]
+fn every_function_of_the_language_has_its_own_notation() {
+    for row in OPERATIONS {
+        let (mut g, [x]) = graph(["x"]);
+        let node = g.call(row.function, &[x, x][..row.arity]);
+        let Formula { latex, .. } = formula(&g, node);
+        assert!(!latex.contains("\\mathrm"), "{latex}");
+    }
+}
+
+#[test]
+fn conditions_are_statements() {
+    let (mut g, [a, b]) = graph(["a", "b"]);
+    let sum = g.add(a, b);
+    let names = |symbol: SymbolId| named(g.symbol_name(symbol));
+    let mut printer = Printer::new(&g, &names);
+    let Formula { text, latex, mathml } = printer.condition(Condition::NonZero(sum));
+    assert_eq!([text.as_str(), &latex], ["a + b ≠ 0", r"a + b \neq 0"]);
+    assert_eq!(mathml, "<mrow><mrow><mi>a</mi><mo>+</mo><mi>b</mi></mrow><mo>≠</mo><mn>0</mn></mrow>");
+    assert_eq!(printer.condition(Condition::Defined(a)).text, "a exists");
+}
+
+#[test]
+fn factors_stand_in_the_order_of_the_lecture() {
+    let (mut g, [x, rate, ratio, det, l]) = graph(["x", "x.", "y/x", "det", "l"]);
+    let sine = g.call(Function::Sin, &[x]);
+    let sum = g.add(x, l);
+    let node = g.product(&[(sum, 1), (sine, 1), (ratio, 1), (rate, 2), (l, 1), (x, 1), (det, 1)]);
+    assert_eq!(text(&g, node), "x·l·ẋ²·(∂y/∂x)·sin(x)·(x + l)·det J");
+    let powers = g.product(&[(ratio, 2), (det, -2)]);
+    assert_eq!(text(&g, powers), "(∂y/∂x)²/(det J)²");
+}
+
+#[test]
+fn fractions_nest_and_take_in_coefficients() {
+    let (mut g, [a, b, c]) = graph(["a", "b", "c"]);
+    let inner = g.divide(a, b);
+    let one = g.one();
+    let below = g.add(one, inner);
+    let nested = g.divide(c, below);
+    assert_eq!(text(&g, nested), "c/(a/b + 1)");
+    let sum = g.add(a, b);
+    let over = g.product(&[(sum, 1), (below, -2)]);
+    assert_eq!(text(&g, over), "(a + b)/(a/b + 1)²");
+    let many = g.product(&[(a, 1), (b, -1), (c, -1)]);
+    let scaled = g.sum(&[(Number::ratio(-3, 2), many), (Number::ratio(1, 2), a), (Number::ratio(-2, 3), one)]);
+    assert_eq!(text(&g, scaled), "a/2 − 3·a/(2·b·c) − 2/3");
+    let inverse = g.product(&[(b, -2)]);
+    let inverse = g.scale(Number::MINUS_ONE, inverse);
+    assert_eq!(text(&g, inverse), "−1/b²");
+}
+
+#[test]
+fn groups_of_a_long_product_keep_their_fractions() {
+    let names: Vec<String> = (0..20).map(|i| format!("x{i}")).collect();
+    let mut g = Graph::default();
+    let factors: Vec<_> = names
+        .iter()
+        .map(|name| {
+            let symbol = g.symbol(name.as_str());
+            (g.variable(symbol), if name == "x0" { -1 } else { 1 })
+        })
+        .collect();
+    let product = g.product(&factors);
+    let inverse = g.power(product, -1);
+    let shown: Vec<String> = names.iter().map(|name| Formula::of_name(Name::Plain(name)).text).collect();
+    let first = |from: usize, to: usize| shown[from..to].join("·");
+    assert_eq!(text(&g, product), format!("({}/x₀)·{}", first(1, 16), first(16, 20)));
+    assert_eq!(text(&g, inverse), format!("1/(({}/x₀)·{})", first(1, 16), first(16, 20)));
+}
+
+#[test]
+fn powers_bracket_sums() {
+    let (mut g, [a, x]) = graph(["a", "x1"]);
+    let sum = g.subtract(a, x);
+    let square = g.power(sum, 2);
+    let cosine = g.call(Function::Cos, &[x]);
+    let node = g.product(&[(square, 1), (cosine, 2), (x, 12)]);
+    assert_eq!(text(&g, node), "x₁¹²·cos²(x₁)·(a − x₁)²");
+    let root = g.call(Function::Sqrt, &[square]);
+    assert_eq!(text(&g, root), "√((a − x₁)²)");
+}
+
+#[test]
+fn signs_lead_where_nothing_positive_can() {
+    let (mut g, [a, b]) = graph(["a", "b"]);
+    let difference = g.subtract(b, a);
+    assert_eq!(text(&g, difference), "b − a");
+    let both = g.negate(a);
+    let both = g.subtract(both, b);
+    assert_eq!(text(&g, both), "−a − b");
+    let twice = g.scale(Number::integer(-2), a);
+    let call = g.call(Function::Exp, &[twice]);
+    assert_eq!(text(&g, call), "exp(−2·a)");
+    let minus = g.number(Number::ratio(-1, 2));
+    assert_eq!(text(&g, minus), "−1/2");
+}
+
+#[test]
+fn numbers_are_ratios_where_those_are_short() {
+    let mut g = Graph::default();
+    let pi = g.pi();
+    let turn = g.scale(Number::ratio(2, 3), pi);
+    assert_eq!(text(&g, turn), "2·π/3");
+    for (digits, shown) in
+        [("0.1", "1/10"), ("12.3456", "12.3456"), ("1e-300", "1·10⁻³⁰⁰"), ("0.3490658503988659", "0.3490658503988659")]
+    {
+        let node = Number::parse(digits).map(|value| g.number(value)).unwrap_or(pi);
+        assert_eq!(text(&g, node), shown);
+    }
+}
+
+#[test]
+fn an_ellipsis_replaces_a_part_that_is_too_long() {
+    let (mut g, [a, b]) = graph(["a", "b"]);
+    let mut node = a;
+    // Without sharing this unfolds to 2^10000 names.
+    for _ in 0..10_000 {
+        let with = g.add(node, b);
+        node = g.call(Function::Hypot, &[node, with]);
+    }
+    let shown = text(&g, node);
+    assert!(shown.len() <= super::LONGEST && shown.contains('…'));
+    let sum = g.add(a, b);
+    let names = |symbol: SymbolId| Name::Plain(g.symbol_name(symbol));
+    for (longest, shown) in [(5, "a + b"), (4, "…")] {
+        assert_eq!(Printer::new(&g, &names).longest(longest).formula(sum).text, shown);
+    }
+}
+
+#[test]
+fn user_functions() {
+    let (mut g, [theta, h]) = graph(["theta", "h"]);
+    let lift = g.external(["lift1", "dlift", "ddlift"].map(str::to_owned).to_vec());
+    let [value, second] = [0, 2].map(|order| g.apply(External::new(lift, 2, order), vec![theta, h]));
+    assert_eq!(text(&g, value), "lift₁(θ, h)");
+    let product = g.product(&[(second, 2), (h, 1)]);
+    assert_eq!(text(&g, product), "h·lift₁″(θ, h)²");
+}
