@@ -4,18 +4,20 @@
 //! `MUTANTS` is how many are expanded, `MUTANTS_COMPILED` how many of the accepted ones are compiled, and
 //! `MUTANTS_SEED` chooses others.
 
+#[path = "source/expanded.rs"]
+mod expanded;
 #[path = "source/mutants.rs"]
 mod mutants;
 mod source;
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
+use expanded::{expanded, is_refused, parsed};
 use linkage_compiler::budget::{Budget, MOST_STEPS};
-use mutants::Mutator;
-use proc_macro2::{TokenStream, TokenTree};
+use mutants::{Mutator, corpus};
+use proc_macro2::TokenStream;
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
 
@@ -26,27 +28,9 @@ fn setting(name: &str, usual: usize) -> usize {
     env::var(name).map_or(usual, |text| text.parse().unwrap())
 }
 
-/// The invocations of the files of `tests/mechanisms`, in the order of their names.
-fn corpus() -> Vec<TokenStream> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms");
-    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    let items = paths.iter().flat_map(|path| syn::parse_file(&fs::read_to_string(path).unwrap()).unwrap().items);
-    let invocations = items.filter_map(|item| match item {
-        syn::Item::Macro(item) if item.mac.path.is_ident("linkage") => Some(item.mac.tokens),
-        _ => None,
-    });
-    invocations.collect()
-}
-
-fn mutator() -> Mutator {
-    Mutator::new(SmallRng::seed_from_u64(setting("MUTANTS_SEED", 1) as u64), corpus())
-}
-
-/// True if an expansion begins with a message.
-fn is_refused(expansion: &TokenStream) -> bool {
-    let beginning = expansion.clone().into_iter().take(8);
-    beginning.into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "compile_error"))
+fn mutator() -> Mutator<SmallRng> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    Mutator::new(SmallRng::seed_from_u64(setting("MUTANTS_SEED", 1) as u64), corpus(root))
 }
 
 /// The most memory that the process has held, in kilobytes, where the system tells.
@@ -64,14 +48,9 @@ fn no_mutant_makes_the_macro_panic_or_run_away() {
     for number in 1..=count {
         let mutant = mutator.mutant();
         let budget = Budget::default();
-        let expand = || linkage_compiler::expand_within(mutant.clone(), &root, &budget);
-        let expansion = catch_unwind(AssertUnwindSafe(expand));
-        let expansion = expansion.unwrap_or_else(|_| panic!("mutant {number} panics:\n{mutant}"));
-        assert!(!expansion.is_empty(), "mutant {number} vanishes:\n{mutant}");
-        let is_accepted = !is_refused(&expansion);
-        accepted += usize::from(is_accepted);
+        let expansion = expanded(&mutant, &root, &budget);
+        accepted += usize::from(!is_refused(&expansion));
         let steps = MOST_STEPS - budget.left();
-        assert!(!budget.is_spent() || !is_accepted, "mutant {number} is beyond the budget:\n{mutant}");
         if steps > most {
             (most, longest) = (steps, mutant.to_string());
         }
@@ -82,7 +61,7 @@ fn no_mutant_makes_the_macro_panic_or_run_away() {
             // Two expansions of one input are equal, and they are Rust.
             let again = linkage_compiler::expand(mutant.clone(), &root);
             assert_eq!(expansion.to_string(), again.to_string());
-            syn::parse2::<syn::File>(expansion).unwrap_or_else(|error| panic!("{error}\n{mutant}"));
+            parsed(expansion, &mutant);
         }
     }
     println!("{count} mutants, {accepted} accepted, at most {most} steps, {:?} kB", memory());

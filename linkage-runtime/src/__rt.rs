@@ -29,4 +29,6 @@ pub use crate::{
 pub mod traits {
     pub use core::convert::{From as _, Into as _};
     pub use core::iter::Iterator as _;
+
+    pub use crate::turn::Turn as _;
 }

@@ -42,6 +42,15 @@ debug-assertions = true
 [workspace]
 "#;
 
+const MAIN: &str = r#"
+include!("subjects.rs");
+#[path = "ROOT/tests/invalid_numbers/trials.rs"]
+mod trials;
+fn main() -> std::process::ExitCode {
+    trials::main(SUBJECTS)
+}
+"#;
+
 #[test]
 fn no_ok_holds_a_number_that_is_not_finite() {
     let root = env!("CARGO_MANIFEST_DIR");
@@ -50,7 +59,8 @@ fn no_ok_holds_a_number_that_is_not_finite() {
     fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
     // The versions under test are those of this workspace.
     fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    for (file, text) in program::files(Path::new(root)) {
+    let main = ("main.rs".to_owned(), MAIN.replace("ROOT", root));
+    for (file, text) in program::files(Path::new(root), None).into_iter().chain([main]) {
         let path = folder.join("src").join(file);
         // What is the same is not built again.
         if fs::read_to_string(&path).ok().as_ref() != Some(&text) {

@@ -17,8 +17,8 @@ const REQUESTS: [&str; 4] = ["limits", "jerk", "velocity_ratio_derivatives", "se
 /// Folders and files with mechanisms.
 const SOURCES: [&str; 3] = ["tests/mechanisms", "examples/engine/machine.rs", "examples/door_closer/machine.rs"];
 
-/// The files of the program by name.
-pub fn files(root: &Path) -> Vec<(String, String)> {
+/// The files of the program by name: of all mechanisms, or of those in the files with these names.
+pub fn files(root: &Path, chosen: Option<&[&str]>) -> Vec<(String, String)> {
     let mut files = Vec::new();
     let mut modules = String::new();
     let mut subjects = String::new();
@@ -34,6 +34,9 @@ pub fn files(root: &Path) -> Vec<(String, String)> {
             let parent = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             let name = if stem == "machine" { parent.into_owned() } else { stem.into_owned() };
+            if chosen.is_some_and(|chosen| !chosen.contains(&name.as_str())) {
+                continue;
+            }
             let text = fs::read_to_string(&path).unwrap();
             let file: syn::File = syn::parse_str(&text).unwrap();
             let macros = file.items.iter().filter_map(|item| match item {
@@ -62,10 +65,11 @@ pub fn files(root: &Path) -> Vec<(String, String)> {
     let harness = root.join("tests/invalid_numbers/harness/mod.rs");
     let laws = root.join("tests/source/cam_laws.rs");
     files.push((
-        "main.rs".to_owned(),
+        "subjects.rs".to_owned(),
         format!(
             "#[path = {harness:?}] mod harness;\n#[path = {laws:?}] mod laws;\n{COUNTED}\n{modules}\n\
-             fn main() -> std::process::ExitCode {{ harness::main(&[{subjects}]) }}\n"
+             const SUBJECTS: &[(&str, harness::Subject)] =\n\
+             &[{subjects}(\"integrate\", harness::integrations)];\n"
         ),
     ));
     files

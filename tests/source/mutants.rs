@@ -2,10 +2,11 @@
 //! others from a grammar. The grammar follows the language, so that many mutants are mechanisms still.
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use rand::Rng;
-use rand::rngs::SmallRng;
 
 /// Numbers at the ends of what `f64` holds, beside those that people write.
 const NUMBERS: [&str; 22] = [
@@ -44,9 +45,23 @@ const VECTORS: [&str; 2] = ["dot", "cross"];
 const REQUESTS: [&str; 4] = ["limits", "jerk", "velocity_ratio_derivatives", "sensitivity"];
 
 /// Mechanisms, statement by statement.
-pub struct Mutator {
-    pub random: SmallRng,
+pub struct Mutator<R> {
+    random: R,
     corpus: Vec<Vec<TokenTree>>,
+}
+
+/// The invocations of the files of `tests/mechanisms`, in the order of their names.
+pub fn corpus(root: &Path) -> Vec<TokenStream> {
+    let entries = fs::read_dir(root.join("tests/mechanisms")).expect("a folder");
+    let mut paths: Vec<_> = entries.map(|entry| entry.expect("a file").path()).collect();
+    paths.sort();
+    let texts = paths.iter().map(|path| fs::read_to_string(path).expect("text"));
+    let items = texts.flat_map(|text| syn::parse_file(&text).expect("Rust").items);
+    let invocations = items.filter_map(|item| match item {
+        syn::Item::Macro(item) if item.mac.path.is_ident("linkage") => Some(item.mac.tokens),
+        _ => None,
+    });
+    invocations.collect()
 }
 
 /// The names that a mechanism declares.
@@ -59,8 +74,8 @@ struct Names {
     bodies: Vec<String>,
 }
 
-impl Mutator {
-    pub fn new(random: SmallRng, corpus: impl IntoIterator<Item = TokenStream>) -> Self {
+impl<R: Rng> Mutator<R> {
+    pub fn new(random: R, corpus: impl IntoIterator<Item = TokenStream>) -> Self {
         Self { random, corpus: corpus.into_iter().map(|tokens| tokens.into_iter().collect()).collect() }
     }
 

@@ -237,7 +237,11 @@ where
         let y = motion.closed(t, self.integration.state())?;
         let (contacts, drives) = motion.loads(t, &y)?;
         let (_, rates) = motion.velocity(t, &y)?;
-        Ok(Loads { contacts, drives: drives.into(), drive_power: drives.dot(&rates) })
+        let drive_power = drives.dot(&rates);
+        if !contacts.iter().chain(drives.iter()).chain([&drive_power]).all(T::is_finite) {
+            return Err(Error::NotFiniteAt { quantity: "the loads", t: to_f64(t) });
+        }
+        Ok(Loads { contacts, drives: drives.into(), drive_power })
     }
 
     /// How much of the interval is done, from 0 to 1.

@@ -4,8 +4,7 @@ use std::marker::PhantomData;
 
 use linkage::nalgebra::{Complex, SMatrix, Unit, UnitComplex};
 use linkage::{Elbow, Slider, Slope};
-use rand::rngs::SmallRng;
-use rand::{Rng, RngCore, SeedableRng};
+use rand::{Rng, RngCore};
 
 /// At the ends of the range, beyond it, and where squares and products leave it.
 const EXTREME: [f64; 24] = [
@@ -36,34 +35,9 @@ const EXTREME: [f64; 24] = [
     -1.0,
 ];
 
-/// What decides: a generator, or the bytes that a fuzzer changes, after which there are zeros.
-enum Bits {
-    Seeded(SmallRng),
-    Given(std::vec::IntoIter<u8>),
-}
-
-impl RngCore for Bits {
-    fn next_u32(&mut self) -> u32 {
-        let mut bytes = [0; 4];
-        self.fill_bytes(&mut bytes);
-        u32::from_le_bytes(bytes)
-    }
-    fn next_u64(&mut self) -> u64 {
-        let mut bytes = [0; 8];
-        self.fill_bytes(&mut bytes);
-        u64::from_le_bytes(bytes)
-    }
-    fn fill_bytes(&mut self, bytes: &mut [u8]) {
-        match self {
-            Self::Seeded(random) => random.fill_bytes(bytes),
-            Self::Given(given) => bytes.fill_with(|| given.next().unwrap_or_default()),
-        }
-    }
-}
-
 /// Where the numbers of one trial come from.
 pub struct Source {
-    random: Bits,
+    random: Box<dyn RngCore>,
     /// What to call the trial by.
     pub seed: u64,
     /// The share of extreme numbers, and of numbers of any size.
@@ -75,17 +49,8 @@ pub struct Source {
 }
 
 impl Source {
-    pub fn new(state: u64, seed: u64) -> Self {
-        Self::of(Bits::Seeded(SmallRng::seed_from_u64(state)), seed)
-    }
-
-    /// By the bytes of a file.
-    pub fn given(bytes: Vec<u8>) -> Self {
-        Self::of(Bits::Given(bytes.into_iter()), 0)
-    }
-
-    fn of(mut random: Bits, seed: u64) -> Self {
-        let power = |random: &mut Bits| 2_f64.powi(random.random_range(-540..=540));
+    pub fn new(mut random: Box<dyn RngCore>, seed: u64) -> Self {
+        let power = |random: &mut dyn RngCore| 2_f64.powi(random.random_range(-540..=540));
         let [mut extreme, mut sized, mut length, mut scale] = [0.0, 0.0, 1.0, 1.0];
         match random.random_range(0..8) {
             // Ordinary mechanisms, of which some are scaled.

@@ -1,0 +1,26 @@
+//! The expansion of a mutant, and what holds for every one; if it does not, these functions panic with the mutant.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use linkage_compiler::budget::Budget;
+use proc_macro2::{TokenStream, TokenTree};
+
+/// The macro does not panic, gives something, and accepts nothing that is beyond the budget.
+pub fn expanded(mutant: &TokenStream, root: &TokenStream, budget: &Budget) -> TokenStream {
+    let expand = || linkage_compiler::expand_within(mutant.clone(), root, budget);
+    let expansion = catch_unwind(AssertUnwindSafe(expand)).unwrap_or_else(|_| panic!("the macro panics:\n{mutant}"));
+    assert!(!expansion.is_empty(), "this vanishes:\n{mutant}");
+    assert!(!budget.is_spent() || is_refused(&expansion), "this is beyond the budget:\n{mutant}");
+    expansion
+}
+
+/// The expansion is Rust.
+pub fn parsed(expansion: TokenStream, mutant: &TokenStream) -> syn::File {
+    syn::parse2(expansion).unwrap_or_else(|error| panic!("{error}:\n{mutant}"))
+}
+
+/// True if an expansion begins with a message.
+pub fn is_refused(expansion: &TokenStream) -> bool {
+    let beginning = expansion.clone().into_iter().take(8);
+    beginning.into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "compile_error"))
+}
