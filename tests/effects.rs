@@ -119,16 +119,18 @@ fn an_effect_costs_what_it_takes_by_hand() {
     let rates = |scene: &str| all[&(scene.to_owned(), "rates".to_owned())];
     let bare = rates("Bare");
     println!("Bare {bare:?}");
-    assert!(bare.within(Operations { functions: 4, divisions: 2, multiplications: 57, additions: 25 }), "{bare:?}");
+    // As it is written: what W, the bias and M have in common stands in each, and an optimising compiler computes it
+    // once (`tests/instructions.rs`). In one function it would be 2 divisions and 57 multiplications.
+    assert!(bare.within(Operations { functions: 4, divisions: 3, multiplications: 70, additions: 25 }), "{bare:?}");
     let limits = [
         // m3 g inside the coupler's product, and m4 g a4 cos theta4 theta4'.
         ("Weighed", [0, 0, 4, 2]),
-        // The length, which is a function, k (s - s0) / s, and d . C'.
-        ("Sprung", [1, 1, 6, 9]),
+        // The length, which is a function, k (s - s0) / s, d . C', and two products that W is made of as well.
+        ("Sprung", [1, 1, 8, 9]),
         ("Twisted", [0, 0, 2, 2]),
         ("Damped", [0, 0, 2, 1]),
-        // f t C'_y.
-        ("Pushed", [0, 0, 3, 2]),
+        // f t C'_y, and a product that W is made of as well.
+        ("Pushed", [0, 0, 4, 2]),
         ("Turned", [1, 0, 1, 3]),
         // The runtime is given theirs beside the derivative.
         ("Rough", [0, 0, 0, 0]),
@@ -143,5 +145,5 @@ fn an_effect_costs_what_it_takes_by_hand() {
     // A motion that is prescribed takes no masses, and its law with two derivatives.
     let driven = rates("Driven");
     println!("Driven {driven:?}");
-    assert!(driven.within(Operations { functions: 5, divisions: 1, multiplications: 18, additions: 3 }), "{driven:?}");
+    assert!(driven.within(Operations { functions: 5, divisions: 1, multiplications: 19, additions: 3 }), "{driven:?}");
 }

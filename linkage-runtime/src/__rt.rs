@@ -9,7 +9,6 @@ pub use nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
 
 pub use crate::branch::{chord, elbow_chord, existing, reach_chord, side_of, solvable};
 pub use crate::contact::{sound, stops};
-pub use crate::derivation;
 pub use crate::equilibrium::{equilibrium, on_branch};
 pub use crate::error::{finite, finite_matrix};
 pub use crate::inertia::reduced;
@@ -25,8 +24,13 @@ pub use crate::{
     OutputMotion, PointMotion, Power, Real, Scene, Slider, Slope, Solution, Unreduced, newton, real,
 };
 
+/// The names that derivations are written with.
+pub mod derivation {
+    pub use crate::derivation as prelude;
+}
+
 /// The traits whose functions emitted code calls as methods, without their names.
-pub mod traits {
+pub mod prelude {
     pub use core::convert::{From as _, Into as _};
     pub use core::iter::Iterator as _;
 

@@ -70,8 +70,8 @@ pub(super) fn constant(
         impl #name {
             /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution and the work
             /// of each function. It costs nothing where it is not used.
-            pub const DERIVATION: &'static #root::__rt::derivation::Derivation = {
-                use #root::__rt::derivation::*;
+            pub const DERIVATION: &'static #root::__rt::derivation::prelude::Derivation = {
+                use #root::__rt::derivation::prelude::*;
                 &Derivation {
                     mechanism: #text,
                     parameters: #parameters,
@@ -149,8 +149,8 @@ pub(super) fn of_scene(
         impl #name {
             /// The equations of motion as data: every formula as text, `LaTeX` and `MathML`, and the work of each
             /// function. It costs nothing where it is not used.
-            pub const DERIVATION: &'static #root::__rt::derivation::Scene = {
-                use #root::__rt::derivation::*;
+            pub const DERIVATION: &'static #root::__rt::derivation::prelude::Scene = {
+                use #root::__rt::derivation::prelude::*;
                 &Scene {
                     scene: #text,
                     mechanism: #of,

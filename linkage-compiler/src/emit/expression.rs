@@ -232,6 +232,7 @@ impl ToTokens for Type {
     fn to_tokens(&self, tokens: &mut TokenStream) {
         tokens.extend(match self {
             Self::Scalar => quote!(T),
+            Self::Text => quote!(&'static str),
             Self::Itself => quote!(Self),
             Self::Own(name) => {
                 let name = ident(name);

@@ -10,9 +10,12 @@ use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value
 
 /// A function with its description; without a body a stub that only has the right signature.
 pub(super) fn function(function: &Function<Code>) -> TokenStream {
-    let Function { name, doc, access, arguments, returns, is_fallible, body } = function;
-    let doc = description(doc, body.as_ref().map(|code| code.operations).unwrap_or_default());
+    let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
+    // People see the work of what they call.
+    let work = body.as_ref().filter(|_| *access == Access::Public).map(|code| code.operations);
+    let doc = description(doc, work.unwrap_or_default());
     let name = ident(name);
+    let itself = is_method.then(|| quote!(&self));
     let arguments = arguments.iter().map(|Argument { name, passed }| {
         let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(name)));
         match passed {
@@ -22,13 +25,13 @@ pub(super) fn function(function: &Function<Code>) -> TokenStream {
             Passed::Turns => quote!(#name: &impl __rt::Turn<T>),
         }
     });
+    let arguments = itself.into_iter().chain(arguments);
     let attributes = match access {
         Access::Public if !is_fallible && !matches!(returns, Type::Branches { .. }) => quote!(#[must_use] pub),
         Access::Public => quote!(pub),
         Access::Inlined => quote!(#[inline]),
         Access::Cold => quote!(#[cold]),
     };
-    let returns = if *is_fallible { quote!(__rt::Result<#returns, __rt::Error>) } else { quote!(#returns) };
     let body = match body {
         Some(Code { statements, value, .. }) => {
             let value = match value {
@@ -37,11 +40,14 @@ pub(super) fn function(function: &Function<Code>) -> TokenStream {
             };
             quote!(#(#statements)* #value)
         }
+        // Nothing that never returns is an iterator.
+        None if matches!(returns, Type::Branches { .. }) => quote!(::core::iter::empty()),
         None => quote!(::core::unreachable!()),
     };
+    let result = if *is_fallible { quote!(__rt::Result<#returns, __rt::Error>) } else { quote!(#returns) };
     quote! {
         #doc
-        #attributes fn #name(&self #(, #arguments)*) -> #returns { #body }
+        #attributes fn #name(#(#arguments),*) -> #result { #body }
     }
 }
 

@@ -17,7 +17,7 @@ use quote::quote;
 use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::model::Mechanism;
-use crate::program::{self, Function, Operations, Program};
+use crate::program::{self, Access, Function, Operations, Program};
 use functions::function;
 use names::string;
 
@@ -84,7 +84,7 @@ fn block(
     let text = names::comment(&format!(" {text}"));
     quote! {
         const _: () = {
-            use #root::__rt::{self, traits::*};
+            use #root::__rt::{self, prelude::*};
             impl<T: __rt::Real> #of<T> {
                 #[doc = #text]
                 pub const NAME: &'static str = #name;
@@ -95,10 +95,10 @@ fn block(
     }
 }
 
-/// The functions that compute something, with their work.
+/// The public functions that compute something, with their work.
 fn works(functions: &[Function<Code>]) -> Vec<(String, Operations)> {
-    let works =
-        functions.iter().filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
+    let public = functions.iter().filter(|function| function.access == Access::Public);
+    let works = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
     works.filter(|(_, work)| *work != Operations::default()).collect()
 }
 

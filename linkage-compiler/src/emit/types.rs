@@ -48,6 +48,11 @@ impl<'a> Fields<'a> {
         Self { names, texts }
     }
 
+    /// The name of an argument that only the fields use.
+    fn argument(&self, name: &str) -> Ident {
+        expression::argument(name, !self.names.is_empty())
+    }
+
     fn count(&self) -> Literal {
         literal(self.names.len())
     }
@@ -308,6 +313,7 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
     let fields = Fields::of(mechanism.parameters.iter().map(|parameter| &parameter.name));
     let (names, texts, count) = (&fields.names, &fields.texts, fields.count());
     let (phantom, mark, other) = (fields.phantom(), fields.mark(), other_scalar(mechanism));
+    let [all, scalar] = ["parameters", "scalar"].map(|name| fields.argument(name));
     let members = mechanism.parameters.iter().zip(names).map(|(parameter, field)| {
         let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
         let other = parameter.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
@@ -348,8 +354,8 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
             }
         }
         impl<T> ::core::convert::From<#name<T>> for [T; #count] {
-            fn from(parameters: #name<T>) -> Self {
-                [#(parameters.#names),*]
+            fn from(#all: #name<T>) -> Self {
+                [#(#all.#names),*]
             }
         }
         impl<T: #root::__rt::Real> #name<T> {
@@ -358,8 +364,8 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
             #new
             #[doc = " The same mechanism with another scalar."]
             #[must_use]
-            pub fn map<#other>(self, scalar: impl ::core::ops::Fn(T) -> #other) -> #name<#other> {
-                #name { #(#names: scalar(self.#names),)* #mark }
+            pub fn map<#other>(self, #scalar: impl ::core::ops::Fn(T) -> #other) -> #name<#other> {
+                #name { #(#names: #scalar(self.#names),)* #mark }
             }
         }
         #default

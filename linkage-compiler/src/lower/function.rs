@@ -44,7 +44,7 @@ pub struct Code {
 
 /// Lowers a function.
 pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code> {
-    let Function { name, doc, access, arguments, returns, is_fallible, body } = planned;
+    let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = planned;
     let mut body = body.map(|body| self::body(body, context));
     if let (Some(code), Access::Cold) = (&mut body, access) {
         // It is not called where all is well.
@@ -53,37 +53,56 @@ pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code
     if let Some(code) = &body {
         context.works.insert(name.clone(), code.operations);
     }
-    Function { name, doc, access, arguments, returns, is_fallible, body }
+    Function { name, doc, access, is_method, arguments, returns, is_fallible, body }
 }
 
 fn body(body: Body, context: &Context) -> Code {
-    let Body { before, kernel, after, value, locals, uses, calls, mut operations } = body;
+    let Body { before, kernel, after, value, locals, calls, mut operations } = body;
     for call in calls {
         operations += context.works.get(&call).copied().unwrap_or_default();
     }
-    let mut uses: BTreeSet<String> = uses.into_iter().collect();
     let mut formulas = kernel.map_or_else(|| Formulas::none(context), |kernel| Formulas::of(&kernel, context));
-    uses.append(&mut formulas.uses);
     operations += formulas.operations;
     let locals: Vec<String> = locals.iter().map(|wish| formulas.taken.unique(wish)).collect();
+    let computed = std::mem::take(&mut formulas.statements);
     let finished = Finished { results: &formulas.results, locals: &locals };
-    let mut statements = Vec::new();
-    for statement in before {
-        // An argument is converted only if it is used.
-        if matches!(&statement, Statement::Let(Pattern::Typed(name, _), _) if !uses.contains(name)) {
-            continue;
-        }
-        finished.statement(statement, &formulas, &mut statements);
-    }
-    statements.append(&mut formulas.statements);
-    for statement in after {
-        finished.statement(statement, &formulas, &mut statements);
-    }
+    let all = |planned: Vec<Statement>| {
+        let mut statements = Vec::new();
+        planned.into_iter().for_each(|statement| finished.statement(statement, &formulas, &mut statements));
+        statements
+    };
+    let (before, after) = (all(before), all(after));
     let value = match value {
         Returned::Plain(value) => Returned::Plain(finished.expression(value)),
         Returned::Result(value) => Returned::Result(finished.expression(value)),
     };
+    let mut uses = BTreeSet::new();
+    let mut use_name = |name: &str| uses.extend([name.to_owned()]);
+    let (Returned::Plain(last) | Returned::Result(last)) = &value;
+    last.each_name(&mut use_name);
+    computed.iter().chain(&after).for_each(|statement| statement.each_name(&mut use_name));
+    let before = needed(before, &mut uses);
+    let statements = before.into_iter().chain(computed).chain(after).collect();
     Code { statements, value, operations, uses, externals: formulas.externals }
+}
+
+/// The statements without names for conversions and poses that nothing uses; adds what they use themselves.
+fn needed(statements: Vec<Statement>, uses: &mut BTreeSet<String>) -> Vec<Statement> {
+    let mut kept = Vec::new();
+    for statement in statements.into_iter().rev() {
+        let is_unused = match &statement {
+            Statement::Let(Pattern::Typed(name, _) | Pattern::Name(name), value) => {
+                !matches!(value, Expression::Try(_)) && !uses.contains(name)
+            }
+            _ => false,
+        };
+        if !is_unused {
+            statement.each_name(&mut |name| uses.extend([name.to_owned()]));
+            kept.push(statement);
+        }
+    }
+    kept.reverse();
+    kept
 }
 
 /// A lowered kernel.
@@ -96,7 +115,6 @@ struct Formulas<'a> {
     /// The values that say of a dyad whether its triangle is plain.
     plain: Vec<String>,
     taken: Taken<'a>,
-    uses: BTreeSet<String>,
     externals: BTreeSet<ExternalId>,
     operations: Operations,
 }
@@ -111,7 +129,6 @@ impl<'a> Formulas<'a> {
             dyads: Vec::new(),
             plain: Vec::new(),
             taken: Taken::new(context.reserved),
-            uses: BTreeSet::new(),
             externals: BTreeSet::new(),
             operations: Operations::default(),
         }
@@ -131,15 +148,11 @@ impl<'a> Formulas<'a> {
         for &symbol in &symbols {
             names.introduce(symbol);
         }
-        let (mut statements, mut uses) = (Vec::new(), BTreeSet::new());
-        for source in &kernel.sources {
-            if let Some(statement) = taken_apart(source, &symbols, &names) {
-                statements.extend(statement);
-                uses.extend(source.argument.clone());
-            }
-        }
-        if kernel.is_on_pose && directions(&mut statements, context, &schedule, &mut names) {
-            uses.insert(context.pose_argument.to_owned());
+        let sources = kernel.sources.iter();
+        let mut statements: Vec<Statement> =
+            sources.filter_map(|source| taken_apart(source, &symbols, &names)).collect();
+        if kernel.is_on_pose {
+            directions(&mut statements, context, &schedule, &mut names);
         }
         let arguments = (context.branch, context.turn);
         let mut writer = Writer::new((derivation, kernel), arguments, &schedule, names);
@@ -161,7 +174,7 @@ impl<'a> Formulas<'a> {
         let results = results.collect();
         let (dyads, plain) = (kernel.dyads.clone(), plain.into_values().flatten().collect());
         let operations = schedule.operations();
-        Self { statements, results, is_proven, dyads, plain, taken, uses, externals, operations }
+        Self { statements, results, is_proven, dyads, plain, taken, externals, operations }
     }
 }
 
@@ -175,13 +188,12 @@ fn is_formula(value: &Expression) -> bool {
 }
 
 /// `let Type { field, other: name, .. } = *value;` with the fields that are used; none if no field is.
-fn taken_apart(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Option<Statement>> {
+fn taken_apart(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Statement> {
     let entry = |symbol: &SymbolId| match used.contains(symbol) {
         true => Pattern::Name(names.symbol(*symbol)),
         false => Pattern::Ignored,
     };
     let pattern = match &source.shape {
-        Shape::Argument(symbol) => return symbol.is_some_and(|symbol| used.contains(&symbol)).then_some(None),
         Shape::Columns { rows, symbols } => {
             let columns = symbols.chunks(*rows).map(|column| Pattern::List(column.iter().map(entry).collect()));
             Pattern::List(columns.collect())
@@ -198,11 +210,11 @@ fn taken_apart(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Opt
             Pattern::Struct { of: of.clone(), fields: named, is_whole }
         }
     };
-    Some(Some(Statement::Let(pattern, source.from.clone())))
+    Some(Statement::Let(pattern, source.from.clone()))
 }
 
-/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used; true if any is.
-fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Schedule, names: &mut Names) -> bool {
+/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
+fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Schedule, names: &mut Names) {
     let mut used: Vec<(NodeId, Elementary, ValueId)> = Vec::new();
     for &id in schedule.used() {
         if let Value::Direction(function, angle) = schedule.value(id) {
@@ -227,7 +239,6 @@ fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Sch
         };
         statements.push(Statement::Let(pattern, value));
     }
-    !used.is_empty()
 }
 
 /// Puts results and local values in the places of their numbers.

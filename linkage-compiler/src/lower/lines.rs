@@ -103,7 +103,7 @@ impl<'a, 'n> Writer<'a, 'n> {
             }
             Line::Factor { block, matrix, sizes } => {
                 let arguments = [self.columns(matrix), Expression::List(self.all_signed(sizes))];
-                let call = [Expression::mechanism(), self.group(*block)].into_iter().chain(arguments);
+                let call = [self.whose(), self.group(*block)].into_iter().chain(arguments);
                 let call = Expression::associated(Type::Runtime("Factorization", Vec::new()), "new", call).tried();
                 let name = self.names.taken.unique("factors");
                 // Where nothing is solved for, the check is still wanted.
@@ -213,8 +213,13 @@ impl<'a, 'n> Writer<'a, 'n> {
         block: usize,
         arguments: impl IntoIterator<Item = Expression>,
     ) -> Expression {
-        let judged = [Expression::mechanism(), self.group(block)];
+        let judged = [self.whose(), self.group(block)];
         Expression::runtime(function, judged.into_iter().chain(arguments))
+    }
+
+    /// The name by which errors call the mechanism.
+    fn whose(&self) -> Expression {
+        self.kernel.whose.as_ref().map_or_else(Expression::mechanism, Expression::name)
     }
 
     fn group(&self, block: usize) -> Expression {

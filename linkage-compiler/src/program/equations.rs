@@ -62,7 +62,7 @@ impl Plan<'_, '_> {
             Statement::Let(columns, Expression::call(function, [Expression::name(pose)]).columns())
         };
         let all = Expression::List(names(&order).into_iter().map(Expression::Name).collect());
-        let mut body = Body::plain(Expression::matrix_from(all)).using([pose]);
+        let mut body = Body::plain(Expression::matrix_from(all));
         body.before = vec![
             part(&self.signatures.driver.unknowns, "jacobian_unknowns"),
             part(&self.signatures.driver.inputs, "jacobian_inputs"),
@@ -121,7 +121,7 @@ impl Plan<'_, '_> {
             [only] => only.clone(),
             _ => Expression::Product(product),
         };
-        let mut body = Body::plain(product).using([&pose]);
+        let mut body = Body::plain(product);
         let names = Pattern::List(names.into_iter().map(Pattern::Name).collect());
         body.before = vec![Statement::Let(names, Expression::call("block_determinants", [Expression::name(&pose)]))];
         self.add(self.signatures.determinant(), without_result(doc), body);

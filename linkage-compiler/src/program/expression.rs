@@ -98,6 +98,8 @@ pub enum Pattern {
 pub enum Type {
     /// The scalar `T`.
     Scalar,
+    /// `&'static str`
+    Text,
     /// `Self`
     Itself,
     /// A type of the mechanism over the scalar: `Name<T>`.
@@ -209,6 +211,45 @@ impl Expression {
         Self::Number(Number::ZERO)
     }
 
+    /// Visits every name that is used.
+    pub fn each_name<'e>(&'e self, visit: &mut dyn FnMut(&'e str)) {
+        match self {
+            Self::Name(name) => visit(name),
+            Self::Sum(terms) => terms.iter().for_each(|(_, term)| term.each_name(visit)),
+            Self::Product(all)
+            | Self::Elementary(_, all)
+            | Self::List(all)
+            | Self::Tuple(all)
+            | Self::Runtime(_, all)
+            | Self::Associated(_, _, all) => all.iter().for_each(|value| value.each_name(visit)),
+            Self::Quotient(parts) => parts.iter().for_each(|part| part.each_name(visit)),
+            Self::Square(inside)
+            | Self::Negative(inside)
+            | Self::Field(inside, _)
+            | Self::Index(inside, _)
+            | Self::Repeated(inside, _)
+            | Self::Try(inside)
+            | Self::Borrowed(inside)
+            | Self::Behind(inside) => {
+                inside.each_name(visit);
+            }
+            Self::Struct(_, members, rest) => {
+                members.iter().for_each(|(_, value)| value.each_name(visit));
+                rest.iter().for_each(|rest| rest.each_name(visit));
+            }
+            Self::Method(of, _, arguments) => {
+                of.each_name(visit);
+                arguments.iter().for_each(|argument| argument.each_name(visit));
+            }
+            Self::Closure { statements, value, .. } => {
+                statements.iter().for_each(|statement| statement.each_name(visit));
+                value.each_name(visit);
+            }
+            Self::Result(_) | Self::Local(_) | Self::Number(_) | Self::Text(_) | Self::Count(_) | Self::Constant(_) => {
+            }
+        }
+    }
+
     /// Expressions in lists of lists of so many each, the outer ones first.
     pub fn nested(values: Vec<Self>, sizes: &[usize]) -> Vec<Self> {
         let Some((_, inner)) = sizes.split_first() else { return values };
@@ -219,5 +260,26 @@ impl Expression {
             lists.push(Self::List(Self::nested(values.by_ref().take(each).collect(), inner)));
         }
         lists
+    }
+}
+
+impl Statement {
+    /// Visits every name that is used.
+    pub fn each_name<'e>(&'e self, visit: &mut dyn FnMut(&'e str)) {
+        match self {
+            Self::Let(_, value) | Self::Do(value) => value.each_name(visit),
+            Self::Assign(place, value) => {
+                place.each_name(visit);
+                value.each_name(visit);
+            }
+            Self::Unless(conditions, inside) => {
+                conditions.iter().for_each(|condition| condition.each_name(visit));
+                inside.iter().for_each(|statement| statement.each_name(visit));
+            }
+            Self::Check { values, blame, .. } => {
+                values.iter().chain(blame).for_each(|value| value.each_name(visit));
+            }
+            Self::CheckPosition => {}
+        }
     }
 }

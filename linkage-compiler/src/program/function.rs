@@ -14,7 +14,9 @@ pub struct Function<B> {
     /// The lines of its description.
     pub doc: Vec<String>,
     pub access: Access,
-    /// The arguments behind `&self`.
+    /// True if it takes `&self`.
+    pub is_method: bool,
+    /// The other arguments.
     pub arguments: Vec<Argument>,
     pub returns: Type,
     /// True if it returns a `Result`.
@@ -61,8 +63,6 @@ pub struct Body {
     pub value: Value,
     /// The wishes for the names of local values that statements after the kernel give.
     pub locals: Vec<String>,
-    /// The arguments that the statements use; what the kernel uses is known when it is lowered.
-    pub uses: Vec<String>,
     /// The functions whose work is part of that of this one.
     pub calls: Vec<String>,
     /// Work besides that of the kernel.
@@ -88,6 +88,8 @@ impl Default for Value {
 #[derive(Debug, Clone, Default)]
 pub struct Kernel {
     pub sources: Vec<Source>,
+    /// The argument with the name by which errors call the mechanism; without one it is that of the type.
+    pub whose: Option<String>,
     /// True if a pose gives sines and cosines.
     pub is_on_pose: bool,
     pub steps: Vec<Step>,
@@ -110,13 +112,12 @@ pub struct Output {
 /// Where symbols of a kernel come from.
 #[derive(Debug, Clone)]
 pub struct Source {
-    /// The argument that is taken apart, but for `self`.
-    pub argument: Option<String>,
+    /// What is taken apart.
     pub from: Expression,
     pub shape: Shape,
 }
 
-/// What is taken apart.
+/// The form of what is taken apart.
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// The fields of a type; `is_whole` if these are all.
@@ -125,15 +126,13 @@ pub enum Shape {
     Columns { rows: usize, symbols: Vec<SymbolId> },
     /// The entries of a list.
     List(Vec<SymbolId>),
-    /// Nothing: the argument is the symbol itself.
-    Argument(Option<SymbolId>),
 }
 
 impl<B> Function<B> {
     /// The same name, arguments and result.
     pub fn without_body<C>(self) -> Function<C> {
-        let Self { name, doc, access, arguments, returns, is_fallible, body: _ } = self;
-        Function { name, doc, access, arguments, returns, is_fallible, body: None }
+        let Self { name, doc, access, is_method, arguments, returns, is_fallible, body: _ } = self;
+        Function { name, doc, access, is_method, arguments, returns, is_fallible, body: None }
     }
 }
 
@@ -185,12 +184,6 @@ impl Body {
         let place = self.locals.len() - 1;
         self.after.push(Statement::Let(Pattern::Local(place), value));
         Expression::Local(place)
-    }
-
-    #[must_use]
-    pub fn using<'a>(mut self, arguments: impl IntoIterator<Item = &'a String>) -> Self {
-        self.uses.extend(arguments.into_iter().cloned());
-        self
     }
 }
 

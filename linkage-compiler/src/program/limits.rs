@@ -91,7 +91,7 @@ impl Plan<'_, '_> {
         };
         let value = Expression::name(&inputs).field(&name.field);
         let arguments = [Expression::mechanism(), value, position(), bounds, search, again, determinants];
-        let mut body = Body::result(Expression::runtime("limits", arguments)).using([&inputs, &branch, &guess]);
+        let mut body = Body::result(Expression::runtime("limits", arguments));
         body.before = vec![
             Statement::Let(Pattern::Name(inputs), start),
             Statement::Let(Pattern::Name(here.clone()), first.tried()),

@@ -142,6 +142,8 @@ pub struct Arguments {
     pub position: String,
     pub ratios: String,
     pub velocity: String,
+    /// The name by which errors call whoever asks.
+    pub whose: String,
     pub time: String,
 }
 
@@ -162,6 +164,7 @@ impl Arguments {
             position: name("position"),
             ratios: name("ratios"),
             velocity: name("velocity"),
+            whose: name("whose"),
             time: mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time)).to_owned(),
         }
     }
@@ -182,9 +185,11 @@ impl Arguments {
             position,
             ratios,
             velocity,
+            whose,
             time: _,
         } = self;
-        let all = [pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity];
+        let all =
+            [pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity, whose];
         all.into_iter().cloned().chain(["self".to_owned()]).collect()
     }
 }

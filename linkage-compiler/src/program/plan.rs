@@ -130,11 +130,11 @@ impl<'d, 'a> Plan<'d, 'a> {
     }
 
     /// Steps that name W.
-    pub(super) fn ratio_steps(&mut self) -> Vec<Step> {
+    pub(super) fn ratio_steps(&mut self, form: Form) -> Vec<Step> {
         let ratios = self.derivation.ratios.clone();
         let systems = ratios.into_iter().enumerate();
         let systems: Vec<_> = systems.map(|(input, ratios)| (self.derivation.ratio_side(input), ratios)).collect();
-        self.derivation.solution(&systems, Form::Factored)
+        self.derivation.solution(&systems, form)
     }
 
     /// Without a pose the determinants are computed where they are checked.
@@ -167,11 +167,7 @@ impl<'d, 'a> Plan<'d, 'a> {
     pub(super) fn parameters(&self) -> Source {
         let fields = self.signatures.mechanism.parameters.iter();
         let fields = fields.map(|parameter| (parameter.name.field.clone(), parameter.symbol)).collect();
-        Source {
-            argument: None,
-            from: Expression::own().behind(),
-            shape: Shape::Fields { of: Type::Itself, fields, is_whole: true },
-        }
+        Source { from: Expression::own().behind(), shape: Shape::Fields { of: Type::Itself, fields, is_whole: true } }
     }
 
     fn pose_source(&self) -> Source {
@@ -182,7 +178,6 @@ impl<'d, 'a> Plan<'d, 'a> {
         let argument = self.signatures.arguments.pose.clone();
         Source {
             from: Expression::name(&argument).behind(),
-            argument: Some(argument),
             shape: Shape::Fields { of: self.signatures.pose_type(), fields, is_whole: self.pose.directions.is_empty() },
         }
     }
@@ -194,14 +189,13 @@ impl<'d, 'a> Plan<'d, 'a> {
         let fields = determinants.chain(externals).collect();
         let (of, pose) = (Type::Bare(self.signatures.types.pose.clone()), &self.signatures.arguments.pose);
         let shape = Shape::Fields { of, fields, is_whole: false };
-        Source { argument: Some(pose.clone()), from: Expression::name(pose), shape }
+        Source { from: Expression::name(pose), shape }
     }
 
     /// All coordinates, or their rates and so on, from an argument that is a reference.
     pub(super) fn coordinates(&self, argument: &str, symbol: fn(&Coordinate) -> SymbolId) -> Source {
         let fields = self.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c))).collect();
         Source {
-            argument: Some(argument.to_owned()),
             from: Expression::name(argument).behind(),
             shape: Shape::Fields { of: self.signatures.coordinates_type(), fields, is_whole: true },
         }
@@ -212,7 +206,6 @@ impl<'d, 'a> Plan<'d, 'a> {
         let coordinates = self.derivation.inputs.iter().map(|&index| &self.derivation.coordinates[index]);
         let fields = coordinates.map(|c| (c.name.clone(), symbol(c))).collect();
         Source {
-            argument: Some(argument.to_owned()),
             from: Expression::name(argument).method("into", []),
             shape: Shape::Fields { of: Type::Own(self.signatures.types.inputs.clone()), fields, is_whole: true },
         }
@@ -222,7 +215,6 @@ impl<'d, 'a> Plan<'d, 'a> {
     pub(super) fn columns(&self, function: &str, symbols: Vec<SymbolId>) -> Source {
         let pose = &self.signatures.arguments.pose;
         Source {
-            argument: Some(pose.clone()),
             from: Expression::call(function, [Expression::name(pose)]).tried().columns(),
             shape: Shape::Columns { rows: self.signatures.unknowns(), symbols },
         }

@@ -53,7 +53,7 @@ impl Plan<'_, '_> {
     fn solve(&mut self) {
         let guess = &self.signatures.arguments.guess;
         let body = Body::result(Expression::runtime("newton", [Expression::own(), Expression::name(guess)]));
-        let body = body.using([guess]);
+        let body = body;
         let doc = lines([
             "The position near `guess` whose inputs are those of `guess`, by Newton's method.",
             "",
@@ -95,7 +95,7 @@ impl Plan<'_, '_> {
         let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
         let steps = needed_names(&self.derivation.graph, steps, &nodes);
         self.position = Position::new(self.derivation, &self.pose, &self.assembly, &steps);
-        let Arguments { inputs, branch, turn, guess, .. } = self.signatures.arguments.clone();
+        let Arguments { inputs, turn, guess, .. } = self.signatures.arguments.clone();
         let source = if !self.position.is_closed {
             self.guess()
         } else if self.position.turns.is_empty() {
@@ -111,9 +111,7 @@ impl Plan<'_, '_> {
         };
         let mut body = Body::of(kernel, self.pose_of_results());
         body.after.push(Statement::CheckPosition);
-        if !self.position.sides.is_empty() {
-            body.uses.push(branch.clone());
-        }
+        if !self.position.sides.is_empty() {}
         if !self.position.is_closed {
             if !self.position.turns.is_empty() {
                 body.before = self.nearest_turns(&guess, &turn);
@@ -124,7 +122,7 @@ impl Plan<'_, '_> {
             self.add(self.signatures.assemble(), lines(ASSEMBLE), body);
         } else {
             let doc = lines(["The position at these inputs on this branch, with angles in the turns that are given."]);
-            self.add(self.signatures.assemble_in_turns(), doc, body.using([&turn]));
+            self.add(self.signatures.assemble_in_turns(), doc, body);
             self.assemble_by_turns();
         }
     }
@@ -137,7 +135,7 @@ impl Plan<'_, '_> {
         let turns = Expression::runtime("Turns", [Expression::List(fields.collect())]).borrowed();
         let call = Expression::call("assemble_in_turns", [v.method("into", []), on.clone(), turns]);
         let body = Body { calls: vec!["assemble_in_turns".to_owned()], ..Body::result(call) };
-        self.add(self.signatures.assemble(), lines(ASSEMBLE), body.using([&inputs, &branch]));
+        self.add(self.signatures.assemble(), lines(ASSEMBLE), body);
 
         let names: Vec<_> = self.position.turns.iter().map(|turn| format!("`{}`", turn.coordinate)).collect();
         let doc = lines([
@@ -150,7 +148,7 @@ impl Plan<'_, '_> {
         let inputs = Type::Bare(self.signatures.types.inputs.clone());
         let inputs = Expression::associated(inputs, "from", [near]);
         let call = Expression::call("assemble_in_turns", [inputs, on, Expression::name(&turn).borrowed()]);
-        let mut body = Body::result(call).using([&guess, &branch]);
+        let mut body = Body::result(call);
         body.before = self.nearest_turns(&guess, &turn);
         self.add(self.signatures.assemble_near(), doc, body);
     }
@@ -174,7 +172,6 @@ impl Plan<'_, '_> {
         let is_whole = fields.len() == coordinates.len();
         let guess = &self.signatures.arguments.guess;
         Source {
-            argument: Some(guess.clone()),
             from: Expression::name(guess).behind(),
             shape: Shape::Fields { of: self.signatures.coordinates_type(), fields, is_whole },
         }
@@ -241,7 +238,7 @@ impl Plan<'_, '_> {
             value: Box::new(assemble),
             moves: true,
         };
-        let mut body = Body::plain(Expression::runtime("existing", [all, assemble])).using([&inputs]);
+        let mut body = Body::plain(Expression::runtime("existing", [all, assemble]));
         let converted = Expression::name(&inputs).method("into", []);
         body.before = vec![Statement::Let(Pattern::Name(inputs), converted)];
         let doc = lines([
@@ -298,9 +295,7 @@ impl Plan<'_, '_> {
             let turns = turns.iter().map(|turn| (turn.field.clone(), Expression::name(&turn.field))).collect();
             body.value = Value::Plain(Expression::Struct(of, turns, Some(Box::new(Expression::name(&branch)))));
         }
-        if !self.position.sides.is_empty() || !turns.is_empty() {
-            body.uses.push(pose);
-        }
+        if !self.position.sides.is_empty() || !turns.is_empty() {}
         self.add(self.signatures.branch_of(), doc, body);
     }
 }

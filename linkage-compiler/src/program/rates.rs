@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Type};
-use super::function::{Body, Kernel, Shape, Source, results};
+use super::function::{Body, Function, Kernel, Shape, Source, results};
 use super::names::Arguments;
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
-use crate::derivation::{Form, Quantity};
+use crate::derivation::{Form, Quantity, Step};
 use crate::graph::{NodeId, Number, SymbolId};
 
 impl Plan<'_, '_> {
@@ -52,11 +52,8 @@ impl Plan<'_, '_> {
         let side = self.variables(&sides);
         let steps = self.derivation.solution(&[(side, parts.clone())], Form::Factored);
         let outputs = self.outputs(&parts);
-        let source = Source {
-            argument: Some(right.clone()),
-            from: Expression::name(&right).columns(),
-            shape: Shape::Columns { rows: u, symbols: sides },
-        };
+        let source =
+            Source { from: Expression::name(&right).columns(), shape: Shape::Columns { rows: u, symbols: sides } };
         let kernel = self.on_pose(vec![source], steps, outputs);
         let body = Body::of(kernel, Expression::vector(results(0..u))).checked("the solution", results(0..u));
         let doc = lines([
@@ -69,7 +66,7 @@ impl Plan<'_, '_> {
     }
 
     fn velocity_ratios(&mut self) {
-        let steps = self.ratio_steps();
+        let steps = self.ratio_steps(Form::Factored);
         let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
         let count = names.len();
         let outputs = self.outputs(&names);
@@ -95,15 +92,16 @@ impl Plan<'_, '_> {
     /// What the functions of scenes are made of: W, then q' = (W v', v'), then u'' at v'' = 0. Of these a determinant is
     /// refused, and nothing else: what is made of them is checked by whoever calls them.
     pub(super) fn layers(&mut self) {
-        let Arguments { rate, ratios, velocity, .. } = self.signatures.arguments.clone();
+        let Arguments { rate, ratios, velocity, whose, .. } = self.signatures.arguments.clone();
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
-        let steps = self.ratio_steps();
+        let steps = self.ratio_steps(Form::Entries);
         let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
         let nodes = self.variables(&names);
         let kernel = self.on_pose(Vec::new(), steps, unnamed(nodes));
         let columns = Expression::List(Expression::nested(results(0..u * v), &[u]));
-        let doc = lines(["W = -J^-1 A, column by column.", "", "# Errors", "`Singular` where J has no inverse."]);
-        self.add(self.signatures.ratio_columns(), doc, Body::of(kernel, columns));
+        let signature = self.layer(self.signatures.ratio_columns(), &kernel);
+        let kernel = Kernel { whose: signature.is_fallible.then(|| whose.clone()), ..kernel };
+        self.add(signature, lines(["W = -J^-1 A, column by column."]), Body::of(kernel, columns));
 
         let rates = self.rates(&self.derivation.inputs.clone());
         let rates = self.variables(&rates);
@@ -117,11 +115,8 @@ impl Plan<'_, '_> {
         }
         nodes.extend(self.derivation.inputs.iter().copied().zip(rates));
         let by_value = Source { from: Expression::name(&rate), ..self.inputs(&rate, |c| c.rate) };
-        let columns = Source {
-            argument: Some(ratios.clone()),
-            from: Expression::name(&ratios).behind(),
-            shape: Shape::Columns { rows: u, symbols: names },
-        };
+        let columns =
+            Source { from: Expression::name(&ratios).behind(), shape: Shape::Columns { rows: u, symbols: names } };
         let outputs = unnamed(nodes.into_values());
         let kernel = Kernel { sources: vec![columns, by_value], results: outputs, ..Kernel::default() };
         let body = Body::of(kernel, self.coordinates_of(0));
@@ -133,14 +128,11 @@ impl Plan<'_, '_> {
         let steps = self.derivation.solution(&[(side, names.clone())], Form::Entries);
         let nodes = self.variables(&names);
         let kernel = self.on_pose(vec![self.coordinates(&velocity, |c| c.rate)], steps, unnamed(nodes));
-        let doc = lines([
-            "u'' where the inputs do not accelerate: J u'' = -gamma.",
-            "",
-            "# Errors",
-            "`Singular` where J has no inverse.",
-        ]);
+        let signature = self.layer(self.signatures.bias_accelerations(), &kernel);
+        let kernel = Kernel { whose: signature.is_fallible.then_some(whose), ..kernel };
         let body = Body::of(kernel, Expression::List(results(0..u)));
-        self.add(self.signatures.bias_accelerations(), doc, body);
+        let doc = lines(["u'' where the inputs do not accelerate: J u'' = -gamma."]);
+        self.add(signature, doc, body);
     }
 
     pub(super) fn acceleration(&mut self) {
@@ -241,7 +233,7 @@ impl Plan<'_, '_> {
         // No rate need be other than finite where a coordinate is.
         let checked = [self.checked(0), self.checked(count), results(2 * count..3 * count)].concat();
         let motion = Type::Bare(self.signatures.types.motion.clone());
-        let body = Body::of(kernel, Expression::structure(motion, members)).checked("motion", checked).using([&q]);
+        let body = Body::of(kernel, Expression::structure(motion, members)).checked("motion", checked);
         let doc = lines([
             "Everything at once at coordinates that close the mechanism: velocity, acceleration, points and outputs,",
             "every shared subexpression computed once.",
@@ -250,5 +242,23 @@ impl Plan<'_, '_> {
             "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
         ]);
         self.add(self.signatures.motion(), doc, body);
+    }
+}
+
+impl Plan<'_, '_> {
+    /// A private function as it is called: one that refuses nothing has no name to refuse by, which is the last argument,
+    /// and one without parameters takes no `self`.
+    fn layer(&self, mut signature: Function<Body>, kernel: &Kernel) -> Function<Body> {
+        let refuses = |step: &Step| matches!(step, Step::Guard { .. } | Step::Factor { .. });
+        let is_fallible = kernel.steps.iter().any(refuses);
+        if !is_fallible {
+            signature.arguments.pop();
+        }
+        let nodes: Vec<NodeId> = kernel.steps.iter().flat_map(Step::nodes).collect();
+        let nodes: Vec<NodeId> = nodes.into_iter().chain(kernel.results.iter().map(|output| output.node)).collect();
+        let symbols = self.derivation.graph.symbols_of(&nodes);
+        let parameters = &self.signatures.mechanism.parameters;
+        let is_method = parameters.iter().any(|parameter| symbols.contains(&parameter.symbol));
+        Function { is_fallible, is_method, ..signature }
     }
 }

@@ -243,7 +243,7 @@ impl<'a> Signatures<'a> {
 
     /// W, column by column.
     pub fn ratio_columns(&self) -> Function<Body> {
-        inlined(fallible("ratio_columns", [self.pose()], self.columns()))
+        inlined(fallible("ratio_columns", [self.pose(), self.whose()], self.columns()))
     }
 
     fn columns(&self) -> Type {
@@ -254,11 +254,12 @@ impl<'a> Signatures<'a> {
         let ratios = Argument { name: self.arguments.ratios.clone(), passed: Passed::ByReference(self.columns()) };
         let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
         let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
-        inlined(total("coordinate_rates", [ratios, rate], self.coordinates_type()))
+        let rates = inlined(total("coordinate_rates", [ratios, rate], self.coordinates_type()));
+        Function { is_method: false, ..rates }
     }
 
     pub fn bias_accelerations(&self) -> Function<Body> {
-        let arguments = [self.pose(), self.coordinates(&self.arguments.velocity)];
+        let arguments = [self.pose(), self.coordinates(&self.arguments.velocity), self.whose()];
         let of = Type::List(Box::new(Type::Scalar), self.unknowns());
         inlined(fallible("bias_accelerations", arguments, of))
     }
@@ -336,6 +337,10 @@ impl<'a> Signatures<'a> {
         Argument { name: self.arguments.branch.clone(), passed: Passed::ByValue(of) }
     }
 
+    fn whose(&self) -> Argument {
+        Argument { name: self.arguments.whose.clone(), passed: Passed::ByValue(Type::Text) }
+    }
+
     fn coordinates(&self, name: &str) -> Argument {
         Argument { name: name.to_owned(), passed: Passed::ByReference(self.coordinates_type()) }
     }
@@ -372,6 +377,7 @@ pub fn total(name: impl Into<String>, arguments: impl IntoIterator<Item = Argume
         name: name.into(),
         doc: Vec::new(),
         access: Access::Public,
+        is_method: true,
         arguments: arguments.into_iter().collect(),
         returns,
         is_fallible: false,

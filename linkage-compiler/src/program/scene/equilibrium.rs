@@ -34,7 +34,7 @@ impl ScenePlan<'_, '_, '_> {
             moves: false,
         };
         let search = [Expression::mechanism(), Expression::List(start), closure];
-        let mut body = Body::result(Expression::runtime("equilibrium", search)).using([&time, &guess]);
+        let mut body = Body::result(Expression::runtime("equilibrium", search));
         if !driven.is_empty() {
             let laws = driven.into_iter().map(|input| Pattern::First(Box::new(Pattern::Name(input))));
             let drives = Expression::call("drives", [Expression::name(&time)]);

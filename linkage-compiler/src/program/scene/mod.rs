@@ -106,7 +106,6 @@ impl ScenePlan<'_, '_, '_> {
         let fields = |of: Type, fields: Vec<(String, SymbolId)>, is_whole| Shape::Fields { of, fields, is_whole };
         vec![
             Source {
-                argument: None,
                 from: self.mechanism(),
                 shape: fields(
                     Type::Bare(self.signatures.types.driver.clone()),
@@ -115,16 +114,7 @@ impl ScenePlan<'_, '_, '_> {
                 ),
             },
             // The mechanism is a field as well.
-            Source {
-                argument: None,
-                from: Expression::own().behind(),
-                shape: fields(Type::Itself, scene.collect(), false),
-            },
-            Source {
-                argument: Some(self.signatures.arguments.time.clone()),
-                from: Expression::name(&self.signatures.arguments.time),
-                shape: Shape::Argument(mechanism.time),
-            },
+            Source { from: Expression::own().behind(), shape: fields(Type::Itself, scene.collect(), false) },
         ]
     }
 
@@ -138,7 +128,6 @@ impl ScenePlan<'_, '_, '_> {
         let (q, pose) = (&self.signatures.arguments.q, &self.signatures.arguments.pose);
         let call = self.mechanism().method("pose_at", [Expression::name(q)]);
         body.before.push(Statement::Let(Pattern::Name(pose.clone()), call));
-        body.uses.push(q.clone());
         body.calls.push(self.of_driver("pose_at"));
     }
 
@@ -171,7 +160,7 @@ impl ScenePlan<'_, '_, '_> {
         let needs_ratios = derivation.ratios.iter().flatten().any(|ratio| used.contains(ratio));
         let mut body = self.on_pose(Vec::new(), Vec::new(), results);
         let ratios = Expression::name(&arguments.ratios);
-        let call = self.mechanism().method("ratio_columns", [Expression::name(&arguments.pose).borrowed()]).tried();
+        let call = self.judged("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
         body.calls.push(self.of_driver("ratio_columns"));
         body.before.push(if needs_ratios || needs_velocity {
             Statement::Let(Pattern::Name(arguments.ratios.clone()), call)
@@ -183,28 +172,41 @@ impl ScenePlan<'_, '_, '_> {
         if needs_ratios {
             let symbols = derivation.ratios.iter().flatten().copied().collect();
             let rows = derivation.unknowns.len();
-            sources.push(Source { argument: None, from: ratios.clone(), shape: Shape::Columns { rows, symbols } });
+            sources.push(Source { from: ratios.clone(), shape: Shape::Columns { rows, symbols } });
         }
         if needs_velocity {
-            let call = self.mechanism().method("coordinate_rates", [ratios.borrowed(), rate.clone()]);
+            let driver = Type::Bare(self.signatures.types.driver.clone());
+            let call = Expression::associated(driver, "coordinate_rates", [ratios.borrowed(), rate.clone()]);
             body.before.push(Statement::Let(Pattern::Name(arguments.velocity.clone()), call));
             body.calls.push(self.of_driver("coordinate_rates"));
-            body.uses.push(arguments.rate.clone());
             let from = Expression::name(&arguments.velocity);
-            sources.push(Source { argument: None, from, ..self.plan.coordinates(&arguments.rate, |c| c.rate) });
+            sources.push(Source { from, ..self.plan.coordinates(&arguments.rate, |c| c.rate) });
         } else {
             sources.push(Source { from: rate, ..self.plan.inputs(&arguments.rate, |c| c.rate) });
         }
         if needs_bias {
-            let on = [Expression::name(&arguments.pose).borrowed(), Expression::name(&arguments.velocity).borrowed()];
-            let from = self.mechanism().method("bias_accelerations", on).tried();
+            let on = [&arguments.pose, &arguments.velocity].map(|name| Expression::name(name).borrowed());
+            let from = self.judged("bias_accelerations", on.to_vec());
             body.calls.push(self.of_driver("bias_accelerations"));
-            sources.push(Source { argument: None, from, shape: Shape::List(self.scene.bias.clone()) });
+            sources.push(Source { from, shape: Shape::List(self.scene.bias.clone()) });
         }
         if let Some(kernel) = &mut body.kernel {
             kernel.sources.extend(sources);
         }
         body
+    }
+
+    /// A call of a function of the mechanism that refuses determinants in the name of the scene, if there are any.
+    fn judged(&self, function: &str, mut on: Vec<Expression>) -> Expression {
+        let layer = self.plan.functions.iter().find(|layer| layer.name == function);
+        let (is_method, is_fallible) = layer.map_or((true, true), |layer| (layer.is_method, layer.is_fallible));
+        on.extend(is_fallible.then(Expression::mechanism));
+        let call = if is_method {
+            self.mechanism().method(function, on)
+        } else {
+            Expression::associated(Type::Bare(self.signatures.types.driver.clone()), function, on)
+        };
+        if is_fallible { call.tried() } else { call }
     }
 
     /// A check that is made more precise only where it fails.
@@ -220,7 +222,6 @@ impl ScenePlan<'_, '_, '_> {
         };
         let blame = (self.is_blamable && values.iter().any(is_formula)).then(|| {
             let state = [&arguments.time, &arguments.q, &arguments.rate];
-            body.uses.extend(state.map(String::clone));
             let blame = Expression::call("blame", state.map(Expression::name));
             let refused = Expression::runtime("Err", [Expression::name("error")]);
             Expression::Closure {

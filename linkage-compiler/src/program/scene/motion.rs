@@ -164,7 +164,7 @@ impl ScenePlan<'_, '_, '_> {
         let arguments = &self.signatures.arguments;
         let state = [&arguments.time, &arguments.q, &arguments.rate];
         let rates = Expression::call("rates", state.map(Expression::name)).tried();
-        let body = Body::plain(rates.field("1")).using(state);
+        let body = Body::plain(rates.field("1"));
         self.add(self.signatures.acceleration(), doc, body);
     }
 }

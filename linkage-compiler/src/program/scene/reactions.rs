@@ -30,7 +30,7 @@ impl ScenePlan<'_, '_, '_> {
         };
         let (takes_rate, takes_acceleration) = (used(|c| c.rate), used(|c| c.acceleration));
         let count = nodes.len();
-        let by_name = |name: &str, source: Source| Source { argument: None, from: Expression::name(name), ..source };
+        let by_name = |name: &str, source: Source| Source { from: Expression::name(name), ..source };
         let sources = vec![
             by_name(&rate, self.plan.coordinates(&rate, |c| c.rate)),
             by_name(&acceleration, self.plan.coordinates(&acceleration, |c| c.acceleration)),
@@ -44,11 +44,9 @@ impl ScenePlan<'_, '_, '_> {
             body.before.push(Statement::Let(both, rates));
             let all = self.mechanism().method("acceleration", [on, at(&rate).borrowed(), at(&acceleration)]).tried();
             body.before.push(Statement::Let(Pattern::Name(acceleration), all));
-            body.uses.extend([time, rate]);
         } else if takes_rate {
             let velocity = self.mechanism().method("velocity", [on, at(&rate)]).tried();
             body.before.push(Statement::Let(Pattern::Name(rate.clone()), velocity));
-            body.uses.push(rate);
         }
         let body = Body { value: Value::Plain(Expression::vector(results(0..count))), ..body };
         self.add(self.signatures.reactions(), doc, body);
