@@ -222,7 +222,7 @@ fn what_a_scene_does_not_name_is_not_there() {
     }
     let others = ["param k", "scene Loaded", "scene Driven", "scene Balanced", "let"];
     let idle = part_of_scenes(|statement| !others.iter().any(|word| statement.starts_with(word)));
-    assert!(idle.iter().any(|item| item.contains("impl<T: Real> Idle<T>")));
+    assert!(idle.iter().any(|item| item.contains("impl<T: __rt::Real> Idle<T>")));
     for item in &idle {
         assert!(works.contains(&work(item)), "{item}");
     }

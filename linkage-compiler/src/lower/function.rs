@@ -139,7 +139,10 @@ impl<'a> Formulas<'a> {
         let nothing = Given::default();
         let given = if kernel.is_on_pose { &context.pose.given } else { &nothing };
         let nodes: Vec<NodeId> = kernel.results.iter().map(|output| output.node).collect();
-        let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, context.named);
+        // A value that has a line of its own is called as the result that it is, or as the user calls it.
+        let results = kernel.results.iter().filter_map(|output| Some((output.node, output.name.clone()?)));
+        let named: Vec<(NodeId, String)> = results.chain(context.named.iter().cloned()).collect();
+        let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, &named);
         let is_proven = schedule.proven();
         let mut names = Names::new(&derivation.graph, context.reserved);
         // The user's own names come first, so that they stay as they are.
