@@ -367,3 +367,59 @@ mod turns {
         assert_eq!(Seven::default().assemble(1.0, SevenBranch::new()).unwrap().u, 7.0 * PI - 1.0);
     }
 }
+
+/// Mechanisms, scenes, parameters and coordinates that are called like names that emitted code uses.
+#[no_implicit_prelude]
+mod taken {
+    ::kinematics::linkage! {
+        pub mechanism Ok {
+            param position = 1, limits = 3, T = 2, whose = 0.5;
+            input newton;
+            unknown ratios, velocity;
+            loop position@newton + limits@ratios = (velocity, 0);
+            point Vector2 = whose@newton;
+            body Err { mass T; center (velocity, 0); }
+            scene S { inertia; energy; gravity (0, -whose); }
+            scene Option { inertia; spring whose on velocity; power; reactions; }
+            derive limits;
+        }
+        pub mechanism Search {
+            param turn = 1, guess = 3;
+            coordinate pose, q, inputs;
+            loop turn@pose + guess@q = (inputs, 0);
+            drive Iterator by pose;
+            drive Mechanism by inputs;
+        }
+        pub mechanism Solution {
+            param r = 1, l = 3;
+            input phi;
+            unknown psi, x;
+            loop r@phi + l@psi = (x, 0);
+            body Piston { mass 2; center (x, 0); }
+            scene Scene { inertia; }
+            scene SS { inertia; energy; }
+        }
+        /// As a driver of another mechanism would be called by the compiler's own words.
+        pub mechanism Result {
+            param __rt = 1, Self_ = 3;
+            input phi;
+            unknown psi, x;
+            loop __rt@phi + Self_@psi = (x, 0);
+        }
+    }
+}
+
+#[test]
+fn names_of_emitted_code_are_free() {
+    let mechanism = taken::Ok::default();
+    let branch =
+        mechanism.branch_of(&mechanism.pose_at(&taken::OkCoordinates { newton: 0.5, ratios: -0.1, velocity: 3.8 }));
+    let found = mechanism.assemble(0.5, branch).unwrap().coordinates();
+    assert!((found.velocity - (0.5_f64.cos() + (9.0 - 0.5_f64.sin().powi(2)).sqrt())).abs() < 1e-15);
+    // m v^2 / 2 of the slider at unit speed of the crank, by differences of the positions.
+    let step = 1e-5;
+    let [before, after] = [-step, step].map(|by| mechanism.assemble(0.5 + by, branch).unwrap().coordinates().velocity);
+    let rate = (after - before) / (2.0 * step);
+    let scene = taken::S { mechanism, t: 2.0 };
+    assert!((scene.energy(&found, 1.0).unwrap().kinetic - rate * rate).abs() < 1e-9);
+}

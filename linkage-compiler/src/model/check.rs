@@ -34,54 +34,17 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// What emitted code calls its own; the types of the user stand beside it.
-const TYPES_OF_EMITTED_CODE: [&str; 30] = [
-    "Along",
-    "Assembly",
-    "Balance",
-    "Bound",
-    "Contact",
-    "ContactLaw",
-    "Energy",
-    "Equations",
-    "Error",
-    "Factorization",
-    "From",
-    "Group",
-    "Into",
-    "Iterator",
-    "Limits",
-    "Mechanism",
-    "NearestTurns",
-    "OutputMotion",
-    "PointMotion",
-    "Power",
-    "Real",
-    "Result",
-    "SMatrix",
-    "SVector",
-    "Scene",
-    "Search",
-    "Solution",
-    "Turn",
-    "Turns",
-    "Vector2",
-];
-
-/// Mechanisms and drivers called like a type that the code emitted for them uses.
+/// Mechanisms, drivers and scenes that are called like the scalar.
 pub(super) fn misnamed(mechanism: &Mechanism) -> impl Iterator<Item = &Ident> {
     let drivers = mechanism.drivers.iter().map(|driver| &driver.name);
     let shared = mechanism.is_driven_by_choice().then_some(&mechanism.name);
     let scenes = mechanism.scenes.iter().map(|scene| &scene.name);
-    let names = shared.into_iter().chain(drivers).chain(scenes);
-    // T is the scalar, and S another one.
-    names.filter(|&name| name == "T" || name == "S" || TYPES_OF_EMITTED_CODE.iter().any(|taken| name == taken))
+    shared.into_iter().chain(drivers).chain(scenes).filter(|&name| name == "T")
 }
 
 pub(super) fn types(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     for name in misnamed(mechanism) {
-        let advice = format_args!("emitted code uses a type of this name: choose another, such as `{name}Linkage`");
-        diagnostics.error(name.span(), advice);
+        diagnostics.error(name.span(), "`T` is the scalar of emitted code: choose another name, such as `TLinkage`");
     }
 }
 

@@ -1,9 +1,9 @@
-//! A mechanism called like a type of the emitted code.
+//! A driver called like the scalar of the emitted code.
 
 use linkage::linkage;
 
 linkage! {
-    mechanism Solution {
+    mechanism Chosen {
         param r = 1, l = 3;
         coordinate phi1, phi2, x;
         loop r@phi1 + l@phi2 = x@0;
