@@ -133,6 +133,16 @@ pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
     mechanism.drivers.iter().map(|driver| derivation::derive(mechanism, driver)).collect()
 }
 
+/// The lowered programs of a checked mechanism as text, one for each driver.
+#[must_use]
+pub fn programs(mechanism: &Mechanism) -> Vec<String> {
+    let drivers = mechanism.drivers.iter().map(|driver| {
+        let mut derivation = derivation::derive(mechanism, driver);
+        emit::text(&lower::program(program::plan(mechanism, driver, &mut derivation), &derivation))
+    });
+    drivers.collect()
+}
+
 /// Reads mechanisms without expanding them, for tests and tools.
 ///
 /// # Errors

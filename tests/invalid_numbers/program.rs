@@ -93,11 +93,7 @@ mod cam_laws {
 /// What is emitted for mechanisms, asked for everything that they can be asked for.
 fn expanded(tokens: &TokenStream) -> TokenStream {
     let text = tokens.to_string();
-    // Types are known by their names alone.
-    let expand = |text: &str| -> TokenStream {
-        let expansion = linkage_compiler::expand(text.parse().unwrap(), &"::linkage".parse().unwrap());
-        expansion.to_string().replace("__rt :: ", "").parse().unwrap()
-    };
+    let expand = |text: &str| linkage_compiler::expand(text.parse().unwrap(), &"::linkage".parse().unwrap());
     let has_errors = |tokens: &TokenStream| tokens.to_string().contains("compile_error");
     let wanted: Vec<&str> = text.split("derive ").skip(1).filter_map(|rest| rest.split(';').next()).collect();
     let is_wanted = |request: &str| wanted.iter().any(|list| list.split(',').any(|name| name.trim() == request));
@@ -124,9 +120,9 @@ fn snake(name: &str) -> String {
     text
 }
 
-/// A type or a pattern without spaces.
+/// A type or a pattern without spaces, and types of the runtime without their path.
 fn plain(tokens: impl ToTokens) -> String {
-    tokens.to_token_stream().to_string().replace(' ', "")
+    tokens.to_token_stream().to_string().replace(' ', "").replace("__rt::", "")
 }
 
 #[derive(Default)]

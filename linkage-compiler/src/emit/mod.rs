@@ -8,6 +8,7 @@ mod functions;
 mod items;
 mod names;
 mod scene;
+mod text;
 mod traits;
 mod types;
 
@@ -20,6 +21,7 @@ use crate::model::Mechanism;
 use crate::program::{self, Access, Function, Operations, Program};
 use functions::function;
 use names::string;
+pub use text::text;
 
 /// The items of a whole mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]
