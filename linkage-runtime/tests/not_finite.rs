@@ -1,8 +1,9 @@
 //! Searches and integrations whose numbers leave the range: they are refused, wherever the number stands.
 
+use linkage_runtime::__rt::{equilibrium, newton_group};
 use linkage_runtime::integrate::{FixedStep, Tolerance, dop853, dopri5};
 use linkage_runtime::nalgebra::SVector;
-use linkage_runtime::{Balance, Error, equilibrium, newton_group};
+use linkage_runtime::{Balance, Error};
 
 const IDENTITY: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 

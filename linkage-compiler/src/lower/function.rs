@@ -295,10 +295,6 @@ impl Finished<'_> {
         values.into_iter().map(|value| self.expression(value)).collect()
     }
 
-    fn boxed(&self, value: Box<Expression>) -> Box<Expression> {
-        Box::new(self.expression(*value))
-    }
-
     fn expression(&self, value: Expression) -> Expression {
         use Expression as E;
         match value {
@@ -309,26 +305,28 @@ impl Finished<'_> {
             }
             E::Product(factors) => E::Product(self.expressions(factors)),
             E::Quotient(parts) => E::Quotient(Box::new(parts.map(|part| self.expression(part)))),
-            E::Square(value) => E::Square(self.boxed(value)),
-            E::Negative(value) => E::Negative(self.boxed(value)),
+            E::Square(value) => E::Square(Box::new(self.expression(*value))),
+            E::Negative(value) => E::Negative(Box::new(self.expression(*value))),
             E::Elementary(function, arguments) => E::Elementary(function, self.expressions(arguments)),
-            E::Field(value, name) => E::Field(self.boxed(value), name),
-            E::Index(value, place) => E::Index(self.boxed(value), place),
+            E::Field(value, name) => E::Field(Box::new(self.expression(*value)), name),
+            E::Index(value, place) => E::Index(Box::new(self.expression(*value)), place),
             E::List(values) => E::List(self.expressions(values)),
-            E::Repeated(value, count) => E::Repeated(self.boxed(value), count),
+            E::Repeated(value, count) => E::Repeated(Box::new(self.expression(*value)), count),
             E::Tuple(values) => E::Tuple(self.expressions(values)),
             E::Struct(of, members, rest) => {
                 let members = members.into_iter().map(|(name, value)| (name, self.expression(value))).collect();
-                E::Struct(of, members, rest.map(|rest| self.boxed(rest)))
+                E::Struct(of, members, rest.map(|rest| Box::new(self.expression(*rest))))
             }
             E::Runtime(name, arguments) => E::Runtime(name, self.expressions(arguments)),
             E::Associated(of, name, arguments) => E::Associated(of, name, self.expressions(arguments)),
-            E::Method(value, name, arguments) => E::Method(self.boxed(value), name, self.expressions(arguments)),
-            E::Try(value) => E::Try(self.boxed(value)),
-            E::Borrowed(value) => E::Borrowed(self.boxed(value)),
-            E::Behind(value) => E::Behind(self.boxed(value)),
+            E::Method(value, name, arguments) => {
+                E::Method(Box::new(self.expression(*value)), name, self.expressions(arguments))
+            }
+            E::Try(value) => E::Try(Box::new(self.expression(*value))),
+            E::Borrowed(value) => E::Borrowed(Box::new(self.expression(*value))),
+            E::Behind(value) => E::Behind(Box::new(self.expression(*value))),
             E::Closure { arguments, statements, value, moves } => {
-                E::Closure { arguments, statements, value: self.boxed(value), moves }
+                E::Closure { arguments, statements, value: Box::new(self.expression(*value)), moves }
             }
             finished @ (E::Name(_) | E::Number(_) | E::Text(_) | E::Count(_) | E::Constant(_)) => finished,
         }

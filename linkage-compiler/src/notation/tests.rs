@@ -189,3 +189,79 @@ fn user_functions() {
     let product = g.product(&[(second, 2), (h, 1)]);
     assert_eq!(text(&g, product), "h·lift₁″(θ, h)²");
 }
+
+#[test]
+fn names_in_all_notations() {
+    let all = |name: Name| {
+        let Formula { text, latex, mathml } = Formula::of_name(name);
+        [text, latex, mathml]
+    };
+    for (name, expected) in [
+        ("theta3", ["θ₃", r"\theta_3", "<msub><mi>θ</mi><mn>3</mn></msub>"]),
+        ("θ12", ["θ₁₂", r"\theta_{12}", "<msub><mi>θ</mi><mn>12</mn></msub>"]),
+        ("z_t", ["z_t", "z_{t}", "<msub><mi>z</mi><mi>t</mi></msub>"]),
+        ("l1_alpha", ["l₁_α", r"l_{1,\alpha}", "<msub><mi>l</mi><mrow><mn>1</mn><mo>,</mo><mi>α</mi></mrow></msub>"]),
+        ("crank2", ["crank₂", r"\mathrm{crank}_2", "<msub><mi>crank</mi><mn>2</mn></msub>"]),
+        ("Omega", ["Ω", r"\Omega", "<mi>Ω</mi>"]),
+        ("Alpha", ["Α", r"\mathrm{A}", "<mi>Α</mi>"]),
+    ] {
+        assert_eq!(all(Name::Plain(name)), expected);
+    }
+    let dotted = "<msub><mover><mi>θ</mi><mo>˙</mo></mover><mn>3</mn></msub>";
+    assert_eq!(all(Name::Rate("theta3")), ["θ̇₃", r"\dot{\theta}_3", dotted]);
+    assert_eq!(all(Name::Acceleration("s")), ["s̈", r"\ddot{s}", "<mover><mi>s</mi><mo>¨</mo></mover>"]);
+    let twice = Name::RatioDerivative { of: "theta3", by: ["theta2", "theta2"] };
+    assert_eq!(all(twice)[..2], ["∂²θ₃/∂θ₂²", r"\frac{\partial^2 \theta_3}{\partial {\theta_2}^2}"]);
+    let mixed = "<mfrac><mrow><msup><mo>∂</mo><mn>2</mn></msup><mi>s</mi></mrow>\
+                 <mrow><mo>∂</mo><mi>x</mi><mo>∂</mo><mi>y</mi></mrow></mfrac>";
+    assert_eq!(all(Name::RatioDerivative { of: "s", by: ["x", "y"] })[2], mixed);
+    // Names that cannot come from the language do no harm.
+    for name in ["", "_", "a<b&c", "r#type"] {
+        all(Name::Plain(name));
+    }
+    assert_eq!(all(Name::Plain("a<&"))[2], "<mi>a&lt;&amp;</mi>");
+}
+
+#[test]
+fn the_determinant_of_the_four_bar_in_mathml() {
+    let (mut g, [l3, l4, theta3, theta4]) = graph(["l3", "l4", "theta3", "theta4"]);
+    let difference = g.subtract(theta3, theta4);
+    let sine = g.call(Function::Sin, &[difference]);
+    let product = g.product(&[(l3, 1), (l4, 1), (sine, 1)]);
+    let node = g.negate(product);
+    let Formula { text, latex, mathml } = formula(&g, node);
+    assert_eq!(text, "−l₃·l₄·sin(θ₃ − θ₄)");
+    assert_eq!(latex, r"-l_3 l_4 \sin(\theta_3 - \theta_4)");
+    let sub = |base: &str, index: u8| format!("<msub><mi>{base}</mi><mn>{index}</mn></msub>");
+    let expected = format!(
+        "<mrow><mo>−</mo><mrow>{}<mo>\u{2062}</mo>{}<mo rspace=\"0.17em\">\u{2062}</mo><mrow><mi>sin</mi><mo>\u{2061}</mo><mrow>\
+         <mo>(</mo><mrow>{}<mo>−</mo>{}</mrow><mo>)</mo></mrow></mrow></mrow></mrow>",
+        sub("l", 3),
+        sub("l", 4),
+        sub("θ", 3),
+        sub("θ", 4)
+    );
+    assert_eq!(mathml, expected);
+}
+
+/// Brackets where what follows could be taken for a part of an argument, bars in place of brackets, powers at the names
+/// of circular functions.
+#[test]
+fn products_and_powers_in_latex() {
+    let (mut g, [x, l, ratio, rate, det]) = graph(["x", "l", "y/x", "x.", "det"]);
+    let sum = g.add(x, l);
+    let sine = g.call(Function::Sin, &[x]);
+    let node = g.product(&[(x, 1), (l, 1), (rate, 2), (ratio, 1), (sine, 1), (sum, 1), (det, 1)]);
+    let Formula { text, latex, mathml } = formula(&g, node);
+    assert_eq!(text, "x·l·ẋ²·(∂y/∂x)·sin(x)·(x + l)·det J");
+    assert_eq!(latex, r"x l \dot{x}^2 \frac{\partial y}{\partial x} \sin(x) (x + l) \det J");
+    let lowered = "<msup><mpadded height=\"0.75em\"><mover><mi>x</mi><mo>˙</mo></mover></mpadded><mn>2</mn></msup>";
+    assert!(mathml.contains(lowered), "{mathml}");
+    let node = g.product(&[(ratio, 2), (det, -2)]);
+    let Formula { text, latex, .. } = formula(&g, node);
+    assert_eq!(text, "(∂y/∂x)²/(det J)²");
+    assert_eq!(latex, r"\frac{\left(\frac{\partial y}{\partial x}\right)^2}{(\det J)^2}");
+    let cosine = g.call(Function::Cos, &[x]);
+    let node = g.product(&[(sine, 2), (cosine, 1)]);
+    assert_eq!(formula(&g, node).latex, r"\sin^2 x \cos x");
+}

@@ -53,7 +53,6 @@ impl Plan<'_, '_> {
     fn solve(&mut self) {
         let guess = &self.signatures.arguments.guess;
         let body = Body::result(Expression::runtime("newton", [Expression::own(), Expression::name(guess)]));
-        let body = body;
         let doc = lines([
             "The position near `guess` whose inputs are those of `guess`, by Newton's method.",
             "",
@@ -111,7 +110,6 @@ impl Plan<'_, '_> {
         };
         let mut body = Body::of(kernel, self.pose_of_results());
         body.after.push(Statement::CheckPosition);
-        if !self.position.sides.is_empty() {}
         if !self.position.is_closed {
             if !self.position.turns.is_empty() {
                 body.before = self.nearest_turns(&guess, &turn);
@@ -295,7 +293,6 @@ impl Plan<'_, '_> {
             let turns = turns.iter().map(|turn| (turn.field.clone(), Expression::name(&turn.field))).collect();
             body.value = Value::Plain(Expression::Struct(of, turns, Some(Box::new(Expression::name(&branch)))));
         }
-        if !self.position.sides.is_empty() || !turns.is_empty() {}
         self.add(self.signatures.branch_of(), doc, body);
     }
 }
