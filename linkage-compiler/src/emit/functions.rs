@@ -12,7 +12,7 @@ use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value
 pub(super) fn function(function: &Function<Code>) -> TokenStream {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
     // People see the work of what they call.
-    let work = body.as_ref().filter(|_| *access == Access::Public).map(|code| code.operations);
+    let work = body.as_ref().filter(|_| access.is_public()).map(|code| code.operations);
     let doc = description(doc, work.unwrap_or_default());
     let name = ident(name);
     let itself = is_method.then(|| quote!(&self));
@@ -29,7 +29,9 @@ pub(super) fn function(function: &Function<Code>) -> TokenStream {
     let attributes = match access {
         Access::Public if !is_fallible && !matches!(returns, Type::Branches { .. }) => quote!(#[must_use] pub),
         Access::Public => quote!(pub),
+        Access::PublicLayer => quote!(#[inline(always)] #[must_use] pub),
         Access::Inlined => quote!(#[inline]),
+        Access::Layer => quote!(#[inline(always)]),
         Access::Cold => quote!(#[cold]),
     };
     let body = match body {

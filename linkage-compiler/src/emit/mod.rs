@@ -18,7 +18,7 @@ use quote::quote;
 use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::model::Mechanism;
-use crate::program::{self, Access, Function, Operations, Program};
+use crate::program::{self, Function, Operations, Program};
 use functions::function;
 use names::string;
 pub use text::text;
@@ -99,7 +99,7 @@ fn block(
 
 /// The public functions that compute something, with their work.
 fn works(functions: &[Function<Code>]) -> Vec<(String, Operations)> {
-    let public = functions.iter().filter(|function| function.access == Access::Public);
+    let public = functions.iter().filter(|function| function.access.is_public());
     let works = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
     works.filter(|(_, work)| *work != Operations::default()).collect()
 }

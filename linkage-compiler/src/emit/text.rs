@@ -21,8 +21,8 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
     for function in functions {
         let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
         let access = match function.access {
-            Access::Public => "",
-            Access::Inlined => "inlined ",
+            Access::Public | Access::PublicLayer => "",
+            Access::Inlined | Access::Layer => "inlined ",
             Access::Cold => "cold ",
         };
         let refuses = if function.is_fallible { " or an error" } else { "" };

@@ -29,10 +29,20 @@ pub struct Function<B> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
     Public,
-    /// Other emitted functions, which it is inlined into.
+    /// Other emitted functions, which it may be inlined into.
     Inlined,
+    /// The functions of scenes, which it is always inlined into, so that what they do not use costs nothing.
+    Layer,
+    /// Everybody, and the functions of scenes as a layer.
+    PublicLayer,
     /// Other emitted functions, where something went wrong.
     Cold,
+}
+
+impl Access {
+    pub fn is_public(self) -> bool {
+        matches!(self, Self::Public | Self::PublicLayer)
+    }
 }
 
 #[derive(Debug, Clone)]

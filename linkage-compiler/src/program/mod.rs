@@ -80,7 +80,7 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
         all().filter_map(|function| function.body.as_ref()).flat_map(|body| &body.calls).collect();
     let is_called = |name: &String| called.contains(name) || called.contains(&signatures.types.function(name));
     let kept: Vec<bool> =
-        functions.iter().map(|function| function.access == Access::Public || is_called(&function.name)).collect();
+        functions.iter().map(|function| function.access.is_public() || is_called(&function.name)).collect();
     let mut kept = kept.into_iter();
     functions.retain(|_| kept.next().unwrap_or(true));
     Program { signatures, position, functions, scenes, derived: Some(Derived { pose, formulas, named }) }

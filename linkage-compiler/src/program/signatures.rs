@@ -128,7 +128,9 @@ impl<'a> Signatures<'a> {
     // Position.
 
     pub fn pose_at(&self) -> Function<Body> {
-        total("pose_at", [self.coordinates(&self.arguments.q)], self.pose_type())
+        let is_layer = self.mechanism.scenes_of(self.driver).next().is_some();
+        let access = if is_layer { Access::PublicLayer } else { Access::Public };
+        Function { access, ..total("pose_at", [self.coordinates(&self.arguments.q)], self.pose_type()) }
     }
 
     pub fn solve(&self) -> Function<Body> {
@@ -243,7 +245,7 @@ impl<'a> Signatures<'a> {
 
     /// W, column by column.
     pub fn ratio_columns(&self) -> Function<Body> {
-        inlined(fallible("ratio_columns", [self.pose(), self.whose()], self.columns()))
+        layer(fallible("ratio_columns", [self.pose(), self.whose()], self.columns()))
     }
 
     fn columns(&self) -> Type {
@@ -254,14 +256,14 @@ impl<'a> Signatures<'a> {
         let ratios = Argument { name: self.arguments.ratios.clone(), passed: Passed::ByReference(self.columns()) };
         let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
         let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
-        let rates = inlined(total("coordinate_rates", [ratios, rate], self.coordinates_type()));
+        let rates = layer(total("coordinate_rates", [ratios, rate], self.coordinates_type()));
         Function { is_method: false, ..rates }
     }
 
     pub fn bias_accelerations(&self) -> Function<Body> {
         let arguments = [self.pose(), self.coordinates(&self.arguments.velocity), self.whose()];
         let of = Type::List(Box::new(Type::Scalar), self.unknowns());
-        inlined(fallible("bias_accelerations", arguments, of))
+        layer(fallible("bias_accelerations", arguments, of))
     }
 
     pub fn velocity(&self) -> Function<Body> {
@@ -383,6 +385,11 @@ pub fn total(name: impl Into<String>, arguments: impl IntoIterator<Item = Argume
         is_fallible: false,
         body: None,
     }
+}
+
+/// A private function that scenes are made of.
+fn layer(function: Function<Body>) -> Function<Body> {
+    Function { access: Access::Layer, ..function }
 }
 
 /// A private function that others call.
