@@ -5,7 +5,7 @@
 mod families;
 mod source;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
@@ -64,14 +64,34 @@ inline_always = "allow"
 [workspace]
 "#;
 
-#[test]
-fn passes_pedantic_lints() {
+/// A folder for a crate of expansions.
+fn crate_called(name: &str) -> PathBuf {
     let root = env!("CARGO_MANIFEST_DIR");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("emitted");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(folder.join("src")).unwrap();
-    fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
+    let manifest = MANIFEST.replace("ROOT", root).replacen("emitted", name, 1);
+    fs::write(folder.join("Cargo.toml"), manifest).unwrap();
     // The versions under test are those of this workspace.
     fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    folder
+}
+
+/// What cargo does to the crate in a folder must succeed; all crates share one target folder.
+fn succeeds(folder: &Path, command: &str) {
+    let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
+    let output = Command::new(cargo)
+        .args([command, "--quiet", "--color=never", "--target-dir"])
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("emitted/target"))
+        .current_dir(folder)
+        .env_remove("RUSTFLAGS")
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn passes_pedantic_lints() {
+    let (folder, root) = (crate_called("emitted"), env!("CARGO_MANIFEST_DIR"));
     fs::copy(Path::new(root).join("tests/source/cam_laws.rs"), folder.join("src/cam_laws.rs")).unwrap();
     let mut library = String::from("//! Expansions of the mechanisms under test.\n#![no_std]\n\npub mod cam_laws;\n");
     // Sensitivities with few entries, and points that need nothing of a block that is factorised.
@@ -88,13 +108,79 @@ fn passes_pedantic_lints() {
         library += &format!("pub mod {mechanism};\n");
     }
     fs::write(folder.join("src/lib.rs"), library).unwrap();
-    let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let output = Command::new(cargo)
-        .args(["clippy", "--quiet", "--color=never", "--target-dir"])
-        .arg(folder.join("target"))
-        .current_dir(&folder)
-        .env_remove("RUSTFLAGS")
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    succeeds(&folder, "clippy");
+}
+
+/// Every loop of a chain, checked one by one: the input of each is the output of the one before it.
+const CHAIN_OF_TWO_HUNDRED: &str = r#"//! A chain of 200 loops, assembled and driven.
+
+mod chain;
+
+use std::hint::black_box;
+
+use chain::{Chain, ChainCoordinates, ChainInputs};
+use linkage::nalgebra::SVector;
+
+const LOOPS: usize = 200;
+
+fn main() {
+    let chain = Chain::default();
+    let near = SVector::from_fn(|place, _| if place % 2 == 0 { 0.4 } else { 1.5 });
+    let branch = chain.branch_of(&chain.pose_at(&ChainCoordinates::from(near)));
+    let pose = chain.assemble(0.5, branch).unwrap();
+    let (residual, sizes) = (chain.residual(&pose), chain.closure_sizes(&pose));
+    let coordinates: ChainCoordinates = pose.coordinates();
+    let velocity = chain.velocity(&pose, 2.0).unwrap();
+    let acceleration = chain.acceleration(&pose, &velocity, 0.0).unwrap();
+    let motion = chain.motion(&coordinates, 2.0, 0.0).unwrap();
+    let [q, rates, accelerations, again] =
+        [coordinates, velocity, acceleration, motion.acceleration].map(|values| SVector::from(values).data.0[0]);
+    let (mut input, mut rate, mut input_acceleration) = (0.5, 2.0, 0.0);
+    for i in 0..LOOPS {
+        let (t, s, t_rate, s_rate) = (q[2 * i], q[2 * i + 1], rates[2 * i], rates[2 * i + 1]);
+        for row in [2 * i, 2 * i + 1] {
+            assert!(residual[row].abs() <= 8.0 * f64::EPSILON * sizes[row], "loop {i}: {}", residual[row]);
+        }
+        // a@in + b@t = d + c@s, differentiated and seen along b.
+        let (a, b, c): (f64, f64, f64) = (1.0, 3.0, 2.0);
+        let expected = a * (input - t).sin() * rate / (c * (s - t).sin());
+        assert!((s_rate - expected).abs() <= 1e-12 * expected.abs(), "loop {i}: {s_rate} is not {expected}");
+        let along = [
+            a * (input - t).sin() * input_acceleration,
+            a * (input - t).cos() * rate * rate,
+            b * t_rate * t_rate,
+            -c * (s - t).cos() * s_rate * s_rate,
+        ];
+        let scale: f64 = along.iter().map(|term| term.abs()).sum();
+        for value in [accelerations[2 * i + 1], again[2 * i + 1]] {
+            let rest = along.iter().sum::<f64>() - c * (s - t).sin() * value;
+            assert!(rest.abs() <= 1e-12 * scale, "loop {i}: {rest} of {scale}");
+        }
+        (input, rate, input_acceleration) = (s, s_rate, accelerations[2 * i + 1]);
+    }
+    // The others need a stack for matrices of 400 x 400, and are compiled only.
+    black_box((
+        (Chain::<f64>::jacobian_unknowns as fn(&_, &_) -> _, Chain::<f64>::jacobian_inputs as fn(&_, &_) -> _),
+        (Chain::<f64>::jacobian as fn(&_, &_) -> _, Chain::<f64>::jacobian_sizes as fn(&_, &_) -> _),
+        (Chain::<f64>::determinant as fn(&_, &_) -> _, Chain::<f64>::block_determinants as fn(&_, &_) -> _),
+        (Chain::<f64>::solve_jacobian as fn(&_, &_, &_) -> _, Chain::<f64>::gamma as fn(&_, &_, &_) -> _),
+        (Chain::<f64>::velocity_ratios as fn(&_, &_) -> _, Chain::<f64>::point_ratios as fn(&_, &_) -> _),
+        (Chain::<f64>::solve as fn(&_, &_) -> _, Chain::<f64>::points as fn(&_, &_) -> _),
+        (chain::ChainPose::<f64>::is_finite as fn(&_) -> _, ChainInputs::<f64>::from as fn(f64) -> _),
+        Chain::DERIVATION,
+    ));
+}
+"#;
+
+/// A mechanism that is nearly as large as one may be compiles in a plain dev build, with full debug information.
+#[test]
+fn a_chain_of_two_hundred_loops_runs() {
+    let folder = crate_called("large");
+    // Nothing here is called from elsewhere.
+    let tokens = format!("#[allow(dead_code)] pub {}", families::chain(200)).parse().unwrap();
+    let tokens = linkage_compiler::expand(tokens, &"::linkage".parse().unwrap());
+    let text = prettyplease::unparse(&syn::parse2(tokens).unwrap());
+    fs::write(folder.join("src/chain.rs"), text).unwrap();
+    fs::write(folder.join("src/main.rs"), CHAIN_OF_TWO_HUNDRED).unwrap();
+    succeeds(&folder, "run");
 }

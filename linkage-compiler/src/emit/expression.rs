@@ -137,6 +137,10 @@ fn written(value: &Expression) -> TokenStream {
             };
             quote!(#moves |#(#arguments),*| #body)
         }
+        Expression::Block(statements, value) => match &**value {
+            Expression::Tuple(values) if values.is_empty() => quote!({ #(#statements)* }),
+            value => quote!({ #(#statements)* #value }),
+        },
         // Lowering puts values in their places.
         Expression::Result(place) | Expression::Local(place) => literal(*place).into_token_stream(),
     }

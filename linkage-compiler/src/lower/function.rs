@@ -6,7 +6,7 @@ use rustc_hash::FxHashSet;
 
 use super::lines::{Writer, direction_name};
 use super::names::Names;
-use super::{Schedule, Value, ValueId, schedule};
+use super::{Schedule, Value, ValueId, schedule, stretches};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, NodeId, SymbolId};
 use crate::program::{
@@ -80,7 +80,9 @@ fn body(body: Body, context: &Context) -> Code {
     let mut use_name = |name: &str| uses.extend([name.to_owned()]);
     let (Returned::Plain(last) | Returned::Result(last)) = &value;
     last.each_name(&mut use_name);
-    computed.iter().chain(&after).for_each(|statement| statement.each_name(&mut use_name));
+    after.iter().for_each(|statement| statement.each_name(&mut use_name));
+    let computed = stretches::divided(computed, uses.iter().map(String::as_str));
+    computed.iter().for_each(|statement| statement.each_name(&mut |name| uses.extend([name.to_owned()])));
     let before = needed(before, &mut uses);
     let statements = before.into_iter().chain(computed).chain(after).collect();
     Code { statements, value, operations, uses, externals: formulas.externals }
@@ -328,6 +330,7 @@ impl Finished<'_> {
             E::Closure { arguments, statements, value, moves } => {
                 E::Closure { arguments, statements, value: Box::new(self.expression(*value)), moves }
             }
+            E::Block(statements, value) => E::Block(statements, self.boxed(value)),
             finished @ (E::Name(_) | E::Number(_) | E::Text(_) | E::Count(_) | E::Constant(_)) => finished,
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::names::Names;
-use super::{Line, Schedule, Signed, Value, ValueId};
+use super::{Line, Schedule, Signed, Value, ValueId, stretches};
 use crate::derivation::{ChordOf, Derivation};
 use crate::graph::{ExternalId, Function, SymbolId};
 use crate::program::{Expression, Kernel, Pattern, Statement, Type, call_of};
@@ -203,7 +203,10 @@ impl<'a, 'n> Writer<'a, 'n> {
         let columns = Expression::List((0..count).map(column).collect());
         let value =
             Expression::Tuple(vec![Expression::List(residual.to_vec()), Expression::List(sizes.to_vec()), columns]);
-        Expression::Closure { arguments, statements: inner.statements, value: Box::new(value), moves: false }
+        let mut used = Vec::new();
+        value.each_name(&mut |name| used.push(name));
+        let statements = stretches::divided(inner.statements, used);
+        Expression::Closure { arguments, statements, value: Box::new(value), moves: false }
     }
 
     /// A call that refuses a group by its name.

@@ -9,6 +9,7 @@ mod order;
 mod program;
 mod proven;
 mod sharing;
+mod stretches;
 mod translate;
 
 use std::collections::BTreeSet;

@@ -56,6 +56,8 @@ pub enum Expression {
         value: Box<Expression>,
         moves: bool,
     },
+    /// `{ statements value }`
+    Block(Vec<Statement>, Box<Expression>),
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -241,7 +243,7 @@ impl Expression {
                 of.each_name(visit);
                 arguments.iter().for_each(|argument| argument.each_name(visit));
             }
-            Self::Closure { statements, value, .. } => {
+            Self::Closure { statements, value, .. } | Self::Block(statements, value) => {
                 statements.iter().for_each(|statement| statement.each_name(visit));
                 value.each_name(visit);
             }
@@ -260,6 +262,19 @@ impl Expression {
             lists.push(Self::List(Self::nested(values.by_ref().take(each).collect(), inner)));
         }
         lists
+    }
+}
+
+impl Pattern {
+    /// Visits every name that is given.
+    pub fn each_name<'p>(&'p self, visit: &mut dyn FnMut(&'p str)) {
+        match self {
+            Self::Name(name) | Self::Typed(name, _) => visit(name),
+            Self::Mutable(inside) | Self::First(inside) => inside.each_name(visit),
+            Self::List(all) | Self::Tuple(all) => all.iter().for_each(|pattern| pattern.each_name(visit)),
+            Self::Struct { fields, .. } => fields.iter().for_each(|(_, name)| visit(name)),
+            Self::Local(_) | Self::Ignored => {}
+        }
     }
 }
 
