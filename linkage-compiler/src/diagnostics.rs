@@ -84,12 +84,18 @@ impl Diagnostics {
 
 /// ", did you mean `…`?" if one of the candidates is near enough to `name`.
 pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(name, candidates).map_or_else(String::new, |candidate| format!(", did you mean `{candidate}`?"))
+}
+
+/// The candidate that is nearest to `name`, if it is near enough.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Half the letters may differ, and at least one.
     let limit = (name.chars().count() / 2).clamp(1, 3);
-    candidates
-        .into_iter()
-        .map(|candidate| (strsim::osa_distance(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= limit)
-        .min_by_key(|(distance, _)| *distance)
-        .map_or_else(String::new, |(_, candidate)| format!(", did you mean `{candidate}`?"))
+    let distance = |candidate: &str| match name.eq_ignore_ascii_case(candidate) {
+        true => 0,
+        false => strsim::osa_distance(name, candidate),
+    };
+    let distances = candidates.into_iter().map(|candidate| (distance(candidate), candidate));
+    let near = distances.filter(|(distance, _)| *distance <= limit);
+    near.min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
 }

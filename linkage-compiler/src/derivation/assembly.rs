@@ -63,6 +63,17 @@ pub enum Choice {
 }
 
 impl Choice {
+    /// The choice between the solutions of a group, if it has two.
+    #[must_use]
+    pub fn of(group: Group) -> Option<Self> {
+        match group {
+            Group::Rrr => Some(Self::Elbow),
+            Group::Rrp | Group::Rpr => Some(Self::Slider),
+            Group::Angle => Some(Self::Slope),
+            Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Irreducible(_) => None,
+        }
+    }
+
     /// The type of the runtime that holds it.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -187,13 +198,7 @@ impl Derivation {
         for number in 0..self.blocks.len() {
             let block = self.blocks[number].clone();
             let closed = self.assemble(number, &block, &mut assembly);
-            let choice = match block.group {
-                Group::Rrr => Some(Choice::Elbow),
-                Group::Rrp | Group::Rpr => Some(Choice::Slider),
-                Group::Angle => Some(Choice::Slope),
-                _ => None,
-            };
-            if let (Some(determinant), Some(choice)) = (closed, choice) {
+            if let (Some(determinant), Some(choice)) = (closed, Choice::of(block.group)) {
                 let is_opposite = self.graph.leads_negative(determinant);
                 assembly.chords.push(Chord { block: number, choice, is_opposite });
             }

@@ -225,6 +225,16 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
         });
     }
     let derived = program.derived.as_ref().zip(derivation);
+    if derived.is_none() && driver.inputs.len() != 1 {
+        // How many inputs were meant is not known.
+        tokens.extend(quote! {
+            impl<T: #root::__rt::Real> ::core::convert::From<T> for #inputs<T> {
+                fn from(_: T) -> Self {
+                    ::core::unimplemented!()
+                }
+            }
+        });
+    }
     let members = derived.map_or_else(
         || quote!(scalar: ::core::marker::PhantomData<T>),
         |(derived, derivation)| pose_fields(derived, derivation, root),

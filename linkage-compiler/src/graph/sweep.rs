@@ -1,5 +1,7 @@
 //! Sweeps over the parts of expressions; their cost is that of what they find, not of the graph.
 
+use std::collections::BTreeSet;
+
 use rustc_hash::FxHashSet;
 
 use super::{Function, Graph, Node, NodeId, Number, SymbolId};
@@ -41,6 +43,28 @@ impl Graph {
             }
         }
         needed
+    }
+
+    /// The symbols that sines and cosines in the roots are taken of: those that are the angle, no part of it.
+    #[must_use]
+    pub fn directions(&self, roots: &[NodeId]) -> BTreeSet<SymbolId> {
+        let angles = self.angles(roots);
+        angles.into_iter().filter_map(|angle| self.as_symbol(angle)).collect()
+    }
+
+    /// The symbols in the angles that sines and cosines in the roots are taken of.
+    #[must_use]
+    pub fn in_directions(&self, roots: &[NodeId]) -> BTreeSet<SymbolId> {
+        self.symbols_of(&self.angles(roots)).into_iter().collect()
+    }
+
+    /// The angles that sines and cosines in the roots are taken of.
+    fn angles(&self, roots: &[NodeId]) -> Vec<NodeId> {
+        let calls = self.reachable(roots).into_iter().filter_map(|id| match self.node(id) {
+            Node::Call(Function::Sin | Function::Cos, angle) => Some(angle[0]),
+            _ => None,
+        });
+        calls.collect()
     }
 
     /// The parts of an angle that are not whole multiples of a symbol.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Span};
 
 use super::scope::Scope;
-use super::{Driver, Mechanism};
+use super::{Driver, Mechanism, Name};
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
 use crate::structure::{self, StructurallySingular};
@@ -16,13 +16,18 @@ pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diag
     let parameters = all.map(|p| ("parameter", &p.name, p.symbol));
     let coordinates = mechanism.coordinates.iter().map(|c| ("coordinate", &c.name, c.symbol));
     for (what, name, symbol) in parameters.chain(coordinates) {
-        if !scope.is_used(symbol) && !name.text.starts_with('_') {
+        if is_idle(scope, name, symbol) {
             let text = &name.text;
             diagnostics
                 .error(name.span, format_args!("the {what} `{text}` is never used; remove it, or call it `_{text}`"));
         }
     }
     externals(mechanism, diagnostics);
+}
+
+/// True if a name is not used and does not say so.
+fn is_idle(scope: &Scope, name: &Name, symbol: SymbolId) -> bool {
+    !scope.is_used(symbol) && !name.text.starts_with('_')
 }
 
 /// A function that is declared is called.
@@ -70,12 +75,18 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 }
 
 /// Closures and unknowns are as many, and every unknown can be solved for.
-pub(super) fn closures(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
+pub(super) fn closures(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
     let mut orders = Vec::new();
     let rows: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
     let at = |driver: &Driver| -> Span { driver.name.span() };
     for driver in &mechanism.drivers {
         let unknowns = driver.unknowns.len();
+        let coordinates = driver.unknowns.iter().map(|&index| &mechanism.coordinates[index]);
+        let idle = coordinates.filter(|unknown| is_idle(scope, &unknown.name, unknown.symbol)).count();
+        if idle > 0 && rows > 0 && rows + idle == unknowns {
+            // That they are not used is reported.
+            continue;
+        }
         if rows != unknowns {
             let loops = mechanism.closures.iter().filter(|closure| closure.rows.len() == 2).count();
             let equations = mechanism.closures.len() - loops;

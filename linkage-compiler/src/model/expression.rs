@@ -9,7 +9,7 @@ use super::scope::{Scope, VECTOR_FUNCTIONS, Value};
 use super::{Call, ExternalFunction, Extreme};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
 use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
-use crate::syntax::{Expression, ExpressionId, Expressions, Operator};
+use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Unread};
 
 /// The names and values of one mechanism while its statements are read.
 pub(super) struct Lowering<'a> {
@@ -20,6 +20,8 @@ pub(super) struct Lowering<'a> {
     pub(super) expressions: &'a Expressions,
     pub(super) kinds: Vec<(SymbolId, Kind)>,
     pub(super) externals: Vec<ExternalFunction>,
+    /// What the use of names that may not be declared tells of them.
+    pub(super) undeclared_kinds: Vec<(String, Kind)>,
     /// Names that are lengths if nothing else is known.
     pub(super) supposed: Vec<SymbolId>,
     /// Where there are scenes: the rate of each coordinate, and time.
@@ -129,6 +131,17 @@ impl Lowering<'_> {
             },
             &Expression::Power(base, exponent) => self.power(base, exponent),
             Expression::Call(name, arguments) => self.call(name, arguments, region),
+            Expression::Unread(names) => {
+                for Unread { name, is_angle, is_length } in names {
+                    let Some(symbol) = self.scope.symbol(name) else { continue };
+                    let is_known = self.kinds.iter().any(|(other, _)| *other == symbol);
+                    let kind = if *is_angle { Kind::Angle } else { Kind::Length };
+                    if (*is_angle || *is_length) && !is_known {
+                        self.kinds.push((symbol, kind));
+                    }
+                }
+                Value::Poison
+            }
         }
     }
 
@@ -145,6 +158,11 @@ impl Lowering<'_> {
     fn at(&mut self, magnitude: ExpressionId, angle: ExpressionId) -> Value {
         let region = self.expressions.region(magnitude);
         let angle_region = self.expressions.region(angle);
+        for (id, kind) in [(magnitude, Kind::Length), (angle, Kind::Angle)] {
+            if let Some(name) = self.expressions.as_name(id).filter(|name| self.scope.symbol(name).is_none()) {
+                self.undeclared_kinds.push((name.to_string(), kind));
+            }
+        }
         let (value, Some(angle)) = (self.value(magnitude), self.scalar(angle)) else { return Value::Poison };
         self.mark(angle, Kind::Angle, angle_region);
         let g = &mut self.graph;
@@ -275,7 +293,9 @@ impl Lowering<'_> {
                 let known = crate::graph::OPERATIONS.iter().map(|row| row.name);
                 let known = known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)).chain(self.scope.functions());
                 let hint = self.value_of(&text).unwrap_or_else(|| suggestion(&text, known));
-                self.diagnostics.error(name.span(), format_args!("no function is called `{text}`{hint}"));
+                if !self.scope.is_excused(&text) {
+                    self.diagnostics.error(name.span(), format_args!("no function is called `{text}`{hint}"));
+                }
             }
             return Value::Poison;
         };

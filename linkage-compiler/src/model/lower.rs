@@ -12,7 +12,7 @@ use super::kind::Kind;
 use super::name::Name;
 use super::scope::{Scope, Value};
 use super::{
-    Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check, request, scene,
+    Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check, guess, request, scene,
 };
 use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, suggestion};
@@ -33,6 +33,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &
         values: Vec::new(),
         expressions: &expressions,
         kinds: Vec::new(),
+        undeclared_kinds: Vec::new(),
         supposed: Vec::new(),
         externals: Vec::new(),
         rates: BTreeMap::new(),
@@ -73,7 +74,7 @@ pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &
     lowering.finish_scenes(reading, &mut result);
     result.requests = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
     lowering.blame(result.name.span());
-    let Lowering { graph, scope, kinds, supposed, externals, extreme, diagnostics, .. } = lowering;
+    let Lowering { graph, scope, kinds, undeclared_kinds, supposed, externals, extreme, diagnostics, .. } = lowering;
     (result.graph, result.extreme) = (graph, extreme);
     result.externals = externals;
     let kind_of = |symbol| match kinds.iter().find(|(other, _)| *other == symbol) {
@@ -95,10 +96,16 @@ pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &
     }
     // What was not understood above would be missed below.
     if complete && diagnostics.is_empty() {
-        check::usage(&result, &scope, diagnostics);
+        // Without a loop hardly anything is used.
+        if !result.closures.is_empty() {
+            check::usage(&result, &scope, diagnostics);
+        }
         check::types(&result, diagnostics);
         check::fields(&result, diagnostics);
-        check::closures(&mut result, diagnostics);
+        check::closures(&mut result, &scope, diagnostics);
+    }
+    if !diagnostics.is_empty() {
+        guess::complete(&mut result, &statements, &scope, &undeclared_kinds);
     }
     result
 }
@@ -148,8 +155,14 @@ impl Lowering<'_> {
                 }
                 StatementKind::Let { name, .. }
                 | StatementKind::Point { name, .. }
-                | StatementKind::Output { name, .. } => {
+                | StatementKind::Output { name, .. }
+                | StatementKind::Quantity { name, .. } => {
                     self.scope.claim(name, self.diagnostics);
+                }
+                StatementKind::Unread { names, .. } => {
+                    for name in names {
+                        self.scope.excuse(name);
+                    }
                 }
                 StatementKind::External { path, arguments, names } => {
                     self.declare_external(&statement.attributes, path, arguments, names);
@@ -206,16 +219,22 @@ impl Lowering<'_> {
                     for (name, default) in parameters {
                         let Some(default) = default else { continue };
                         let node = self.constant(*default);
+                        // With a default that is reported the mechanism has one all the same.
+                        let node = node.unwrap_or_else(|| self.graph.zero());
                         let text = name.to_string();
                         if let Some(parameter) = result.parameters.iter_mut().find(|p| p.name.text == text) {
-                            parameter.default = node;
+                            parameter.default = Some(node);
                         }
                     }
                 }
                 StatementKind::Loop { left, right } => self.close_loop(attributes, *left, *right, result),
                 StatementKind::Equation { left, right } => {
-                    let (a, b) = (self.scalar(*left), self.scalar(*right));
-                    if let (Some(a), Some(b)) = (a, b) {
+                    let both = (self.value(*left), self.value(*right));
+                    if let (Value::Vector(..), Value::Vector(..)) = both {
+                        let region = self.expressions.region(*left).to(self.expressions.region(*right));
+                        let message = "both sides are vectors: an `equation` is between scalars; write `loop` instead";
+                        self.diagnostics.error(region, message);
+                    } else if let (Some(a), Some(b)) = (self.scalar(*left), self.scalar(*right)) {
                         let row = self.graph.subtract(a, b);
                         self.close(attributes, *left, *right, vec![row], result);
                     }
@@ -245,6 +264,16 @@ impl Lowering<'_> {
                     let value = scalar.unwrap_or_else(|| self.graph.zero());
                     result.outputs.push(Output { name: Name::new(name), attributes, value });
                 }
+                StatementKind::Quantity { name, value } => {
+                    let read = self.value(*value);
+                    self.scope.define(name, read);
+                    let (name, zero) = (Name::new(name), self.graph.zero());
+                    match read {
+                        Value::Scalar(value) => result.outputs.push(Output { name, attributes, value }),
+                        Value::Vector(x, y) => result.points.push(Point { name, attributes, x, y }),
+                        Value::Poison => result.points.push(Point { name, attributes, x: zero, y: zero }),
+                    }
+                }
                 StatementKind::Body(body) => self.body(body, result),
                 StatementKind::Scene(tree) => self.scene(tree, &attributes, &mut reading),
                 StatementKind::Inputs(_)
@@ -252,6 +281,7 @@ impl Lowering<'_> {
                 | StatementKind::Coordinates(_)
                 | StatementKind::External { .. }
                 | StatementKind::Drive { .. }
+                | StatementKind::Unread { .. }
                 | StatementKind::Derive(_) => {}
             }
         }

@@ -3,6 +3,7 @@
 
 mod check;
 mod expression;
+mod guess;
 mod kind;
 mod lower;
 mod name;
@@ -174,7 +175,7 @@ impl Mechanism {
     }
 
     /// Everything that is said of the mechanism but in its scenes.
-    fn kinematic_formulas(&self) -> Vec<NodeId> {
+    pub fn kinematic_formulas(&self) -> Vec<NodeId> {
         let mut formulas: Vec<NodeId> = self.closures.iter().flat_map(|closure| closure.rows.clone()).collect();
         formulas.extend(self.points.iter().flat_map(|point| [point.x, point.y]));
         formulas.extend(self.outputs.iter().map(|output| output.value));

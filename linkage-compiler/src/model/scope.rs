@@ -29,6 +29,10 @@ enum Entry {
 pub(super) struct Scope {
     entries: BTreeMap<String, Entry>,
     used: BTreeSet<SymbolId>,
+    /// The names in statements that could not be read.
+    excused: BTreeSet<String>,
+    /// The names that nothing declares, each once, and how often they are used.
+    undeclared: Vec<(Ident, usize)>,
 }
 
 /// Words that are values of the language itself.
@@ -59,7 +63,43 @@ impl Scope {
     }
 
     pub(super) fn define(&mut self, name: &Ident, value: Value) {
-        self.entries.insert(name.to_string(), Entry::Value(value));
+        // A name that was something else before stays so.
+        if let Some(entry @ Entry::Later) = self.entries.get_mut(&name.to_string()) {
+            *entry = Entry::Value(value);
+        }
+    }
+
+    /// A name in a statement that could not be read: what it means is not known, but that is reported.
+    pub(super) fn excuse(&mut self, name: &Ident) {
+        self.excused.insert(name.to_string());
+    }
+
+    /// The names that nothing declares, in the order in which they are used, and how often they are.
+    pub(super) fn undeclared(&self) -> &[(Ident, usize)] {
+        &self.undeclared
+    }
+
+    /// Records the use of a name that nothing declares; true if it is to be reported.
+    fn miss(&mut self, name: &Ident) -> bool {
+        if let Some((_, uses)) = self.undeclared.iter_mut().find(|(other, _)| other == name) {
+            *uses += 1;
+            return false;
+        }
+        self.undeclared.push((name.clone(), 1));
+        !self.excused.contains(&name.to_string())
+    }
+
+    /// The symbol of a name.
+    pub(super) fn symbol(&self, name: &Ident) -> Option<SymbolId> {
+        match self.entries.get(&name.to_string()) {
+            Some(Entry::Symbol(symbol, _)) => Some(*symbol),
+            _ => None,
+        }
+    }
+
+    /// True if a function of this name may be declared in a statement that could not be read.
+    pub(super) fn is_excused(&self, name: &str) -> bool {
+        self.excused.contains(name)
     }
 
     /// Claims the name of a function; that of one of the language is refused.
@@ -94,7 +134,7 @@ impl Scope {
         self.entries.iter().filter(|(_, entry)| matches!(entry, Entry::Function(..))).map(|(name, _)| name.as_str())
     }
 
-    /// The value of a name; an unknown one is reported.
+    /// The value of a name; an unknown one is reported where it is used first.
     pub(super) fn look_up(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> Value {
         let text = name.to_string();
         match self.entries.get(&text) {
@@ -117,8 +157,10 @@ impl Scope {
                 Value::Poison
             }
             None => {
-                let hint = suggestion(&text, self.entries.keys().map(String::as_str));
-                diagnostics.error(name.span(), format_args!("nothing is called `{text}` here{hint}"));
+                if self.miss(name) {
+                    let hint = suggestion(&text, self.entries.keys().map(String::as_str));
+                    diagnostics.error(name.span(), format_args!("nothing is called `{text}` here{hint}"));
+                }
                 Value::Poison
             }
         }

@@ -5,11 +5,12 @@ use std::collections::BTreeSet;
 use super::names::Taken;
 use super::pose::PosePlan;
 use crate::derivation::{Assembly, Choice, Chord, Derivation, Step};
-use crate::graph::SymbolId;
+use crate::graph::{Graph, NodeId, SymbolId};
 use crate::model::{Driver, Kind, Mechanism};
+use crate::structure::Group;
 
 /// How a position is found, and what tells positions apart.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Position {
     /// True if every group has a closed form.
     pub is_closed: bool,
@@ -58,17 +59,81 @@ impl Position {
         Self { is_closed: assembly.guesses.is_empty(), sides, turns, blocks: derivation.blocks.len() }
     }
 
-    /// The most likely one of a mechanism with mistakes: groups of two unknowns as they were declared, each with two
+    /// The most likely one of a mechanism with mistakes. Where the order of solution is known, its groups are those of
+    /// the equations as they are written; else they are pairs of unknowns as they were declared, each with two
     /// solutions.
     pub fn guessed(mechanism: &Mechanism, driver: &Driver) -> Self {
-        let side = |group: &[usize]| {
-            let coordinates = || group.iter().map(|&index| &mechanism.coordinates[index]);
-            let names: Vec<&str> = coordinates().map(|coordinate| coordinate.name.field.as_str()).collect();
-            let are_angles = coordinates().all(|coordinate| coordinate.kind == Kind::Angle);
-            (names.join("_"), if are_angles { Choice::Elbow } else { Choice::Slider })
+        let name = |place: usize| mechanism.coordinates[driver.unknowns[place]].name.field.as_str();
+        if driver.blocks.is_empty() {
+            let are_angles = |group: &[usize]| {
+                group.iter().all(|&place| mechanism.coordinates[driver.unknowns[place]].kind != Kind::Length)
+            };
+            let places: Vec<usize> = (0..driver.unknowns.len()).collect();
+            let sides = places.chunks_exact(2).map(|group| {
+                let choice = if are_angles(group) { Choice::Elbow } else { Choice::Slider };
+                ([name(group[0]), name(group[1])].join("_"), choice)
+            });
+            let sides: Vec<_> = sides.collect();
+            return Self { is_closed: true, blocks: sides.len(), sides, turns: Vec::new() };
+        }
+        let mut graph = mechanism.graph.clone();
+        let rows: Vec<NodeId> = mechanism.closures.iter().flat_map(|closure| closure.rows.iter().copied()).collect();
+        let (mut sides, mut solved, mut is_closed) = (Vec::new(), BTreeSet::new(), true);
+        for block in &driver.blocks {
+            let equations: Vec<NodeId> = block.equations.iter().map(|&equation| rows[equation]).collect();
+            let symbols = block.unknowns.iter().map(|&place| mechanism.coordinates[driver.unknowns[place]].symbol);
+            let symbols: Vec<SymbolId> = symbols.collect();
+            let group = Group::of(&mut graph, &equations, &symbols);
+            if Choice::of(group).is_some() {
+                let angles = graph.in_directions(&equations);
+                solved.extend(symbols.into_iter().filter(|symbol| angles.contains(symbol)));
+            }
+            is_closed &= !matches!(group, Group::Scalar | Group::Pair | Group::Irreducible(_));
+            let names: Vec<&str> = block.unknowns.iter().map(|&place| name(place)).collect();
+            sides.extend(Choice::of(group).map(|choice| (names.join("_"), choice)));
+        }
+        let turns = match is_closed {
+            true => Self::guessed_turns(mechanism, driver, &mut graph, &sides, &solved),
+            false => Vec::new(),
         };
-        let sides: Vec<_> = driver.unknowns.chunks_exact(2).map(side).collect();
-        Self { is_closed: true, blocks: sides.len(), sides, turns: Vec::new() }
+        Self { is_closed, sides, turns, blocks: driver.blocks.len() }
+    }
+
+    /// The turns of the solved angles whose numbers enter what is said of a mechanism, or the derivatives of what effects
+    /// act along.
+    fn guessed_turns(
+        mechanism: &Mechanism,
+        driver: &Driver,
+        graph: &mut Graph,
+        sides: &[(String, Choice)],
+        solved: &BTreeSet<SymbolId>,
+    ) -> Vec<AngleTurn> {
+        let mut formulas = mechanism.kinematic_formulas();
+        let directions = graph.directions(&formulas);
+        let symbols: Vec<SymbolId> = mechanism.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+        for scene in mechanism.scenes_of(driver) {
+            formulas.extend(scene.values());
+            let paths = scene.paths(&mechanism.bodies);
+            formulas.extend(symbols.iter().flat_map(|&symbol| graph.partial(&paths, symbol)));
+        }
+        let needed: BTreeSet<SymbolId> = graph.needed_as_numbers(&formulas).into_iter().collect();
+        let nothing = BTreeSet::new();
+        let mut taken = Taken::new(&nothing);
+        for (side, _) in sides {
+            taken.unique(side);
+        }
+        let order = mechanism.coordinate_order(driver);
+        let coordinates = order.into_iter().map(|index| &mechanism.coordinates[index]);
+        let turning = coordinates.filter(|coordinate| {
+            let symbol = coordinate.symbol;
+            solved.contains(&symbol) && (needed.contains(&symbol) || !directions.contains(&symbol))
+        });
+        let turns = turning.map(|coordinate| {
+            let name = coordinate.name.field.clone();
+            let field = taken.unique(&format!("{name}_turn"));
+            AngleTurn { symbol: coordinate.symbol, field, number: name.clone(), coordinate: name }
+        });
+        turns.collect()
     }
 
     pub fn has_few_branches(&self) -> bool {

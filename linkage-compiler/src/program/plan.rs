@@ -61,7 +61,6 @@ impl<'d, 'a> Plan<'d, 'a> {
     fn new(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &'d mut Derivation) -> Self {
         let pose = PosePlan::new(derivation);
         let formulas = Formulas::new(derivation);
-        let position = Position::guessed(mechanism, driver);
         let mut plan = Self {
             signatures: Signatures::new(mechanism, driver),
             named: mechanism.named.clone(),
@@ -69,7 +68,7 @@ impl<'d, 'a> Plan<'d, 'a> {
             formulas,
             pose,
             assembly: Assembly::default(),
-            position,
+            position: Position::default(),
             functions: Vec::new(),
             texts: RefCell::default(),
         };

@@ -2,8 +2,11 @@
 
 use proc_macro2::TokenTree;
 use quote::ToTokens;
+use syn::parse::ParseStream;
+use syn::parse::discouraged::Speculative;
 use syn::spanned::Spanned;
-use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue};
+use syn::token::Bracket;
+use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Token};
 
 use crate::diagnostics::Diagnostics;
 
@@ -18,6 +21,30 @@ pub(super) enum Bearer {
     Field,
     /// A part that becomes nothing that could bear it; a doc comment is for the reader.
     Part,
+}
+
+/// The attributes before something; one that does not parse is reported and skipped.
+pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<Attribute> {
+    let mut attributes = Vec::new();
+    while stream.peek(Token![#]) {
+        let ahead = stream.fork();
+        match ahead.call(Attribute::parse_outer) {
+            Ok(mut read) => {
+                attributes.append(&mut read);
+                stream.advance_to(&ahead);
+            }
+            Err(error) => {
+                diagnostics.push(error);
+                // The sign and its brackets.
+                for _ in 0..2 {
+                    if stream.peek(Token![#]) || stream.peek(Bracket) {
+                        drop(stream.parse::<TokenTree>());
+                    }
+                }
+            }
+        }
+    }
+    attributes
 }
 
 /// The attributes that have a meaning; those that would have no effect, or another one than somebody means, are

@@ -30,6 +30,18 @@ pub enum Expression {
     Negate(ExpressionId),
     Power(ExpressionId, ExpressionId),
     Call(Ident, Vec<ExpressionId>),
+    /// One that could not be read: the names in it.
+    Unread(Vec<Unread>),
+}
+
+/// A name in an expression that could not be read.
+#[derive(Debug, Clone)]
+pub struct Unread {
+    pub name: Ident,
+    /// True if it stands behind an `@`.
+    pub is_angle: bool,
+    /// True if it stands before an `@`.
+    pub is_length: bool,
 }
 
 /// How an operand joins a sum or a product; the first one joins with `Direct`.
@@ -67,6 +79,11 @@ impl Expressions {
     #[must_use]
     pub fn last_region(&self) -> Option<Region> {
         self.nodes.last().map(|(_, region)| *region)
+    }
+
+    /// Adds an expression that could not be read.
+    pub(super) fn unread(&mut self, names: Vec<Unread>, region: Region) -> ExpressionId {
+        self.push(Expression::Unread(names), region)
     }
 
     /// Forgets what a statement that did not parse has left.

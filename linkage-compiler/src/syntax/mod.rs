@@ -1,10 +1,11 @@
 //! What was written: a faithful tree of the `linkage!` language, with spans.
 //!
-//! A statement that does not parse is reported and skipped, so that one mistake costs one
+//! A statement that does not parse is reported, and the names that it declares are kept, so that one mistake costs one
 //! message and the rest of the mechanism is still understood.
 
 mod attributes;
 mod expression;
+mod recovery;
 mod scene;
 mod statement;
 
@@ -12,7 +13,7 @@ use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
-pub use expression::{Expression, ExpressionId, Expressions, Operator};
+pub use expression::{Expression, ExpressionId, Expressions, Operator, Unread};
 pub use scene::{Body, Effect, EffectKind, Place, Scene};
 pub use statement::{Statement, StatementKind};
 
@@ -69,16 +70,38 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
 }
 
 fn mechanism(stream: ParseStream, diagnostics: &mut Diagnostics) -> syn::Result<Mechanism> {
-    let attributes = stream.call(syn::Attribute::parse_outer)?;
+    let attributes = attributes::read(stream, diagnostics);
     let attributes = attributes::meant(attributes, attributes::Bearer::Mechanism, diagnostics);
     let visibility = stream.parse()?;
     let keyword: Ident = stream
         .call(syn::ext::IdentExt::parse_any)
         .map_err(|error| syn::Error::new(error.span(), "expected `mechanism NAME { … }`"))?;
+    let is_nameless = keyword != "mechanism" && stream.peek(syn::token::Brace);
     if keyword != "mechanism" {
-        return Err(syn::Error::new(keyword.span(), "expected `mechanism NAME { … }`"));
+        let error = syn::Error::new(keyword.span(), "expected `mechanism NAME { … }`");
+        let is_named = stream.peek(syn::Ident) && stream.peek2(syn::token::Brace);
+        if !is_nameless && !is_named {
+            return Err(error);
+        }
+        diagnostics.push(error);
     }
-    let name = stream.parse()?;
+    let name = if is_nameless { keyword } else { stream.parse()? };
+    if !stream.peek(syn::token::Brace) {
+        let found = if stream.is_empty() { Ident::span(&name) } else { stream.span() };
+        diagnostics.push(syn::Error::new(found, format!("expected `{{` after `{name}`")));
+        while !stream.is_empty() && !stream.peek(syn::token::Brace) {
+            stream.parse::<TokenTree>()?;
+        }
+        if stream.is_empty() {
+            return Ok(Mechanism {
+                attributes,
+                visibility,
+                name,
+                statements: Vec::new(),
+                expressions: Expressions::default(),
+            });
+        }
+    }
     let content;
     syn::braced!(content in stream);
     let mut expressions = Expressions::default();

@@ -15,6 +15,8 @@ pub struct Body {
     pub name: Ident,
     /// What is said of it: the word, and its value.
     pub properties: Vec<(Ident, ExpressionId)>,
+    /// True if all of it could be read.
+    pub is_complete: bool,
 }
 
 /// `scene NAME { … }`, or `scene NAME of DRIVER { … }`.
@@ -22,6 +24,8 @@ pub struct Scene {
     pub name: Ident,
     pub of: Option<Ident>,
     pub effects: Vec<Effect>,
+    /// True if all of it could be read.
+    pub is_complete: bool,
 }
 
 /// One effect of a scene.
@@ -113,9 +117,10 @@ pub(super) fn body(
         }
         Ok((word, expression::parse(stream, expressions)?))
     };
+    let before = diagnostics.len();
     let properties =
         braces(stream, name.span(), "mass m; inertia j; center G; angle phi;", expressions, diagnostics, property)?;
-    Ok(Body { name, properties })
+    Ok(Body { name, properties, is_complete: diagnostics.len() == before })
 }
 
 pub(super) fn scene(
@@ -125,8 +130,9 @@ pub(super) fn scene(
 ) -> syn::Result<Scene> {
     let scene = name(stream)?;
     let of = if word(stream, "of") { Some(name(stream)?) } else { None };
+    let before = diagnostics.len();
     let effects = braces(stream, scene.span(), "inertia; gravity (0, -g);", expressions, diagnostics, effect)?;
-    Ok(Scene { name: scene, of, effects })
+    Ok(Scene { name: scene, of, effects, is_complete: diagnostics.len() == before })
 }
 
 /// The items in the next braces, each ended by `;`; one that does not parse is reported and skipped.

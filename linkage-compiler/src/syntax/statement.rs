@@ -3,12 +3,14 @@
 use proc_macro2::{Ident, Span, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
+use syn::parse::discouraged::Speculative;
 use syn::{Attribute, Path, Token};
 
 use super::attributes::{self, Bearer};
 use super::expression::{self, ExpressionId, Expressions};
+use super::recovery;
 use super::scene::{self, Body, Scene};
-use crate::diagnostics::{Diagnostics, Region, suggestion};
+use crate::diagnostics::{Diagnostics, Region, nearest, suggestion};
 
 /// A statement and the doc comments above it.
 pub struct Statement {
@@ -55,6 +57,16 @@ pub enum StatementKind {
     Derive(Vec<Ident>),
     Body(Body),
     Scene(Scene),
+    /// A point or an output whose keyword is missing.
+    Quantity {
+        name: Ident,
+        value: ExpressionId,
+    },
+    /// One that could not be read: the names in it, and whether it could be a list of coordinates.
+    Unread {
+        names: Vec<Ident>,
+        is_list: bool,
+    },
 }
 
 impl StatementKind {
@@ -70,12 +82,14 @@ impl StatementKind {
             | Self::Let { .. }
             | Self::External { .. }
             | Self::Derive(_)
+            | Self::Quantity { .. }
+            | Self::Unread { .. }
             | Self::Body(_) => Bearer::Part,
         }
     }
 }
 
-const KEYWORDS: [&str; 14] = [
+pub(super) const KEYWORDS: [&str; 14] = [
     "param",
     "input",
     "unknown",
@@ -100,43 +114,58 @@ pub(super) fn statements(
 ) -> Vec<Statement> {
     let mut statements = Vec::new();
     while !stream.is_empty() {
-        let attributes = match stream.call(Attribute::parse_outer) {
-            Ok(attributes) => attributes,
+        let attributes = attributes::read(stream, diagnostics);
+        let (before, messages) = (expressions.len(), diagnostics.len());
+        let ahead = stream.fork();
+        let read = kind(&ahead, expressions, diagnostics).and_then(|kind| {
+            // Braces end a statement.
+            if matches!(kind, StatementKind::Body(_) | StatementKind::Scene(_)) {
+                if ahead.peek(Token![;]) {
+                    ahead.parse::<TokenTree>()?;
+                }
+                return Ok(kind);
+            }
+            let last = expressions.last_region().filter(|_| expressions.len() > before);
+            match end(&ahead, last) {
+                // Only the `;` is missing.
+                Err(error) if ahead.is_empty() || at_keyword(&ahead) => {
+                    diagnostics.push(error);
+                    Ok(kind)
+                }
+                Err(error) => Err(error),
+                Ok(()) => Ok(kind),
+            }
+        });
+        let kind = match read {
+            Ok(kind) => {
+                stream.advance_to(&ahead);
+                kind
+            }
             Err(error) => {
-                diagnostics.push(error);
-                skip_statement(stream);
-                continue;
+                if diagnostics.len() == messages {
+                    diagnostics.push(error);
+                }
+                expressions.truncate(before);
+                recovery::kind(&statement_tokens(stream), expressions)
             }
         };
-        let before = expressions.len();
-        match kind(stream, expressions, diagnostics) {
-            // Braces end a statement.
-            Ok(kind @ (StatementKind::Body(_) | StatementKind::Scene(_))) => {
-                let attributes = attributes::meant(attributes, kind.bearer(), diagnostics);
-                statements.push(Statement { attributes, kind });
-                if stream.peek(Token![;]) {
-                    skip_statement(stream);
-                }
-            }
-            Ok(kind) => {
-                let attributes = attributes::meant(attributes, kind.bearer(), diagnostics);
-                statements.push(Statement { attributes, kind });
-                let last = expressions.last_region().filter(|_| expressions.len() > before);
-                if let Err(error) = end(stream, last) {
-                    diagnostics.push(error);
-                    if !at_keyword(stream) {
-                        skip_statement(stream);
-                    }
-                }
-            }
-            Err(error) => {
-                diagnostics.push(error);
-                expressions.truncate(before);
-                skip_statement(stream);
-            }
-        }
+        let attributes = attributes::meant(attributes, kind.bearer(), diagnostics);
+        statements.push(Statement { attributes, kind });
     }
     statements
+}
+
+/// The tokens up to the end of a statement, without its `;`.
+fn statement_tokens(stream: ParseStream) -> Vec<TokenTree> {
+    let mut tokens = Vec::new();
+    while !stream.is_empty() && (tokens.is_empty() || !at_keyword(stream)) {
+        match stream.parse::<TokenTree>() {
+            Ok(TokenTree::Punct(punct)) if punct.as_char() == ';' => break,
+            Ok(token) => tokens.push(token),
+            Err(_) => break,
+        }
+    }
+    tokens
 }
 
 fn kind(
@@ -147,12 +176,20 @@ fn kind(
     let keyword: Ident = stream
         .call(Ident::parse_any)
         .map_err(|error| syn::Error::new(error.span(), format!("expected a statement: {}", KEYWORDS.join(", "))))?;
-    let word = keyword.to_string();
+    let mut word = keyword.to_string();
+    if !KEYWORDS.contains(&word.as_str()) {
+        let hint = suggestion(&word, KEYWORDS);
+        diagnostics.error(
+            keyword.span(),
+            format_args!("no statement begins with `{word}`{hint}\nstatements: {}", KEYWORDS.join(", ")),
+        );
+        word = nearest(&word, KEYWORDS).unwrap_or_default().to_owned();
+    }
     Ok(match word.as_str() {
         "param" => {
             let mut parameters = Vec::new();
             loop {
-                let name = name(stream)?;
+                let name = listed(stream)?;
                 let default = if stream.parse::<Option<Token![=]>>()?.is_some() {
                     Some(expression::parse(stream, expressions)?)
                 } else {
@@ -197,14 +234,16 @@ fn kind(
         "derive" => StatementKind::Derive(names(stream)?),
         "body" => StatementKind::Body(scene::body(stream, expressions, diagnostics)?),
         "scene" => StatementKind::Scene(scene::scene(stream, expressions, diagnostics)?),
-        unknown => {
-            let hint = suggestion(unknown, KEYWORDS);
-            return Err(syn::Error::new(
-                keyword.span(),
-                format!("no statement begins with `{unknown}`{hint}\nstatements: {}", KEYWORDS.join(", ")),
-            ));
-        }
+        _ => return Err(syn::Error::new(keyword.span(), "no statement")),
     })
+}
+
+/// A name in a list, which the next statement ends where the `;` is missing.
+fn listed(stream: ParseStream) -> syn::Result<Ident> {
+    if at_keyword(stream) && stream.peek2(syn::Ident) {
+        return Err(syn::Error::new(stream.span(), "expected a name; end the statement before this with `;`"));
+    }
+    name(stream)
 }
 
 pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
@@ -218,9 +257,9 @@ pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
 }
 
 fn names(stream: ParseStream) -> syn::Result<Vec<Ident>> {
-    let mut names = vec![name(stream)?];
+    let mut names = vec![listed(stream)?];
     while stream.parse::<Option<Token![,]>>()?.is_some() {
-        names.push(name(stream)?);
+        names.push(listed(stream)?);
     }
     Ok(names)
 }
@@ -281,22 +320,10 @@ pub(super) fn end(stream: ParseStream, last: Option<Region>) -> syn::Result<()> 
     stream.parse::<Token![;]>().map(drop).map_err(|_| syn::Error::new(found, "expected `;` before this"))
 }
 
+/// True before an attribute and before a keyword that something follows.
 fn at_keyword(stream: ParseStream) -> bool {
-    stream.peek(Token![#])
-        || stream.fork().call(Ident::parse_any).is_ok_and(|word| KEYWORDS.iter().any(|keyword| word == *keyword))
-}
-
-fn skip_statement(stream: ParseStream) {
-    let mut moved = false;
-    while !stream.is_empty() {
-        if moved && at_keyword(stream) {
-            return;
-        }
-        moved = true;
-        match stream.parse::<TokenTree>() {
-            Ok(TokenTree::Punct(punct)) if punct.as_char() == ';' => return,
-            Ok(_) => {}
-            Err(_) => return,
-        }
-    }
+    let ahead = stream.fork();
+    let at_word = ahead.call(Ident::parse_any).is_ok_and(|word| KEYWORDS.iter().any(|keyword| word == *keyword));
+    let goes_on = !(ahead.is_empty() || ahead.peek(Token![;]) || ahead.peek(Token![,]) || ahead.peek(Token![=]));
+    stream.peek(Token![#]) || (at_word && goes_on)
 }

@@ -50,7 +50,7 @@ impl Lowering<'_> {
             }
         }
         let mut missing = |given_word: &str, needed: &str, example: &str| {
-            if given.contains_key(given_word) && !given.contains_key(needed) {
+            if tree.is_complete && given.contains_key(given_word) && !given.contains_key(needed) {
                 let message = format!("`{}` has {given_word}, but no {needed}: add `{example}`", tree.name);
                 self.diagnostics.error(tree.name.span(), message);
             }

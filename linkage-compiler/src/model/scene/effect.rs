@@ -29,6 +29,10 @@ impl Lowering<'_> {
             self.effect(effect, &mut scene, &mut names);
             self.blame(effect.keyword.span());
         }
+        if !tree.is_complete {
+            // What a contact needs may be in what could not be read.
+            names.contact = None;
+        }
         reading.scenes.push((scene, tree.of.clone(), names));
     }
 

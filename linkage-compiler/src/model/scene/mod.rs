@@ -110,6 +110,39 @@ struct Names {
 }
 
 impl Scene {
+    /// Everything whose value it takes: forces, energies, the bounds of contacts.
+    #[must_use]
+    pub fn values(&self) -> Vec<NodeId> {
+        let mut values: Vec<NodeId> = self.laws.iter().map(|law| law.law).collect();
+        values.extend(self.laws.iter().filter_map(|law| match law.account {
+            Account::Stored(potential) => Some(potential),
+            Account::Dissipated | Account::Applied => None,
+        }));
+        for contact in &self.contacts {
+            match &contact.law {
+                ContactLaw::Friction(factors) => values.extend(factors),
+                ContactLaw::Stop { range, restitution } => {
+                    values.extend(range.iter().chain([restitution, &contact.along]));
+                }
+            }
+        }
+        values
+    }
+
+    /// Everything that forces act along.
+    #[must_use]
+    pub fn paths(&self, bodies: &[Body]) -> Vec<NodeId> {
+        let mut paths: Vec<NodeId> = self.laws.iter().map(|law| law.along).collect();
+        paths.extend(self.contacts.iter().map(|contact| contact.along));
+        let heavy = self.inertia.iter().flatten().chain(self.weights.iter().map(|(index, _)| index));
+        for &index in heavy {
+            let Body { mass, inertia, .. } = &bodies[index];
+            paths.extend(mass.iter().flat_map(|(_, center)| *center));
+            paths.extend(inertia.iter().map(|(_, angle)| *angle));
+        }
+        paths
+    }
+
     /// Everything that it is made of.
     fn formulas(&self, bodies: &[Body]) -> Vec<NodeId> {
         let mut formulas: Vec<NodeId> = self.laws.iter().flat_map(|law| [law.law, law.along]).collect();

@@ -1,0 +1,117 @@
+//! Guesses of what a mechanism with mistakes declares, so that its stub has the names that the rest of a program uses.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::Ident;
+
+use super::kind::Kind;
+use super::name::Name;
+use super::scope::Scope;
+use super::{Coordinate, Mechanism};
+use crate::diagnostics::nearest;
+use crate::structure;
+use crate::syntax::{Statement, StatementKind};
+
+/// Completes a mechanism with mistakes: coordinates that are not declared, the order of solution as far as it is known,
+/// and one field for one name.
+pub(super) fn complete(
+    mechanism: &mut Mechanism,
+    statements: &[Statement],
+    scope: &Scope,
+    undeclared_kinds: &[(String, Kind)],
+) {
+    rename(mechanism, scope);
+    let rows = statements.iter().map(|statement| match statement.kind {
+        StatementKind::Loop { .. } => 2,
+        StatementKind::Equation { .. } => 1,
+        _ => 0,
+    });
+    let rows: usize = rows.sum();
+    let mut missing = missing(mechanism, statements, scope).into_iter();
+    let declare = |mechanism: &mut Mechanism, name: Ident| {
+        let kind = undeclared_kinds.iter().find(|(other, _)| name == other).map_or(Kind::Number, |(_, kind)| *kind);
+        let name = Name::new(&name);
+        let symbol = mechanism.graph.symbol(name.field.clone());
+        mechanism.coordinates.push(Coordinate { name, attributes: Vec::new(), symbol, rate: None, kind });
+        mechanism.coordinates.len() - 1
+    };
+    let known = mechanism.drivers.first().map_or(0, |driver| driver.unknowns.len());
+    for name in missing.by_ref().take(rows.saturating_sub(known)) {
+        let index = declare(mechanism, name);
+        for driver in &mut mechanism.drivers {
+            driver.unknowns.push(index);
+        }
+    }
+    let nothing_drives = mechanism.drivers.iter().all(|driver| driver.inputs.is_empty());
+    if nothing_drives && let [only] = mechanism.drivers.as_slice() {
+        // Inputs are declared before unknowns.
+        let surplus = only.unknowns.len().saturating_sub(rows);
+        let inputs: Vec<usize> = match rows {
+            0 => Vec::new(),
+            _ if surplus > 0 => only.unknowns[..surplus].to_vec(),
+            _ => missing.next().map(|name| declare(mechanism, name)).into_iter().collect(),
+        };
+        for driver in &mut mechanism.drivers {
+            driver.unknowns.retain(|index| !inputs.contains(index));
+            driver.inputs.clone_from(&inputs);
+        }
+    }
+    order(mechanism, rows);
+    distinguish(mechanism);
+}
+
+/// A name that is used often but not declared, beside one like it that is declared but not used, is the name that is
+/// meant.
+fn rename(mechanism: &mut Mechanism, scope: &Scope) {
+    for (name, _) in scope.undeclared().iter().filter(|(_, uses)| *uses > 1) {
+        let parameters = mechanism.parameters.iter_mut().map(|parameter| (&mut parameter.name, parameter.symbol));
+        let coordinates = mechanism.coordinates.iter_mut().map(|coordinate| (&mut coordinate.name, coordinate.symbol));
+        let unused = parameters.chain(coordinates).filter(|(_, symbol)| !scope.is_used(*symbol));
+        let mut unused: Vec<&mut Name> = unused.map(|(name, _)| name).collect();
+        let like = nearest(&name.to_string(), unused.iter().map(|name| name.text.as_str())).map(str::to_owned);
+        if let Some(meant) = like.and_then(|like| unused.iter_mut().find(|name| name.text == like)) {
+            **meant = Name::new(name);
+        }
+    }
+}
+
+/// The names that may be coordinates: those of lists whose keyword is not known, then others that nothing declares.
+fn missing(mechanism: &Mechanism, statements: &[Statement], scope: &Scope) -> Vec<Ident> {
+    let listed = statements.iter().flat_map(|statement| match &statement.kind {
+        StatementKind::Unread { names, is_list: true } => names.as_slice(),
+        _ => &[],
+    });
+    let undeclared = scope.undeclared().iter().map(|(name, _)| name);
+    let parameters = mechanism.parameters.iter().map(|parameter| &parameter.name);
+    let names = parameters.chain(mechanism.coordinates.iter().map(|coordinate| &coordinate.name));
+    let mut taken: BTreeSet<String> = names.map(|name| name.text.clone()).collect();
+    listed.chain(undeclared).filter(|name| taken.insert(name.to_string())).cloned().collect()
+}
+
+/// The order of solution, where all loop equations could be read.
+fn order(mechanism: &mut Mechanism, rows: usize) {
+    let read: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
+    for place in 0..mechanism.drivers.len() {
+        let driver = &mechanism.drivers[place];
+        let is_known = read == rows && rows == driver.unknowns.len();
+        let blocks = is_known.then(|| structure::order(&mechanism.incidence(driver), driver.unknowns.len()).ok());
+        mechanism.drivers[place].blocks = blocks.flatten().unwrap_or_default();
+    }
+}
+
+/// Of names that become one field the later ones get an underscore.
+fn distinguish(mechanism: &mut Mechanism) {
+    let Mechanism { parameters, scene_parameters, coordinates, points, outputs, .. } = mechanism;
+    let parameters = parameters.iter_mut().chain(scene_parameters).map(|parameter| &mut parameter.name);
+    let symbols = parameters.chain(coordinates.iter_mut().map(|coordinate| &mut coordinate.name));
+    let points = points.iter_mut().map(|point| &mut point.name);
+    let outputs = outputs.iter_mut().map(|output| &mut output.name);
+    for names in [symbols.collect::<Vec<_>>(), points.collect(), outputs.collect()] {
+        let mut taken = BTreeSet::new();
+        for name in names {
+            while !taken.insert(name.field.clone()) {
+                name.field.push('_');
+            }
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The stub of a mechanism has the functions of the mechanism: their names, arguments and results, in the same order.
+
+use std::fs;
+use std::path::Path;
+
+use linkage_compiler::lower::Code;
+use linkage_compiler::program::{self, Access, Function, Position};
+use proc_macro2::{TokenStream, TokenTree};
+
+/// The tokens in the one `linkage! { … }` of a file.
+fn tokens_of(path: &Path) -> Option<TokenStream> {
+    let tokens: Vec<TokenTree> =
+        fs::read_to_string(path).unwrap().parse::<TokenStream>().unwrap().into_iter().collect();
+    let start = tokens.iter().position(|token| matches!(token, TokenTree::Ident(word) if word == "linkage"))?;
+    match tokens.get(start + 2) {
+        Some(TokenTree::Group(group)) => Some(group.stream()),
+        _ => None,
+    }
+}
+
+/// The public functions as text, without description and body.
+fn signatures<B>(functions: &[Function<B>]) -> Vec<String> {
+    let public = functions.iter().filter(|function| function.access == Access::Public);
+    let signature = |function: &Function<B>| {
+        let Function { name, is_method, arguments, returns, is_fallible, .. } = function;
+        format!("{name} {is_method} {arguments:?} -> {returns:?} {is_fallible}")
+    };
+    public.map(signature).collect()
+}
+
+#[test]
+fn a_stub_has_the_functions_of_the_mechanism() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/mechanisms");
+    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    let (mut compared, mut with_turns) = (0, 0);
+    for path in files {
+        let Some(tokens) = tokens_of(&path) else { continue };
+        for mechanism in linkage_compiler::read(tokens).unwrap() {
+            for (driver, mut derivation) in mechanism.drivers.iter().zip(linkage_compiler::derive(&mechanism)) {
+                let whose = format!("{} of {}", driver.name, path.display());
+                let planned = program::plan(&mechanism, driver, &mut derivation);
+                let stub = program::stub::<Code>(&mechanism, driver);
+                assert_eq!(planned.position.sides, stub.position.sides, "{whose}");
+                assert_eq!(planned.position.is_closed, stub.position.is_closed, "{whose}");
+                if planned.position.is_closed {
+                    let turns =
+                        |position: &Position| position.turns.iter().map(|turn| turn.field.clone()).collect::<Vec<_>>();
+                    assert_eq!(turns(&planned.position), turns(&stub.position), "{whose}");
+                    with_turns += usize::from(!stub.position.turns.is_empty());
+                }
+                assert_eq!(signatures(&planned.functions), signatures(&stub.functions), "{whose}");
+                assert_eq!(planned.scenes.len(), stub.scenes.len(), "{whose}");
+                for (planned, stub) in planned.scenes.iter().zip(&stub.scenes) {
+                    assert_eq!(signatures(&planned.functions), signatures(&stub.functions), "{whose}");
+                }
+                compared += 1;
+            }
+        }
+    }
+    println!("{compared} drivers, {with_turns} with turns");
+    assert!(compared > with_turns && with_turns > 0);
+}
