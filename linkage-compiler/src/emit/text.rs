@@ -134,6 +134,10 @@ fn expression(value: &Expression) -> String {
             let statements: String = statements.iter().map(|line| format!("{}; ", statement(line))).collect();
             format!("|{arguments}| {statements}{}", expression(value))
         }
+        Expression::Block(statements, value) => {
+            let statements: String = statements.iter().map(|line| format!("{}; ", statement(line))).collect();
+            format!("{{ {statements}{} }}", expression(value))
+        }
         Expression::Result(place) | Expression::Local(place) => format!("_{place}"),
     }
 }

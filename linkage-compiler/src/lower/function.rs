@@ -330,7 +330,7 @@ impl Finished<'_> {
             E::Closure { arguments, statements, value, moves } => {
                 E::Closure { arguments, statements, value: Box::new(self.expression(*value)), moves }
             }
-            E::Block(statements, value) => E::Block(statements, self.boxed(value)),
+            E::Block(statements, value) => E::Block(statements, Box::new(self.expression(*value))),
             finished @ (E::Name(_) | E::Number(_) | E::Text(_) | E::Count(_) | E::Constant(_)) => finished,
         }
     }
