@@ -1,10 +1,9 @@
 //! The compiler behind `linkage!`: tokens in, tokens out.
 //!
-//! [`expand`] is the whole of it in one paragraph; the stages stand in this order, and none looks
-//! back at an earlier one's types but through the model:
-//! syntax, model, graph, algebra, structure, derivation, program, lower, emit.
+//! [`expand`] is the whole of it in one paragraph. The stages, in this order: syntax, model, graph, algebra, structure,
+//! derivation (mathematics only), program (which functions a mechanism gets), lower (shared, ordered and named formulas),
+//! notation (formulas for people), emit (printers).
 
-// Formulas and counts are converted between integers and floats on purpose.
 pub mod algebra;
 pub mod budget;
 pub mod derivation;

@@ -1,7 +1,7 @@
 //! Formulas as Unicode text, LaTeX and MathML.
 //!
-//! [`layout`] turns a node of the graph into terms, fractions and factors in the order of mathematics. [`writer`]
-//! decides what needs brackets, and each notation spells the pieces: [`unicode`], [`latex`], [`mathml`].
+//! `layout` turns a node of the graph into terms, fractions and factors in the order of mathematics. `writer`
+//! decides what needs brackets, and each notation spells the pieces: `unicode`, `latex`, `mathml`.
 
 mod latex;
 mod layout;

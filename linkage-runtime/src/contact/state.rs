@@ -161,7 +161,7 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     /// The accelerations in these modes.
     ///
     /// # Errors
-    /// [`Error::NoInertia`], [`Error::NotFinite`] as [`reduced`](crate::reduced).
+    /// [`Error::NoInertia`], [`Error::NotFinite`] as for the accelerations of free inputs.
     pub fn motion<const V: usize>(
         &self,
         equations: &ReducedEquations<T, V, C>,
