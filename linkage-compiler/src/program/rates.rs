@@ -94,7 +94,7 @@ impl Plan<'_, '_> {
     pub(super) fn layers(&mut self) {
         let Arguments { rate, ratios, velocity, whose, .. } = self.signatures.arguments.clone();
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
-        let steps = self.ratio_steps(Form::Factored);
+        let steps = self.ratio_steps(Form::Entries);
         let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
         let nodes = self.variables(&names);
         let kernel = self.on_pose(Vec::new(), steps, unnamed(nodes));
