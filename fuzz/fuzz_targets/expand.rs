@@ -24,7 +24,7 @@ thread_local! {
 }
 
 fuzz_target!(
-    // The fuzzer's hook ends the process before the mutant is told.
+    // The fuzzer's hook ends the process before the mutant is printed.
     init: drop(panic::take_hook()),
     |data: &[u8]| {
         let root = "::linkage".parse().expect("a path");

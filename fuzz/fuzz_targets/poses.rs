@@ -10,7 +10,7 @@ use linkage_fuzz::Bytes;
 include!(concat!(env!("OUT_DIR"), "/subjects.rs"));
 
 fuzz_target!(
-    // The fuzzer's hook ends the process before the function is told.
+    // The fuzzer's hook ends the process before the function is printed.
     init: listen(),
     |data: &[u8]| {
         let Some((&first, data)) = data.split_first() else { return };

@@ -57,7 +57,7 @@ impl Derivation {
         self.graph.differentiate(&[rate], &seeds)[0]
     }
 
-    /// Stages that solve J' lambda = side, each block after the verdict on it.
+    /// Steps that solve J' lambda = side, each block after the check of it.
     pub fn transposed_solution(&mut self, reactions: &Reactions) -> Vec<Step> {
         let mut steps = Vec::new();
         let mut solved: Vec<(usize, NodeId)> = Vec::new();
@@ -78,7 +78,7 @@ impl Derivation {
             }
             let targets: Vec<SymbolId> = block.equations.iter().map(|&equation| reactions.names[equation]).collect();
             if block.determinant.is_some() {
-                if let Some(divisor) = self.verdict(number, &block, &mut steps) {
+                if let Some(divisor) = self.judge(number, &block, &mut steps) {
                     let values = solve_closed(&mut self.graph, &matrix, divisor, &right, Form::Entries);
                     let named = targets.iter().zip(values);
                     steps.extend(named.map(|(&symbol, node)| Step::Let { symbol, node }));

@@ -5,8 +5,8 @@ use super::{Block, Derivation, Form, Row, solve_closed};
 use crate::graph::{NodeId, SymbolId};
 
 impl Derivation {
-    /// Stages that solve J x = right for each right side and name the solutions, block by block, each
-    /// after the verdict on it.
+    /// Steps that solve J x = right for each right side and name the solutions, block by block, each
+    /// after the check of it.
     ///
     /// A later system may refer to the solution of an earlier one: within a block they stand in order.
     pub fn solution(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> Vec<Step> {
@@ -19,7 +19,7 @@ impl Derivation {
         let mut solved: Vec<Row> = vec![Row::new(); systems.len()];
         for number in 0..self.blocks.len() {
             let block = self.blocks[number].clone();
-            let divisor = self.verdict(number, &block, &mut steps);
+            let divisor = self.judge(number, &block, &mut steps);
             let matrix = self.block_matrix(&block);
             for ((right, targets), solved) in systems.iter().zip(&mut solved) {
                 let right: Vec<NodeId> =
@@ -50,14 +50,14 @@ impl Derivation {
         (steps, values.collect())
     }
 
-    /// The verdict on a block, and what its closed form divides by.
-    pub(super) fn verdict(&mut self, number: usize, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
+    /// The check of a block, and the divisor of its closed form.
+    pub(super) fn judge(&mut self, number: usize, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
         let Some(determinant) = block.determinant else {
             let sizes = block.equations.iter().map(|&equation| self.sizes[equation]).collect();
             steps.push(Step::Factor { block: number, matrix: self.block_matrix(block), sizes });
             return None;
         };
-        // A determinant that is a number other than zero needs no verdict.
+        // A determinant that is a number other than zero needs no check.
         if self.graph.constant_value(determinant.value).is_some_and(|value| value != 0.0) {
             return Some(determinant.value);
         }

@@ -230,7 +230,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
         tokens.extend(quote! {
             impl<T: #root::__rt::Real> ::core::convert::From<T> for #inputs<T> {
                 fn from(_: T) -> Self {
-                    ::core::unimplemented!()
+                    ::core::unreachable!()
                 }
             }
         });
