@@ -221,9 +221,10 @@ impl ToTokens for Pattern {
             Self::Tuple(patterns) => quote!((#(#patterns),*)),
             Self::Struct { of, fields, is_whole } => {
                 let of = path(of);
-                let fields = fields.iter().map(|(field, name)| {
-                    let (field, name) = (ident(field), ident(name));
-                    if field == name { quote!(#field,) } else { quote!(#field: #name,) }
+                let fields = fields.iter().map(|(field, pattern)| {
+                    let is_name = matches!(pattern, Self::Name(name) if name == field);
+                    let field = ident(field);
+                    if is_name { quote!(#field,) } else { quote!(#field: #pattern,) }
                 });
                 let rest = (!is_whole).then(|| quote!(..));
                 quote!(#of { #(#fields)* #rest })

@@ -63,9 +63,9 @@ fn pattern(pattern: &Pattern) -> String {
         Pattern::First(first) => format!("[{}, ..]", self::pattern(first)),
         Pattern::Tuple(patterns) => format!("({})", all(patterns)),
         Pattern::Struct { fields, .. } => {
-            let field = |(field, name): &(String, String)| match field == name {
-                true => field.clone(),
-                false => format!("{field}: {name}"),
+            let field = |(field, pattern): &(String, Pattern)| match pattern {
+                Pattern::Name(name) if name == field => field.clone(),
+                pattern => format!("{field}: {}", self::pattern(pattern)),
             };
             format!("{{{}}}", fields.iter().map(field).collect::<Vec<_>>().join(", "))
         }

@@ -14,6 +14,10 @@ use crate::program::{
     Value as Returned,
 };
 
+/// The most directions that one statement reads. With half as many there are twice as many statements; in functions that
+/// are divided into stretches, one that reads more would stand far from where most of them are used.
+const MOST_DIRECTIONS: usize = 8;
+
 /// What the functions of one driver or scene have in common.
 pub struct Context<'a> {
     pub derivation: &'a Derivation,
@@ -194,31 +198,45 @@ fn is_formula(value: &Expression) -> bool {
 
 /// `let Type { field, other: name, .. } = *value;` with the fields that are used; none if no field is.
 fn taken_apart(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Statement> {
-    let entry = |symbol: &SymbolId| match used.contains(symbol) {
-        true => Pattern::Name(names.symbol(*symbol)),
-        false => Pattern::Ignored,
-    };
-    let pattern = match &source.shape {
-        Shape::Columns { rows, symbols } => {
-            let columns = symbols.chunks(*rows).map(|column| Pattern::List(column.iter().map(entry).collect()));
-            Pattern::List(columns.collect())
-        }
-        Shape::List(symbols) => Pattern::List(symbols.iter().map(entry).collect()),
-        Shape::Fields { of, fields, is_whole } => {
-            let is_used = |(_, symbol): &&(String, SymbolId)| used.contains(symbol);
-            let local = |(field, symbol): &(String, SymbolId)| (field.clone(), names.symbol(*symbol));
-            let named: Vec<(String, String)> = fields.iter().filter(is_used).map(local).collect();
-            if named.is_empty() {
-                return None;
-            }
-            let is_whole = *is_whole && named.len() == fields.len();
-            Pattern::Struct { of: of.clone(), fields: named, is_whole }
-        }
+    let pattern = match pattern(&source.shape, used, names) {
+        Some(pattern) => pattern,
+        // What may refuse is called all the same.
+        None if may_refuse(&source.from) => Pattern::Ignored,
+        None => return None,
     };
     Some(Statement::Let(pattern, source.from.clone()))
 }
 
-/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
+fn may_refuse(value: &Expression) -> bool {
+    match value {
+        Expression::Try(_) => true,
+        Expression::Field(of, _) => may_refuse(of),
+        _ => false,
+    }
+}
+
+/// The symbols of a shape that are used, in their places; none if no symbol is.
+fn pattern(shape: &Shape, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Pattern> {
+    let all = |shapes: &[Shape]| {
+        let patterns: Vec<_> = shapes.iter().map(|shape| pattern(shape, used, names)).collect();
+        let is_used = patterns.iter().any(Option::is_some);
+        is_used.then(|| patterns.into_iter().map(|pattern| pattern.unwrap_or(Pattern::Ignored)).collect())
+    };
+    match shape {
+        Shape::Symbol(symbol) => used.contains(symbol).then(|| Pattern::Name(names.symbol(*symbol))),
+        Shape::Ignored => None,
+        Shape::List(shapes) => all(shapes).map(Pattern::List),
+        Shape::Tuple(shapes) => all(shapes).map(Pattern::Tuple),
+        Shape::Fields { of, fields, is_whole } => {
+            let named = fields.iter().filter_map(|(field, shape)| Some((field.clone(), pattern(shape, used, names)?)));
+            let named: Vec<(String, Pattern)> = named.collect();
+            let is_whole = *is_whole && named.len() == fields.len();
+            (!named.is_empty()).then(|| Pattern::Struct { of: of.clone(), fields: named, is_whole })
+        }
+    }
+}
+
+/// `let [(sin_a, cos_a), (sin_b, cos_b)] = [pose.a, pose.b].map(sine_cosine);` for the directions that are used.
 fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Schedule, names: &mut Names) {
     let mut used: Vec<(NodeId, Elementary, ValueId)> = Vec::new();
     for &id in schedule.used() {
@@ -227,22 +245,27 @@ fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Sch
         }
     }
     used.sort_unstable();
+    let mut pairs: Vec<(Pattern, Expression)> = Vec::new();
     for parts in used.chunk_by(|one, other| one.0 == other.0) {
         let field = context.pose.direction(parts[0].0);
-        let (mut patterns, mut values) = (Vec::new(), Vec::new());
+        let mut pair = [Pattern::Ignored, Pattern::Ignored];
         for &(_, function, id) in parts {
-            patterns.push(Pattern::Name(names.give(id, &direction_name(function, field))));
-            let part = if function == Elementary::Sin { "im" } else { "re" };
-            values.push(Expression::name(context.pose_argument).field(field).field(part));
+            let place = usize::from(function == Elementary::Cos);
+            pair[place] = Pattern::Name(names.give(id, &direction_name(function, field)));
         }
-        let (pattern, value) = match (patterns.pop(), values.pop()) {
-            (Some(pattern), Some(value)) if patterns.is_empty() => (pattern, value),
-            (pattern, value) => (
-                Pattern::Tuple(patterns.into_iter().chain(pattern).collect()),
-                Expression::Tuple(values.into_iter().chain(value).collect()),
-            ),
-        };
-        statements.push(Statement::Let(pattern, value));
+        pairs.push((Pattern::Tuple(pair.to_vec()), Expression::name(context.pose_argument).field(field)));
+    }
+    for pairs in pairs.chunks(MOST_DIRECTIONS) {
+        let (patterns, fields): (Vec<Pattern>, Vec<Expression>) = pairs.iter().cloned().unzip();
+        statements.push(match (patterns.as_slice(), fields.as_slice()) {
+            ([pattern], [field]) => {
+                Statement::Let(pattern.clone(), Expression::runtime("sine_cosine", [field.clone()]))
+            }
+            _ => {
+                let map = [Expression::Constant("sine_cosine")];
+                Statement::Let(Pattern::List(patterns), Expression::List(fields).method("map", map))
+            }
+        });
     }
 }
 

@@ -38,11 +38,7 @@ impl<'a> Builder<'a> {
     }
 
     fn is_leaf(&self, id: NodeId) -> bool {
-        let given = match self.graph.node(id) {
-            Node::Call(Function::Sin | Function::Cos, angle) => self.given.directions.contains(&angle[0]),
-            _ => self.given.values.contains_key(&id),
-        };
-        given || self.graph.constant_value(id).is_some()
+        self.given.holds(self.graph, id) || self.graph.constant_value(id).is_some()
     }
 
     /// Constants, symbols and what is given need nothing else.

@@ -37,7 +37,7 @@ pub enum Expression {
     Struct(Type, Vec<(String, Expression)>, Option<Box<Expression>>),
 
     // Calls.
-    /// A function of the runtime.
+    /// A call of a function of the runtime.
     Runtime(&'static str, Vec<Expression>),
     /// An associated function of a type.
     Associated(Type, String, Vec<Expression>),
@@ -87,10 +87,10 @@ pub enum Pattern {
     /// `[first, ..]`
     First(Box<Pattern>),
     Tuple(Vec<Pattern>),
-    /// `Type { field: name, .. }`
+    /// `Type { field: pattern, .. }`
     Struct {
         of: Type,
-        fields: Vec<(String, String)>,
+        fields: Vec<(String, Pattern)>,
         is_whole: bool,
     },
 }
@@ -247,8 +247,12 @@ impl Expression {
                 statements.iter().for_each(|statement| statement.each_name(visit));
                 value.each_name(visit);
             }
-            Self::Result(_) | Self::Local(_) | Self::Number(_) | Self::Text(_) | Self::Count(_) | Self::Constant(_) => {
-            }
+            Self::Result(_)
+            | Self::Local(_)
+            | Self::Number(_)
+            | Self::Text(_)
+            | Self::Count(_)
+            | Self::Constant(_) => {}
         }
     }
 
@@ -272,7 +276,7 @@ impl Pattern {
             Self::Name(name) | Self::Typed(name, _) => visit(name),
             Self::Mutable(inside) | Self::First(inside) => inside.each_name(visit),
             Self::List(all) | Self::Tuple(all) => all.iter().for_each(|pattern| pattern.each_name(visit)),
-            Self::Struct { fields, .. } => fields.iter().for_each(|(_, name)| visit(name)),
+            Self::Struct { fields, .. } => fields.iter().for_each(|(_, pattern)| pattern.each_name(visit)),
             Self::Local(_) | Self::Ignored => {}
         }
     }

@@ -130,12 +130,33 @@ pub struct Source {
 /// The form of what is taken apart.
 #[derive(Debug, Clone)]
 pub enum Shape {
+    Symbol(SymbolId),
+    /// Something that is not looked at.
+    Ignored,
     /// The fields of a type; `is_whole` if these are all.
-    Fields { of: Type, fields: Vec<(String, SymbolId)>, is_whole: bool },
+    Fields {
+        of: Type,
+        fields: Vec<(String, Shape)>,
+        is_whole: bool,
+    },
+    List(Vec<Shape>),
+    Tuple(Vec<Shape>),
+}
+
+impl Shape {
+    pub fn fields(of: Type, fields: impl IntoIterator<Item = (String, SymbolId)>, is_whole: bool) -> Self {
+        let fields = fields.into_iter().map(|(field, symbol)| (field, Self::Symbol(symbol)));
+        Self::Fields { of, fields: fields.collect(), is_whole }
+    }
+
+    pub fn list(symbols: &[SymbolId]) -> Self {
+        Self::List(symbols.iter().copied().map(Self::Symbol).collect())
+    }
+
     /// The columns of a matrix with so many rows.
-    Columns { rows: usize, symbols: Vec<SymbolId> },
-    /// The entries of a list.
-    List(Vec<SymbolId>),
+    pub fn columns(rows: usize, symbols: &[SymbolId]) -> Self {
+        Self::List(symbols.chunks(rows).map(Self::list).collect())
+    }
 }
 
 impl<B> Function<B> {

@@ -47,9 +47,9 @@ impl<'a> Taken<'a> {
     }
 }
 
-/// The name of the direction of an angle: that of the coordinate, or one made of a short sum such as
-/// `phi2 - delta`.
-pub fn angle_name(text: &str) -> String {
+/// A name made of a text: of a coordinate its own, of a short sum such as `phi2 - delta` its words. None if that is no
+/// name, or a long one.
+pub fn name_of(text: &str) -> Option<String> {
     let mut name = String::new();
     let mut separate = false;
     for letter in text.chars() {
@@ -78,7 +78,7 @@ pub fn angle_name(text: &str) -> String {
         separate = true;
     }
     let starts_well = name.chars().next().is_some_and(|first| first.is_alphabetic() || first == '_');
-    if starts_well && name.len() <= LONGEST_NAME { name } else { "angle".to_owned() }
+    (starts_well && name.len() <= LONGEST_NAME).then_some(name)
 }
 
 /// The private function that calls a user function.
@@ -142,6 +142,7 @@ pub struct Arguments {
     pub position: String,
     pub ratios: String,
     pub velocity: String,
+    pub bias: String,
     /// The name by which errors call whoever asks.
     pub whose: String,
     pub time: String,
@@ -164,6 +165,7 @@ impl Arguments {
             position: name("position"),
             ratios: name("ratios"),
             velocity: name("velocity"),
+            bias: name("bias"),
             whose: name("whose"),
             time: mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time)).to_owned(),
         }
@@ -185,11 +187,13 @@ impl Arguments {
             position,
             ratios,
             velocity,
+            bias,
             whose,
             time: _,
         } = self;
-        let all =
-            [pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity, whose];
+        let all = [
+            pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity, bias, whose,
+        ];
         all.into_iter().cloned().chain(["self".to_owned()]).collect()
     }
 }

@@ -165,19 +165,19 @@ impl<'d, 'a> Plan<'d, 'a> {
 
     pub(super) fn parameters(&self) -> Source {
         let fields = self.signatures.mechanism.parameters.iter();
-        let fields = fields.map(|parameter| (parameter.name.field.clone(), parameter.symbol)).collect();
-        Source { from: Expression::own().behind(), shape: Shape::Fields { of: Type::Itself, fields, is_whole: true } }
+        let fields = fields.map(|parameter| (parameter.name.field.clone(), parameter.symbol));
+        Source { from: Expression::own().behind(), shape: Shape::fields(Type::Itself, fields, true) }
     }
 
     fn pose_source(&self) -> Source {
         let values = self.pose.values.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
         let determinants = self.pose.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
         let externals = self.pose.externals.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
-        let fields = values.chain(determinants).chain(externals).collect();
+        let fields = values.chain(determinants).chain(externals);
         let argument = self.signatures.arguments.pose.clone();
         Source {
             from: Expression::name(&argument).behind(),
-            shape: Shape::Fields { of: self.signatures.pose_type(), fields, is_whole: self.pose.directions.is_empty() },
+            shape: Shape::fields(self.signatures.pose_type(), fields, self.pose.directions.is_empty()),
         }
     }
 
@@ -185,37 +185,37 @@ impl<'d, 'a> Plan<'d, 'a> {
     pub(super) fn computed(&self) -> Source {
         let determinants = self.pose.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
         let externals = self.pose.externals.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
-        let fields = determinants.chain(externals).collect();
+        let fields = determinants.chain(externals);
         let (of, pose) = (Type::Bare(self.signatures.types.pose.clone()), &self.signatures.arguments.pose);
-        let shape = Shape::Fields { of, fields, is_whole: false };
+        let shape = Shape::fields(of, fields, false);
         Source { from: Expression::name(pose), shape }
     }
 
     /// All coordinates, or their rates and so on, from an argument that is a reference.
     pub(super) fn coordinates(&self, argument: &str, symbol: fn(&Coordinate) -> SymbolId) -> Source {
-        let fields = self.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c))).collect();
+        let fields = self.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c)));
         Source {
             from: Expression::name(argument).behind(),
-            shape: Shape::Fields { of: self.signatures.coordinates_type(), fields, is_whole: true },
+            shape: Shape::fields(self.signatures.coordinates_type(), fields, true),
         }
     }
 
     /// The inputs, or their rates and so on, from an argument that has still to be converted.
     pub(super) fn inputs(&self, argument: &str, symbol: fn(&Coordinate) -> SymbolId) -> Source {
         let coordinates = self.derivation.inputs.iter().map(|&index| &self.derivation.coordinates[index]);
-        let fields = coordinates.map(|c| (c.name.clone(), symbol(c))).collect();
+        let fields = coordinates.map(|c| (c.name.clone(), symbol(c)));
         Source {
             from: Expression::name(argument).method("into", []),
-            shape: Shape::Fields { of: Type::Own(self.signatures.types.inputs.clone()), fields, is_whole: true },
+            shape: Shape::fields(Type::Own(self.signatures.types.inputs.clone()), fields, true),
         }
     }
 
     /// The columns of a matrix that another function gives for the pose.
-    pub(super) fn columns(&self, function: &str, symbols: Vec<SymbolId>) -> Source {
+    pub(super) fn columns(&self, function: &str, symbols: &[SymbolId]) -> Source {
         let pose = &self.signatures.arguments.pose;
         Source {
             from: Expression::call(function, [Expression::name(pose)]).tried().columns(),
-            shape: Shape::Columns { rows: self.signatures.unknowns(), symbols },
+            shape: Shape::columns(self.signatures.unknowns(), symbols),
         }
     }
 

@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
-use super::names::{Taken, angle_name};
+use super::names::{Taken, name_of};
 use crate::derivation::{ContactFormula, Derivation, Row};
-use crate::graph::{Function, Node, NodeId, SymbolId, Texts};
+use crate::graph::{Function, Graph, Node, NodeId, SymbolId, Texts};
 
 /// Formulas that a kernel need not compute.
 #[derive(Debug, Clone, Default)]
@@ -16,6 +16,16 @@ pub struct Given {
     pub directions: BTreeSet<NodeId>,
     /// Expressions that are given by a name.
     pub values: FxHashMap<NodeId, SymbolId>,
+}
+
+impl Given {
+    /// True of a sine, a cosine or another formula that is given.
+    pub fn holds(&self, graph: &Graph, id: NodeId) -> bool {
+        match graph.node(id) {
+            Node::Call(Function::Sin | Function::Cos, angle) => self.directions.contains(&angle[0]),
+            _ => self.values.contains_key(&id),
+        }
+    }
 }
 
 /// The fields of a pose.
@@ -74,8 +84,8 @@ impl PosePlan {
                 determinants.push((number, unique(name), determinant.symbol));
             }
         }
-        let directions: BTreeMap<NodeId, String> =
-            angles.iter().map(|&angle| (angle, unique(angle_name(texts.of(graph, angle))))).collect();
+        let mut name = |angle| name_of(texts.of(graph, angle)).unwrap_or_else(|| "angle".to_owned());
+        let directions: BTreeMap<NodeId, String> = angles.iter().map(|&angle| (angle, unique(name(angle)))).collect();
         let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
         bare.extend(graph.needed_as_numbers(&numeric));
         bare.extend(derivation.inputs.iter().map(|&input| derivation.coordinates[input].value));

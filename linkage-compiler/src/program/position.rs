@@ -171,7 +171,7 @@ impl Plan<'_, '_> {
         let guess = &self.signatures.arguments.guess;
         Source {
             from: Expression::name(guess).behind(),
-            shape: Shape::Fields { of: self.signatures.coordinates_type(), fields, is_whole },
+            shape: Shape::fields(self.signatures.coordinates_type(), fields, is_whole),
         }
     }
 

@@ -7,7 +7,7 @@ use super::names::Arguments;
 use super::plan::{Plan, unnamed};
 use super::signatures::{Family, ORDERS};
 use crate::derivation::{Quantity, QuantityFormulas};
-use crate::graph::NodeId;
+use crate::graph::{NodeId, SymbolId};
 
 impl Plan<'_, '_> {
     pub(super) fn quantities_of(&self, family: Family) -> &[Quantity] {
@@ -112,8 +112,8 @@ impl Plan<'_, '_> {
             }
         }
         let count = nodes.len();
-        let ratios = self.derivation.ratios.iter().flatten().copied().collect();
-        let kernel = self.on_pose(vec![self.columns("velocity_ratios", ratios)], Vec::new(), unnamed(nodes));
+        let ratios: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
+        let kernel = self.on_pose(vec![self.columns("velocity_ratios", &ratios)], Vec::new(), unnamed(nodes));
         let values = Expression::List(Expression::nested(results(0..count), &[v, dimension]));
         let value = Expression::runtime("finite_matrices", [Expression::mechanism(), Expression::text(word), values]);
         // A call costs what the ratios cost, too.

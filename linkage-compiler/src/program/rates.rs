@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::doc::{fenced, lines, without_result};
-use super::expression::{Expression, Type};
+use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Shape, Source, results};
 use super::names::Arguments;
 use super::plan::{Plan, unnamed};
@@ -53,7 +53,7 @@ impl Plan<'_, '_> {
         let steps = self.derivation.solution(&[(side, parts.clone())], Form::Factored);
         let outputs = self.outputs(&parts);
         let source =
-            Source { from: Expression::name(&right).columns(), shape: Shape::Columns { rows: u, symbols: sides } };
+            Source { from: Expression::name(&right).columns(), shape: Shape::columns(u, &sides) };
         let kernel = self.on_pose(vec![source], steps, outputs);
         let body = Body::of(kernel, Expression::vector(results(0..u))).checked("the solution", results(0..u));
         let doc = lines([
@@ -89,10 +89,10 @@ impl Plan<'_, '_> {
         self.add(self.signatures.velocity_ratios(), doc, body);
     }
 
-    /// What the functions of scenes are made of: W, then q' = (W v', v'), then u'' at v'' = 0. Of these a determinant is
-    /// refused, and nothing else: what is made of them is checked by whoever calls them.
+    /// What the functions of scenes are made of: W, q' = (W v', v'), and u'' at v'' = 0. Of these a determinant is refused,
+    /// and nothing else: what is made of them is checked by whoever calls them.
     pub(super) fn layers(&mut self) {
-        let Arguments { rate, ratios, velocity, whose, .. } = self.signatures.arguments.clone();
+        let Arguments { rate, ratios, whose, .. } = self.signatures.arguments.clone();
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
         let steps = self.ratio_steps(Form::Entries);
         let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
@@ -116,22 +116,56 @@ impl Plan<'_, '_> {
         nodes.extend(self.derivation.inputs.iter().copied().zip(rates));
         let by_value = Source { from: Expression::name(&rate), ..self.inputs(&rate, |c| c.rate) };
         let columns =
-            Source { from: Expression::name(&ratios).behind(), shape: Shape::Columns { rows: u, symbols: names } };
+            Source { from: Expression::name(&ratios).behind(), shape: Shape::columns(u, &names) };
         let outputs = unnamed(nodes.into_values());
         let kernel = Kernel { sources: vec![columns, by_value], results: outputs, ..Kernel::default() };
         let body = Body::of(kernel, self.coordinates_of(0));
         let doc = without_result(lines(["The velocity q' = (W v', v')."]));
         self.add(self.signatures.coordinate_rates(), doc, body);
 
+        self.kinematics_at();
+    }
+
+    /// Everything that moves at the rates of the inputs.
+    fn kinematics_at(&mut self) {
+        let Arguments { q, rate, pose, ratios, velocity, whose, .. } = self.signatures.arguments.clone();
         let names = self.derivation.scenes.first().map(|scene| scene.bias.clone()).unwrap_or_default();
         let side = self.derivation.bias_side();
-        let steps = self.derivation.solution(&[(side, names.clone())], Form::Entries);
+        let mut steps = self.derivation.solution(&[(side, names.clone())], Form::Entries);
+        // The ratios have been refused already.
+        steps.retain(|step| !matches!(step, Step::Guard { .. }));
         let nodes = self.variables(&names);
-        let kernel = self.on_pose(vec![self.coordinates(&velocity, |c| c.rate)], steps, unnamed(nodes));
-        let signature = self.layer(self.signatures.bias_accelerations(), &kernel);
-        let kernel = Kernel { whose: signature.is_fallible.then_some(whose), ..kernel };
-        let body = Body::of(kernel, Expression::List(results(0..u)));
-        let doc = lines(["u'' where the inputs do not accelerate: J u'' = -gamma."]);
+        let name = |name: &String| Expression::name(name);
+        let ratio_columns = self.functions.iter().find(|function| function.name == "ratio_columns");
+        let (is_fallible, is_method) = ratio_columns.map_or((true, true), |layer| (layer.is_fallible, layer.is_method));
+        let mut on = vec![name(&pose).borrowed()];
+        on.extend(is_fallible.then(|| name(&whose)));
+        let ratios_at = match is_method {
+            true => Expression::call("ratio_columns", on),
+            false => Expression::associated(Type::Itself, "ratio_columns", on),
+        };
+        let ratios_at = if is_fallible { ratios_at.tried() } else { ratios_at };
+        let rates = [name(&ratios).borrowed(), name(&rate)];
+        let before = [
+            (&pose, Expression::call("pose_at", [name(&q)])),
+            (&ratios, ratios_at),
+            (&velocity, Expression::associated(Type::Itself, "coordinate_rates", rates)),
+        ];
+        let before = before.map(|(name, value)| Statement::Let(Pattern::Name(name.clone()), value));
+        let moving = Source { from: name(&velocity), ..self.coordinates(&velocity, |c| c.rate) };
+        let sources = vec![self.parameters(), self.computed(), moving];
+        let whose = is_fallible.then_some(whose);
+        let kernel = Kernel { sources, steps, results: unnamed(nodes), whose, is_on_pose: true, ..Kernel::default() };
+        let bias = Expression::List(results(0..names.len()));
+        let value = Expression::Tuple(vec![name(&pose), name(&ratios), name(&velocity), bias]);
+        let calls = ["pose_at", "ratio_columns", "coordinate_rates"].map(str::to_owned).to_vec();
+        let body = Body { before: before.to_vec(), calls, ..Body::of(kernel, value) };
+        let mut signature = self.signatures.kinematics_at();
+        signature.is_fallible = is_fallible;
+        if !is_fallible {
+            signature.arguments.pop();
+        }
+        let doc = lines(["The pose, W, q' = (W v', v'), and u'' where the inputs do not accelerate: J u'' = -gamma."]);
         self.add(signature, doc, body);
     }
 

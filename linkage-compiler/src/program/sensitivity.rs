@@ -81,7 +81,7 @@ impl Plan<'_, '_> {
         }
         let first = self.derivation.sensitivity.iter();
         let symbols: Vec<SymbolId> = first.flat_map(|first| first.names.iter().flatten()).copied().collect();
-        let source = self.columns("sensitivity", symbols);
+        let source = self.columns("sensitivity", &symbols);
         let kernel = self.on_pose(vec![source], Vec::new(), unnamed(nodes.iter().copied()));
         // A call costs what the sensitivity of the unknowns costs, too.
         let calls = vec!["sensitivity".to_owned()];

@@ -260,10 +260,14 @@ impl<'a> Signatures<'a> {
         Function { is_method: false, ..rates }
     }
 
-    pub fn bias_accelerations(&self) -> Function<Body> {
-        let arguments = [self.pose(), self.coordinates(&self.arguments.velocity), self.whose()];
-        let of = Type::List(Box::new(Type::Scalar), self.unknowns());
-        layer(fallible("bias_accelerations", arguments, of))
+    /// The pose, W, q', and u'' at v'' = 0.
+    pub fn kinematics_at(&self) -> Function<Body> {
+        let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
+        let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
+        let arguments = [self.coordinates(&self.arguments.q), rate, self.whose()];
+        let bias = Type::List(Box::new(Type::Scalar), self.unknowns());
+        let of = Type::Tuple(vec![self.pose_type(), self.columns(), self.coordinates_type(), bias]);
+        layer(fallible("kinematics_at", arguments, of))
     }
 
     pub fn velocity(&self) -> Function<Body> {

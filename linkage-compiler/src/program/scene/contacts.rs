@@ -5,7 +5,7 @@ use crate::derivation::ContactFormula;
 use crate::graph::{NodeId, SymbolId};
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Type};
-use crate::program::function::{Body, Output, Value, results};
+use crate::program::function::{Body, Value, results};
 use crate::program::plan::unnamed;
 
 impl ScenePlan<'_, '_, '_> {
@@ -79,14 +79,10 @@ impl ScenePlan<'_, '_, '_> {
     /// M, Q, W and u'' at v'' = 0 in one function.
     pub(super) fn equations(&mut self) {
         let (u, v) = (self.plan.signatures.unknowns(), self.signatures.inputs.len());
-        let matrix: Vec<NodeId> = self.scene.mass_matrix.iter().flatten().flatten().copied().collect();
-        let names = self.pair_names("inertia");
-        let mut outputs: Vec<Output> =
-            matrix.into_iter().zip(names).map(|(node, name)| Output::named(node, name)).collect();
-        outputs.extend(self.force_outputs());
-        let ratios: Vec<SymbolId> = self.plan.derivation.ratios.iter().flatten().copied().collect();
-        outputs.extend(self.plan.variables(&ratios).into_iter().map(Output::from));
-        outputs.extend(self.plan.variables(&self.scene.bias).into_iter().map(Output::from));
+        let (inertia, forces) = (self.layers.inertia.iter().flatten(), &self.layers.forces);
+        let ratios = self.plan.derivation.ratios.iter().flatten();
+        let symbols: Vec<SymbolId> = inertia.chain(forces).chain(ratios).chain(&self.scene.bias).copied().collect();
+        let outputs = unnamed(self.plan.variables(&symbols));
         let count = outputs.len();
         let body = self.on_motion(outputs);
         let body = self.blamed(body, "the equations of motion", results(0..count));

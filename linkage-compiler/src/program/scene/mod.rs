@@ -4,21 +4,20 @@ mod contacts;
 mod drives;
 mod energy;
 mod equilibrium;
+mod layers;
 mod motion;
 mod reactions;
 mod signatures;
 mod unreduced;
 mod validity;
 
-use std::collections::BTreeSet;
-
 use super::SceneProgram;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
 use super::plan::Plan;
 use crate::derivation::{Scene, Step};
-use crate::graph::{NodeId, SymbolId};
 use crate::model::{self, Wish};
+use layers::Layers;
 pub use signatures::SceneSignatures;
 
 const ERRORS: [&str; 4] = [
@@ -34,6 +33,7 @@ pub struct ScenePlan<'p, 'd, 'a> {
     pub signatures: SceneSignatures<'a>,
     pub scene: Scene,
     pub functions: Vec<Function<Body>>,
+    layers: Layers,
     /// True if there is an effect that may have no finite value, and if some function asks which.
     is_blamable: bool,
     blames: bool,
@@ -47,7 +47,18 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
         let is_blamable = parts.any(|&part| plan.derivation.graph.constant_value(part).is_none());
         let signatures = SceneSignatures::new(plan.signatures.mechanism, plan.signatures.driver, scene);
         let mut planned =
-            ScenePlan { plan, signatures, scene: derived, functions: Vec::new(), is_blamable, blames: false };
+            ScenePlan {
+                plan,
+                signatures,
+                scene: derived,
+                functions: Vec::new(),
+                layers: Layers::default(),
+                is_blamable,
+                blames: false,
+            };
+        planned.reduced_inertia();
+        planned.effects();
+        planned.reduced_forces();
         let has_inertia = scene.inertia.is_some();
         if has_inertia {
             planned.mass_matrix();
@@ -99,28 +110,21 @@ impl ScenePlan<'_, '_, '_> {
     // Sources of symbols.
 
     /// The parameters of the mechanism and of the scene, and time.
-    fn given(&self) -> Vec<Source> {
+    fn given(&self) -> Source {
         let of = |parameter: &model::Parameter| (parameter.name.field.clone(), parameter.symbol);
-        let mechanism = self.signatures.mechanism;
-        let scene = self.signatures.scene.parameters.iter().map(|&at| of(&mechanism.scene_parameters[at]));
-        let fields = |of: Type, fields: Vec<(String, SymbolId)>, is_whole| Shape::Fields { of, fields, is_whole };
-        vec![
-            Source {
-                from: self.mechanism(),
-                shape: fields(
-                    Type::Bare(self.signatures.types.driver.clone()),
-                    mechanism.parameters.iter().map(of).collect(),
-                    true,
-                ),
-            },
-            // The mechanism is a field as well.
-            Source { from: Expression::own().behind(), shape: fields(Type::Itself, scene.collect(), false) },
-        ]
+        let SceneSignatures { mechanism, scene, types, field, .. } = &self.signatures;
+        let driver = Type::Bare(types.driver.clone());
+        let kinematics = Shape::fields(driver, mechanism.parameters.iter().map(of), true);
+        let own = scene.parameters.iter().map(|&at| of(&mechanism.scene_parameters[at]));
+        let own = own.map(|(field, symbol)| (field, Shape::Symbol(symbol)));
+        let fields = std::iter::once((field.clone(), kinematics)).chain(own).collect();
+        let shape = Shape::Fields { of: Type::Itself, fields, is_whole: true };
+        Source { from: Expression::own().behind(), shape }
     }
 
     /// A kernel on parameters and time.
     fn on_parameters(&self, results: Vec<Output>) -> Kernel {
-        Kernel { sources: self.given(), results, ..Kernel::default() }
+        Kernel { sources: vec![self.given()], results, ..Kernel::default() }
     }
 
     /// The pose at q, under the name of the argument that holds one.
@@ -140,60 +144,15 @@ impl ScenePlan<'_, '_, '_> {
     fn on_pose(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Body {
         let mut body = Body::default();
         self.pose_at(&mut body);
-        let mut all = self.given();
-        all.extend([self.plan.coordinates(&self.signatures.arguments.q, |c| c.value), self.plan.computed()]);
-        all.extend(sources);
-        body.kernel = Some(Kernel { sources: all, steps, results, is_on_pose: true, ..Kernel::default() });
+        let sources = self.still().into_iter().chain(sources).collect();
+        body.kernel = Some(Kernel { sources, steps, results, is_on_pose: true, ..Kernel::default() });
         body
     }
 
-    /// A body on coordinates and the rates of the inputs: W, then q' = (W v', v'), then u'' at v'' = 0, as far as the
-    /// results need them.
-    fn on_motion(&mut self, results: Vec<Output>) -> Body {
-        let arguments = self.signatures.arguments.clone();
-        let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
-        let used: BTreeSet<SymbolId> = self.plan.derivation.graph.symbols_of(&nodes).into_iter().collect();
-        let derivation = &self.plan.derivation;
-        let needs_bias = self.scene.bias.iter().any(|bias| used.contains(bias));
-        let mut unknowns = derivation.unknowns.iter().map(|&unknown| &derivation.coordinates[unknown]);
-        let needs_velocity = needs_bias || unknowns.any(|unknown| used.contains(&unknown.rate));
-        let needs_ratios = derivation.ratios.iter().flatten().any(|ratio| used.contains(ratio));
-        let mut body = self.on_pose(Vec::new(), Vec::new(), results);
-        let ratios = Expression::name(&arguments.ratios);
-        let call = self.judged("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
-        body.calls.push(self.of_driver("ratio_columns"));
-        body.before.push(if needs_ratios || needs_velocity {
-            Statement::Let(Pattern::Name(arguments.ratios.clone()), call)
-        } else {
-            Statement::Do(call)
-        });
-        let rate = Expression::name(&arguments.rate);
-        let mut sources = Vec::new();
-        if needs_ratios {
-            let symbols = derivation.ratios.iter().flatten().copied().collect();
-            let rows = derivation.unknowns.len();
-            sources.push(Source { from: ratios.clone(), shape: Shape::Columns { rows, symbols } });
-        }
-        if needs_velocity {
-            let driver = Type::Bare(self.signatures.types.driver.clone());
-            let call = Expression::associated(driver, "coordinate_rates", [ratios.borrowed(), rate.clone()]);
-            body.before.push(Statement::Let(Pattern::Name(arguments.velocity.clone()), call));
-            body.calls.push(self.of_driver("coordinate_rates"));
-            let from = Expression::name(&arguments.velocity);
-            sources.push(Source { from, ..self.plan.coordinates(&arguments.rate, |c| c.rate) });
-        } else {
-            sources.push(Source { from: rate, ..self.plan.inputs(&arguments.rate, |c| c.rate) });
-        }
-        if needs_bias {
-            let on = [&arguments.pose, &arguments.velocity].map(|name| Expression::name(name).borrowed());
-            let from = self.judged("bias_accelerations", on.to_vec());
-            body.calls.push(self.of_driver("bias_accelerations"));
-            sources.push(Source { from, shape: Shape::List(self.scene.bias.clone()) });
-        }
-        if let Some(kernel) = &mut body.kernel {
-            kernel.sources.extend(sources);
-        }
-        body
+    /// The parameters, the coordinates, and what a pose holds beside directions.
+    fn still(&self) -> [Source; 3] {
+        let coordinates = self.plan.coordinates(&self.signatures.arguments.q, |c| c.value);
+        [self.given(), coordinates, self.plan.computed()]
     }
 
     /// A call of a function of the mechanism that refuses determinants in the name of the scene, if there are any.

@@ -2,11 +2,12 @@
 
 use super::{ERRORS, ScenePlan};
 use crate::derivation::Prescribed;
-use crate::graph::{NodeId, Number};
+use crate::graph::{NodeId, Number, SymbolId};
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
 use crate::program::operations::Operations;
+use crate::program::plan::unnamed;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn mass_matrix(&mut self) {
@@ -24,25 +25,12 @@ impl ScenePlan<'_, '_, '_> {
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` if an entry is not finite.",
         ]));
-        let count = entries.len();
-        let names = self.pair_names("inertia");
-        let outputs = entries.into_iter().zip(names).map(|(node, name)| Output::named(node, name)).collect();
-        let body = self.on_motion(outputs).checked("the mass matrix", results(0..count));
-        let body = Body { value: Value::Plain(Expression::matrix(&results(0..count), v)), ..body };
+        let symbols: Vec<SymbolId> = self.layers.inertia.iter().flatten().copied().collect();
+        let outputs = unnamed(self.plan.variables(&symbols));
+        let entries = results(0..symbols.len());
+        let body = self.on_motion(outputs).checked("the mass matrix", entries.clone());
+        let body = Body { value: Value::Plain(Expression::matrix(&entries, v)), ..body };
         self.add(self.signatures.mass_matrix(), doc, body);
-    }
-
-    /// `theta1_theta4_inertia`
-    pub(super) fn pair_names(&self, what: &str) -> Vec<String> {
-        let names = &self.signatures.inputs;
-        let pair = |a: &String, b: &String| if a == b { format!("{a}_{what}") } else { format!("{a}_{b}_{what}") };
-        names.iter().flat_map(|a| names.iter().map(move |b| pair(a, b))).collect()
-    }
-
-    /// Q as results with names.
-    pub(super) fn force_outputs(&self) -> Vec<Output> {
-        let named = self.scene.forces.iter().zip(&self.signatures.inputs);
-        named.map(|(&node, input)| Output::named(node, format!("{input}_force"))).collect()
     }
 
     pub(super) fn forces(&mut self) {
@@ -55,16 +43,18 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(fenced(laws.map(|(input, &force)| self.plan.law(format_args!("Q_{input}"), force))));
         doc.extend(lines(ERRORS));
         let count = self.scene.forces.len();
-        let body = self.on_motion(self.force_outputs());
+        let outputs = unnamed(self.plan.variables(&self.layers.forces));
+        let body = self.on_motion(outputs);
         let body = self.blamed(body, "the forces", results(0..count));
         let body = Body { value: Value::Plain(Expression::vector(results(0..count))), ..self.with_rates(body) };
         self.add(self.signatures.forces(), doc, body);
     }
 
     /// M of some rows and columns.
-    pub(super) fn minor(&self, rows: &[usize], columns: &[usize]) -> Vec<NodeId> {
-        let matrix = self.scene.mass_matrix.as_deref().unwrap_or_default();
-        rows.iter().flat_map(|&row| columns.iter().map(move |&column| matrix[row][column])).collect()
+    pub(super) fn minor(&mut self, rows: &[usize], columns: &[usize]) -> Vec<NodeId> {
+        let entry = |row: usize, column: usize| self.layers.inertia[row][column];
+        let entries = rows.iter().flat_map(|&row| columns.iter().map(move |&column| entry(row, column)));
+        self.plan.variables(&entries.collect::<Vec<SymbolId>>())
     }
 
     /// `Q - M_d a_d` of some inputs, with the accelerations of the driven ones.
@@ -72,10 +62,11 @@ impl ScenePlan<'_, '_, '_> {
         let graph = &mut self.plan.derivation.graph;
         let mut sides = Vec::new();
         for &row in rows {
-            let mut terms = vec![(Number::ONE, self.scene.forces[row])];
+            let mut terms = vec![(Number::ONE, graph.variable(self.layers.forces[row]))];
             for (column, Prescribed { acceleration, .. }) in &self.scene.drives {
-                if let Some(matrix) = &self.scene.mass_matrix {
-                    terms.push((Number::MINUS_ONE, graph.multiply(matrix[row][*column], *acceleration)));
+                if let Some(entries) = self.layers.inertia.get(row) {
+                    let entry = graph.variable(entries[*column]);
+                    terms.push((Number::MINUS_ONE, graph.multiply(entry, *acceleration)));
                 }
             }
             sides.push(graph.sum(&terms));

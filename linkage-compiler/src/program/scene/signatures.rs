@@ -1,5 +1,6 @@
 //! The functions of a scene by their names, arguments and results.
 
+use super::layers::Read;
 use crate::model::{self, Driver, Mechanism, Wish};
 use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
@@ -143,6 +144,22 @@ impl<'a> SceneSignatures<'a> {
         Function { access: Access::Cold, ..fallible("blame", arguments, Type::Tuple(Vec::new())) }
     }
 
+    /// What a layer may take.
+    pub fn of_layer(&self, read: Read) -> Option<Argument> {
+        let Arguments { q, pose, ratios, velocity, bias, .. } = &self.arguments;
+        let list = |of: Type, many: usize| Type::List(Box::new(of), many);
+        let (name, of) = match read {
+            Read::Time => return Some(self.time()),
+            Read::Q => (q, self.coordinates_type()),
+            Read::Pose => (pose, Type::Own(self.types.pose.clone())),
+            Read::Ratios => (ratios, list(list(Type::Scalar, self.unknowns), self.inputs.len())),
+            Read::Velocity => (velocity, self.coordinates_type()),
+            Read::Bias => (bias, list(Type::Scalar, self.unknowns)),
+            Read::Rates | Read::Inertia | Read::Forces => return None,
+        };
+        Some(Argument { name: name.clone(), passed: Passed::ByReference(of) })
+    }
+
     /// t, q and v'.
     fn state(&self) -> [Argument; 3] {
         let rate = Passed::Converted(Type::Own(self.types.inputs.clone()));
@@ -166,4 +183,9 @@ impl<'a> SceneSignatures<'a> {
     fn coordinates_type(&self) -> Type {
         Type::Own(self.types.coordinates.clone())
     }
+}
+
+/// A private function that is inlined into those of its scene.
+pub fn layer(name: &str, arguments: Vec<Argument>, of: Type) -> Function<Body> {
+    Function { access: Access::Layer, ..total(name, arguments, of) }
 }

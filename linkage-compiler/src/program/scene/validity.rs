@@ -1,4 +1,4 @@
-//! Which parameters a scene refuses, and which body or effect has no finite value.
+//! Which parameters a scene refuses.
 
 use super::ScenePlan;
 use crate::derivation::ContactFormula;
@@ -54,23 +54,5 @@ impl ScenePlan<'_, '_, '_> {
             Expression::Tuple(std::iter::once(Expression::text(label)).chain(results).collect())
         };
         Expression::List(labels.enumerate().map(entry).collect())
-    }
-
-    /// Which body or effect has no finite value.
-    pub(super) fn blame(&mut self) {
-        let (mut labels, mut nodes) = (Vec::new(), Vec::new());
-        for (label, parts) in &self.scene.parts {
-            let graph = &self.plan.derivation.graph;
-            for &part in parts.iter().filter(|&&part| graph.constant_value(part).is_none()) {
-                labels.push(label.clone());
-                nodes.push(part);
-            }
-        }
-        let values = self.labelled(labels.iter().map(String::as_str), 0, 1);
-        let body = self.on_motion(unnamed(nodes));
-        let finite = Expression::runtime("finite_each::<T, _>", [Expression::mechanism(), values]);
-        let body = Body { value: Value::Result(finite), ..body };
-        let doc = lines(["Refuses the body or the effect that has no finite value, by its name."]);
-        self.add(self.signatures.blame(), doc, body);
     }
 }

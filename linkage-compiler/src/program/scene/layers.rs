@@ -1,0 +1,305 @@
+//! The private functions that those of a scene are made of: M, what each body and effect adds to Q, and Q. They refuse
+//! nothing: what is made of them is checked by whoever calls them.
+
+use std::collections::BTreeSet;
+
+use super::ScenePlan;
+use super::signatures::layer;
+use crate::graph::{NodeId, Number, SymbolId};
+use crate::program::doc::lines;
+use crate::program::expression::{Expression, Pattern, Statement, Type};
+use crate::program::function::{Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value, results};
+use crate::program::names::name_of;
+use crate::program::plan::unnamed;
+
+/// What formulas of a scene depend on, in the order in which layers take it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Read {
+    Time,
+    Q,
+    Pose,
+    /// W.
+    Ratios,
+    /// q'.
+    Velocity,
+    /// u'' at v'' = 0.
+    Bias,
+    /// v'.
+    Rates,
+    /// M.
+    Inertia,
+    /// Q.
+    Forces,
+}
+
+/// M and Q as symbols of formulas that are made of them, and what they depend on.
+#[derive(Debug, Default)]
+pub struct Layers {
+    /// M by rows; an entry and the one opposite are the same.
+    pub inertia: Vec<Vec<SymbolId>>,
+    /// Q by input.
+    pub forces: Vec<SymbolId>,
+    /// For each part of Q that varies its label and its name.
+    parts: Vec<(String, SymbolId)>,
+    inertia_reads: BTreeSet<Read>,
+    parts_read: BTreeSet<Read>,
+}
+
+impl ScenePlan<'_, '_, '_> {
+    /// M, column by column.
+    pub(super) fn reduced_inertia(&mut self) {
+        let Some(matrix) = self.scene.mass_matrix.clone() else { return };
+        let names = self.signatures.inputs.clone();
+        for (row, name) in names.iter().enumerate() {
+            let mut entries: Vec<SymbolId> = self.layers.inertia.iter().map(|above| above[row]).collect();
+            let right = names[row + 1..].iter().map(|other| format!("{name}_{other}_inertia"));
+            let wishes = std::iter::once(format!("{name}_inertia")).chain(right);
+            entries.extend(wishes.map(|wish| self.plan.derivation.graph.symbol(wish)));
+            self.layers.inertia.push(entries);
+        }
+        let entries: Vec<NodeId> = matrix.into_iter().flatten().collect();
+        self.layers.inertia_reads = self.read_by_layer(&entries);
+        let columns = Expression::List(Expression::nested(results(0..entries.len()), &[names.len()]));
+        let column = Type::List(Box::new(Type::Scalar), names.len());
+        let signature = self.layer("reduced_inertia", &entries, Type::List(Box::new(column), names.len()));
+        self.add_layer(signature, "M, column by column.", entries, columns);
+    }
+
+    /// What each body and effect adds to Q, by what errors call it.
+    pub(super) fn effects(&mut self) {
+        let inputs = self.signatures.inputs.clone();
+        let mut nodes = Vec::new();
+        for (label, parts) in &self.scene.parts {
+            for (&part, input) in parts.iter().zip(&inputs) {
+                let graph = &mut self.plan.derivation.graph;
+                if graph.constant_value(part).is_none() {
+                    let symbol = graph.symbol(part_name(label, input, inputs.len()));
+                    self.layers.parts.push((label.clone(), symbol));
+                    nodes.push(part);
+                }
+            }
+        }
+        if nodes.is_empty() {
+            return;
+        }
+        self.layers.parts_read = self.read_by_layer(&nodes);
+        let labels = self.layers.parts.iter().map(|(label, _)| Expression::text(label));
+        let parts = labels.zip(results(0..nodes.len())).map(|(label, part)| Expression::Tuple(vec![label, part]));
+        let parts = Expression::List(parts.collect());
+        let of = Type::List(Box::new(Type::Tuple(vec![Type::Text, Type::Scalar])), nodes.len());
+        let signature = self.layer("effects", &nodes, of);
+        self.add_layer(signature, "What each body and effect adds to the forces of the inputs.", nodes, parts);
+    }
+
+    /// Q, the sums of what bodies and effects add.
+    pub(super) fn reduced_forces(&mut self) {
+        let inputs = self.signatures.inputs.clone();
+        let graph = &mut self.plan.derivation.graph;
+        self.layers.forces = inputs.iter().map(|input| graph.symbol(format!("{input}_force"))).collect();
+        let mut varying = self.layers.parts.iter().map(|(_, symbol)| *symbol);
+        let mut sums = vec![Vec::new(); inputs.len()];
+        for (_, parts) in &self.scene.parts {
+            for (&part, sum) in parts.iter().zip(&mut sums) {
+                let symbol = if graph.constant_value(part).is_none() { varying.next() } else { None };
+                sum.push((Number::ONE, symbol.map_or(part, |symbol| graph.variable(symbol))));
+            }
+        }
+        let sums: Vec<NodeId> = sums.iter().map(|terms| graph.sum(terms)).collect();
+        let part = |(_, symbol): &(String, SymbolId)| Shape::Tuple(vec![Shape::Ignored, Shape::Symbol(*symbol)]);
+        let shape = Shape::List(self.layers.parts.iter().map(part).collect());
+        let is_varying = !self.layers.parts.is_empty();
+        let (mut sources, mut calls) = (Vec::new(), Vec::new());
+        if is_varying {
+            sources.push(Source { from: self.call_of("effects", |argument| Expression::name(&argument.name)), shape });
+            calls.push("effects".to_owned());
+        }
+        let kernel = Kernel { sources, results: unnamed(sums), ..Kernel::default() };
+        let body = Body { calls, ..Body::of(kernel, Expression::List(results(0..inputs.len()))) };
+        let of = Type::List(Box::new(Type::Scalar), inputs.len());
+        let signature = layer("reduced_forces", self.arguments(&self.layers.parts_read), of);
+        let is_method = self.find("effects").is_some_and(|effects| effects.is_method);
+        self.add(Function { is_method, ..signature }, lines(["Q, the sums of what bodies and effects add."]), body);
+    }
+
+    /// The function that says which body or effect has no finite value.
+    pub(super) fn blame(&mut self) {
+        let body = self.moved(&self.layers.parts_read);
+        let finite = [Expression::mechanism(), self.call_of("effects", |argument| self.passed(argument))];
+        let body = Body { value: Value::Result(Expression::runtime("finite_each", finite)), ..body };
+        let doc = lines(["Refuses the body or the effect that has no finite value, by its name."]);
+        self.add(self.signatures.blame(), doc, body);
+    }
+
+    /// A body on coordinates and the rates of the inputs, with W, q', u'' at v'' = 0, M and Q as far as results need them.
+    pub(super) fn on_motion(&self, results: Vec<Output>) -> Body {
+        let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
+        let own = self.reads(&nodes);
+        let mut all = own.clone();
+        if own.contains(&Read::Inertia) {
+            all.extend(&self.layers.inertia_reads);
+        }
+        if own.contains(&Read::Forces) {
+            all.extend(&self.layers.parts_read);
+        }
+        let mut body = self.moved(&all);
+        let rate = &self.signatures.arguments.rate;
+        let mut sources: Vec<Source> = self.still().into_iter().chain(self.moving(&own)).collect();
+        if own.contains(&Read::Rates) && !own.contains(&Read::Velocity) {
+            sources.push(Source { from: Expression::name(rate), ..self.plan.inputs(rate, |c| c.rate) });
+        }
+        if own.contains(&Read::Inertia) {
+            let entry = |(row, column): (usize, usize)| match row <= column {
+                true => Shape::Symbol(self.layers.inertia[row][column]),
+                false => Shape::Ignored,
+            };
+            let many = self.layers.inertia.len();
+            let column = |row| Shape::List((0..many).map(|column| entry((row, column))).collect());
+            let shape = Shape::List((0..many).map(column).collect());
+            sources.push(Source { from: self.call_of("reduced_inertia", |argument| self.passed(argument)), shape });
+            body.calls.push("reduced_inertia".to_owned());
+        }
+        if own.contains(&Read::Forces) {
+            let shape = Shape::list(&self.layers.forces);
+            sources.push(Source { from: self.call_of("reduced_forces", |argument| self.passed(argument)), shape });
+            body.calls.push("reduced_forces".to_owned());
+        }
+        body.kernel = Some(Kernel { sources, results, is_on_pose: true, ..Kernel::default() });
+        body
+    }
+
+    /// A body that finds pose, W, q' and u'' at v'' = 0, as far as these are read.
+    fn moved(&self, reads: &BTreeSet<Read>) -> Body {
+        let arguments = &self.signatures.arguments;
+        let rate = Expression::name(&arguments.rate);
+        let mut body = Body::default();
+        if reads.contains(&Read::Bias) {
+            let found = [
+                (Read::Pose, &arguments.pose),
+                (Read::Ratios, &arguments.ratios),
+                (Read::Velocity, &arguments.velocity),
+                (Read::Bias, &arguments.bias),
+            ];
+            let pattern = |(read, name): (Read, &String)| match reads.contains(&read) {
+                true => Pattern::Name(name.clone()),
+                false => Pattern::Ignored,
+            };
+            let pattern = Pattern::Tuple(found.into_iter().map(pattern).collect());
+            let call = self.judged("kinematics_at", vec![Expression::name(&arguments.q), rate]);
+            body.before.push(Statement::Let(pattern, call));
+            body.calls.push(self.of_driver("kinematics_at"));
+            return body;
+        }
+        self.pose_at(&mut body);
+        let call = self.judged("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
+        body.calls.push(self.of_driver("ratio_columns"));
+        body.before.push(match reads.contains(&Read::Ratios) || reads.contains(&Read::Velocity) {
+            true => Statement::Let(Pattern::Name(arguments.ratios.clone()), call),
+            false => Statement::Do(call),
+        });
+        if reads.contains(&Read::Velocity) {
+            let driver = Type::Bare(self.signatures.types.driver.clone());
+            let on = [Expression::name(&arguments.ratios).borrowed(), rate];
+            let call = Expression::associated(driver, "coordinate_rates", on);
+            body.before.push(Statement::Let(Pattern::Name(arguments.velocity.clone()), call));
+            body.calls.push(self.of_driver("coordinate_rates"));
+        }
+        body
+    }
+
+    /// W, q' and u'' at v'' = 0 as symbols, as far as these are read.
+    fn moving(&self, reads: &BTreeSet<Read>) -> Vec<Source> {
+        let (arguments, derivation) = (&self.signatures.arguments, &self.plan.derivation);
+        let ratios: Vec<SymbolId> = derivation.ratios.iter().flatten().copied().collect();
+        let velocity = self.plan.coordinates(&arguments.velocity, |c| c.rate);
+        let all = [
+            (Read::Ratios, &arguments.ratios, Shape::columns(derivation.unknowns.len(), &ratios)),
+            (Read::Velocity, &arguments.velocity, velocity.shape),
+            (Read::Bias, &arguments.bias, Shape::list(&self.scene.bias)),
+        ];
+        let read = all.into_iter().filter(|(read, ..)| reads.contains(read));
+        read.map(|(_, name, shape)| Source { from: Expression::name(name), shape }).collect()
+    }
+
+    /// What formulas on a pose depend on.
+    fn reads(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
+        let (derivation, given) = (&*self.plan.derivation, &self.plan.pose.given);
+        let graph = &derivation.graph;
+        let swept = graph.sweep(nodes, |_| false, |id| given.holds(graph, id));
+        let mut reads = BTreeSet::new();
+        reads.extend(swept.iter().any(|&id| given.holds(graph, id)).then_some(Read::Pose));
+        let symbols: BTreeSet<SymbolId> = swept.into_iter().filter_map(|id| graph.as_symbol(id)).collect();
+        let rates = |places: &[usize]| places.iter().map(|&place| derivation.coordinates[place].rate).collect();
+        let all: [(Read, Vec<SymbolId>); 8] = [
+            (Read::Time, self.signatures.mechanism.time.into_iter().collect()),
+            (Read::Q, derivation.coordinates.iter().map(|coordinate| coordinate.value).collect()),
+            (Read::Ratios, derivation.ratios.concat()),
+            (Read::Velocity, rates(&derivation.unknowns)),
+            (Read::Bias, self.scene.bias.clone()),
+            (Read::Rates, rates(&derivation.inputs)),
+            (Read::Inertia, self.layers.inertia.concat()),
+            (Read::Forces, self.layers.forces.clone()),
+        ];
+        let read = all.into_iter().filter(|(_, of)| of.iter().any(|symbol| symbols.contains(symbol)));
+        reads.extend(read.map(|(read, _)| read));
+        reads
+    }
+
+    /// The same for a layer, which takes q' even where the rates of the inputs would do.
+    fn read_by_layer(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
+        let reads = self.reads(nodes).into_iter();
+        reads.map(|read| if read == Read::Rates { Read::Velocity } else { read }).collect()
+    }
+
+    /// The arguments of a layer.
+    fn arguments(&self, reads: &BTreeSet<Read>) -> Vec<Argument> {
+        reads.iter().filter_map(|&read| self.signatures.of_layer(read)).collect()
+    }
+
+    /// A layer with these formulas; one without parameters takes no `self`.
+    fn layer(&self, name: &str, nodes: &[NodeId], of: Type) -> Function<Body> {
+        let symbols = self.plan.derivation.graph.symbols_of(nodes);
+        let mechanism = self.signatures.mechanism;
+        let mut parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
+        let is_method = parameters.any(|parameter| symbols.contains(&parameter.symbol));
+        Function { is_method, ..layer(name, self.arguments(&self.read_by_layer(nodes)), of) }
+    }
+
+    fn add_layer(&mut self, signature: Function<Body>, doc: &str, nodes: Vec<NodeId>, value: Expression) {
+        let moving = self.moving(&self.read_by_layer(&nodes)).into_iter();
+        // All but the parameters are references.
+        let [parameters, coordinates, computed] = self.still();
+        let others = std::iter::once(computed).chain(moving);
+        let others = others.map(|source| Source { from: source.from.behind(), ..source });
+        let sources = [parameters, coordinates].into_iter().chain(others).collect();
+        let kernel = Kernel { sources, results: unnamed(nodes), is_on_pose: true, ..Kernel::default() };
+        self.add(signature, lines([doc]), Body::of(kernel, value));
+    }
+
+    fn find(&self, name: &str) -> Option<&Function<Body>> {
+        self.functions.iter().find(|function| function.name == name)
+    }
+
+    /// An argument of a layer where it is a local value, but for q.
+    fn passed(&self, argument: &Argument) -> Expression {
+        let value = Expression::name(&argument.name);
+        let is_local = argument.name != self.signatures.arguments.q;
+        if is_local && matches!(argument.passed, Passed::ByReference(_)) { value.borrowed() } else { value }
+    }
+
+    /// A call of a layer with arguments of the names that it gives them itself.
+    fn call_of(&self, name: &str, argument: impl Fn(&Argument) -> Expression) -> Expression {
+        let called = self.find(name);
+        let arguments = called.into_iter().flat_map(|layer| &layer.arguments).map(argument);
+        match called.is_some_and(|layer| layer.is_method) {
+            true => Expression::call(name, arguments),
+            false => Expression::associated(Type::Itself, name, arguments),
+        }
+    }
+}
+
+/// `spring_on_opening`, or `body_arm_theta1` where there are several inputs.
+fn part_name(label: &str, input: &str, inputs: usize) -> String {
+    let label = label.to_lowercase();
+    let name = if inputs == 1 || label.ends_with(&format!(" {input}")) { label } else { format!("{label} {input}") };
+    name_of(&name).unwrap_or_else(|| "effect".to_owned())
+}
