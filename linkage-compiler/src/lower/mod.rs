@@ -1,6 +1,7 @@
 //! Lowering: from shared nodes to straight-line code, every subexpression once, every sum or product of two
 //! parts that several have in common once, one sine-cosine pair an angle.
 
+mod factors;
 mod function;
 mod lines;
 mod names;
@@ -152,6 +153,7 @@ pub fn schedule(
     let roots: Vec<Signed> = nodes.iter().map(|node| translated[node]).collect();
     graph.budget().spend(nodes.len() + values.len());
     sharing::share(&mut values, &roots, graph.budget());
+    factors::order(&mut values);
     let mut names: Vec<(ValueId, String)> = Vec::new();
     for (node, name) in named {
         if let Some(Signed { negative: false, value }) = translated.get(node).copied() {
@@ -233,14 +235,6 @@ impl Value {
         }
     }
 
-    /// The place among factors: numbers come before names, and names before the values made of them.
-    fn rank(&self) -> usize {
-        match self {
-            Self::Constant(_) => 0,
-            Self::Symbol(_) => 1,
-            _ => 2,
-        }
-    }
 }
 
 impl Schedule {

@@ -247,7 +247,7 @@ impl<'a> Builder<'a> {
         match factors.as_slice() {
             &[only] => only,
             _ => {
-                factors.sort_unstable_by_key(|&id| (self.values[id.0].rank(), id));
+                factors.sort_unstable();
                 self.intern(Value::Product(factors))
             }
         }

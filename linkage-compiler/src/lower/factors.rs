@@ -1,0 +1,61 @@
+//! The order of factors: numbers, symbols as they were declared, products and squares of these, sines and cosines, and
+//! then what is made of others.
+
+use super::{Value, ValueId};
+use crate::graph::SymbolId;
+
+/// The place among factors, of which the smallest comes first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Number,
+    Symbol(SymbolId),
+    /// A product with this symbol first, or its square.
+    Made(SymbolId),
+    Direction,
+    Function,
+    Sum,
+    Quotient,
+}
+
+/// Sorts the factors of all products.
+pub(super) fn order(values: &mut [Value]) {
+    let mut kinds: Vec<Option<Kind>> = vec![None; values.len()];
+    for id in 0..values.len() {
+        settle(values, &mut kinds, ValueId(id));
+    }
+    for value in values {
+        if let Value::Product(factors) = value {
+            factors.sort_by_key(|&factor| (kinds[factor.0], factor));
+        }
+    }
+}
+
+/// Finds the place of a value, and before it those of its factors.
+fn settle(values: &[Value], kinds: &mut [Option<Kind>], root: ValueId) {
+    let mut stack = vec![root];
+    while let Some(&id) = stack.last() {
+        let factors: Vec<ValueId> = match &values[id.0] {
+            Value::Product(factors) => factors.clone(),
+            Value::Square(base) => vec![*base],
+            _ => Vec::new(),
+        };
+        let open = factors.iter().copied().find(|factor| kinds[factor.0].is_none());
+        if let Some(open) = open.filter(|_| kinds[id.0].is_none()) {
+            stack.push(open);
+            continue;
+        }
+        stack.pop();
+        kinds[id.0] = Some(match &values[id.0] {
+            Value::Constant(_) => Kind::Number,
+            Value::Symbol(symbol) => Kind::Symbol(*symbol),
+            Value::Direction(..) => Kind::Direction,
+            Value::Call(..) | Value::External(..) => Kind::Function,
+            Value::Sum(_) => Kind::Sum,
+            Value::Quotient(..) => Kind::Quotient,
+            Value::Product(_) | Value::Square(_) => match factors.iter().filter_map(|factor| kinds[factor.0]).min() {
+                Some(Kind::Symbol(first)) => Kind::Made(first),
+                first => first.unwrap_or(Kind::Number),
+            },
+        });
+    }
+}
