@@ -7,7 +7,7 @@ pub use core::result::Result::{self, Err, Ok};
 
 pub use nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
 
-pub use crate::branch::{chord, elbow_chord, existing, reach_chord, side_of, solvable};
+pub use crate::branch::{Triangle, chord, elbow_chord, existing, reach_chord, side_of, solvable};
 pub use crate::contact::{sound, stops};
 pub use crate::equilibrium::{equilibrium, on_branch};
 pub use crate::error::{finite, finite_matrix};

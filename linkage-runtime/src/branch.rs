@@ -188,10 +188,25 @@ fn is_in_range<T: Real>(product: T) -> bool {
 /// without rounding.
 const CANCELLATION: f64 = 1.0 / 16.0;
 
-/// The half chord of two links `[p, q]` between joints whose line is `[x, y]`, twice: the root of
-/// ((p + q)^2 - D^2) (D^2 - (p - q)^2), D^2 = x^2 + y^2, with the sign of a side; `factors` are the two
-/// differences, `sizes` are (p + q)^2 and D^2. A length may be negative, and counts by its magnitude. `scale` is the sum
-/// of the magnitudes of the terms of x and y.
+/// Two links of lengths p and q between joints whose line is (x, y), D^2 = x^2 + y^2. A length may be negative, and counts
+/// by its magnitude.
+#[derive(Debug, Clone, Copy)]
+pub struct Triangle<T> {
+    /// p and q.
+    pub links: [T; 2],
+    /// x and y.
+    pub line: [T; 2],
+    /// The sum of the magnitudes of the terms of x and y.
+    pub scale: T,
+    /// (p + q)^2.
+    pub reach_squared: T,
+    /// D^2.
+    pub distance_squared: T,
+    /// (p + q)^2 - D^2 and D^2 - (p - q)^2.
+    pub factors: [T; 2],
+}
+
+/// The half chord of a triangle, twice: the root of ((p + q)^2 - D^2) (D^2 - (p - q)^2), with the sign of a side.
 ///
 /// Besides, whether the triangle is plain: open, and of a size at which no step from here to the directions of the links
 /// can leave the range of the scalar. With s = p + q, then D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16, so that neither link
@@ -207,26 +222,24 @@ const CANCELLATION: f64 = 1.0 / 16.0;
 /// [`Error::Unbuildable`] if there is none, [`Error::Undetermined`] if the joints coincide and the links are equally long
 /// or if a link has no length, [`Error::NotFinite`] if a number is not finite.
 #[inline]
-#[expect(clippy::too_many_arguments, reason = "names and numbers of one group, which stay in registers")]
 pub fn elbow_chord<T: Real, S: Side>(
     mechanism: &'static str,
     group: &'static str,
-    factors: [T; 2],
-    sizes: [T; 2],
-    links: [T; 2],
-    line: [T; 2],
-    scale: T,
+    triangle: Triangle<T>,
     side: S,
 ) -> Result<(T, bool), Error> {
-    let ([low, high], [sum, distance], [p, q], [x, y]) = (factors, sizes, links, line);
+    let Triangle { links: [p, q], line: [x, y], scale, reach_squared, distance_squared, factors: [low, high] } =
+        triangle;
     let part = real::<T>(CANCELLATION);
-    let is_open = low > part * sum && high > part * distance && distance > T::default_epsilon() * sum;
+    let is_open = low > part * reach_squared
+        && high > part * distance_squared
+        && distance_squared > T::default_epsilon() * reach_squared;
     let product = low * high;
     let is_plain = is_open && is_in_range(product);
     let root = if is_plain {
         product.sqrt()
     } else if is_open {
-        root(low, high, sum)
+        root(low, high, reach_squared)
     } else {
         flat_chord(mechanism, group, p, q, x, y, scale)?
     };

@@ -440,24 +440,25 @@ impl Solver<'_> {
             unsigned(self.graph, length)
         });
         let g = &mut *self.graph;
-        let distance = dot(g, d, d);
-        let distance = self.fresh(&format!("distance_{}", self.number + 1), distance);
+        let distance_squared = dot(g, d, d);
+        let distance_squared = self.fresh(&format!("distance_squared_{}", self.number + 1), distance_squared);
         let g = &mut *self.graph;
         let (sum, difference) = (g.add(p, q), g.subtract(p, q));
         let squares = g.multiply(sum, difference);
         let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
-        let factors = [g.subtract(sum, distance), g.subtract(distance, difference)];
+        let factors = [g.subtract(sum, distance_squared), g.subtract(distance_squared, difference)];
         let (p2, q2) = (square_of(g, p), square_of(g, q));
         let scale = self.scale_without(&[a, b]);
-        let twice = self.chord(factors, sum, ChordOf::Triangle { links: [p, q], line: d, distance, scale });
+        let triangle = ChordOf::Triangle { links: [p, q], line: d, distance_squared, scale };
+        let twice = self.chord(factors, sum, triangle);
         let g = &mut *self.graph;
         let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
         let cross_product = g.negate(half_chord);
         // Both products and the square of the line doubled: one factor of a half instead of three.
-        let along = g.add(distance, squares);
+        let along = g.add(distance_squared, squares);
         let across = g.scale(Number::integer(-left), twice);
-        let twice_distance = g.scale(Number::integer(2), distance);
-        let solved = with_products(g, d, twice_distance, along, across);
+        let divisor = g.scale(Number::integer(2), distance_squared);
+        let solved = with_products(g, d, divisor, along, across);
         let solved = [("link_x", solved[0]), ("link_y", solved[1])].map(|(name, part)| self.fresh(name, part));
         let g = &mut *self.graph;
         let other = [g.subtract(d[0], solved[0]), g.subtract(d[1], solved[1])];
@@ -522,12 +523,12 @@ impl Solver<'_> {
         let n = length(self.graph, e);
         let g = &mut *self.graph;
         let square = square_of(g, n);
-        let distance = dot(g, d, d);
-        let distance = self.fresh(&format!("distance_{}", self.number + 1), distance);
+        let distance_squared = dot(g, d, d);
+        let distance_squared = self.fresh(&format!("distance_squared_{}", self.number + 1), distance_squared);
         let g = &mut *self.graph;
         let across = cross(g, p, e);
         let across = simplify(g, &[across], &BTreeSet::new())[0];
-        let reach = g.call(Function::Sqrt, &[distance]);
+        let reach = g.call(Function::Sqrt, &[distance_squared]);
         let reach = g.multiply(reach, n);
         let factors = [g.subtract(reach, across), g.add(reach, across)];
         let (of_line, of_arm, of_rest) = (self.scale(&e), self.scale(&p), self.scale_without(&[phi, s]));
@@ -536,7 +537,7 @@ impl Solver<'_> {
         let along = self.chord(factors, reach, ChordOf::Reach { scales, may_cancel: true });
         // The reach is itself a root; its square is not.
         let g = &mut *self.graph;
-        let (whole, part) = (g.multiply(distance, square), g.power(across, 2));
+        let (whole, part) = (g.multiply(distance_squared, square), g.power(across, 2));
         let bound = g.subtract(whole, part);
         self.assembly.bounds.pop();
         self.assembly.bounds.push((self.number, vec![bound]));
@@ -552,7 +553,7 @@ impl Solver<'_> {
             g.add(part, p[axis])
         });
         let conjugate = [arm[0], g.negate(arm[1])];
-        let direction = turned(g, d, conjugate).map(|part| g.divide(part, distance));
+        let direction = turned(g, d, conjugate).map(|part| g.divide(part, distance_squared));
         self.direction(phi, direction);
         Some(self.graph.negate(along))
     }

@@ -35,7 +35,7 @@ pub enum Step {
 pub enum ChordOf<V> {
     /// Two links between joints: their lengths, the line between the joints, its square, and the sum of the
     /// magnitudes of its terms.
-    Triangle { links: [V; 2], line: [V; 2], distance: V, scale: V },
+    Triangle { links: [V; 2], line: [V; 2], distance_squared: V, scale: V },
     /// A reach and an offset, with the sums of the magnitudes of their terms, and whether the reach may vanish by
     /// cancellation.
     Reach { scales: [V; 2], may_cancel: bool },
@@ -44,17 +44,19 @@ pub enum ChordOf<V> {
 impl<V: Copy> ChordOf<V> {
     fn values(&self) -> Vec<V> {
         match *self {
-            Self::Triangle { links: [p, q], line: [x, y], distance, scale } => vec![p, q, x, y, distance, scale],
+            Self::Triangle { links: [p, q], line: [x, y], distance_squared, scale } => {
+                vec![p, q, x, y, distance_squared, scale]
+            }
             Self::Reach { scales, .. } => scales.to_vec(),
         }
     }
 
     pub(crate) fn map<W>(self, mut f: impl FnMut(V) -> W) -> ChordOf<W> {
         match self {
-            Self::Triangle { links, line, distance, scale } => ChordOf::Triangle {
+            Self::Triangle { links, line, distance_squared, scale } => ChordOf::Triangle {
                 links: links.map(&mut f),
                 line: line.map(&mut f),
-                distance: f(distance),
+                distance_squared: f(distance_squared),
                 scale: f(scale),
             },
             Self::Reach { scales, may_cancel } => ChordOf::Reach { scales: scales.map(f), may_cancel },

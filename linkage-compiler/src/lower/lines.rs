@@ -174,9 +174,18 @@ impl<'a, 'n> Writer<'a, 'n> {
         };
         let list = |values: [Expression; 2]| Expression::List(values.to_vec());
         let (pattern, call) = match of {
-            ChordOf::Triangle { links, line, distance, scale } => {
-                let arguments = [factors, list([size, distance]), list(links), list(line), scale, side];
-                (Pattern::Tuple(vec![name, plain]), self.judged("elbow_chord", block, arguments))
+            ChordOf::Triangle { links, line, distance_squared, scale } => {
+                let members = [
+                    ("links", list(links)),
+                    ("line", list(line)),
+                    ("scale", scale),
+                    ("reach_squared", size),
+                    ("distance_squared", distance_squared),
+                    ("factors", factors),
+                ];
+                let members = members.map(|(name, value)| (name.to_owned(), value));
+                let triangle = Expression::structure(Type::Runtime("Triangle", Vec::new()), members);
+                (Pattern::Tuple(vec![name, plain]), self.judged("elbow_chord", block, [triangle, side]))
             }
             ChordOf::Reach { scales, may_cancel } => {
                 let chord = if may_cancel { "reach_chord" } else { "chord" };

@@ -234,7 +234,6 @@ impl Value {
             Self::Square(base) => visit(*base),
         }
     }
-
 }
 
 impl Schedule {

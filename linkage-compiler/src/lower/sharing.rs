@@ -218,7 +218,9 @@ impl<'a> Sharing<'a> {
     /// True of a length, or another symbol, by a sine or cosine.
     fn is_component(&self, pair: Pair) -> bool {
         let factors = [pair.first, pair.second].map(|value| self.factors.get(value.0));
-        self.kind == Kind::Products && factors.contains(&Some(&Factor::Symbol)) && factors.contains(&Some(&Factor::Circular))
+        self.kind == Kind::Products
+            && factors.contains(&Some(&Factor::Symbol))
+            && factors.contains(&Some(&Factor::Circular))
     }
 
     /// The pairs of a list. No part stands twice in it: equal factors are a square, equal terms have a coefficient.

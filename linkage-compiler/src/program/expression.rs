@@ -247,12 +247,8 @@ impl Expression {
                 statements.iter().for_each(|statement| statement.each_name(visit));
                 value.each_name(visit);
             }
-            Self::Result(_)
-            | Self::Local(_)
-            | Self::Number(_)
-            | Self::Text(_)
-            | Self::Count(_)
-            | Self::Constant(_) => {}
+            Self::Result(_) | Self::Local(_) | Self::Number(_) | Self::Text(_) | Self::Count(_) | Self::Constant(_) => {
+            }
         }
     }
 

@@ -192,7 +192,21 @@ impl Arguments {
             time: _,
         } = self;
         let all = [
-            pose, q, rate, acceleration, jerk, right, branch, turn, inputs, guess, position, ratios, velocity, bias, whose,
+            pose,
+            q,
+            rate,
+            acceleration,
+            jerk,
+            right,
+            branch,
+            turn,
+            inputs,
+            guess,
+            position,
+            ratios,
+            velocity,
+            bias,
+            whose,
         ];
         all.into_iter().cloned().chain(["self".to_owned()]).collect()
     }

@@ -52,8 +52,7 @@ impl Plan<'_, '_> {
         let side = self.variables(&sides);
         let steps = self.derivation.solution(&[(side, parts.clone())], Form::Factored);
         let outputs = self.outputs(&parts);
-        let source =
-            Source { from: Expression::name(&right).columns(), shape: Shape::columns(u, &sides) };
+        let source = Source { from: Expression::name(&right).columns(), shape: Shape::columns(u, &sides) };
         let kernel = self.on_pose(vec![source], steps, outputs);
         let body = Body::of(kernel, Expression::vector(results(0..u))).checked("the solution", results(0..u));
         let doc = lines([
@@ -115,8 +114,7 @@ impl Plan<'_, '_> {
         }
         nodes.extend(self.derivation.inputs.iter().copied().zip(rates));
         let by_value = Source { from: Expression::name(&rate), ..self.inputs(&rate, |c| c.rate) };
-        let columns =
-            Source { from: Expression::name(&ratios).behind(), shape: Shape::columns(u, &names) };
+        let columns = Source { from: Expression::name(&ratios).behind(), shape: Shape::columns(u, &names) };
         let outputs = unnamed(nodes.into_values());
         let kernel = Kernel { sources: vec![columns, by_value], results: outputs, ..Kernel::default() };
         let body = Body::of(kernel, self.coordinates_of(0));

@@ -46,16 +46,15 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
         let mut parts = derived.parts.iter().flat_map(|(_, parts)| parts);
         let is_blamable = parts.any(|&part| plan.derivation.graph.constant_value(part).is_none());
         let signatures = SceneSignatures::new(plan.signatures.mechanism, plan.signatures.driver, scene);
-        let mut planned =
-            ScenePlan {
-                plan,
-                signatures,
-                scene: derived,
-                functions: Vec::new(),
-                layers: Layers::default(),
-                is_blamable,
-                blames: false,
-            };
+        let mut planned = ScenePlan {
+            plan,
+            signatures,
+            scene: derived,
+            functions: Vec::new(),
+            layers: Layers::default(),
+            is_blamable,
+            blames: false,
+        };
         planned.reduced_inertia();
         planned.effects();
         planned.reduced_forces();
