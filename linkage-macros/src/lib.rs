@@ -585,7 +585,7 @@ use proc_macro::TokenStream;
 /// derivatives, `derive` of what is unknown or named already, bodies of negative mass or in no scene, scenes in which
 /// nothing with inertia moves with an input, division by zero, constants that no `f64` holds, attributes without effect,
 /// and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words and signs, more than
-/// 10 000 expressions, or 16 000 with their derivatives, each entry of a `sensitivity` being one (a chain of
+/// 25 000 expressions, or 40 000 with their derivatives, each entry of a `sensitivity` being one (a chain of
 /// four-bars takes 70 a loop). All mechanisms of an invocation share one budget of work, which is counted and not timed:
 /// 345 legs of Jansen's walking machine, as many as fit into one, take three quarters of it.
 ///

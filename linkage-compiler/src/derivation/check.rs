@@ -8,7 +8,7 @@ use crate::graph::{External, Graph, SymbolId};
 use crate::model::{Call, Driver, ExternalFunction, Mechanism, Request, Scene, Wish};
 
 /// A derivation of more expressions than this is refused: emitting it takes longer than anybody waits.
-pub const LARGEST: usize = 16_000;
+pub const LARGEST: usize = 40_000;
 
 /// The steps that an entry of a matrix counts as: it is written in several functions, as five tokens or more each, of
 /// some 80 bytes.

@@ -20,7 +20,7 @@ use crate::graph::{Graph, NodeId, SymbolId};
 use crate::syntax::{self, ExpressionId, StatementKind};
 
 /// A mechanism of more expressions than this is refused: its derivatives are several times as many.
-const LARGEST: usize = 10_000;
+const LARGEST: usize = 25_000;
 
 pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagnostics) -> Mechanism {
     let syntax::Mechanism { attributes, visibility, name, statements, expressions } = tree;
