@@ -20,6 +20,7 @@ macro_rules! agreement {
         mod $test {
             use linkage::linkage;
             use linkage::nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector2};
+            use linkage_compiler::ids::{ColumnId, Id};
             use num_dual::{Dual2_64, Dual64};
 
             use super::oracle::{Oracle, Sample, all_close, close};
@@ -124,7 +125,9 @@ macro_rules! agreement {
                         j.norm() * w.norm() + a.norm(),
                         TOLERANCE,
                     );
-                    let pick = |q: &[f64], of: &[usize]| DVector::from_iterator(of.len(), of.iter().map(|&i| q[i]));
+                    let pick = |q: &[f64], of: &[ColumnId]| {
+                        DVector::from_iterator(of.len(), of.iter().map(|place| q[place.index()]))
+                    };
                     let velocity = m.velocity(&pose, $Inputs::from(&rate)).unwrap();
                     let found = array(velocity);
                     let (u, v) = (pick(&found, &d.unknowns), pick(&found, &d.inputs));
@@ -140,7 +143,7 @@ macro_rules! agreement {
                     all_close("J u'' + A v'' + gamma", left.as_slice(), &vec![0.0; left.len()], scale, TOLERANCE);
 
                     // W_l v' is the velocity of the point, and of the output, at q' = (W v', v').
-                    let v_rate: Vec<f64> = d.inputs.iter().map(|&i| sample.rate[i]).collect();
+                    let v_rate: Vec<f64> = d.inputs.iter().map(|place| sample.rate[place.index()]).collect();
                     let by_rates = flat(m.point_velocities(&pose, &velocity).unwrap());
                     let ratios: [SMatrix<f64, 2, _>; POINTS] = m.point_ratios(&pose).unwrap().into();
                     let times_rates = |ratio: &[f64], rows: usize| {

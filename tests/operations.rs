@@ -6,6 +6,7 @@ mod source;
 
 use linkage::linkage;
 use linkage_compiler::derivation::{Derivation, Form, Step};
+use linkage_compiler::ids::Table;
 use linkage_compiler::lower::schedule;
 use linkage_compiler::program::{Given, Operations};
 
@@ -21,7 +22,7 @@ fn derivation(file: &str) -> Derivation {
 /// generators write it.
 fn velocity_and_acceleration_in_products(file: &str) -> Operations {
     let mut d = derivation(file);
-    let (mut rates, mut accelerations) = (Vec::new(), Vec::new());
+    let (mut rates, mut accelerations) = (Table::default(), Table::default());
     for &unknown in &d.unknowns {
         rates.push(d.coordinates[unknown].rate);
         accelerations.push(d.coordinates[unknown].acceleration);

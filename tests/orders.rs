@@ -23,6 +23,7 @@ macro_rules! orders {
         mod $test {
             use linkage::linkage;
             use linkage::nalgebra::{DVector, RealField, SMatrix, SVector, Vector2};
+            use linkage_compiler::ids::Id;
             use num_dual::{Dual3_64, Dual64, HyperDual64};
 
             use super::oracle::{Oracle, Sample, all_close, close};
@@ -97,7 +98,7 @@ macro_rules! orders {
                     regular += 1;
                     let jerk = array(jerk);
                     for &input in &d.inputs {
-                        assert_eq!(jerk[input], jerk_of(&sample, input));
+                        assert_eq!(jerk[input.index()], jerk_of(&sample, input.index()));
                     }
                     let third = |jerk: [f64; Q]| dual.residual(&dual.pose_at(&motion(jerk))).map(|psi| psi.v3);
                     let eta = third([0.0; Q]);
@@ -124,12 +125,12 @@ macro_rules! orders {
                     let outputs: [SMatrix<f64, V, V>; OUTPUTS] = m.output_ratio_derivatives(&pose).unwrap().into();
                     let dual = mechanism(&sample, |_, x| HyperDual64::from_re(x));
                     // Of the motion of all coordinates for a unit rate of one input.
-                    let unit = |place: usize, input: usize| match d.unknowns.iter().position(|&u| u == place) {
+                    let unit = |place: usize, input: usize| match d.unknowns.iter().position(|u| u.index() == place) {
                         Some(unknown) => w[(unknown, input)],
-                        None => f64::from(u8::from(d.inputs[input] == place)),
+                        None => f64::from(u8::from(d.inputs.iter().position(|v| v.index() == place) == Some(input))),
                     };
                     let curved = |place: usize, j: usize, k: usize| {
-                        d.unknowns.iter().position(|&u| u == place).map_or(0.0, |unknown| l[unknown][(j, k)])
+                        d.unknowns.iter().position(|u| u.index() == place).map_or(0.0, |unknown| l[unknown][(j, k)])
                     };
                     for j in 0..V {
                         for k in 0..V {
@@ -177,7 +178,7 @@ macro_rules! orders {
                         let scale = inverse * (gamma + m.jacobian_inputs(&pose).norm() * v2.norm());
                         // Both roads solve with J, whose condition neither can mend.
                         let scale = scale * inverse * m.jacobian_unknowns(&pose).norm();
-                        close("W v'' + v' L v'", found, acceleration[place], scale, TOLERANCE);
+                        close("W v'' + v' L v'", found, acceleration[place.index()], scale, TOLERANCE);
                     }
                 }
                 assert!(regular > POSES / 2, "{regular}");
@@ -200,7 +201,7 @@ macro_rules! orders {
                         let dual = mechanism(&sample, |i, x| Dual64::new(x, f64::from(u8::from(i == p))));
                         let along = |follow: f64| {
                             let q = coordinates(|i| {
-                                let unknown = d.unknowns.iter().position(|&u| u == i);
+                                let unknown = d.unknowns.iter().position(|u| u.index() == i);
                                 Dual64::new(sample.q[i], unknown.map_or(0.0, |unknown| follow * s[(unknown, p)]))
                             });
                             dual.pose_at(&q)

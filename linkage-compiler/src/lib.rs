@@ -10,6 +10,7 @@ pub mod derivation;
 pub mod diagnostics;
 pub mod emit;
 pub mod graph;
+pub mod ids;
 pub mod lower;
 pub mod model;
 pub mod notation;

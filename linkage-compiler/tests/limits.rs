@@ -48,7 +48,8 @@ fn closed_forms_are_found_where_there_are_some() {
         let mechanism = read(source.parse().unwrap()).unwrap().remove(0);
         let mut derivation = derive(&mechanism).remove(0);
         let assembly = derivation.assembly();
-        let (bounds, is_searched) = derivation.bounds(&assembly, derivation.inputs[0]);
+        let input = derivation.inputs.ids().next().unwrap();
+        let (bounds, is_searched) = derivation.bounds(&assembly, input);
         assert_eq!(is_searched, form == Searched, "{equation}");
         assert_eq!(bounds.is_empty(), form == Searched, "{equation}");
         assert!(bounds.iter().all(|bound| bound.rate.is_some() == (form == Angle)), "{equation}");

@@ -56,7 +56,7 @@ pub fn unit<T: Real>(cosine: T, sine: T) -> UnitComplex<T> {
 /// The sine and cosine of the angle of a direction.
 #[inline(always)]
 #[must_use]
-pub fn sine_cosine<T: Real>(direction: UnitComplex<T>) -> (T, T) {
+pub fn sine_cosine_of<T: Real>(direction: UnitComplex<T>) -> (T, T) {
     (direction.im, direction.re)
 }
 

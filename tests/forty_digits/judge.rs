@@ -2,6 +2,7 @@
 
 use linkage_compiler::derivation::{Coordinate, Derivation};
 use linkage_compiler::graph::{External, NodeId, Number, SymbolId};
+use linkage_compiler::ids::{ColumnId, Id};
 use linkage_compiler::model::{Kind, Mechanism};
 use nalgebra::{DMatrix, DVector};
 use rand::rngs::SmallRng;
@@ -51,7 +52,7 @@ impl Judge {
         let mut derivation = linkage_compiler::derive(&mechanism).remove(0);
         let parameters: Vec<SymbolId> = mechanism.parameters.iter().map(|parameter| parameter.symbol).collect();
         let d = &mut derivation;
-        let symbols = |of: &[usize]| -> [Vec<SymbolId>; 3] {
+        let symbols = |of: &[ColumnId]| -> [Vec<SymbolId>; 3] {
             let pick =
                 |symbol: fn(&Coordinate) -> SymbolId| of.iter().map(|&index| symbol(&d.coordinates[index])).collect();
             [pick(|c| c.value), pick(|c| c.rate), pick(|c| c.acceleration)]
@@ -59,9 +60,9 @@ impl Judge {
         let by_order = symbols(&d.unknowns);
         let unknowns = by_order.concat();
         let data: Vec<SymbolId> = parameters.into_iter().chain(symbols(&d.inputs).concat()).collect();
-        let mut rows = d.residual.clone();
+        let mut rows = d.residual.to_vec();
         for order in [1, 2] {
-            for (index, row) in d.jacobian.clone().iter().enumerate() {
+            for (index, row) in d.jacobian.clone().enumerated() {
                 let mut terms = Vec::new();
                 for (&column, &entry) in row {
                     let coordinate = &d.coordinates[column];
@@ -91,7 +92,7 @@ impl Judge {
         let j: Vec<NodeId> = d
             .jacobian_unknowns()
             .iter()
-            .flat_map(|row| (0..d.unknowns.len()).map(|c| row.get(&c).copied().unwrap_or(zero)).collect::<Vec<_>>())
+            .flat_map(|row| d.unknowns.ids().map(|c| row.get(&c).copied().unwrap_or(zero)).collect::<Vec<_>>())
             .collect();
         let n = d.unknowns.len();
         let closures = [0, 1, 2].map(|order| Tape::new(&d.graph, &rows[order * n..(order + 1) * n], &by_order[order]));
@@ -237,7 +238,7 @@ impl Judge {
                 .map(|(value, is_length)| if *is_length { value * scale } else { *value })
                 .collect()
         };
-        let of_inputs: Vec<bool> = self.derivation.inputs.iter().map(|&place| of_coordinates[place]).collect();
+        let of_inputs: Vec<bool> = self.derivation.inputs.iter().map(|&place| of_coordinates[place.index()]).collect();
         Data {
             parameters: times(&data.parameters, of_parameters),
             inputs: times(&data.inputs, &of_inputs),
@@ -258,7 +259,7 @@ impl Judge {
             [draw(d.coordinates.len(), 3.2), vec![0.0; d.coordinates.len()], vec![0.0; d.coordinates.len()]];
         for (all, given) in coordinates.iter_mut().zip([&inputs, &rates, &accelerations]) {
             for (&place, &value) in d.inputs.iter().zip(given) {
-                all[place] = value;
+                all[place.index()] = value;
             }
         }
         // Every other mechanism has lengths of its own.

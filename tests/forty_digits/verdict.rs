@@ -1,5 +1,6 @@
 //! How far the emitted code is from that: in rounding, and in another unit of length.
 
+use linkage_compiler::ids::{Id, UnknownId};
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
 
@@ -48,7 +49,8 @@ pub(super) fn judge(file: &str, branches: usize, run: impl Fn(&Data) -> Option<M
             assert!(missed < 50 * poses(), "{file}: hardly anything can be assembled");
             continue;
         };
-        let found: Vec<f64> = motion.coordinates.iter().flat_map(|q| unknowns.iter().map(|&place| q[place])).collect();
+        let found: Vec<f64> =
+            motion.coordinates.iter().flat_map(|q| unknowns.iter().map(|&place| q[place.index()])).collect();
         let Some(y) = judge.solve(&data, &found, &vec![0.0; found.len()]) else {
             panic!("{file}: nothing near {:?} closes {:?} at {:?}", motion.coordinates, data.parameters, data.inputs)
         };
@@ -63,7 +65,7 @@ pub(super) fn judge(file: &str, branches: usize, run: impl Fn(&Data) -> Option<M
                 |what: String| format!("{what} at {:?}, branch {}, of {:?}", data.inputs, data.branch, data.parameters);
             let part = order * n..(order + 1) * n;
             worst.note(&found[part.clone()], &y[part.clone()], &of_unknowns[part], |index| {
-                at(place_of[unknowns[index]].name.clone())
+                at(place_of[unknowns[UnknownId::new(index)]].name.clone())
             });
             let part = order * third..(order + 1) * third;
             let (expected, conditions) = (&points[part.clone()], &of_points[part.clone()]);

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 
 use linkage_compiler::derivation::{Derivation, Row};
 use linkage_compiler::graph::{External, NodeId};
+use linkage_compiler::ids::Id;
 use linkage_compiler::model::{Kind, Mechanism};
 use nalgebra::DMatrix;
 use rand::rngs::SmallRng;
@@ -77,12 +78,12 @@ impl Oracle {
     }
 
     /// A matrix of `columns` columns.
-    pub fn matrix(&self, sample: &Sample, rows: &[Row], columns: usize) -> DMatrix<f64> {
+    pub fn matrix<C: Id>(&self, sample: &Sample, rows: &[Row<C>], columns: usize) -> DMatrix<f64> {
         let mut matrix = DMatrix::zeros(rows.len(), columns);
         for (index, row) in rows.iter().enumerate() {
             let nodes: Vec<NodeId> = row.values().copied().collect();
             for (&column, value) in row.keys().zip(self.values(sample, &nodes)) {
-                matrix[(index, column)] = value;
+                matrix[(index, column.index())] = value;
             }
         }
         matrix

@@ -20,6 +20,7 @@ use super::step::{ChordOf, Step};
 use super::{Block, Derivation, magnitude};
 use crate::algebra::{cramer, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
+use crate::ids::{BlockId, ColumnId, Id};
 use crate::structure::Group;
 
 /// A vector of the plane.
@@ -30,22 +31,22 @@ type Vector = [NodeId; 2];
 pub struct Assembly {
     pub steps: Vec<Step>,
     /// The determinants of the blocks that have a formula.
-    pub determinants: BTreeMap<usize, NodeId>,
+    pub determinants: BTreeMap<BlockId, NodeId>,
     /// The blocks that have two solutions.
     pub chords: Vec<Chord>,
     /// The angles of the links of a dyad, and its block.
-    pub of_dyads: BTreeMap<SymbolId, usize>,
+    pub of_dyads: BTreeMap<SymbolId, BlockId>,
     /// What must not be negative for a block with two solutions to be assembled.
-    pub bounds: Vec<(usize, Vec<NodeId>)>,
+    pub bounds: Vec<(BlockId, Vec<NodeId>)>,
     /// The coordinates that are not found in closed form, and the names of their guesses.
-    pub guesses: Vec<(usize, SymbolId)>,
+    pub guesses: Vec<(ColumnId, SymbolId)>,
     directions: BTreeMap<SymbolId, Vector>,
 }
 
 /// A block with two solutions.
 #[derive(Debug, Clone, Copy)]
 pub struct Chord {
-    pub block: usize,
+    pub block: BlockId,
     pub choice: Choice,
     /// Whether the determinant of the block has the sign opposite to the root's.
     pub is_opposite: bool,
@@ -195,31 +196,30 @@ impl Derivation {
     /// Position group by group: in closed form where there is one, else by Newton's method.
     pub fn assembly(&mut self) -> Assembly {
         let mut assembly = Assembly::default();
-        for number in 0..self.blocks.len() {
-            let block = self.blocks[number].clone();
-            let closed = self.assemble(number, &block, &mut assembly);
+        for id in self.blocks.ids() {
+            let block = self.blocks[id].clone();
+            let closed = self.assemble(id, &block, &mut assembly);
             if let (Some(determinant), Some(choice)) = (closed, Choice::of(block.group)) {
                 let is_opposite = self.graph.leads_negative(determinant);
-                assembly.chords.push(Chord { block: number, choice, is_opposite });
+                assembly.chords.push(Chord { block: id, choice, is_opposite });
             }
             if closed.is_none() {
-                self.iterate(number, &block, &mut assembly);
+                self.iterate(id, &block, &mut assembly);
             }
             let Some(determinant) = block.determinant else { continue };
             let node = closed.unwrap_or_else(|| assembly.solved(&mut self.graph, &[determinant.value])[0]);
             assembly.steps.push(Step::Let { symbol: determinant.symbol, node });
-            assembly.determinants.insert(number, self.graph.variable(determinant.symbol));
+            assembly.determinants.insert(id, self.graph.variable(determinant.symbol));
         }
         assembly
     }
 
-    fn assemble(&mut self, number: usize, block: &Block, assembly: &mut Assembly) -> Option<NodeId> {
-        let rows: Vec<NodeId> = block.equations.iter().map(|&equation| self.residual[equation]).collect();
-        let equations = rows.clone();
-        let rows = assembly.solved(&mut self.graph, &rows);
+    fn assemble(&mut self, id: BlockId, block: &Block, assembly: &mut Assembly) -> Option<NodeId> {
+        let equations = self.residual.at(&block.equations);
+        let rows = assembly.solved(&mut self.graph, &equations);
         let symbols: Vec<SymbolId> =
             block.unknowns.iter().map(|&place| self.coordinates[self.unknowns[place]].value).collect();
-        let mut group = Solver { graph: &mut self.graph, number, equations, assembly };
+        let mut group = Solver { graph: &mut self.graph, block: id, equations, assembly };
         match (block.group, rows.as_slice(), symbols.as_slice()) {
             (Group::Linear, &[row], &[unknown]) => group.linear(row, unknown),
             (Group::Angle, &[row], &[phi]) => group.angle(row, phi),
@@ -248,7 +248,7 @@ impl Derivation {
 /// One group in the making.
 struct Solver<'a> {
     graph: &'a mut Graph,
-    number: usize,
+    block: BlockId,
     /// The residuals in the unknowns of the groups before, as they are written.
     equations: Vec<NodeId>,
     assembly: &'a mut Assembly,
@@ -294,7 +294,7 @@ impl Solver<'_> {
 
     /// Names the vector between the outer joints.
     fn line(&mut self, [x, y]: Vector) -> Vector {
-        let number = self.number + 1;
+        let number = self.block.number();
         [("x", x), ("y", y)].map(|(axis, part)| match self.graph.node(part) {
             Node::Sum { .. } | Node::Product { .. } => self.fresh(&format!("line_{number}_{axis}"), part),
             _ => part,
@@ -313,9 +313,9 @@ impl Solver<'_> {
 
     /// The root of a product of two factors, with the sign of the branch; neither may be negative.
     fn chord(&mut self, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId>) -> NodeId {
-        self.assembly.bounds.push((self.number, factors.to_vec()));
-        let symbol = self.graph.symbol(format!("chord_{}", self.number + 1));
-        self.assembly.steps.push(Step::Chord { block: self.number, symbol, factors, size, of });
+        self.assembly.bounds.push((self.block, factors.to_vec()));
+        let symbol = self.graph.symbol(format!("chord_{}", self.block.number()));
+        self.assembly.steps.push(Step::Chord { block: self.block, symbol, factors, size, of });
         self.graph.variable(symbol)
     }
 
@@ -356,7 +356,7 @@ impl Solver<'_> {
     /// Refuses a determinant that vanishes, unless it is a number.
     fn solvable(&mut self, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId>) {
         if self.graph.constant_value(determinant).is_none() {
-            self.assembly.steps.push(Step::Solvable { block: self.number, determinant, numerators, scales });
+            self.assembly.steps.push(Step::Solvable { block: self.block, determinant, numerators, scales });
         }
     }
 
@@ -441,7 +441,7 @@ impl Solver<'_> {
         });
         let g = &mut *self.graph;
         let distance_squared = dot(g, d, d);
-        let distance_squared = self.fresh(&format!("distance_squared_{}", self.number + 1), distance_squared);
+        let distance_squared = self.fresh(&format!("distance_squared_{}", self.block.number()), distance_squared);
         let g = &mut *self.graph;
         let (sum, difference) = (g.add(p, q), g.subtract(p, q));
         let squares = g.multiply(sum, difference);
@@ -477,7 +477,7 @@ impl Solver<'_> {
             first = turned(self.graph, first, [cosine, back]);
         }
         self.direction(a, first);
-        self.assembly.of_dyads.extend([(a, self.number), (b, self.number)]);
+        self.assembly.of_dyads.extend([(a, self.block), (b, self.block)]);
         Some(cross_product)
     }
 
@@ -492,7 +492,7 @@ impl Solver<'_> {
             let (p, n) = (length(self.graph, at_zero), length(self.graph, line));
             let g = &mut *self.graph;
             let h = cross(g, d, line);
-            let h = self.fresh(&format!("offset_{}", self.number + 1), h);
+            let h = self.fresh(&format!("offset_{}", self.block.number()), h);
             let g = &mut *self.graph;
             let reach = g.multiply(p, n);
             let factors = [g.subtract(reach, h), g.add(reach, h)];
@@ -524,7 +524,7 @@ impl Solver<'_> {
         let g = &mut *self.graph;
         let square = square_of(g, n);
         let distance_squared = dot(g, d, d);
-        let distance_squared = self.fresh(&format!("distance_squared_{}", self.number + 1), distance_squared);
+        let distance_squared = self.fresh(&format!("distance_squared_{}", self.block.number()), distance_squared);
         let g = &mut *self.graph;
         let across = cross(g, p, e);
         let across = simplify(g, &[across], &BTreeSet::new())[0];
@@ -540,7 +540,7 @@ impl Solver<'_> {
         let (whole, part) = (g.multiply(distance_squared, square), g.power(across, 2));
         let bound = g.subtract(whole, part);
         self.assembly.bounds.pop();
-        self.assembly.bounds.push((self.number, vec![bound]));
+        self.assembly.bounds.push((self.block, vec![bound]));
         let g = &mut *self.graph;
         let offset = dot(g, p, e);
         let offset = simplify(g, &[offset], &BTreeSet::new())[0];

@@ -94,7 +94,7 @@ fn without_inertia(mechanism: &Mechanism, driver: &Driver, derivation: &Derivati
             diagnostics.error(scene.name.span(), message);
         }
         let Some(mass_matrix) = &derived.mass_matrix else { continue };
-        for (place, row) in mass_matrix.iter().enumerate() {
+        for (place, row) in mass_matrix.enumerated() {
             if !derived.drives.contains_key(&place) && derivation.graph.is_zero(row[place]) {
                 let input = &mechanism.coordinates[driver.inputs[place]].name.text;
                 diagnostics.error(

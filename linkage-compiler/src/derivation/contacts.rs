@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 use super::{Derivation, Row, along_rates};
 use crate::graph::{NodeId, SymbolId};
+use crate::ids::ColumnId;
 use crate::model::{self, ContactLaw, Mechanism};
 
 /// What is derived for one friction or stop, in terms of q, q' and t.
@@ -15,7 +16,7 @@ pub struct Contact {
     pub label: String,
     pub value: NodeId,
     /// `ds/dq`.
-    pub row: Row,
+    pub row: Row<ColumnId>,
     pub rate: NodeId,
     /// s'' at q'' = 0.
     pub bias: NodeId,

@@ -6,20 +6,21 @@
 use rustc_hash::FxHashMap;
 
 use super::scene::Scene;
-use super::{Derivation, RatioDerivatives};
-use crate::graph::{Function, NodeId, Number, SymbolId};
+use super::{Derivation, RatioDerivatives, System};
+use crate::graph::{Function, NodeId, Number};
+use crate::ids::{InputId, Table};
 
 /// What is derived for the equilibrium of a scene, in terms of q, t, W and L.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
-    /// Q at rest, by input.
-    pub forces: Vec<NodeId>,
+    /// Q at rest.
+    pub forces: Table<InputId, NodeId>,
     /// The sum of the magnitudes of what each is made of.
-    pub sizes: Vec<NodeId>,
+    pub sizes: Table<InputId, NodeId>,
     /// dQ/dv by rows.
-    pub slopes: Vec<Vec<NodeId>>,
+    pub slopes: Table<InputId, Table<InputId, NodeId>>,
     /// The systems of W and L with the names of their solutions.
-    pub systems: Vec<(Vec<NodeId>, Vec<SymbolId>)>,
+    pub systems: Vec<System>,
 }
 
 impl Derivation {
@@ -29,32 +30,31 @@ impl Derivation {
         let rest: FxHashMap<NodeId, NodeId> =
             rates.collect::<Vec<_>>().into_iter().map(|rate| (self.graph.variable(rate), zero)).collect();
         let forces = self.graph.replace(&scene.forces, &rest);
-        let mut sizes = vec![Vec::new(); forces.len()];
+        let mut sizes = self.inputs.filled(Vec::new());
         for (_, parts) in &scene.parts {
-            for (at, part) in self.graph.replace(parts, &rest).into_iter().enumerate() {
-                // Of each body there is one part a property and input.
-                sizes[at % forces.len()].push((Number::ONE, self.graph.call(Function::Abs, &[part])));
+            for (terms, part) in sizes.iter_mut().zip(self.graph.replace(parts, &rest)) {
+                terms.push((Number::ONE, self.graph.call(Function::Abs, &[part])));
             }
         }
-        let sizes = sizes.into_iter().map(|terms| self.graph.sum(&terms)).collect();
-        let motions: Vec<_> = (0..self.inputs.len()).map(|input| self.unit_motion(input)).collect();
+        let sizes = sizes.map(|terms| self.graph.sum(&terms));
+        let motions: Table<_, _> = self.inputs.ids().map(|input| self.unit_motion(input)).collect();
         let second = self.second_order(&motions);
-        let mut slopes = vec![Vec::new(); forces.len()];
-        for (k, motion) in motions.into_iter().enumerate() {
-            let mut seeds = motion;
-            for (j, ratios) in self.ratios.iter().enumerate() {
-                let names = &second.names[second.place(j, k)];
+        let mut slopes = self.inputs.filled(Table::default());
+        for (k, mut seeds) in motions.ids().zip(motions) {
+            for (j, ratios) in self.ratios.enumerated() {
+                let names = &second.names[second.places[j][k]];
                 seeds.extend(ratios.iter().zip(names).map(|(&ratio, &name)| (ratio, self.graph.variable(name))));
             }
             let column = self.graph.differentiate(&forces, &seeds);
-            slopes.iter_mut().zip(column).for_each(|(row, slope): (&mut Vec<NodeId>, NodeId)| row.push(slope));
+            for (row, slope) in slopes.iter_mut().zip(column) {
+                row.push(slope);
+            }
         }
-        let ratios = self.ratios.clone().into_iter().enumerate();
-        let mut systems: Vec<_> = ratios.map(|(input, names)| (self.ratio_side(input), names)).collect();
+        let mut systems: Vec<System> = self.ratio_systems().into_iter().collect();
         let RatioDerivatives { names, terms, .. } = second;
         for (rows, names) in terms.into_iter().zip(names) {
-            systems.push((rows.into_iter().map(|row| self.graph.negate(row)).collect(), names));
+            systems.push((rows.map(|row| self.graph.negate(row)), names));
         }
-        Equilibrium { forces, sizes, slopes, systems }
+        Equilibrium { forces: forces.into(), sizes, slopes, systems }
     }
 }

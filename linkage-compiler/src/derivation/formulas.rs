@@ -3,26 +3,26 @@
 
 use std::collections::BTreeSet;
 
-use super::{Derivation, Quantity, Row};
+use super::{Derivation, Quantity, Row, Solutions};
 use crate::algebra::adjugate;
 use crate::graph::{Condition, NodeId};
+use crate::ids::{BlockId, InputId, MemberId, PairId, ParameterId, Table};
 
 /// 1 / det J of a block, and adj J by rows.
-pub type Inverse = (NodeId, Vec<Row>);
+pub type Inverse = (NodeId, Table<MemberId, Row<MemberId>>);
 
 /// What is derived for the reader alone.
 #[derive(Debug, Clone)]
 pub struct Formulas {
-    /// W, by input and unknown; none where a block is solved by factorisation.
-    pub ratios: Vec<Vec<Option<NodeId>>>,
-    /// L, by pair of inputs and unknown; like what follows empty unless asked for.
-    pub ratio_derivatives: Vec<Vec<Option<NodeId>>>,
-    /// du/dp, by parameter and unknown.
-    pub sensitivities: Vec<Vec<Option<NodeId>>>,
+    /// W; none where a block is solved by factorisation.
+    pub ratios: Solutions<InputId, Option<NodeId>>,
+    /// L; like what follows empty unless asked for.
+    pub ratio_derivatives: Solutions<PairId, Option<NodeId>>,
+    /// du/dp.
+    pub sensitivities: Solutions<ParameterId, Option<NodeId>>,
     /// det J.
     pub determinant: Option<NodeId>,
-    /// By block.
-    pub inverses: Vec<Option<Inverse>>,
+    pub inverses: Table<BlockId, Option<Inverse>>,
     pub points: Vec<QuantityFormulas>,
     pub outputs: Vec<QuantityFormulas>,
     /// What the formulas take for granted.
@@ -32,12 +32,12 @@ pub struct Formulas {
 /// The derivatives of a point or output, each by component, in terms of W, L and du/dp.
 #[derive(Debug, Clone)]
 pub struct QuantityFormulas {
-    /// W_l by input.
-    pub ratios: Vec<Vec<NodeId>>,
-    /// L_l by pair of inputs.
-    pub ratio_derivatives: Vec<Vec<NodeId>>,
-    /// dl/dp by parameter.
-    pub sensitivities: Vec<Vec<NodeId>>,
+    /// W_l.
+    pub ratios: Table<InputId, Vec<NodeId>>,
+    /// L_l.
+    pub ratio_derivatives: Table<PairId, Vec<NodeId>>,
+    /// dl/dp.
+    pub sensitivities: Table<ParameterId, Vec<NodeId>>,
 }
 
 impl Formulas {
@@ -47,16 +47,18 @@ impl Formulas {
         let (ratio_derivatives, second) = derivation.ratio_derivative_formulas();
         let (sensitivities, by_parameters) = derivation.sensitivity_formulas();
         let determinant = derivation.determinant();
-        let mut inverses = Vec::new();
+        let mut inverses = Table::default();
         for block in derivation.blocks.clone() {
             let matrix = derivation.block_matrix(&block);
             inverses.push(match (block.determinant, matrix.as_slice()) {
                 (Some(determinant), [first, second]) => {
                     let graph = &mut derivation.graph;
                     let rows = adjugate(graph, [[first[0], first[1]], [second[0], second[1]]]);
-                    let rows =
-                        rows.map(|row| row.into_iter().enumerate().filter(|(_, e)| !graph.is_zero(*e)).collect());
-                    Some((graph.power(determinant.value, -1), rows.to_vec()))
+                    let rows = rows.map(|row| {
+                        let row: Table<MemberId, NodeId> = row.into_iter().collect();
+                        row.ids().zip(row).filter(|(_, entry)| !graph.is_zero(*entry)).collect()
+                    });
+                    Some((graph.power(determinant.value, -1), rows.into_iter().collect()))
                 }
                 _ => None,
             });
@@ -74,11 +76,8 @@ impl Formulas {
     }
 }
 
-/// W_l by input and component.
-fn quantity_ratios(derivation: &mut Derivation, quantity: &Quantity) -> Vec<Vec<NodeId>> {
-    let mut all = Vec::new();
-    for input in 0..derivation.inputs.len() {
-        all.push(quantity.jacobian.iter().map(|row| derivation.quantity_ratio(row, input)).collect());
-    }
-    all
+/// W_l by component.
+fn quantity_ratios(derivation: &mut Derivation, quantity: &Quantity) -> Table<InputId, Vec<NodeId>> {
+    let inputs = derivation.inputs.ids();
+    inputs.map(|input| quantity.jacobian.iter().map(|row| derivation.quantity_ratio(row, input)).collect()).collect()
 }

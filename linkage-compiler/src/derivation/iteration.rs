@@ -7,15 +7,15 @@ use super::assembly::Assembly;
 use super::step::Step;
 use super::{Block, Derivation};
 use crate::graph::{Node, NodeId, Number, SymbolId};
+use crate::ids::{BlockId, ColumnId};
 
 impl Derivation {
     /// Names what the groups before know, and then the unknowns.
-    pub(super) fn iterate(&mut self, number: usize, block: &Block, assembly: &mut Assembly) {
-        let columns: Vec<usize> = block.unknowns.iter().map(|&place| self.unknowns[place]).collect();
+    pub(super) fn iterate(&mut self, id: BlockId, block: &Block, assembly: &mut Assembly) {
+        let columns = self.unknowns.at(&block.unknowns);
         let targets: Vec<SymbolId> = columns.iter().map(|&column| self.coordinates[column].value).collect();
-        let of = |all: &[NodeId]| block.equations.iter().map(|&equation| all[equation]).collect::<Vec<_>>();
-        let mut system = of(&self.residual);
-        system.extend(of(&self.sizes));
+        let mut system = self.residual.at(&block.equations);
+        system.extend(self.sizes.at(&block.equations));
         system.extend(self.block_matrix(block).into_iter().flatten());
         let system = assembly.solved(&mut self.graph, &system);
         let mut split = Split::new(self, &targets, &system);
@@ -28,10 +28,10 @@ impl Derivation {
             let name = format!("{}_guess", self.coordinates[column].name);
             (column, self.graph.symbol(name))
         });
-        let guesses: Vec<(usize, SymbolId)> = guesses.collect();
+        let guesses: Vec<(ColumnId, SymbolId)> = guesses.collect();
         let start = guesses.iter().map(|&(_, symbol)| self.graph.variable(symbol)).collect();
         assembly.guesses.extend(guesses);
-        assembly.steps.push(Step::Newton { block: number, targets, start, known, system });
+        assembly.steps.push(Step::Newton { block: id, targets, start, known, system });
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::{Derivation, along_rates};
 use crate::graph::NodeId;
+use crate::ids::{RowId, Table};
 
 impl Derivation {
     pub(super) fn derive_jerk(&mut self) {
@@ -20,17 +21,12 @@ impl Derivation {
         for quantity in self.points.iter_mut().chain(&mut self.outputs) {
             quantity.jerk = self.graph.differentiate(&quantity.acceleration, &seeds);
         }
-        self.eta = Some(eta);
+        self.eta = Some(eta.into());
     }
 
     /// -(A v''' + eta): the right side of J u''' = -(A v''' + eta).
-    pub fn jerk_side(&mut self) -> Vec<NodeId> {
-        self.eta
-            .clone()
-            .unwrap_or_default()
-            .into_iter()
-            .enumerate()
-            .map(|(row, eta)| self.minus_inputs(row, |c| c.jerk, Some(eta)))
-            .collect()
+    pub fn jerk_side(&mut self) -> Table<RowId, NodeId> {
+        let eta = self.eta.clone().unwrap_or_default();
+        eta.ids().map(|row| self.minus_inputs(row, |c| c.jerk, Some(eta[row]))).collect()
     }
 }

@@ -12,12 +12,13 @@ use super::step::Step;
 use super::{Assembly, Derivation};
 use crate::algebra::simplify;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
+use crate::ids::{BlockId, InputId, Table};
 use crate::structure::Group;
 
 /// f(v) >= 0 where a block can be assembled.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
-    pub block: usize,
+    pub block: BlockId,
     /// k, if f is periodic.
     pub rate: Option<NodeId>,
     /// a, b and c, free of v.
@@ -25,8 +26,8 @@ pub struct Bound {
 }
 
 impl Derivation {
-    /// The bounds on one input, by its place in q, and whether blocks are left that must be searched.
-    pub fn bounds(&mut self, assembly: &Assembly, input: usize) -> (Vec<Bound>, bool) {
+    /// The bounds on one input, and whether blocks are left that must be searched.
+    pub fn bounds(&mut self, assembly: &Assembly, input: InputId) -> (Vec<Bound>, bool) {
         let mut is_searched = assembly.steps.iter().any(|step| matches!(step, Step::Newton { .. }));
         let formulas: FxHashMap<NodeId, NodeId> = assembly
             .steps
@@ -52,16 +53,15 @@ impl Derivation {
 
     /// For each block, whether its equations hold no unknown of another block but of linear ones, of which the same is
     /// true.
-    fn on_inputs(&self) -> Vec<bool> {
-        let mut on_inputs: Vec<bool> = Vec::with_capacity(self.blocks.len());
+    fn on_inputs(&self) -> Table<BlockId, bool> {
+        let mut on_inputs = Table::default();
         // The unknowns of the linear blocks among them.
         let mut known = BTreeSet::new();
         for block in &self.blocks {
-            let rows: Vec<NodeId> = block.equations.iter().map(|&equation| self.residual[equation]).collect();
-            let symbols = self.graph.symbols_of(&rows);
-            let is_on_inputs = (0..self.unknowns.len())
-                .filter(|place| !block.unknowns.contains(place) && !known.contains(place))
-                .all(|place| !symbols.contains(&self.coordinates[self.unknowns[place]].value));
+            let symbols = self.graph.symbols_of(&self.residual.at(&block.equations));
+            let is_on_inputs = (self.unknowns.enumerated())
+                .filter(|(unknown, _)| !block.unknowns.contains(unknown) && !known.contains(unknown))
+                .all(|(_, &column)| !symbols.contains(&self.coordinates[column].value));
             if is_on_inputs && matches!(block.group, Group::Linear | Group::Sliders) {
                 known.extend(block.unknowns.iter().copied());
             }
@@ -73,12 +73,12 @@ impl Derivation {
     /// A function in one of the two forms; none if it has neither, an empty one if the input has no say in it.
     fn bound(
         &mut self,
-        block: usize,
+        block: BlockId,
         function: NodeId,
-        input: usize,
+        input: InputId,
         formulas: &FxHashMap<NodeId, NodeId>,
     ) -> Option<Option<Bound>> {
-        let input = self.coordinates[input].value;
+        let input = self.coordinates[self.inputs[input]].value;
         let function = self.written_out(function, formulas);
         let graph = &mut self.graph;
         if !graph.symbols_of(&[function]).contains(&input) {

@@ -27,6 +27,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::algebra::{self, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
+use crate::ids::{BlockId, ColumnId, CoordinateId, Id, InputId, PairId, ParameterId, RowId, Table, UnknownId};
 use crate::model::{Driver, Mechanism, Request};
 use crate::structure::{self, Group, Method};
 pub use assembly::{Assembly, Choice, Chord};
@@ -42,8 +43,14 @@ pub use scene::{Prescribed, Scene};
 pub use sensitivity::Sensitivity;
 pub use step::{ChordOf, Step, needed, needed_names};
 
-/// The derivatives of one scalar by the coordinates, by their place in q; those not named are zero.
-pub type Row = BTreeMap<usize, NodeId>;
+/// The derivatives of one scalar by coordinates or parameters; those not named are zero.
+pub type Row<Column> = BTreeMap<Column, NodeId>;
+
+/// The solutions x of several systems J x = r.
+pub type Solutions<I, X> = Table<I, Table<UnknownId, X>>;
+
+/// J x = r: r, and the names of x.
+pub type System = (Table<RowId, NodeId>, Table<UnknownId, SymbolId>);
 
 /// A coordinate with the names of its velocity, acceleration and jerk.
 #[derive(Debug, Clone)]
@@ -61,7 +68,7 @@ pub struct Quantity {
     /// x and y of a point, the one value of an output.
     pub value: Vec<NodeId>,
     /// d value / d q, one row a component.
-    pub jacobian: Vec<Row>,
+    pub jacobian: Vec<Row<ColumnId>>,
     /// In terms of q and q'.
     pub rate: Vec<NodeId>,
     /// In terms of q, q' and q''.
@@ -69,9 +76,9 @@ pub struct Quantity {
     /// In terms of q to q'''; like the rest, empty unless asked for.
     pub jerk: Vec<NodeId>,
     /// (l_q w_j)_q w_k, by pair of inputs and component, in terms of q and W.
-    pub along_inputs: Vec<Vec<NodeId>>,
-    /// l_p, by the place of the parameter, one row a component.
-    pub by_parameters: Vec<Row>,
+    pub along_inputs: Table<PairId, Vec<NodeId>>,
+    /// l_p, one row a component.
+    pub by_parameters: Vec<Row<ParameterId>>,
 }
 
 /// The determinant of a block in closed form.
@@ -87,10 +94,8 @@ pub struct Determinant {
 /// Unknowns that are solved together, once all blocks before are solved.
 #[derive(Debug, Clone)]
 pub struct Block {
-    /// Rows of Psi.
-    pub equations: Vec<usize>,
-    /// Places in [`Derivation::unknowns`].
-    pub unknowns: Vec<usize>,
+    pub equations: Vec<RowId>,
+    pub unknowns: Vec<UnknownId>,
     pub group: Group,
     /// Of a block in closed form.
     pub determinant: Option<Determinant>,
@@ -100,28 +105,27 @@ pub struct Block {
 #[derive(Debug, Clone)]
 pub struct Derivation {
     pub graph: Graph,
-    pub coordinates: Vec<Coordinate>,
+    pub coordinates: Table<ColumnId, Coordinate>,
     /// The columns of [`Derivation::jacobian`] that are u and v.
-    pub unknowns: Vec<usize>,
-    pub inputs: Vec<usize>,
+    pub unknowns: Table<UnknownId, ColumnId>,
+    pub inputs: Table<InputId, ColumnId>,
     /// Psi.
-    pub residual: Vec<NodeId>,
+    pub residual: Table<RowId, NodeId>,
     /// The sum of the magnitudes of each closure's terms: what "small residual" is measured by.
-    pub sizes: Vec<NodeId>,
+    pub sizes: Table<RowId, NodeId>,
     /// Psi_q.
-    pub jacobian: Vec<Row>,
-    /// In the order in which they are solved.
-    pub blocks: Vec<Block>,
+    pub jacobian: Table<RowId, Row<ColumnId>>,
+    pub blocks: Table<BlockId, Block>,
     /// Whether det J is the negative of the product of the determinants of the blocks.
     pub is_odd: bool,
-    /// The names of W: by input, and then by unknown.
-    pub ratios: Vec<Vec<SymbolId>>,
+    /// The names of W.
+    pub ratios: Solutions<InputId, SymbolId>,
     /// (Psi_q q')_q q'.
-    pub gamma: Vec<NodeId>,
+    pub gamma: Table<RowId, NodeId>,
     pub points: Vec<Quantity>,
     pub outputs: Vec<Quantity>,
     /// What is left of Psi''' where no coordinate jerks; like what follows only if it is asked for.
-    pub eta: Option<Vec<NodeId>>,
+    pub eta: Option<Table<RowId, NodeId>>,
     pub ratio_derivatives: Option<RatioDerivatives>,
     pub sensitivity: Option<Sensitivity>,
     /// Those of this driver.
@@ -134,39 +138,35 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let blocks = driver.blocks.clone();
     let mut graph = mechanism.graph.clone();
     let order = mechanism.coordinate_order(driver);
-    let coordinates: Vec<Coordinate> = order
-        .iter()
-        .map(|&index| {
-            let name = mechanism.coordinates[index].name.field.clone();
-            let rate = mechanism.coordinates[index].rate;
-            Coordinate {
-                value: mechanism.coordinates[index].symbol,
-                rate: rate.unwrap_or_else(|| graph.symbol(format!("{name}_rate"))),
-                acceleration: graph.symbol(format!("{name}_acceleration")),
-                jerk: graph.symbol(format!("{name}_jerk")),
-                name,
-            }
-        })
-        .collect();
-    let place: BTreeMap<usize, usize> = order.iter().enumerate().map(|(place, &index)| (index, place)).collect();
-    let unknowns: Vec<usize> = driver.unknowns.iter().map(|index| place[index]).collect();
-    let inputs: Vec<usize> = driver.inputs.iter().map(|index| place[index]).collect();
+    let columns: BTreeMap<CoordinateId, ColumnId> = order.enumerated().map(|(column, &id)| (id, column)).collect();
+    let coordinates: Table<ColumnId, Coordinate> = order.map(|id| {
+        let declared = &mechanism.coordinates[id];
+        let name = declared.name.field.clone();
+        Coordinate {
+            value: declared.symbol,
+            rate: declared.rate.unwrap_or_else(|| graph.symbol(format!("{name}_rate"))),
+            acceleration: graph.symbol(format!("{name}_acceleration")),
+            jerk: graph.symbol(format!("{name}_jerk")),
+            name,
+        }
+    });
+    let unknowns: Table<UnknownId, ColumnId> = driver.unknowns.iter().map(|id| columns[id]).collect();
+    let inputs: Table<InputId, ColumnId> = driver.inputs.iter().map(|id| columns[id]).collect();
 
-    let residual: Vec<NodeId> = mechanism.closures.iter().flat_map(|closure| closure.rows.clone()).collect();
-    let place_of: Places = coordinates.iter().enumerate().map(|(place, c)| (c.value, place)).collect();
-    let jacobian = jacobian(&mut graph, &residual, &place_of);
+    let residual = mechanism.rows();
+    let place_of = places_of(&coordinates, |c| c.value);
+    let jacobian = Table::from(jacobian(&mut graph, &residual, &place_of));
     let sizes = residual.iter().map(|&row| magnitude::of(&mut graph, row)).collect();
     // gamma = (Psi_q q')_q q': the derivative along q' of Psi' with q' held.
     let rates = along_rates(&mut graph, &coordinates);
     let psi_rate = graph.differentiate(&residual, &rates);
-    let gamma = graph.differentiate(&psi_rate, &rates);
+    let gamma = graph.differentiate(&psi_rate, &rates).into();
 
     let is_odd = structure::is_odd(&blocks);
-    let mut parts = Vec::new();
+    let mut parts = Table::default();
     for block in blocks {
-        let rows: Vec<NodeId> = block.equations.iter().map(|&equation| residual[equation]).collect();
         let symbols: Vec<SymbolId> = block.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
-        let group = Group::of(&mut graph, &rows, &symbols);
+        let group = Group::of(&mut graph, &residual.at(&block.equations), &symbols);
         let determinant = determinant(&mut graph, &jacobian, &unknowns, &block);
         parts.push((block, group, determinant));
     }
@@ -221,14 +221,16 @@ fn angles(graph: &Graph, roots: &[NodeId]) -> BTreeSet<NodeId> {
     graph.reachable(roots).into_iter().filter_map(angle).collect()
 }
 
-/// The place of each coordinate in q.
-type Places = BTreeMap<SymbolId, usize>;
+/// The place of each symbol in a table.
+fn places_of<I: Id, T>(table: &Table<I, T>, symbol: fn(&T) -> SymbolId) -> BTreeMap<SymbolId, I> {
+    table.enumerated().map(|(place, entry)| (symbol(entry), place)).collect()
+}
 
 /// The determinant of a block in closed form and its size.
 fn determinant(
     graph: &mut Graph,
-    jacobian: &[Row],
-    unknowns: &[usize],
+    jacobian: &Table<RowId, Row<ColumnId>>,
+    unknowns: &Table<UnknownId, ColumnId>,
     block: &structure::Block,
 ) -> Option<(NodeId, NodeId)> {
     let zero = graph.zero();
@@ -249,27 +251,26 @@ type Unnamed = (structure::Block, Group, Option<(NodeId, NodeId)>);
 
 /// Blocks with their determinants named: a mechanism with one determinant calls it so; of several each has the
 /// number of its block.
-fn with_names(graph: &mut Graph, parts: Vec<Unnamed>) -> Vec<Block> {
+fn with_names(graph: &mut Graph, parts: Table<BlockId, Unnamed>) -> Table<BlockId, Block> {
     let is_variable = |graph: &Graph, value: NodeId| graph.constant_value(value).is_none();
     let values = parts.iter().filter_map(|(_, _, determinant)| Some(determinant.as_ref()?.0));
     let is_single = values.filter(|&value| is_variable(graph, value)).count() == 1;
-    let mut blocks = Vec::new();
-    for (index, (block, group, determinant)) in parts.into_iter().enumerate() {
+    let named = parts.ids().zip(parts).map(|(id, (block, group, determinant))| {
         let structure::Block { equations, unknowns } = block;
         let determinant = determinant.map(|(value, size)| {
-            let number = index + 1;
             let is_only = is_single && is_variable(graph, value);
-            let name = if is_only { "determinant".to_owned() } else { format!("determinant_{number}") };
+            let name = if is_only { "determinant".to_owned() } else { format!("determinant_{}", id.number()) };
             Determinant { value, symbol: graph.symbol(name), size }
         });
-        blocks.push(Block { equations, unknowns, group, determinant });
-    }
-    blocks
+        Block { equations, unknowns, group, determinant }
+    });
+    named.collect()
 }
 
-fn jacobian(graph: &mut Graph, rows: &[NodeId], places: &Places) -> Vec<Row> {
+/// The derivatives of some scalars by what has these places.
+fn jacobian<C: Id + Ord>(graph: &mut Graph, rows: &[NodeId], places: &BTreeMap<SymbolId, C>) -> Vec<Row<C>> {
     // What rows have in common is derived once.
-    let mut holders: BTreeMap<(SymbolId, usize), Vec<usize>> = BTreeMap::new();
+    let mut holders: BTreeMap<(SymbolId, C), Vec<usize>> = BTreeMap::new();
     for (index, &row) in rows.iter().enumerate() {
         for symbol in graph.symbols_of(&[row]) {
             if let Some(&place) = places.get(&symbol) {
@@ -289,8 +290,19 @@ fn jacobian(graph: &mut Graph, rows: &[NodeId], places: &Places) -> Vec<Row> {
     jacobian
 }
 
+/// The largest magnitudes that the entries of some rows could have.
+fn sizes<C: Ord>(graph: &mut Graph, rows: Table<RowId, Row<C>>) -> Table<RowId, Row<C>> {
+    rows.map(|row| row.into_iter().map(|(column, entry)| (column, magnitude::of(graph, entry))).collect())
+}
+
+/// A column with the opposite sign, as the right side of a system.
+fn minus_column<C: Ord>(graph: &mut Graph, rows: &Table<RowId, Row<C>>, column: C) -> Table<RowId, NodeId> {
+    let zero = graph.zero();
+    rows.iter().map(|row| graph.negate(row.get(&column).copied().unwrap_or(zero))).collect()
+}
+
 /// q -> q'.
-fn along_rates(graph: &mut Graph, coordinates: &[Coordinate]) -> BTreeMap<SymbolId, NodeId> {
+fn along_rates(graph: &mut Graph, coordinates: &Table<ColumnId, Coordinate>) -> BTreeMap<SymbolId, NodeId> {
     coordinates.iter().map(|coordinate| (coordinate.value, graph.variable(coordinate.rate))).collect()
 }
 
@@ -298,8 +310,8 @@ fn along_rates(graph: &mut Graph, coordinates: &[Coordinate]) -> BTreeMap<Symbol
 fn quantities(
     graph: &mut Graph,
     values: Vec<Vec<NodeId>>,
-    coordinates: &[Coordinate],
-    places: &Places,
+    coordinates: &Table<ColumnId, Coordinate>,
+    places: &BTreeMap<SymbolId, ColumnId>,
 ) -> Vec<Quantity> {
     let rows: Vec<NodeId> = values.concat();
     let mut jacobian = jacobian(graph, &rows, places).into_iter();
@@ -316,7 +328,7 @@ fn quantities(
         acceleration: accelerations.by_ref().take(value.len()).collect(),
         value,
         jerk: Vec::new(),
-        along_inputs: Vec::new(),
+        along_inputs: Table::default(),
         by_parameters: Vec::new(),
     };
     values.into_iter().map(quantity).collect()
@@ -332,14 +344,20 @@ impl Block {
     /// The names of the unknowns, by which errors name the block.
     #[must_use]
     pub fn names(&self, derivation: &Derivation) -> String {
-        let name = |&place: &usize| derivation.coordinates[derivation.unknowns[place]].name.as_str();
+        let name = |&place: &UnknownId| derivation.coordinates[derivation.unknowns[place]].name.as_str();
         self.unknowns.iter().map(name).collect::<Vec<_>>().join(", ")
     }
 }
 
 impl Quantity {
     /// direct + l_u x of a component with these derivatives.
-    fn through_unknowns(graph: &mut Graph, direct: NodeId, row: &Row, unknowns: &[usize], x: &[NodeId]) -> NodeId {
+    fn through_unknowns(
+        graph: &mut Graph,
+        direct: NodeId,
+        row: &Row<ColumnId>,
+        unknowns: &Table<UnknownId, ColumnId>,
+        x: &Table<UnknownId, NodeId>,
+    ) -> NodeId {
         let mut terms = vec![(Number::ONE, direct)];
         for (unknown, &x) in unknowns.iter().zip(x) {
             if let Some(&entry) = row.get(unknown) {
@@ -353,51 +371,50 @@ impl Quantity {
 impl Derivation {
     /// J, the columns of the unknowns.
     #[must_use]
-    pub fn jacobian_unknowns(&self) -> Vec<Row> {
+    pub fn jacobian_unknowns(&self) -> Table<RowId, Row<UnknownId>> {
         self.columns(&self.unknowns)
     }
 
     /// A, the columns of the inputs.
     #[must_use]
-    pub fn jacobian_inputs(&self) -> Vec<Row> {
+    pub fn jacobian_inputs(&self) -> Table<RowId, Row<InputId>> {
         self.columns(&self.inputs)
     }
 
     /// The largest magnitudes that the entries of J and of A could have.
-    pub fn jacobian_sizes(&mut self) -> [Vec<Row>; 2] {
-        [self.jacobian_unknowns(), self.jacobian_inputs()].map(|rows| {
-            let size = |graph: &mut Graph, row: Row| {
-                row.into_iter().map(|(column, entry)| (column, magnitude::of(graph, entry))).collect()
-            };
-            rows.into_iter().map(|row| size(&mut self.graph, row)).collect()
-        })
+    pub fn jacobian_sizes(&mut self) -> (Table<RowId, Row<UnknownId>>, Table<RowId, Row<InputId>>) {
+        let (unknowns, inputs) = (self.jacobian_unknowns(), self.jacobian_inputs());
+        (sizes(&mut self.graph, unknowns), sizes(&mut self.graph, inputs))
     }
 
-    fn columns(&self, columns: &[usize]) -> Vec<Row> {
-        let new: BTreeMap<usize, usize> = columns.iter().enumerate().map(|(new, &old)| (old, new)).collect();
-        let row = |row: &Row| row.iter().filter_map(|(old, &entry)| Some((*new.get(old)?, entry))).collect();
+    fn columns<C: Id + Ord>(&self, columns: &Table<C, ColumnId>) -> Table<RowId, Row<C>> {
+        let new: BTreeMap<ColumnId, C> = columns.enumerated().map(|(new, &old)| (old, new)).collect();
+        let row = |row: &Row<ColumnId>| row.iter().filter_map(|(old, &entry)| Some((*new.get(old)?, entry))).collect();
         self.jacobian.iter().map(row).collect()
     }
 
     /// -A e_j: the right side of J W_j = -A e_j.
-    pub fn ratio_side(&mut self, input: usize) -> Vec<NodeId> {
-        let column = self.inputs[input];
-        let zero = self.graph.zero();
-        let entries: Vec<_> = self.jacobian.iter().map(|row| row.get(&column).copied().unwrap_or(zero)).collect();
-        entries.into_iter().map(|entry| self.graph.negate(entry)).collect()
+    pub fn ratio_side(&mut self, input: InputId) -> Table<RowId, NodeId> {
+        minus_column(&mut self.graph, &self.jacobian, self.inputs[input])
+    }
+
+    /// The systems J W_j = -A e_j.
+    pub fn ratio_systems(&mut self) -> Table<InputId, System> {
+        let ratios = self.ratios.clone();
+        ratios.ids().zip(ratios).map(|(input, names)| (self.ratio_side(input), names)).collect()
     }
 
     /// -A v': the right side of J u' = -A v'.
-    pub fn velocity_side(&mut self) -> Vec<NodeId> {
-        (0..self.residual.len()).map(|row| self.minus_inputs(row, |c| c.rate, None)).collect()
+    pub fn velocity_side(&mut self) -> Table<RowId, NodeId> {
+        self.residual.ids().map(|row| self.minus_inputs(row, |c| c.rate, None)).collect()
     }
 
     /// -(A v'' + gamma): the right side of J u'' = -(A v'' + gamma).
-    pub fn acceleration_side(&mut self) -> Vec<NodeId> {
-        (0..self.residual.len()).map(|row| self.minus_inputs(row, |c| c.acceleration, Some(self.gamma[row]))).collect()
+    pub fn acceleration_side(&mut self) -> Table<RowId, NodeId> {
+        self.residual.ids().map(|row| self.minus_inputs(row, |c| c.acceleration, Some(self.gamma[row]))).collect()
     }
 
-    fn minus_inputs(&mut self, row: usize, symbol: fn(&Coordinate) -> SymbolId, plus: Option<NodeId>) -> NodeId {
+    fn minus_inputs(&mut self, row: RowId, symbol: fn(&Coordinate) -> SymbolId, plus: Option<NodeId>) -> NodeId {
         let mut terms: Vec<_> = plus.map(|term| (Number::MINUS_ONE, term)).into_iter().collect();
         for &column in &self.inputs {
             if let Some(&entry) = self.jacobian[row].get(&column) {
@@ -410,7 +427,7 @@ impl Derivation {
 
     /// What stays on the right of a block once the unknowns before it are known:
     /// r - J x, where `solved` holds x by the place of the unknown in q.
-    pub fn remainder(&mut self, equation: usize, right: NodeId, solved: &Row) -> NodeId {
+    pub fn remainder(&mut self, equation: RowId, right: NodeId, solved: &Row<ColumnId>) -> NodeId {
         let mut terms = vec![(Number::ONE, right)];
         for (column, entry) in &self.jacobian[equation] {
             if let Some(&x) = solved.get(column) {

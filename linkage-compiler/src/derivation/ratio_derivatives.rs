@@ -7,61 +7,60 @@
 
 use std::collections::BTreeMap;
 
-use super::{Derivation, Quantity};
+use super::{Derivation, Quantity, Solutions, System};
 use crate::graph::{Graph, NodeId, SymbolId};
+use crate::ids::{InputId, PairId, RowId, Table, UnknownId};
 
 /// What is derived for the derivatives of the velocity ratios.
 #[derive(Debug, Clone)]
 pub struct RatioDerivatives {
     /// The inputs j <= k, each pair once.
-    pub pairs: Vec<(usize, usize)>,
-    /// What stands behind the name of what is derived, by pair.
-    pub endings: Vec<String>,
-    /// The names of L: by pair, and then by unknown.
-    pub names: Vec<Vec<SymbolId>>,
-    /// (Psi_q w_j)_q w_k, by pair and row, in terms of W.
-    pub terms: Vec<Vec<NodeId>>,
-}
-
-impl RatioDerivatives {
-    /// The place of a pair in either order.
-    #[must_use]
-    pub fn place(&self, j: usize, k: usize) -> usize {
-        let pair = (j.min(k), j.max(k));
-        self.pairs.iter().position(|&other| other == pair).unwrap_or(0)
-    }
+    pub pairs: Table<PairId, (InputId, InputId)>,
+    /// The pair of two inputs in either order.
+    pub places: Table<InputId, Table<InputId, PairId>>,
+    /// What stands behind the name of what is derived.
+    pub endings: Table<PairId, String>,
+    /// The names of L.
+    pub names: Solutions<PairId, SymbolId>,
+    /// (Psi_q w_j)_q w_k, in terms of W.
+    pub terms: Table<PairId, Table<RowId, NodeId>>,
 }
 
 impl Derivation {
     pub(super) fn derive_ratio_derivatives(&mut self) {
-        let motions: Vec<_> = (0..self.inputs.len()).map(|input| self.unit_motion(input)).collect();
+        let motions: Table<_, _> = self.inputs.ids().map(|input| self.unit_motion(input)).collect();
         self.ratio_derivatives = Some(self.second_order(&motions));
         for quantity in self.points.iter_mut().chain(&mut self.outputs) {
-            quantity.along_inputs = second_derivatives(&mut self.graph, &quantity.value, &motions);
+            quantity.along_inputs = second_derivatives(&mut self.graph, &quantity.value, &motions).into();
         }
     }
 
     /// L by new names, along the unit motions of the inputs.
-    pub(super) fn second_order(&mut self, motions: &[BTreeMap<SymbolId, NodeId>]) -> RatioDerivatives {
-        let count = self.inputs.len();
-        let pairs: Vec<(usize, usize)> = (0..count).flat_map(|j| (j..count).map(move |k| (j, k))).collect();
-        let by = |input: usize| self.coordinates[self.inputs[input]].name.as_str();
-        let ending = |&(j, k): &(usize, usize)| match count {
+    pub(super) fn second_order(&mut self, motions: &Table<InputId, BTreeMap<SymbolId, NodeId>>) -> RatioDerivatives {
+        let (mut pairs, mut places) = (Table::default(), Table::<InputId, Table<InputId, PairId>>::default());
+        for j in self.inputs.ids() {
+            let place = |k| if k < j { places[k][j] } else { pairs.push((j, k)) };
+            let of_input = self.inputs.ids().map(place).collect();
+            places.push(of_input);
+        }
+        let by = |input: InputId| self.coordinates[self.inputs[input]].name.as_str();
+        let ending = |&(j, k): &(InputId, InputId)| match self.inputs.len() {
             1 => "ratio_derivative".to_owned(),
             _ => format!("by_{}_by_{}", by(j), by(k)),
         };
-        let endings: Vec<String> = pairs.iter().map(ending).collect();
-        let mut names = Vec::new();
+        let endings: Table<PairId, String> = pairs.iter().map(ending).collect();
+        let mut names = Table::default();
         for ending in &endings {
             let of = self.unknowns.iter().map(|&unknown| &self.coordinates[unknown].name);
             names.push(of.map(|of| self.graph.symbol(format!("{of}_{ending}"))).collect());
         }
         let terms = second_derivatives(&mut self.graph, &self.residual, motions);
-        RatioDerivatives { pairs, endings, names, terms }
+        let terms = terms.into_iter().map(Table::from).collect();
+        RatioDerivatives { pairs, places, endings, names, terms }
     }
 
     /// w_j = (W_j, e_j).
-    pub(super) fn unit_motion(&mut self, input: usize) -> BTreeMap<SymbolId, NodeId> {
+    pub(super) fn unit_motion(&mut self, input: InputId) -> BTreeMap<SymbolId, NodeId> {
         let mut motion = BTreeMap::from([(self.coordinates[self.inputs[input]].value, self.graph.one())]);
         for (&unknown, &ratio) in self.unknowns.iter().zip(&self.ratios[input]) {
             motion.insert(self.coordinates[unknown].value, self.graph.variable(ratio));
@@ -69,29 +68,33 @@ impl Derivation {
         motion
     }
 
-    /// L by pair and unknown, as formulas in terms of W, and as later formulas refer to them.
-    pub(super) fn ratio_derivative_formulas(&mut self) -> (Vec<Vec<Option<NodeId>>>, Vec<Vec<NodeId>>) {
+    /// L, as formulas in terms of W, and as later formulas refer to them.
+    pub(super) fn ratio_derivative_formulas(
+        &mut self,
+    ) -> (Solutions<PairId, Option<NodeId>>, Solutions<PairId, NodeId>) {
         let second = self.ratio_derivative_systems().split_off(self.ratios.len());
-        second.iter().map(|(side, names)| self.solution_formulas(side, names)).unzip()
+        second.iter().map(|system| self.solution_formulas(system)).unzip()
     }
 
     /// The right sides of J W_j = -A e_j and J L_jk = -(Psi_q w_j)_q w_k with the names of the solutions.
-    pub fn ratio_derivative_systems(&mut self) -> Vec<(Vec<NodeId>, Vec<SymbolId>)> {
-        let ratios = self.ratios.clone().into_iter().enumerate();
-        let mut systems: Vec<_> = ratios.map(|(input, ratios)| (self.ratio_side(input), ratios)).collect();
+    pub fn ratio_derivative_systems(&mut self) -> Vec<System> {
+        let mut systems: Vec<System> = self.ratio_systems().into_iter().collect();
         if let Some(RatioDerivatives { names, terms, .. }) = self.ratio_derivatives.clone() {
-            let sides = terms.into_iter().map(|rows| rows.into_iter().map(|row| self.graph.negate(row)).collect());
-            let sides: Vec<Vec<NodeId>> = sides.collect();
+            let sides = terms.map(|rows| rows.map(|row| self.graph.negate(row)));
             systems.extend(sides.into_iter().zip(names));
         }
         systems
     }
 
-    /// The second derivatives of a point or output by the inputs, by pair and component, with L by these
+    /// The second derivatives of a point or output by the inputs, each by component, with L by these
     /// values: (l_q w_j)_q w_k + l_u L_jk.
-    pub fn quantity_ratio_derivatives(&mut self, quantity: &Quantity, solved: &[Vec<NodeId>]) -> Vec<Vec<NodeId>> {
+    pub fn quantity_ratio_derivatives(
+        &mut self,
+        quantity: &Quantity,
+        solved: &Solutions<PairId, NodeId>,
+    ) -> Table<PairId, Vec<NodeId>> {
         let (graph, unknowns) = (&mut self.graph, &self.unknowns);
-        let of_pair = |(direct, solved): (&Vec<NodeId>, &Vec<NodeId>)| {
+        let of_pair = |(direct, solved): (&Vec<NodeId>, &Table<UnknownId, NodeId>)| {
             let components = direct.iter().zip(&quantity.jacobian);
             let total =
                 components.map(|(&direct, row)| Quantity::through_unknowns(graph, direct, row, unknowns, solved));

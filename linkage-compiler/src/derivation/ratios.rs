@@ -1,56 +1,54 @@
 //! Velocity ratios as formulas: W of each block by Cramer's rule, in terms of the ratios of the blocks
 //! before it, which keep their names.
 
-use super::{Coordinate, Derivation, Row};
+use super::{Coordinate, Derivation, Row, Solutions, System};
 use crate::algebra::{cramer, factor};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::ids::{ColumnId, InputId, Table, UnknownId};
 
-/// Names for W, by input and unknown.
+/// Names for W.
 pub(super) fn names(
     graph: &mut Graph,
-    coordinates: &[Coordinate],
-    unknowns: &[usize],
-    inputs: &[usize],
-) -> Vec<Vec<SymbolId>> {
-    let name = |unknown: &usize, input: &usize| {
-        let (of, by) = (&coordinates[*unknown].name, &coordinates[*input].name);
+    coordinates: &Table<ColumnId, Coordinate>,
+    unknowns: &Table<UnknownId, ColumnId>,
+    inputs: &Table<InputId, ColumnId>,
+) -> Solutions<InputId, SymbolId> {
+    let name = |unknown: ColumnId, input: ColumnId| {
+        let (of, by) = (&coordinates[unknown].name, &coordinates[input].name);
         if inputs.len() == 1 { format!("{of}_ratio") } else { format!("{of}_by_{by}") }
     };
-    inputs.iter().map(|input| unknowns.iter().map(|unknown| graph.symbol(name(unknown, input))).collect()).collect()
+    inputs.iter().map(|&input| unknowns.iter().map(|&unknown| graph.symbol(name(unknown, input))).collect()).collect()
 }
 
 impl Derivation {
     /// W_l = l_u W + l_v of a scalar with these derivatives, W by its names.
-    pub fn quantity_ratio(&mut self, row: &Row, input: usize) -> NodeId {
+    pub fn quantity_ratio(&mut self, row: &Row<ColumnId>, input: InputId) -> NodeId {
         let mut terms: Vec<_> = row.get(&self.inputs[input]).map(|&entry| (Number::ONE, entry)).into_iter().collect();
-        for (place, unknown) in self.unknowns.iter().enumerate() {
-            if let Some(&entry) = row.get(unknown) {
-                let ratio = self.graph.variable(self.ratios[input][place]);
+        for (unknown, column) in self.unknowns.enumerated() {
+            if let Some(&entry) = row.get(column) {
+                let ratio = self.graph.variable(self.ratios[input][unknown]);
                 terms.push((Number::ONE, self.graph.multiply(entry, ratio)));
             }
         }
         self.graph.sum(&terms)
     }
 
-    /// W by input and unknown, each simplified; none where a block is solved by factorisation.
-    pub fn ratio_formulas(&mut self) -> Vec<Vec<Option<NodeId>>> {
-        let ratios = self.ratios.clone().into_iter().enumerate();
-        ratios
-            .map(|(input, names)| {
-                let side = self.ratio_side(input);
-                self.solution_formulas(&side, &names).0
-            })
-            .collect()
+    /// W, each simplified; none where a block is solved by factorisation.
+    pub fn ratio_formulas(&mut self) -> Solutions<InputId, Option<NodeId>> {
+        let formulas = self.ratios.ids().map(|input| {
+            let system = (self.ratio_side(input), self.ratios[input].clone());
+            self.solution_formulas(&system).0
+        });
+        formulas.collect()
     }
 
     /// The x of J x = `side` by Cramer's rule, none where a block is solved by factorisation; and x as later
     /// formulas refer to it, by its names or as zero.
     pub(super) fn solution_formulas(
         &mut self,
-        side: &[NodeId],
-        names: &[SymbolId],
-    ) -> (Vec<Option<NodeId>>, Vec<NodeId>) {
-        let mut formulas = vec![None; self.unknowns.len()];
+        (side, names): &System,
+    ) -> (Table<UnknownId, Option<NodeId>>, Table<UnknownId, NodeId>) {
+        let mut formulas = self.unknowns.filled(None);
         let mut solved = Row::new();
         for block in self.blocks.clone() {
             let right: Vec<NodeId> =

@@ -7,20 +7,21 @@
 use super::step::Step;
 use super::{Derivation, Form, along_rates, solve_closed};
 use crate::graph::{Function, NodeId, Number, SymbolId};
+use crate::ids::{Id, RowId, Table, UnknownId};
 use crate::model::{self, Mechanism};
 
 /// The system of the reactions.
 #[derive(Debug, Clone)]
 pub struct Reactions {
-    /// lambda by row of Psi.
-    pub names: Vec<SymbolId>,
-    /// F_u - (M q'')_u by unknown, in terms of q, q', q'' and t.
-    pub side: Vec<NodeId>,
+    /// lambda.
+    pub names: Table<RowId, SymbolId>,
+    /// F_u - (M q'')_u, in terms of q, q', q'' and t.
+    pub side: Table<UnknownId, NodeId>,
 }
 
 impl Derivation {
     pub(super) fn derive_reactions(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> Reactions {
-        let mut terms = vec![Vec::new(); self.unknowns.len()];
+        let mut terms = self.unknowns.filled(Vec::new());
         let mut add = |derivation: &mut Self, scalar: NodeId, force: NodeId, sign: Number| {
             let row = derivation.row_of(scalar);
             for (terms, unknown) in terms.iter_mut().zip(&derivation.unknowns) {
@@ -29,7 +30,7 @@ impl Derivation {
                 }
             }
         };
-        for (index, body) in mechanism.bodies.iter().enumerate() {
+        for (index, body) in mechanism.bodies.enumerated() {
             for part in self.moving_parts(index, body, scene) {
                 for (&scalar, &field) in part.scalars.iter().zip(&part.fields) {
                     let acceleration = if part.is_inert { self.acceleration_of(scalar) } else { self.graph.zero() };
@@ -42,8 +43,8 @@ impl Derivation {
         for law in &scene.laws {
             add(self, law.along, law.law, Number::ONE);
         }
-        let side = terms.into_iter().map(|terms| self.graph.sum(&terms)).collect();
-        let names = (0..self.residual.len()).map(|row| self.graph.symbol(format!("lambda_{}", row + 1))).collect();
+        let side = terms.map(|terms| self.graph.sum(&terms));
+        let names = self.residual.ids().map(|row| self.graph.symbol(format!("lambda_{}", row.number()))).collect();
         Reactions { names, side }
     }
 
@@ -60,9 +61,9 @@ impl Derivation {
     /// Steps that solve J' lambda = side, each block after the check of it.
     pub fn transposed_solution(&mut self, reactions: &Reactions) -> Vec<Step> {
         let mut steps = Vec::new();
-        let mut solved: Vec<(usize, NodeId)> = Vec::new();
-        for number in (0..self.blocks.len()).rev() {
-            let block = self.blocks[number].clone();
+        let mut solved: Vec<(RowId, NodeId)> = Vec::new();
+        for id in self.blocks.ids().rev() {
+            let block = self.blocks[id].clone();
             let rows = self.block_matrix(&block);
             let columns = |place: usize| rows.iter().map(|row| row[place]).collect::<Vec<NodeId>>();
             let matrix: Vec<Vec<NodeId>> = (0..rows.len()).map(columns).collect();
@@ -76,17 +77,17 @@ impl Derivation {
                 }
                 right.push(self.graph.sum(&terms));
             }
-            let targets: Vec<SymbolId> = block.equations.iter().map(|&equation| reactions.names[equation]).collect();
+            let targets = reactions.names.at(&block.equations);
             if block.determinant.is_some() {
-                if let Some(divisor) = self.judge(number, &block, &mut steps) {
+                if let Some(divisor) = self.judge(id, &block, &mut steps) {
                     let values = solve_closed(&mut self.graph, &matrix, divisor, &right, Form::Entries);
                     let named = targets.iter().zip(values);
                     steps.extend(named.map(|(&symbol, node)| Step::Let { symbol, node }));
                 }
             } else {
                 let sizes = matrix.iter().map(|row| self.size_of(row)).collect();
-                steps.push(Step::Factor { block: number, matrix, sizes });
-                steps.push(Step::Solve { block: number, targets: targets.clone(), right });
+                steps.push(Step::Factor { block: id, matrix, sizes });
+                steps.push(Step::Solve { block: id, targets: targets.clone(), right });
             }
             solved.extend(block.equations.iter().zip(targets).map(|(&at, name)| (at, self.graph.variable(name))));
         }

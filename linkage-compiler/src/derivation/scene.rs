@@ -12,30 +12,30 @@ use super::contacts::{Contact, ContactFormula};
 use super::equilibrium::Equilibrium;
 use super::reactions::Reactions;
 use super::unreduced::Unreduced;
-use super::{Derivation, Places, Row, along_rates, angles, jacobian};
+use super::{Derivation, Row, along_rates, angles, jacobian, places_of};
 use crate::algebra::{gather, simplify};
 use crate::graph::{Function, Node, NodeId, Number, SymbolId};
+use crate::ids::{BodyId, ColumnId, InputId, RowId, SceneId, Table, UnknownId};
 use crate::model::{self, Account, Driver, Mechanism, Wish};
 
 /// What is derived for one scene, in terms of q, q', W and t.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// The place in [`Mechanism::scenes`].
-    pub place: usize,
+    pub place: SceneId,
     /// The names of u'' at v'' = 0.
-    pub bias: Vec<SymbolId>,
+    pub bias: Table<UnknownId, SymbolId>,
     /// M by rows, if anything has inertia.
-    pub mass_matrix: Option<Vec<Vec<NodeId>>>,
-    /// Q with the quadratic velocity terms, by input.
-    pub forces: Vec<NodeId>,
+    pub mass_matrix: Option<Table<InputId, Table<InputId, NodeId>>>,
+    /// Q with the quadratic velocity terms.
+    pub forces: Table<InputId, NodeId>,
     /// What each body and effect adds to them, by what errors call it.
-    pub parts: Vec<(String, Vec<NodeId>)>,
+    pub parts: Vec<(String, Table<InputId, NodeId>)>,
     /// The frictions and stops.
     pub contacts: Vec<Contact>,
     /// The masses, the inertias and the limits of frictions as far as they are given, by what errors call them.
     pub masses: Vec<(String, NodeId)>,
-    /// By place among the inputs.
-    pub drives: BTreeMap<usize, Prescribed>,
+    pub drives: BTreeMap<InputId, Prescribed>,
     pub kinetic: NodeId,
     pub potential: NodeId,
     /// The power of the laws that drive and that brake.
@@ -67,34 +67,33 @@ pub(super) struct MovingPart {
 
 /// A scalar with what is derived from it.
 struct Along {
-    /// `s_j` by input.
-    ratios: Vec<NodeId>,
+    /// `s_j`.
+    ratios: Table<InputId, NodeId>,
     rate: NodeId,
 }
 
 impl Derivation {
     pub(super) fn derive_scenes(&mut self, mechanism: &Mechanism, driver: &Driver) {
         let own = |scene: &model::Scene| mechanism.drivers[scene.driver].name == driver.name;
-        for (place, scene) in mechanism.scenes.iter().enumerate().filter(|(_, scene)| own(scene)) {
+        for (place, scene) in mechanism.scenes.enumerated().filter(|(_, scene)| own(scene)) {
             let mut derived = self.derive_scene(mechanism, place, scene);
             derived.equilibrium = scene.wishes.contains(&Wish::Equilibrium).then(|| self.derive_equilibrium(&derived));
             self.scenes.push(derived);
         }
     }
 
-    fn derive_scene(&mut self, mechanism: &Mechanism, place: usize, scene: &model::Scene) -> Scene {
+    fn derive_scene(&mut self, mechanism: &Mechanism, place: SceneId, scene: &model::Scene) -> Scene {
         let bias = self.bias_names();
         let motion = self.motion_symbols(&bias);
-        let count = self.inputs.len();
         let zero = self.graph.zero();
-        let mut mass_matrix = vec![vec![Vec::new(); count]; count];
-        let mut forces = vec![Vec::new(); count];
+        let mut mass_matrix = self.inputs.filled(self.inputs.filled(Vec::new()));
+        let mut forces = self.inputs.filled(Vec::new());
         let (mut kinetic, mut potential) = (Vec::new(), Vec::new());
         let (mut effects, mut masses) = (Vec::new(), Vec::new());
-        for (index, body) in mechanism.bodies.iter().enumerate() {
+        for (index, body) in mechanism.bodies.enumerated() {
             let parts = self.moving_parts(index, body, scene);
             let is_moved = !parts.is_empty();
-            let mut added = vec![Vec::new(); count];
+            let mut added = self.inputs.filled(Vec::new());
             for MovingPart { property, factor, scalars, fields, is_inert } in parts {
                 masses.push((format!("the {property} of {}", body.name.text), factor));
                 let moved: Vec<Along> = scalars.iter().map(|&scalar| self.along(scalar, &motion)).collect();
@@ -105,10 +104,10 @@ impl Derivation {
                         *bias_of = gather(&mut self.graph, direct, &motion);
                     }
                 }
-                for (row, forces) in forces.iter_mut().enumerate() {
+                for (row, forces) in self.inputs.ids().zip(forces.iter_mut()) {
                     let mut is_one_term = false;
                     if is_inert {
-                        for (column, entry) in mass_matrix[row].iter_mut().enumerate() {
+                        for (column, entry) in self.inputs.ids().zip(mass_matrix[row].iter_mut()) {
                             let pairs = moved.iter().map(|s| (s.ratios[row], s.ratios[column]));
                             let sum = self.scalar_product(pairs.collect());
                             entry.push((Number::ONE, self.graph.multiply(factor, sum)));
@@ -150,7 +149,7 @@ impl Derivation {
         let (mut applied, mut dissipated) = (Vec::new(), Vec::new());
         for law in &scene.laws {
             let along = self.along(law.along, &motion);
-            let mut added = Vec::new();
+            let mut added = Table::default();
             for (forces, &ratio) in forces.iter_mut().zip(&along.ratios) {
                 added.push(self.graph.multiply(law.law, ratio));
                 forces.extend(added.last().map(|&force| (Number::ONE, force)));
@@ -177,8 +176,8 @@ impl Derivation {
             gather(&mut self.graph, sum, &motion)
         };
         let [kinetic, potential, applied, dissipated] = [kinetic, potential, applied, dissipated].map(&mut sum);
-        let forces = forces.into_iter().map(&mut sum).collect();
-        let mass_matrix = mass_matrix.into_iter().map(|row| row.into_iter().map(&mut sum).collect()).collect();
+        let forces = forces.map(&mut sum);
+        let mass_matrix = mass_matrix.map(|row| row.map(&mut sum));
         let mass_matrix = scene.inertia.is_some().then_some(mass_matrix);
         let drives = self.prescribed(mechanism, scene);
         let unreduced = scene.inertia.is_some().then(|| self.derive_unreduced(mechanism, scene));
@@ -203,7 +202,7 @@ impl Derivation {
     }
 
     /// What of a body moves in a scene: a mass in two directions, an inertia in one.
-    pub(super) fn moving_parts(&mut self, index: usize, body: &model::Body, scene: &model::Scene) -> Vec<MovingPart> {
+    pub(super) fn moving_parts(&mut self, index: BodyId, body: &model::Body, scene: &model::Scene) -> Vec<MovingPart> {
         let is_inert = scene.inertia.as_ref().is_some_and(|bodies| bodies.contains(&index));
         let fields = scene.weights.iter().filter(|(other, _)| *other == index).map(|(_, field)| *field);
         let fields: Vec<[NodeId; 2]> = fields.collect();
@@ -224,7 +223,7 @@ impl Derivation {
         parts
     }
 
-    fn bias_names(&mut self) -> Vec<SymbolId> {
+    fn bias_names(&mut self) -> Table<UnknownId, SymbolId> {
         let names = self.unknowns.iter().map(|&unknown| format!("{}_bias", self.coordinates[unknown].name));
         names.map(|name| self.graph.symbol(name)).collect()
     }
@@ -252,13 +251,13 @@ impl Derivation {
     }
 
     /// d scalar / d q.
-    pub(super) fn row_of(&mut self, scalar: NodeId) -> Row {
-        let places: Places = self.coordinates.iter().enumerate().map(|(place, c)| (c.value, place)).collect();
+    pub(super) fn row_of(&mut self, scalar: NodeId) -> Row<ColumnId> {
+        let places = places_of(&self.coordinates, |c| c.value);
         jacobian(&mut self.graph, &[scalar], &places).remove(0)
     }
 
     /// W, q' and u'' at v'' = 0, in which all of the above are polynomials.
-    fn motion_symbols(&mut self, bias: &[SymbolId]) -> BTreeSet<NodeId> {
+    fn motion_symbols(&mut self, bias: &Table<UnknownId, SymbolId>) -> BTreeSet<NodeId> {
         let rates = self.coordinates.iter().map(|coordinate| coordinate.rate);
         let symbols: Vec<SymbolId> = self.ratios.iter().flatten().chain(bias).copied().chain(rates).collect();
         symbols.into_iter().map(|symbol| self.graph.variable(symbol)).collect()
@@ -266,8 +265,8 @@ impl Derivation {
 
     /// `s_j` is what the rate is at v'j = 1 where the other inputs stand still.
     fn along(&mut self, scalar: NodeId, motion: &BTreeSet<NodeId>) -> Along {
-        let mut ratios = Vec::new();
-        for (input, names) in self.ratios.clone().iter().enumerate() {
+        let mut ratios = Table::default();
+        for (input, names) in self.ratios.clone().enumerated() {
             let graph = &mut self.graph;
             let unknowns = self.unknowns.iter().zip(names);
             let mut seeds: BTreeMap<SymbolId, NodeId> =
@@ -283,7 +282,7 @@ impl Derivation {
     }
 
     /// `s_0` by the rate of a scalar.
-    fn bias_of(&mut self, rate: NodeId, bias: &[SymbolId]) -> NodeId {
+    fn bias_of(&mut self, rate: NodeId, bias: &Table<UnknownId, SymbolId>) -> NodeId {
         // d/dt: q -> q', u' -> u'' at v'' = 0, v' -> 0.
         let mut seeds = along_rates(&mut self.graph, &self.coordinates);
         for (&unknown, &bias) in self.unknowns.iter().zip(bias) {
@@ -292,23 +291,21 @@ impl Derivation {
         self.graph.differentiate(&[rate], &seeds)[0]
     }
 
-    /// The laws of the driven inputs, by place among the inputs.
-    fn prescribed(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> BTreeMap<usize, Prescribed> {
+    /// The laws of the driven inputs.
+    fn prescribed(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> BTreeMap<InputId, Prescribed> {
         let one = self.graph.one();
         let seeds: BTreeMap<SymbolId, NodeId> = mechanism.time.iter().map(|&time| (time, one)).collect();
-        let driver = &mechanism.drivers[scene.driver];
         let mut drives = BTreeMap::new();
         for drive in &scene.drives {
             let rate = self.graph.differentiate(&[drive.law], &seeds)[0];
             let acceleration = self.graph.differentiate(&[rate], &seeds)[0];
-            let place = driver.inputs.iter().position(|&input| input == drive.input);
-            drives.extend(place.map(|place| (place, Prescribed { value: drive.law, rate, acceleration })));
+            drives.insert(drive.input, Prescribed { value: drive.law, rate, acceleration });
         }
         drives
     }
 
     /// -gamma: the right side of J u'' = -gamma at v'' = 0.
-    pub fn bias_side(&mut self) -> Vec<NodeId> {
-        self.gamma.clone().into_iter().map(|gamma| self.graph.negate(gamma)).collect()
+    pub fn bias_side(&mut self) -> Table<RowId, NodeId> {
+        self.gamma.clone().map(|gamma| self.graph.negate(gamma))
     }
 }

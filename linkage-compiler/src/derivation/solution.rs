@@ -1,36 +1,37 @@
 //! Linear systems in J as the steps of a kernel: the blocks in order, each by its own method.
 
 use super::step::Step;
-use super::{Block, Derivation, Form, Row, solve_closed};
-use crate::graph::{NodeId, SymbolId};
+use super::{Block, Derivation, Form, Row, System, solve_closed};
+use crate::graph::NodeId;
+use crate::ids::{BlockId, ColumnId, Table, UnknownId};
 
 impl Derivation {
     /// Steps that solve J x = right for each right side and name the solutions, block by block, each
     /// after the check of it.
     ///
     /// A later system may refer to the solution of an earlier one: within a block they stand in order.
-    pub fn solution(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> Vec<Step> {
+    pub fn solution(&mut self, systems: &[System], form: Form) -> Vec<Step> {
         self.solve(systems, form).0
     }
 
-    /// The same steps, and each solution by unknown: its names, or zero where nothing moves.
-    pub fn solve(&mut self, systems: &[(Vec<NodeId>, Vec<SymbolId>)], form: Form) -> (Vec<Step>, Vec<Vec<NodeId>>) {
+    /// The same steps, and each solution: its names, or zero where nothing moves.
+    pub fn solve(&mut self, systems: &[System], form: Form) -> (Vec<Step>, Vec<Table<UnknownId, NodeId>>) {
         let mut steps = Vec::new();
-        let mut solved: Vec<Row> = vec![Row::new(); systems.len()];
-        for number in 0..self.blocks.len() {
-            let block = self.blocks[number].clone();
-            let divisor = self.judge(number, &block, &mut steps);
+        let mut solved: Vec<Row<ColumnId>> = vec![Row::new(); systems.len()];
+        for id in self.blocks.ids() {
+            let block = self.blocks[id].clone();
+            let divisor = self.judge(id, &block, &mut steps);
             let matrix = self.block_matrix(&block);
             for ((right, targets), solved) in systems.iter().zip(&mut solved) {
                 let right: Vec<NodeId> =
                     block.equations.iter().map(|&equation| self.remainder(equation, right[equation], solved)).collect();
-                let targets: Vec<SymbolId> = block.unknowns.iter().map(|&place| targets[place]).collect();
+                let targets = targets.at(&block.unknowns);
                 let mut solution = targets.iter().map(|&symbol| self.graph.variable(symbol)).collect::<Vec<_>>();
                 let formulas = match divisor {
                     _ if right.iter().all(|&side| self.graph.is_zero(side)) => right,
                     Some(divisor) => solve_closed(&mut self.graph, &matrix, divisor, &right, form),
                     None => {
-                        steps.push(Step::Solve { block: number, targets: targets.clone(), right });
+                        steps.push(Step::Solve { block: id, targets: targets.clone(), right });
                         Vec::new()
                     }
                 };
@@ -41,8 +42,7 @@ impl Derivation {
                         *name = node;
                     }
                 }
-                let places = block.unknowns.iter().map(|&place| self.unknowns[place]);
-                solved.extend(places.zip(solution));
+                solved.extend(self.unknowns.at(&block.unknowns).into_iter().zip(solution));
             }
         }
         let columns = &self.unknowns;
@@ -51,10 +51,10 @@ impl Derivation {
     }
 
     /// The check of a block, and the divisor of its closed form.
-    pub(super) fn judge(&mut self, number: usize, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
+    pub(super) fn judge(&mut self, id: BlockId, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
         let Some(determinant) = block.determinant else {
-            let sizes = block.equations.iter().map(|&equation| self.sizes[equation]).collect();
-            steps.push(Step::Factor { block: number, matrix: self.block_matrix(block), sizes });
+            let sizes = self.sizes.at(&block.equations);
+            steps.push(Step::Factor { block: id, matrix: self.block_matrix(block), sizes });
             return None;
         };
         // A determinant that is a number other than zero needs no check.
@@ -62,15 +62,15 @@ impl Derivation {
             return Some(determinant.value);
         }
         let node = self.graph.variable(determinant.symbol);
-        steps.push(Step::Guard { block: number, determinant: node, size: determinant.size });
+        steps.push(Step::Guard { block: id, determinant: node, size: determinant.size });
         Some(node)
     }
 
     /// The block's part of J, row by row.
     pub fn block_matrix(&mut self, block: &Block) -> Vec<Vec<NodeId>> {
         let zero = self.graph.zero();
-        let columns: Vec<usize> = block.unknowns.iter().map(|&place| self.unknowns[place]).collect();
-        let row = |row: &Row| columns.iter().map(|column| row.get(column).copied().unwrap_or(zero)).collect();
+        let columns = self.unknowns.at(&block.unknowns);
+        let row = |row: &Row<ColumnId>| columns.iter().map(|column| row.get(column).copied().unwrap_or(zero)).collect();
         block.equations.iter().map(|&equation| row(&self.jacobian[equation])).collect()
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::graph::{Graph, NodeId, SymbolId};
+use crate::ids::BlockId;
 
 /// One step of a solution. Later steps refer to what it names by its symbol.
 #[derive(Debug, Clone)]
@@ -12,20 +13,20 @@ pub enum Step {
     /// Names the number of an angle: its principal value and a number of turns that is given.
     Turn { symbol: SymbolId, principal: NodeId },
     /// Refuses a determinant that is zero relative to `size`.
-    Guard { block: usize, determinant: NodeId, size: NodeId },
+    Guard { block: BlockId, determinant: NodeId, size: NodeId },
     /// Factorises the matrix of a block given by rows, whose rows are of these sizes.
-    Factor { block: usize, matrix: Vec<Vec<NodeId>>, sizes: Vec<NodeId> },
+    Factor { block: BlockId, matrix: Vec<Vec<NodeId>>, sizes: Vec<NodeId> },
     /// Solves the factorised system of a block and names the solution.
-    Solve { block: usize, targets: Vec<SymbolId>, right: Vec<NodeId> },
+    Solve { block: BlockId, targets: Vec<SymbolId>, right: Vec<NodeId> },
     /// Names the root of a product of two factors, with the sign of the branch of a block; refuses a
     /// factor that is less than zero relative to its terms.
-    Chord { block: usize, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId> },
+    Chord { block: BlockId, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId> },
     /// Refuses a determinant of linear unknowns that is zero; `numerators` are what is divided by it, `scales` the sums of
     /// the magnitudes of their terms.
-    Solvable { block: usize, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
+    Solvable { block: BlockId, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
     /// Names the unknowns of a block, found by Newton's method from `start`: its residual, the sizes of its
     /// loop equations and its matrix row by row are `system`, made of the unknowns and of what is `known`.
-    Newton { block: usize, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
+    Newton { block: BlockId, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
     /// Names the product of the pivots of a matrix given by rows.
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
 }

@@ -8,22 +8,23 @@ use std::collections::BTreeMap;
 
 use super::{Derivation, along_rates};
 use crate::graph::{NodeId, Number};
+use crate::ids::{ColumnId, Table};
 use crate::model::{self, Mechanism};
 
 /// M and F, in terms of q, q' and t.
 #[derive(Debug, Clone)]
 pub struct Unreduced {
-    /// The entries of M that are not zero, on its diagonal and above, by row and column: coordinates.
-    pub mass_matrix: BTreeMap<(usize, usize), NodeId>,
-    /// F by coordinate, with the quadratic velocity terms of the inertia.
-    pub forces: Vec<NodeId>,
+    /// The entries of M that are not zero, on its diagonal and above.
+    pub mass_matrix: BTreeMap<(ColumnId, ColumnId), NodeId>,
+    /// F with the quadratic velocity terms of the inertia.
+    pub forces: Table<ColumnId, NodeId>,
 }
 
 impl Derivation {
     pub(super) fn derive_unreduced(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> Unreduced {
-        let mut entries: BTreeMap<(usize, usize), Vec<(Number, NodeId)>> = BTreeMap::new();
-        let mut forces = vec![Vec::new(); self.coordinates.len()];
-        for (index, body) in mechanism.bodies.iter().enumerate() {
+        let mut entries: BTreeMap<(ColumnId, ColumnId), Vec<(Number, NodeId)>> = BTreeMap::new();
+        let mut forces = self.coordinates.filled(Vec::new());
+        for (index, body) in mechanism.bodies.enumerated() {
             for part in self.moving_parts(index, body, scene) {
                 for (&scalar, &field) in part.scalars.iter().zip(&part.fields) {
                     let row = self.row_of(scalar);

@@ -1,5 +1,7 @@
 //! `DERIVATION`: the derivation as data, every formula in its finished notations.
 
+use std::ops::Deref;
+
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
@@ -7,6 +9,7 @@ use rustc_hash::FxHashMap;
 use super::names::string;
 use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
 use crate::graph::{NodeId, SymbolId};
+use crate::ids::{BlockId, CoordinateId, Id, InputId, Table, UnknownId};
 use crate::model::{self, Driver, Mechanism};
 use crate::notation::{Formula, Name, Printer};
 use crate::program::Operations;
@@ -20,7 +23,7 @@ pub(super) fn constant(
     kernels: &[(String, Operations)],
     root: &TokenStream,
 ) -> TokenStream {
-    let [inputs, unknowns] = [&driver.inputs, &driver.unknowns].map(|places| texts(mechanism, places));
+    let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
     let names = names(mechanism, derivation, &inputs, &unknowns);
     let graph = &derivation.graph;
     let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
@@ -38,12 +41,8 @@ pub(super) fn constant(
     let by_unknowns = derivation.jacobian_unknowns();
     let jacobian_unknowns = document.matrix(Name::Plain("J"), None, &by_unknowns, unknowns.len());
     let jacobian_inputs = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
-    let blocks: Vec<_> = formulas
-        .inverses
-        .iter()
-        .enumerate()
-        .map(|(number, inverse)| document.block(number, inverse.as_ref()))
-        .collect();
+    let blocks: Vec<_> =
+        formulas.inverses.enumerated().map(|(number, inverse)| document.block(number, inverse.as_ref())).collect();
     let determinant = option(formulas.determinant.map(|node| document.equation(Name::Determinant(None), node)));
     let ratios = document.derivatives(&unknowns, &by_inputs, &formulas.ratios);
     let asked = derivation.ratio_derivatives.is_some();
@@ -62,7 +61,7 @@ pub(super) fn constant(
     let outputs = document.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs);
     let conditions = formulas.conditions.iter().map(|&condition| formula(&document.printer.condition(condition)));
     let conditions = list(conditions);
-    let [parameters, inputs, unknowns] = [&parameters, &inputs, &unknowns].map(|names| symbols(names));
+    let [parameters, inputs, unknowns] = [&*parameters, &*inputs, &*unknowns].map(symbols);
     let kernels = works(kernels);
 
     let (name, text) = (&driver.name, string(&driver.name.to_string()));
@@ -105,7 +104,7 @@ pub(super) fn of_scene(
     kernels: &[(String, Operations)],
     root: &TokenStream,
 ) -> TokenStream {
-    let [inputs, unknowns] = [&driver.inputs, &driver.unknowns].map(|places| texts(mechanism, places));
+    let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
     let mut names = names(mechanism, derivation, &inputs, &unknowns);
     for parameter in &mechanism.scene_parameters {
         names.insert(parameter.symbol, Name::Plain(&parameter.name.text));
@@ -166,7 +165,7 @@ pub(super) fn of_scene(
 }
 
 /// The names that the user gave these coordinates.
-fn texts<'a>(mechanism: &'a Mechanism, places: &[usize]) -> Vec<&'a str> {
+fn texts<'a, I>(mechanism: &'a Mechanism, places: &Table<I, CoordinateId>) -> Table<I, &'a str> {
     places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str()).collect()
 }
 
@@ -174,8 +173,8 @@ fn texts<'a>(mechanism: &'a Mechanism, places: &[usize]) -> Vec<&'a str> {
 fn names<'a>(
     mechanism: &'a Mechanism,
     derivation: &Derivation,
-    inputs: &[&'a str],
-    unknowns: &[&'a str],
+    inputs: &Table<InputId, &'a str>,
+    unknowns: &Table<UnknownId, &'a str>,
 ) -> FxHashMap<SymbolId, Name<'a>> {
     let mut names = FxHashMap::default();
     for parameter in &mechanism.parameters {
@@ -205,7 +204,10 @@ fn names<'a>(
 }
 
 /// The formulas without those that are zero.
-fn nonzero<F: Copy + Into<Option<NodeId>>>(derivation: &Derivation, formulas: &[Vec<F>]) -> Vec<Vec<Option<NodeId>>> {
+fn nonzero<F: Copy + Into<Option<NodeId>>>(
+    derivation: &Derivation,
+    formulas: &[impl Deref<Target = [F]>],
+) -> Vec<Vec<Option<NodeId>>> {
     let formula = |&formula: &F| formula.into().filter(|&node| !derivation.graph.is_zero(node));
     formulas.iter().map(|of_one| of_one.iter().map(formula).collect()).collect()
 }
@@ -263,8 +265,8 @@ struct Document<'a> {
     printer: Printer<'a>,
     derivation: &'a Derivation,
     parameters: &'a [&'a str],
-    inputs: &'a [&'a str],
-    unknowns: &'a [&'a str],
+    inputs: &'a Table<InputId, &'a str>,
+    unknowns: &'a Table<UnknownId, &'a str>,
 }
 
 /// The variable or variables of a derivative.
@@ -314,13 +316,13 @@ impl<'a> Document<'a> {
         }))
     }
 
-    fn matrix(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row], columns: usize) -> TokenStream {
+    fn matrix<C: Id>(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row<C>], columns: usize) -> TokenStream {
         let name = formula(&Formula::of_name(name));
         let factor = option(factor.map(|factor| self.formula(factor)));
         let mut entries = Vec::new();
         for (index, row) in rows.iter().enumerate() {
             for (&column, &node) in row {
-                let (row, column) = (Literal::usize_unsuffixed(index), Literal::usize_unsuffixed(column));
+                let (row, column) = (Literal::usize_unsuffixed(index), Literal::usize_unsuffixed(column.index()));
                 let value = self.formula(node);
                 entries.push(quote!(Entry { row: #row, column: #column, value: #value }));
             }
@@ -329,13 +331,13 @@ impl<'a> Document<'a> {
         quote!(Matrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &[#(#entries),*] })
     }
 
-    fn block(&mut self, number: usize, inverse: Option<&Inverse>) -> TokenStream {
-        let block = &self.derivation.blocks[number];
-        let number = (self.derivation.blocks.len() > 1).then_some(number + 1);
+    fn block(&mut self, id: BlockId, inverse: Option<&Inverse>) -> TokenStream {
+        let block = &self.derivation.blocks[id];
+        let number = (self.derivation.blocks.len() > 1).then_some(id.number());
         let unknowns =
             block.unknowns.iter().map(|&place| formula(&Formula::of_name(Name::Plain(self.unknowns[place]))));
         let unknowns = list(unknowns);
-        let equations = block.equations.iter().map(|&equation| Literal::usize_unsuffixed(equation));
+        let equations = block.equations.iter().map(|&equation| Literal::usize_unsuffixed(equation.index()));
         let group = string(&block.group.words());
         let method = format_ident!("{}", if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
         let determinant = block.determinant.as_ref().map(|determinant| determinant.value);
@@ -355,15 +357,15 @@ impl<'a> Document<'a> {
     }
 
     /// The derivatives of the quantities with these names, in the order of the variables, where there is a formula.
-    fn derivatives<N: AsRef<str>, F: Copy + Into<Option<NodeId>>>(
+    fn derivatives<F: Copy + Into<Option<NodeId>>>(
         &mut self,
-        of: &[N],
+        of: &[impl AsRef<str>],
         by: &[By<'_>],
-        formulas: &[Vec<F>],
+        formulas: &[impl Deref<Target = [F]>],
     ) -> TokenStream {
         let mut equations = Vec::new();
         for (by, formulas) in by.iter().zip(formulas) {
-            for (of, &formula) in of.iter().zip(formulas) {
+            for (of, &formula) in of.iter().zip(formulas.iter()) {
                 if let Some(node) = formula.into() {
                     equations.push(self.equation(by.name(of.as_ref()), node));
                 }

@@ -10,6 +10,7 @@ use super::names::{ident, string};
 use super::types::field;
 use crate::derivation::{Block, Derivation};
 use crate::graph::SymbolId;
+use crate::ids::{ColumnId, CoordinateId, Id};
 use crate::lower::Code;
 use crate::model::{Coordinate, Kind, Mechanism};
 use crate::program::{Derived, Program, SceneSignatures, TypeNames};
@@ -63,9 +64,9 @@ fn coordinates_of(derived: &Derived, derivation: &Derivation) -> Vec<TokenStream
     let directions = derived.pose.directions.iter();
     let angles = directions.filter_map(|(angle, field)| Some((derivation.graph.as_symbol(*angle)?, field)));
     let angles: BTreeMap<SymbolId, &String> = angles.collect();
-    let numbers: BTreeMap<usize, &String> =
+    let numbers: BTreeMap<ColumnId, &String> =
         derived.pose.values.iter().map(|(index, field, _)| (*index, field)).collect();
-    let coordinates = derivation.coordinates.iter().enumerate();
+    let coordinates = derivation.coordinates.enumerated();
     coordinates
         .filter_map(|(index, coordinate)| {
             if let Some(field) = numbers.get(&index) {
@@ -194,7 +195,7 @@ struct Members<'a> {
 }
 
 impl<'a> Members<'a> {
-    fn of(mechanism: &'a Mechanism, places: &[usize]) -> Self {
+    fn of(mechanism: &'a Mechanism, places: &[CoordinateId]) -> Self {
         let coordinates = || places.iter().map(|&place| &mechanism.coordinates[place]);
         let is_angle = |coordinate: &Coordinate| coordinate.kind == Kind::Angle;
         Self {
@@ -209,11 +210,9 @@ impl<'a> Members<'a> {
 fn groups(derivation: &Derivation) -> Vec<TokenStream> {
     let group = |block: &Block| {
         let name = string(&block.names(derivation));
-        let [equations, unknowns] = [&block.equations, &block.unknowns].map(|places| {
-            let places = places.iter().map(|&place| literal(place));
-            quote!(&[#(#places),*])
-        });
-        quote!(__rt::Group { name: #name, equations: #equations, unknowns: #unknowns })
+        let equations = block.equations.iter().map(|equation| literal(equation.index()));
+        let unknowns = block.unknowns.iter().map(|unknown| literal(unknown.index()));
+        quote!(__rt::Group { name: #name, equations: &[#(#equations),*], unknowns: &[#(#unknowns),*] })
     };
     derivation.blocks.iter().map(group).collect()
 }
@@ -232,7 +231,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[
     let places = &mechanism.drivers[scene.driver].inputs;
     let texts = places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str());
     let laws: Vec<Ident> = driven.iter().map(|&at| ident(&format!("{}_law", inputs[at]))).collect();
-    let prescribed = (0..inputs.len()).map(|at| match driven.iter().position(|&other| other == at) {
+    let prescribed = inputs.ids().map(|at| match driven.iter().position(|&other| other == at) {
         Some(place) => {
             let law = &laws[place];
             quote!(__rt::Some(#law))

@@ -198,8 +198,8 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     let all = ident(&types.coordinates);
     let (inputs, unknowns) = (ident(&types.inputs), ident(&types.unknowns));
     for (part, what, indices) in [
-        (&inputs, "independent coordinates v", &driver.inputs),
-        (&unknowns, "dependent coordinates u", &driver.unknowns),
+        (&inputs, "independent coordinates v", &*driver.inputs),
+        (&unknowns, "dependent coordinates u", &*driver.unknowns),
     ] {
         let members: Vec<&Coordinate> = indices.iter().map(|&index| &mechanism.coordinates[index]).collect();
         let title = format!(" The {what} of [`{name}`] by name; their rates and accelerations as well.");
@@ -214,7 +214,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
             }
         });
     }
-    if let &[only] = driver.inputs.as_slice() {
+    if let &[only] = &*driver.inputs {
         let field = field(&mechanism.coordinates[only].name);
         tokens.extend(quote! {
             impl<T: #root::__rt::Real> ::core::convert::From<T> for #inputs<T> {

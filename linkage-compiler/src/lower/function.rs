@@ -9,6 +9,7 @@ use super::names::Names;
 use super::{Schedule, Value, ValueId, schedule, stretches};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, NodeId, SymbolId};
+use crate::ids::BlockId;
 use crate::program::{
     Access, Body, Expression, Function, Given, Kernel, Operations, Pattern, PosePlan, Shape, Source, Statement, Taken,
     Value as Returned,
@@ -117,7 +118,7 @@ struct Formulas<'a> {
     results: Vec<Expression>,
     /// For each result, whether it is finite wherever the function gets so far.
     is_proven: Vec<bool>,
-    dyads: Vec<Option<usize>>,
+    dyads: Vec<Option<BlockId>>,
     /// The values that say of a dyad whether its triangle is plain.
     plain: Vec<String>,
     taken: Taken<'a>,
@@ -236,7 +237,7 @@ fn pattern(shape: &Shape, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Pa
     }
 }
 
-/// `let [(sin_a, cos_a), (sin_b, cos_b)] = [pose.a, pose.b].map(sine_cosine);` for the directions that are used.
+/// `let [(sin_a, cos_a), (sin_b, cos_b)] = [pose.a, pose.b].map(sine_cosine_of);` for the directions that are used.
 fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Schedule, names: &mut Names) {
     let mut used: Vec<(NodeId, Elementary, ValueId)> = Vec::new();
     for &id in schedule.used() {
@@ -259,10 +260,10 @@ fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Sch
         let (patterns, fields): (Vec<Pattern>, Vec<Expression>) = pairs.iter().cloned().unzip();
         statements.push(match (patterns.as_slice(), fields.as_slice()) {
             ([pattern], [field]) => {
-                Statement::Let(pattern.clone(), Expression::runtime("sine_cosine", [field.clone()]))
+                Statement::Let(pattern.clone(), Expression::runtime("sine_cosine_of", [field.clone()]))
             }
             _ => {
-                let map = [Expression::Constant("sine_cosine")];
+                let map = [Expression::Constant("sine_cosine_of")];
                 Statement::Let(Pattern::List(patterns), Expression::List(fields).method("map", map))
             }
         });

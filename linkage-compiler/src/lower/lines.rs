@@ -6,6 +6,7 @@ use super::names::Names;
 use super::{Line, Schedule, Signed, Value, ValueId, stretches};
 use crate::derivation::{ChordOf, Derivation};
 use crate::graph::{ExternalId, Function, SymbolId};
+use crate::ids::{BlockId, Id};
 use crate::program::{Expression, Kernel, Pattern, Statement, Type, call_of};
 
 /// Writes the lines of one schedule.
@@ -21,9 +22,9 @@ pub(super) struct Writer<'a, 'n> {
     /// The user functions that are called.
     pub(super) externals: BTreeSet<ExternalId>,
     /// For a dyad whose triangle may be plain, the value that says so.
-    pub(super) plain: BTreeMap<usize, Option<String>>,
+    pub(super) plain: BTreeMap<BlockId, Option<String>>,
     /// The factorisations, by block.
-    factors: BTreeMap<usize, String>,
+    factors: BTreeMap<BlockId, String>,
 }
 
 impl<'a, 'n> Writer<'a, 'n> {
@@ -159,7 +160,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         }
     }
 
-    fn chord(&mut self, (block, symbol): (usize, SymbolId), factors: [Signed; 2], size: Signed, of: ChordOf<Signed>) {
+    fn chord(&mut self, (block, symbol): (BlockId, SymbolId), factors: [Signed; 2], size: Signed, of: ChordOf<Signed>) {
         let factors = Expression::List(factors.map(|value| self.signed(value)).to_vec());
         let size = self.signed(size);
         let of = of.map(|value| self.signed(value));
@@ -167,7 +168,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         let name = Pattern::Name(self.names.introduce(symbol));
         let plain = match self.plain.get_mut(&block) {
             Some(plain) => {
-                let name = self.names.taken.unique(&format!("is_plain_{}", block + 1));
+                let name = self.names.taken.unique(&format!("is_plain_{}", block.number()));
                 Pattern::Name(plain.insert(name).clone())
             }
             None => Pattern::Ignored,
@@ -222,7 +223,7 @@ impl<'a, 'n> Writer<'a, 'n> {
     fn judged(
         &self,
         function: &'static str,
-        block: usize,
+        block: BlockId,
         arguments: impl IntoIterator<Item = Expression>,
     ) -> Expression {
         let judged = [self.whose(), self.group(block)];
@@ -234,7 +235,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         self.kernel.whose.as_ref().map_or_else(Expression::mechanism, Expression::name)
     }
 
-    fn group(&self, block: usize) -> Expression {
+    fn group(&self, block: BlockId) -> Expression {
         Expression::text(self.derivation.blocks[block].names(self.derivation))
     }
 

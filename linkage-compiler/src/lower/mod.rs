@@ -17,6 +17,7 @@ use std::collections::BTreeSet;
 
 use crate::derivation::{ChordOf, Step};
 use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
+use crate::ids::BlockId;
 use crate::program::Given;
 pub use function::Code;
 use order::Ordering;
@@ -76,17 +77,17 @@ pub enum Line {
         principal: Signed,
     },
     Guard {
-        block: usize,
+        block: BlockId,
         determinant: Signed,
         size: Signed,
     },
     Factor {
-        block: usize,
+        block: BlockId,
         matrix: Vec<Vec<Signed>>,
         sizes: Vec<Signed>,
     },
     Solve {
-        block: usize,
+        block: BlockId,
         targets: Vec<SymbolId>,
         right: Vec<Signed>,
     },
@@ -95,20 +96,20 @@ pub enum Line {
         matrix: Vec<Vec<Signed>>,
     },
     Chord {
-        block: usize,
+        block: BlockId,
         symbol: SymbolId,
         factors: [Signed; 2],
         size: Signed,
         of: ChordOf<Signed>,
     },
     Solvable {
-        block: usize,
+        block: BlockId,
         determinant: Signed,
         numerators: Vec<Signed>,
         scales: Vec<Signed>,
     },
     Newton {
-        block: usize,
+        block: BlockId,
         targets: Vec<SymbolId>,
         start: Vec<Signed>,
         known: Vec<Signed>,

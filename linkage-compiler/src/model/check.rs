@@ -8,6 +8,7 @@ use super::scope::Scope;
 use super::{Driver, Mechanism, Name};
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
+use crate::ids::{RowId, Table, UnknownId};
 use crate::structure::{self, StructurallySingular};
 
 /// Everything that is declared is used.
@@ -79,7 +80,7 @@ pub(super) fn closures(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &m
     let mut orders = Vec::new();
     let rows: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
     let at = |driver: &Driver| -> Span { driver.name.span() };
-    for driver in &mechanism.drivers {
+    for (id, driver) in mechanism.drivers.enumerated() {
         let unknowns = driver.unknowns.len();
         let coordinates = driver.unknowns.iter().map(|&index| &mechanism.coordinates[index]);
         let idle = coordinates.filter(|unknown| is_idle(scope, &unknown.name, unknown.symbol)).count();
@@ -123,20 +124,20 @@ pub(super) fn closures(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &m
         }
         if before && diagnostics.is_empty() {
             match structure::order(&mechanism.incidence(driver), driver.unknowns.len()) {
-                Ok(blocks) => orders.push(blocks),
+                Ok(blocks) => orders.push((id, blocks)),
                 Err(singular) => singularity(mechanism, driver, &singular, diagnostics),
             }
         }
     }
-    for (driver, blocks) in mechanism.drivers.iter_mut().zip(orders) {
-        driver.blocks = blocks;
+    for (id, blocks) in orders {
+        mechanism.drivers[id].blocks = blocks;
     }
 }
 
 /// Which unknown nothing determines, and which closures compete for others.
 fn singularity(mechanism: &Mechanism, driver: &Driver, singular: &StructurallySingular, diagnostics: &mut Diagnostics) {
-    let name = |unknown: usize| &mechanism.coordinates[driver.unknowns[unknown]].name;
-    let list = |unknowns: &[usize]| {
+    let name = |unknown: UnknownId| &mechanism.coordinates[driver.unknowns[unknown]].name;
+    let list = |unknowns: &[UnknownId]| {
         let names = unknowns.iter().map(|&unknown| format!("`{}`", name(unknown).text));
         names.collect::<Vec<_>>().join(", ")
     };
@@ -151,7 +152,7 @@ fn singularity(mechanism: &Mechanism, driver: &Driver, singular: &StructurallySi
         diagnostics.error(name(first).span, advice);
     }
     let closures = mechanism.closures.iter().flat_map(|closure| closure.rows.iter().map(|_| closure.span));
-    let spans: Vec<Span> = closures.collect();
+    let spans: Table<RowId, Span> = closures.collect();
     if let Some(&last) = competing.last() {
         let advice = format_args!(
             "{} compete for {}, up to and with this one: one of them should hold another unknown",

@@ -9,6 +9,7 @@ use super::name::Name;
 use super::scope::Scope;
 use super::{Coordinate, Mechanism};
 use crate::diagnostics::nearest;
+use crate::ids::{CoordinateId, InputId, Table};
 use crate::structure;
 use crate::syntax::{Statement, StatementKind};
 
@@ -32,27 +33,26 @@ pub(super) fn complete(
         let kind = undeclared_kinds.iter().find(|(other, _)| name == other).map_or(Kind::Number, |(_, kind)| *kind);
         let name = Name::new(&name);
         let symbol = mechanism.graph.symbol(name.field.clone());
-        mechanism.coordinates.push(Coordinate { name, attributes: Vec::new(), symbol, rate: None, kind });
-        mechanism.coordinates.len() - 1
+        mechanism.coordinates.push(Coordinate { name, attributes: Vec::new(), symbol, rate: None, kind })
     };
     let known = mechanism.drivers.first().map_or(0, |driver| driver.unknowns.len());
     for name in missing.by_ref().take(rows.saturating_sub(known)) {
         let index = declare(mechanism, name);
-        for driver in &mut mechanism.drivers {
+        for driver in mechanism.drivers.iter_mut() {
             driver.unknowns.push(index);
         }
     }
     let nothing_drives = mechanism.drivers.iter().all(|driver| driver.inputs.is_empty());
-    if nothing_drives && let [only] = mechanism.drivers.as_slice() {
+    if nothing_drives && let [only] = &*mechanism.drivers {
         // Inputs are declared before unknowns.
         let surplus = only.unknowns.len().saturating_sub(rows);
-        let inputs: Vec<usize> = match rows {
-            0 => Vec::new(),
-            _ if surplus > 0 => only.unknowns[..surplus].to_vec(),
+        let inputs: Table<InputId, CoordinateId> = match rows {
+            0 => Table::default(),
+            _ if surplus > 0 => only.unknowns.iter().copied().take(surplus).collect(),
             _ => missing.next().map(|name| declare(mechanism, name)).into_iter().collect(),
         };
-        for driver in &mut mechanism.drivers {
-            driver.unknowns.retain(|index| !inputs.contains(index));
+        for driver in mechanism.drivers.iter_mut() {
+            driver.unknowns = driver.unknowns.iter().copied().filter(|id| !inputs.contains(id)).collect();
             driver.inputs.clone_from(&inputs);
         }
     }
@@ -91,18 +91,18 @@ fn missing(mechanism: &Mechanism, statements: &[Statement], scope: &Scope) -> Ve
 /// The order of solution, where all loop equations could be read.
 fn order(mechanism: &mut Mechanism, rows: usize) {
     let read: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
-    for place in 0..mechanism.drivers.len() {
-        let driver = &mechanism.drivers[place];
+    for id in mechanism.drivers.ids() {
+        let driver = &mechanism.drivers[id];
         let is_known = read == rows && rows == driver.unknowns.len();
         let blocks = is_known.then(|| structure::order(&mechanism.incidence(driver), driver.unknowns.len()).ok());
-        mechanism.drivers[place].blocks = blocks.flatten().unwrap_or_default();
+        mechanism.drivers[id].blocks = blocks.flatten().unwrap_or_default();
     }
 }
 
 /// Of names that become one field the later ones get an underscore.
 fn distinguish(mechanism: &mut Mechanism) {
     let Mechanism { parameters, scene_parameters, coordinates, points, outputs, .. } = mechanism;
-    let parameters = parameters.iter_mut().chain(scene_parameters).map(|parameter| &mut parameter.name);
+    let parameters = parameters.iter_mut().chain(scene_parameters.iter_mut()).map(|parameter| &mut parameter.name);
     let symbols = parameters.chain(coordinates.iter_mut().map(|coordinate| &mut coordinate.name));
     let points = points.iter_mut().map(|point| &mut point.name);
     let outputs = outputs.iter_mut().map(|output| &mut output.name);

@@ -17,6 +17,7 @@ use super::{
 use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
+use crate::ids::{CoordinateId, Table};
 use crate::syntax::{self, ExpressionId, StatementKind};
 
 /// A mechanism of more expressions than this is refused: its derivatives are several times as many.
@@ -49,18 +50,18 @@ pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &
         visibility,
         name,
         graph: Graph::default(),
-        parameters: Vec::new(),
-        coordinates: Vec::new(),
+        parameters: Table::default(),
+        coordinates: Table::default(),
         closures: Vec::new(),
-        drivers: Vec::new(),
+        drivers: Table::default(),
         points: Vec::new(),
         outputs: Vec::new(),
         externals: Vec::new(),
         named: Vec::new(),
         requests: BTreeSet::new(),
-        bodies: Vec::new(),
-        scenes: Vec::new(),
-        scene_parameters: Vec::new(),
+        bodies: Table::default(),
+        scenes: Table::default(),
+        scene_parameters: Table::default(),
         time: None,
         extreme: None,
     };
@@ -82,10 +83,10 @@ pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &
         None if supposed.contains(&symbol) => Kind::Length,
         None => Kind::Number,
     };
-    for parameter in result.parameters.iter_mut().chain(&mut result.scene_parameters) {
+    for parameter in result.parameters.iter_mut().chain(result.scene_parameters.iter_mut()) {
         parameter.kind = kind_of(parameter.symbol);
     }
-    for coordinate in &mut result.coordinates {
+    for coordinate in result.coordinates.iter_mut() {
         coordinate.kind = kind_of(coordinate.symbol);
     }
     if result.graph.len() > LARGEST {
@@ -113,9 +114,9 @@ pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &
 /// Which coordinates were declared `input`, `unknown` and `coordinate`.
 #[derive(Default)]
 struct Roles {
-    inputs: Vec<usize>,
-    unknowns: Vec<usize>,
-    open: Vec<usize>,
+    inputs: Vec<CoordinateId>,
+    unknowns: Vec<CoordinateId>,
+    open: Vec<CoordinateId>,
 }
 
 impl Lowering<'_> {
@@ -131,9 +132,9 @@ impl Lowering<'_> {
             };
             for name in names {
                 if let Some((name, symbol)) = self.new_symbol(name) {
-                    role.push(result.coordinates.len());
                     let attributes = statement.attributes.clone();
-                    result.coordinates.push(Coordinate { name, attributes, symbol, rate: None, kind: Kind::Number });
+                    let coordinate = Coordinate { name, attributes, symbol, rate: None, kind: Kind::Number };
+                    role.push(result.coordinates.push(coordinate));
                 }
             }
         }
@@ -366,9 +367,9 @@ impl Lowering<'_> {
             result.drivers.push(Driver {
                 name: name.clone(),
                 attributes: statement.attributes.clone(),
-                inputs: driven,
+                inputs: driven.into(),
                 unknowns,
-                blocks: Vec::new(),
+                blocks: Table::default(),
             });
         }
         if !chosen {
@@ -381,7 +382,8 @@ impl Lowering<'_> {
             }
             let name = result.name.clone();
             let unknowns = unknowns.into_iter().chain(open).collect();
-            result.drivers.push(Driver { name, attributes: Vec::new(), inputs, unknowns, blocks: Vec::new() });
+            let (inputs, blocks) = (inputs.into(), Table::default());
+            result.drivers.push(Driver { name, attributes: Vec::new(), inputs, unknowns, blocks });
         }
     }
 }

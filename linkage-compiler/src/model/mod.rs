@@ -19,6 +19,10 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
 use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, Region};
 use crate::graph::{ExternalId, Graph, NodeId, SymbolId};
+use crate::ids::{
+    BlockId, BodyId, ColumnId, CoordinateId, DriverId, InputId, ParameterId, RowId, SceneId, SceneParameterId, Table,
+    UnknownId,
+};
 use crate::structure::Block;
 use crate::syntax;
 pub use kind::Kind;
@@ -35,10 +39,10 @@ pub struct Mechanism {
     pub visibility: Visibility,
     pub name: Ident,
     pub graph: Graph,
-    pub parameters: Vec<Parameter>,
-    pub coordinates: Vec<Coordinate>,
+    pub parameters: Table<ParameterId, Parameter>,
+    pub coordinates: Table<CoordinateId, Coordinate>,
     pub closures: Vec<Closure>,
-    pub drivers: Vec<Driver>,
+    pub drivers: Table<DriverId, Driver>,
     pub points: Vec<Point>,
     pub outputs: Vec<Output>,
     pub externals: Vec<ExternalFunction>,
@@ -46,10 +50,10 @@ pub struct Mechanism {
     pub named: Vec<(NodeId, String)>,
     /// What is derived beyond what every mechanism has.
     pub requests: BTreeSet<Request>,
-    pub bodies: Vec<Body>,
-    pub scenes: Vec<Scene>,
+    pub bodies: Table<BodyId, Body>,
+    pub scenes: Table<SceneId, Scene>,
     /// The parameters that only scenes hold.
-    pub scene_parameters: Vec<Parameter>,
+    pub scene_parameters: Table<SceneParameterId, Parameter>,
     /// Where there are scenes: t.
     pub time: Option<SymbolId>,
     /// The number in it that is farthest from one.
@@ -109,14 +113,14 @@ impl Closure {
     }
 }
 
-/// A choice of independent coordinates, by index into [`Mechanism::coordinates`].
+/// A choice of independent coordinates.
 pub struct Driver {
     pub name: Ident,
     pub attributes: Vec<Attribute>,
-    pub inputs: Vec<usize>,
-    pub unknowns: Vec<usize>,
+    pub inputs: Table<InputId, CoordinateId>,
+    pub unknowns: Table<UnknownId, CoordinateId>,
     /// The order in which the closures are solved, once it is known that they can be.
-    pub blocks: Vec<Block>,
+    pub blocks: Table<BlockId, Block>,
 }
 
 /// A named point of the plane.
@@ -159,7 +163,7 @@ impl Mechanism {
     /// Whether the mechanism leaves the choice of input to `drive` statements.
     #[must_use]
     pub fn is_driven_by_choice(&self) -> bool {
-        !matches!(self.drivers.as_slice(), [only] if only.name == self.name)
+        !matches!(&*self.drivers, [only] if only.name == self.name)
     }
 
     /// The scenes that a driver drives.
@@ -176,32 +180,36 @@ impl Mechanism {
 
     /// Everything that is said of the mechanism but in its scenes.
     pub fn kinematic_formulas(&self) -> Vec<NodeId> {
-        let mut formulas: Vec<NodeId> = self.closures.iter().flat_map(|closure| closure.rows.clone()).collect();
+        let mut formulas = self.rows().to_vec();
         formulas.extend(self.points.iter().flat_map(|point| [point.x, point.y]));
         formulas.extend(self.outputs.iter().map(|output| output.value));
         formulas
     }
 
-    /// The unknowns of `driver` that each closure row holds.
+    /// Psi.
     #[must_use]
-    pub fn incidence(&self, driver: &Driver) -> Vec<Vec<usize>> {
-        let place: BTreeMap<SymbolId, usize> =
-            driver.unknowns.iter().enumerate().map(|(place, &index)| (self.coordinates[index].symbol, place)).collect();
-        let rows = self.closures.iter().flat_map(|closure| &closure.rows);
-        rows.map(|&row| {
-            let mut unknowns: Vec<usize> =
-                self.graph.symbols_of(&[row]).iter().filter_map(|symbol| place.get(symbol).copied()).collect();
+    pub fn rows(&self) -> Table<RowId, NodeId> {
+        self.closures.iter().flat_map(|closure| closure.rows.iter().copied()).collect()
+    }
+
+    /// The unknowns of `driver` that each row holds.
+    #[must_use]
+    pub fn incidence(&self, driver: &Driver) -> Table<RowId, Vec<UnknownId>> {
+        let places = driver.unknowns.enumerated().map(|(place, &id)| (self.coordinates[id].symbol, place));
+        let places: BTreeMap<SymbolId, UnknownId> = places.collect();
+        self.rows().map(|row| {
+            let mut unknowns: Vec<UnknownId> =
+                self.graph.symbols_of(&[row]).iter().filter_map(|symbol| places.get(symbol).copied()).collect();
             unknowns.sort_unstable();
             unknowns
         })
-        .collect()
     }
 
     /// The coordinates in the order of q: as declared if the driver is a choice, else u before v.
     #[must_use]
-    pub fn coordinate_order(&self, driver: &Driver) -> Vec<usize> {
+    pub fn coordinate_order(&self, driver: &Driver) -> Table<ColumnId, CoordinateId> {
         if self.is_driven_by_choice() {
-            (0..self.coordinates.len()).collect()
+            self.coordinates.ids().collect()
         } else {
             driver.unknowns.iter().chain(&driver.inputs).copied().collect()
         }

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use super::names::Taken;
 use super::pose::PosePlan;
 use crate::derivation::{Assembly, Choice, Chord, Derivation, Step};
-use crate::graph::{Graph, NodeId, SymbolId};
+use crate::graph::{Graph, SymbolId};
+use crate::ids::UnknownId;
 use crate::model::{Driver, Kind, Mechanism};
 use crate::structure::Group;
 
@@ -63,12 +64,12 @@ impl Position {
     /// the equations as they are written; else they are pairs of unknowns as they were declared, each with two
     /// solutions.
     pub fn guessed(mechanism: &Mechanism, driver: &Driver) -> Self {
-        let name = |place: usize| mechanism.coordinates[driver.unknowns[place]].name.field.as_str();
+        let name = |place: UnknownId| mechanism.coordinates[driver.unknowns[place]].name.field.as_str();
         if driver.blocks.is_empty() {
-            let are_angles = |group: &[usize]| {
+            let are_angles = |group: &[UnknownId]| {
                 group.iter().all(|&place| mechanism.coordinates[driver.unknowns[place]].kind != Kind::Length)
             };
-            let places: Vec<usize> = (0..driver.unknowns.len()).collect();
+            let places: Vec<UnknownId> = driver.unknowns.ids().collect();
             let sides = places.chunks_exact(2).map(|group| {
                 let choice = if are_angles(group) { Choice::Elbow } else { Choice::Slider };
                 ([name(group[0]), name(group[1])].join("_"), choice)
@@ -77,10 +78,10 @@ impl Position {
             return Self { is_closed: true, blocks: sides.len(), sides, turns: Vec::new() };
         }
         let mut graph = mechanism.graph.clone();
-        let rows: Vec<NodeId> = mechanism.closures.iter().flat_map(|closure| closure.rows.iter().copied()).collect();
+        let rows = mechanism.rows();
         let (mut sides, mut solved, mut is_closed) = (Vec::new(), BTreeSet::new(), true);
         for block in &driver.blocks {
-            let equations: Vec<NodeId> = block.equations.iter().map(|&equation| rows[equation]).collect();
+            let equations = rows.at(&block.equations);
             let symbols = block.unknowns.iter().map(|&place| mechanism.coordinates[driver.unknowns[place]].symbol);
             let symbols: Vec<SymbolId> = symbols.collect();
             let group = Group::of(&mut graph, &equations, &symbols);

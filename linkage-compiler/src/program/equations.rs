@@ -6,6 +6,7 @@ use super::function::{Body, results};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Row, Step};
 use crate::graph::NodeId;
+use crate::ids::{CoordinateId, Id, RowId, Table};
 
 /// A matrix larger than this is written entry by entry if most entries are zero.
 const LARGEST_DENSE: usize = 16;
@@ -25,39 +26,39 @@ impl Plan<'_, '_> {
         for closure in &self.signatures.mechanism.closures {
             doc.extend(closure.description());
         }
-        let body = self.vector_of(residual);
+        let body = self.vector_of(&residual);
         self.add(self.signatures.residual(), without_result(doc), body);
         let doc = lines(["The sum of the magnitudes of each closure's terms: what makes a residual small or large."]);
-        let body = self.vector_of(sizes);
+        let body = self.vector_of(&sizes);
         self.add(self.signatures.closure_sizes(), without_result(doc), body);
     }
 
-    fn vector_of(&self, nodes: Vec<NodeId>) -> Body {
-        let rows: Vec<Row> = nodes.into_iter().map(|node| Row::from([(0, node)])).collect();
-        self.matrix_function(&rows, 1)
+    fn vector_of(&self, nodes: &[NodeId]) -> Body {
+        let entries: Vec<_> = nodes.iter().enumerate().map(|(row, &node)| (row, 0, node)).collect();
+        self.matrix_function(&entries, nodes.len(), 1)
     }
 
     fn jacobians(&mut self) {
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
         let (j, a) = (self.derivation.jacobian_unknowns(), self.derivation.jacobian_inputs());
-        let [unknowns, inputs] = [&self.signatures.driver.unknowns, &self.signatures.driver.inputs];
+        let (unknowns, inputs) = (&self.signatures.driver.unknowns, &self.signatures.driver.inputs);
         let order = self.signatures.mechanism.coordinate_order(self.signatures.driver);
         let mut doc = vec![format!("The constraint Jacobian J = `Psi_u`; its columns are {}.", self.list(unknowns))];
         doc.extend(self.entries("J", &j));
-        let body = self.matrix_function(&j, u);
+        let body = self.matrix_function(&entries(&j, unknowns.ids()), u, u);
         let mut doc_of_inputs =
             vec![format!("The constraint Jacobian of the inputs A = `Psi_v`; its columns are {}.", self.list(inputs))];
         doc_of_inputs.extend(self.entries("A", &a));
-        let body_of_inputs = self.matrix_function(&a, v);
+        let body_of_inputs = self.matrix_function(&entries(&a, inputs.ids()), u, v);
         self.add(self.signatures.jacobian_unknowns(), without_result(doc), body);
         self.add(self.signatures.jacobian_inputs(), without_result(doc_of_inputs), body_of_inputs);
 
         let doc = vec![format!("The whole constraint Jacobian `Psi_q`; its columns are {}.", self.list(&order))];
         let pose = &self.signatures.arguments.pose;
-        let names = |places: &[usize]| -> Vec<String> {
+        let names = |places: &[CoordinateId]| -> Vec<String> {
             places.iter().map(|&place| self.signatures.mechanism.coordinates[place].name.field.clone()).collect()
         };
-        let part = |places: &[usize], function: &str| {
+        let part = |places: &[CoordinateId], function: &str| {
             let columns = Pattern::List(names(places).into_iter().map(Pattern::Name).collect());
             Statement::Let(columns, Expression::call(function, [Expression::name(pose)]).columns())
         };
@@ -72,8 +73,9 @@ impl Plan<'_, '_> {
 
     fn jacobian_sizes(&mut self) {
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
-        let [of_unknowns, of_inputs] = self.derivation.jacobian_sizes();
-        let (of_unknowns, of_inputs) = (entries(&of_unknowns, u), entries(&of_inputs, v));
+        let (of_unknowns, of_inputs) = self.derivation.jacobian_sizes();
+        let (unknowns, inputs) = (self.derivation.unknowns.ids(), self.derivation.inputs.ids());
+        let (of_unknowns, of_inputs) = (entries(&of_unknowns, unknowns), entries(&of_inputs, inputs));
         let nodes = of_unknowns.iter().chain(&of_inputs).map(|(_, _, node)| *node);
         let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
         let mut body = Body { kernel: Some(kernel), ..Body::default() };
@@ -92,10 +94,10 @@ impl Plan<'_, '_> {
             None => doc.extend(lines(["Of blocks of more than two unknowns it is the product of the pivots."])),
         }
         let (mut steps, mut factors, mut laws) = (Vec::new(), Vec::new(), Vec::new());
-        for (number, block) in self.derivation.blocks.clone().iter().enumerate() {
+        for (id, block) in self.derivation.blocks.clone().enumerated() {
             let names = block.names(self.derivation);
             let Some(determinant) = block.determinant else {
-                let symbol = self.derivation.graph.symbol(format!("pivots_{}", number + 1));
+                let symbol = self.derivation.graph.symbol(format!("pivots_{}", id.number()));
                 steps.push(Step::Pivots { symbol, matrix: self.derivation.block_matrix(block) });
                 factors.push(self.derivation.graph.variable(symbol));
                 laws.push(format!("{names} ({}): the product of the pivots", block.group.words()));
@@ -133,13 +135,12 @@ impl Plan<'_, '_> {
         self.add(self.signatures.block_determinants(count), without_result(doc), body);
     }
 
-    /// A function of the pose that returns a matrix given by rows.
-    fn matrix_function(&self, rows: &[Row], columns: usize) -> Body {
-        let entries = entries(rows, columns);
+    /// A function of the pose that returns a matrix of these entries.
+    fn matrix_function(&self, entries: &[(usize, usize, NodeId)], rows: usize, columns: usize) -> Body {
         let nodes = entries.iter().map(|(_, _, node)| *node);
         let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
         let mut body = Body { kernel: Some(kernel), ..Body::default() };
-        let matrix = body.matrix(&places(&entries, 0), rows.len(), columns);
+        let matrix = body.matrix(&places(entries, 0), rows, columns);
         Body { value: super::Value::Plain(matrix), ..body }
     }
 
@@ -149,22 +150,22 @@ impl Plan<'_, '_> {
     }
 
     /// `name_12 = …` of each entry.
-    fn entries(&self, name: &str, rows: &[Row]) -> Vec<String> {
-        let entries = rows.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |(j, &node)| (i, j, node)));
-        fenced(entries.map(|(i, j, node)| self.law(format_args!("{name}_{}{}", i + 1, j + 1), node)))
+    fn entries<C: Id>(&self, name: &str, rows: &Table<RowId, Row<C>>) -> Vec<String> {
+        let entries = rows.enumerated().flat_map(|(i, row)| row.iter().map(move |(j, &node)| (i, j, node)));
+        fenced(entries.map(|(i, j, node)| self.law(format_args!("{name}_{}{}", i.number(), j.number()), node)))
     }
 
     /// Coordinates as they were written.
-    fn list(&self, places: &[usize]) -> String {
+    fn list(&self, places: &[CoordinateId]) -> String {
         let names = places.iter().map(|&place| &self.signatures.mechanism.coordinates[place].name.text);
         names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
     }
 }
 
 /// Row, column and node of each entry, column by column.
-fn entries(rows: &[Row], columns: usize) -> Vec<(usize, usize, NodeId)> {
-    let column = |c: usize| rows.iter().enumerate().filter_map(move |(r, row)| Some((r, c, *row.get(&c)?)));
-    (0..columns).flat_map(column).collect()
+fn entries<C: Id + Ord>(rows: &[Row<C>], columns: impl Iterator<Item = C>) -> Vec<(usize, usize, NodeId)> {
+    let entry = |r: usize, c: C, row: &Row<C>| Some((r, c.index(), *row.get(&c)?));
+    columns.flat_map(|c| rows.iter().enumerate().filter_map(move |(r, row)| entry(r, c, row))).collect()
 }
 
 /// Row, column and value of entries that are the results from a place on.

@@ -6,6 +6,7 @@ use super::expression::{Expression, Pattern, Statement, Type};
 use super::operations::Operations;
 use crate::derivation::Step;
 use crate::graph::{NodeId, SymbolId};
+use crate::ids::BlockId;
 
 /// A function of the emitted program, whose body is planned or lowered.
 #[derive(Debug, Clone)]
@@ -108,7 +109,7 @@ pub struct Kernel {
     pub turns: BTreeMap<SymbolId, usize>,
     /// For each result the dyad, if there is one, whose solution keeps it in the range of the scalar where its triangle
     /// is plain.
-    pub dyads: Vec<Option<usize>>,
+    pub dyads: Vec<Option<BlockId>>,
 }
 
 /// A result of a kernel.

@@ -5,6 +5,7 @@ use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Source};
 use super::names::Arguments;
 use super::plan::{Plan, unnamed};
+use crate::ids::{Id, InputId};
 use crate::model::Kind;
 
 impl Plan<'_, '_> {
@@ -12,17 +13,16 @@ impl Plan<'_, '_> {
     pub(super) fn limits(&mut self) {
         // The bounds refer to the steps of a position of their own.
         self.assembly = self.derivation.assembly();
-        for place in 0..self.signatures.inputs() {
+        for place in self.derivation.inputs.ids() {
             self.limits_of(place);
         }
     }
 
-    fn limits_of(&mut self, place: usize) {
+    fn limits_of(&mut self, place: InputId) {
         let Arguments { inputs, branch, guess, position: here, .. } = self.signatures.arguments.clone();
         let coordinate = &self.signatures.mechanism.coordinates[self.signatures.driver.inputs[place]];
         let (name, kind) = (coordinate.name.clone(), coordinate.kind);
-        let input = self.derivation.inputs[place];
-        let (bounds, is_searched) = self.derivation.bounds(&self.assembly, input);
+        let (bounds, is_searched) = self.derivation.bounds(&self.assembly, place);
         let one = self.derivation.graph.one();
         let nodes = bounds.iter().flat_map(|bound| bound.coefficients.into_iter().chain([bound.rate.unwrap_or(one)]));
         let nodes = unnamed(nodes);
@@ -32,7 +32,7 @@ impl Plan<'_, '_> {
 
         let bounds = bounds.iter().enumerate().map(|(number, bound)| {
             let group = Expression::text(self.derivation.blocks[bound.block].names(self.derivation));
-            let group = Expression::Tuple(vec![Expression::Count(bound.block), group]);
+            let group = Expression::Tuple(vec![Expression::Count(bound.block.index()), group]);
             let result = |place: usize| Expression::Result(4 * number + place);
             let mut arguments = vec![group, Expression::List((0..3).map(result).collect())];
             let kind = if bound.rate.is_some() {

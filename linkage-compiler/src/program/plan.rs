@@ -9,6 +9,7 @@ use super::pose::PosePlan;
 use super::signatures::{Family, Signatures};
 use crate::derivation::{Assembly, Coordinate, Derivation, Form, Formulas, Step};
 use crate::graph::{NodeId, SymbolId, Texts};
+use crate::ids::{ColumnId, Id, InputId, Table};
 use crate::model::{Driver, Mechanism, Request};
 
 /// A driver whose functions are planned one by one.
@@ -109,11 +110,11 @@ impl<'d, 'a> Plan<'d, 'a> {
         format!("{name} = {}", self.text(node))
     }
 
-    pub(super) fn rates(&self, of: &[usize]) -> Vec<SymbolId> {
+    pub(super) fn rates<I>(&self, of: &Table<I, ColumnId>) -> Table<I, SymbolId> {
         of.iter().map(|&index| self.derivation.coordinates[index].rate).collect()
     }
 
-    pub(super) fn accelerations(&self, of: &[usize]) -> Vec<SymbolId> {
+    pub(super) fn accelerations<I>(&self, of: &Table<I, ColumnId>) -> Table<I, SymbolId> {
         of.iter().map(|&index| self.derivation.coordinates[index].acceleration).collect()
     }
 
@@ -130,9 +131,7 @@ impl<'d, 'a> Plan<'d, 'a> {
 
     /// Steps that name W.
     pub(super) fn ratio_steps(&mut self, form: Form) -> Vec<Step> {
-        let ratios = self.derivation.ratios.clone();
-        let systems = ratios.into_iter().enumerate();
-        let systems: Vec<_> = systems.map(|(input, ratios)| (self.derivation.ratio_side(input), ratios)).collect();
+        let systems = self.derivation.ratio_systems();
         self.derivation.solution(&systems, form)
     }
 
@@ -152,13 +151,13 @@ impl<'d, 'a> Plan<'d, 'a> {
     /// the other inputs, so that they are not finite where those are not.
     pub(super) fn checked(&self, from: usize) -> Vec<Expression> {
         let (derivation, rows) = (&self.derivation, self.derivation.jacobian_inputs());
-        let is_idle = |place: usize| {
+        let is_idle = |place: InputId| {
             let mut entries = rows.iter().filter_map(|row| row.get(&place));
             entries.all(|&entry| derivation.graph.is_zero(entry))
         };
-        let idle = derivation.inputs.iter().enumerate().filter(|(place, _)| is_idle(*place));
+        let idle = derivation.inputs.enumerated().filter(|(place, _)| is_idle(*place));
         let checked = derivation.unknowns.iter().chain(idle.map(|(_, index)| index));
-        checked.map(|&index| Expression::Result(from + index)).collect()
+        checked.map(|&index| Expression::Result(from + index.index())).collect()
     }
 
     // Sources of symbols.

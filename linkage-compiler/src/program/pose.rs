@@ -8,6 +8,7 @@ use rustc_hash::FxHashMap;
 use super::names::{Taken, name_of};
 use crate::derivation::{ContactFormula, Derivation, Row};
 use crate::graph::{Function, Graph, Node, NodeId, SymbolId, Texts};
+use crate::ids::{BlockId, ColumnId};
 
 /// Formulas that a kernel need not compute.
 #[derive(Debug, Clone, Default)]
@@ -34,9 +35,9 @@ pub struct PosePlan {
     /// Angles and the fields that hold their directions.
     pub directions: BTreeMap<NodeId, String>,
     /// Coordinates held as numbers: index, field, symbol.
-    pub values: Vec<(usize, String, SymbolId)>,
+    pub values: Vec<(ColumnId, String, SymbolId)>,
     /// Determinants that vary: block, field, symbol.
-    pub determinants: Vec<(usize, String, SymbolId)>,
+    pub determinants: Vec<(BlockId, String, SymbolId)>,
     /// Values of user functions: expression, field, symbol.
     pub externals: Vec<(NodeId, String, SymbolId)>,
     /// Formulas that a kernel on a pose need not compute.
@@ -76,7 +77,7 @@ impl PosePlan {
         let mut taken = Taken::new(&nothing);
         let mut unique = |wish: String| taken.unique(&wish);
         let mut determinants = Vec::new();
-        for (number, block) in derivation.blocks.iter().enumerate() {
+        for (number, block) in derivation.blocks.enumerated() {
             if let Some(determinant) = block.determinant
                 && graph.constant_value(determinant.value).is_none()
             {
@@ -90,7 +91,7 @@ impl PosePlan {
         bare.extend(graph.needed_as_numbers(&numeric));
         bare.extend(derivation.inputs.iter().map(|&input| derivation.coordinates[input].value));
         let mut values = Vec::new();
-        for (index, coordinate) in derivation.coordinates.iter().enumerate() {
+        for (index, coordinate) in derivation.coordinates.enumerated() {
             let has_direction = bare_angles.contains(&coordinate.value);
             if has_direction && bare.contains(&coordinate.value) {
                 values.push((index, unique(format!("{}_angle", coordinate.name)), coordinate.value));
@@ -136,7 +137,7 @@ fn formulas_of_scenes(derivation: &Derivation) -> impl Iterator<Item = NodeId> {
 }
 
 fn formulas(derivation: &Derivation) -> Vec<NodeId> {
-    let mut formulas: Vec<NodeId> = derivation.residual.clone();
+    let mut formulas = derivation.residual.to_vec();
     formulas.extend(&derivation.sizes);
     formulas.extend(derivation.jacobian.iter().flat_map(Row::values));
     formulas.extend(&derivation.gamma);

@@ -8,6 +8,7 @@ use super::names::Arguments;
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Step, needed_names};
 use crate::graph::{Function as Elementary, NodeId, SymbolId};
+use crate::ids::BlockId;
 
 const ASSEMBLE: [&str; 5] = [
     "The position at these inputs in closed form: group by group, on the branch that is asked for.",
@@ -176,11 +177,11 @@ impl Plan<'_, '_> {
     }
 
     fn near_doc(&self) -> Vec<String> {
-        let is_iterated = |block: usize| {
+        let is_iterated = |block: BlockId| {
             let mut steps = self.assembly.steps.iter();
             steps.any(|step| matches!(step, Step::Newton { block: other, .. } if *other == block))
         };
-        let blocks = self.derivation.blocks.iter().enumerate().filter(|(number, _)| is_iterated(*number));
+        let blocks = self.derivation.blocks.enumerated().filter(|(number, _)| is_iterated(*number));
         let iterated: Vec<_> = blocks.map(|(_, block)| block.names(self.derivation)).collect();
         lines([
             "The position at the inputs of a guess: group by group, in closed form on the branch that is asked for,",
@@ -213,7 +214,7 @@ impl Plan<'_, '_> {
     }
 
     /// For each result of a position the dyad that it is solved by, if there is one.
-    fn dyads(&self) -> Vec<Option<usize>> {
+    fn dyads(&self) -> Vec<Option<BlockId>> {
         let dyad_of = |symbol: Option<SymbolId>| symbol.and_then(|s| self.assembly.of_dyads.get(&s).copied());
         let mut dyads = vec![None; self.pose.determinants.len()];
         dyads.extend(self.pose.angles().flat_map(|angle| [dyad_of(self.derivation.graph.as_symbol(angle)); 2]));

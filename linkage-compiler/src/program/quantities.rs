@@ -107,7 +107,7 @@ impl Plan<'_, '_> {
         ]));
         let mut nodes = Vec::new();
         for quantity in self.quantities_of(family).to_vec() {
-            for input in 0..v {
+            for input in self.derivation.inputs.ids() {
                 nodes.extend(quantity.jacobian.iter().map(|row| self.derivation.quantity_ratio(row, input)));
             }
         }

@@ -10,6 +10,7 @@ use super::plan::{Plan, unnamed};
 use super::signatures::Family;
 use crate::derivation::{Form, Quantity, Step};
 use crate::graph::{NodeId, Number, SymbolId};
+use crate::ids::{ColumnId, Table, UnknownId};
 
 impl Plan<'_, '_> {
     pub(super) fn velocity(&mut self) {
@@ -33,14 +34,14 @@ impl Plan<'_, '_> {
     }
 
     /// The places of all coordinates.
-    fn all(&self) -> Vec<usize> {
-        (0..self.derivation.coordinates.len()).collect()
+    fn all(&self) -> Table<ColumnId, ColumnId> {
+        self.derivation.coordinates.ids().collect()
     }
 
     fn solve_jacobian(&mut self) {
         let right = self.signatures.arguments.right.clone();
         let unknowns = self.derivation.unknowns.clone();
-        let parts: Vec<SymbolId> = unknowns
+        let parts: Table<UnknownId, SymbolId> = unknowns
             .into_iter()
             .map(|index| {
                 let name = format!("{}_part", self.derivation.coordinates[index].name);
@@ -49,7 +50,7 @@ impl Plan<'_, '_> {
             .collect();
         let u = parts.len();
         let sides: Vec<SymbolId> = (1..=u).map(|row| self.derivation.graph.symbol(format!("right_{row}"))).collect();
-        let side = self.variables(&sides);
+        let side = self.variables(&sides).into();
         let steps = self.derivation.solution(&[(side, parts.clone())], Form::Factored);
         let outputs = self.outputs(&parts);
         let source = Source { from: Expression::name(&right).columns(), shape: Shape::columns(u, &sides) };
@@ -105,7 +106,7 @@ impl Plan<'_, '_> {
         let rates = self.rates(&self.derivation.inputs.clone());
         let rates = self.variables(&rates);
         let mut nodes = BTreeMap::new();
-        for (place, &unknown) in self.derivation.unknowns.clone().iter().enumerate() {
+        for (place, &unknown) in self.derivation.unknowns.clone().enumerated() {
             let ratios: Vec<SymbolId> = self.derivation.ratios.iter().map(|of_input| of_input[place]).collect();
             let terms = self.variables(&ratios).into_iter().zip(&rates);
             let graph = &mut self.derivation.graph;
@@ -203,7 +204,8 @@ impl Plan<'_, '_> {
         let eta = self.derivation.eta.clone().unwrap_or_default();
         doc.extend(self.numbered("eta", &eta));
         doc.extend(lines(["", "# Errors", "`Singular` where J has no inverse, `NotFinite` if a rate is not finite."]));
-        let jerks: Vec<SymbolId> = self.derivation.coordinates.iter().map(|coordinate| coordinate.jerk).collect();
+        let jerks: Table<ColumnId, SymbolId> =
+            self.derivation.coordinates.iter().map(|coordinate| coordinate.jerk).collect();
         let targets = self.derivation.unknowns.iter().map(|&index| jerks[index]).collect();
         let side = self.derivation.jerk_side();
         let steps = self.derivation.solution(&[(side, targets)], Form::Factored);

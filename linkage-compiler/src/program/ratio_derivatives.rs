@@ -5,28 +5,27 @@ use super::expression::Expression;
 use super::function::{Body, Output, results};
 use super::plan::Plan;
 use super::signatures::Family;
-use crate::derivation::{Form, Step, needed};
+use crate::derivation::{Form, Solutions, Step, needed};
 use crate::graph::{NodeId, SymbolId};
+use crate::ids::{PairId, Table};
 
 const ERRORS: [&str; 3] =
     ["", "# Errors", "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value."];
 
 impl Plan<'_, '_> {
-    /// Steps that name W and L, and L by pair of inputs and unknown.
-    fn ratio_derivative_steps(&mut self) -> (Vec<Step>, Vec<Vec<NodeId>>) {
+    /// Steps that name W and L, and L.
+    fn ratio_derivative_steps(&mut self) -> (Vec<Step>, Solutions<PairId, NodeId>) {
         let systems = self.derivation.ratio_derivative_systems();
         let (steps, mut solved) = self.derivation.solve(&systems, Form::Entries);
         let derivatives = solved.split_off(self.derivation.inputs.len());
-        (steps, derivatives)
+        (steps, derivatives.into())
     }
 
-    /// A symmetric matrix from its entries by pair of inputs.
-    fn symmetric(&self, entries: &[Expression]) -> Expression {
-        let count = self.derivation.inputs.len();
+    /// A symmetric matrix from its entries.
+    fn symmetric(&self, entries: &Table<PairId, Expression>) -> Expression {
         let Some(derivatives) = &self.derivation.ratio_derivatives else { return Expression::zero() };
-        let place = |k: usize, j: usize| entries[derivatives.place(j, k)].clone();
-        let columns: Vec<Expression> = (0..count).flat_map(|k| (0..count).map(move |j| place(k, j))).collect();
-        Expression::matrix(&columns, count)
+        let columns: Vec<Expression> = derivatives.places.iter().flatten().map(|&pair| entries[pair].clone()).collect();
+        Expression::matrix(&columns, derivatives.places.len())
     }
 
     pub(super) fn ratio_derivatives(&mut self) {
@@ -42,16 +41,13 @@ impl Plan<'_, '_> {
         ));
         doc.extend(lines(ERRORS));
         let (steps, solved) = self.ratio_derivative_steps();
-        let solved = solved.concat();
+        let solved: Vec<NodeId> = solved.into_iter().flatten().collect();
         let steps = needed(&self.derivation.graph, steps, &solved);
         let name = |name: &SymbolId| self.derivation.graph.symbol_name(*name);
         let outputs = solved.into_iter().zip(&names).map(|(node, symbol)| Output::named(node, name(symbol)));
         let kernel = self.on_pose(Vec::new(), steps, outputs.collect());
         let (u, all) = (self.signatures.unknowns(), results(0..names.len()));
-        let matrices = (0..u).map(|unknown| {
-            let entries: Vec<Expression> = all.iter().skip(unknown).step_by(u).cloned().collect();
-            self.symmetric(&entries)
-        });
+        let matrices = (0..u).map(|unknown| self.symmetric(&all.iter().skip(unknown).step_by(u).cloned().collect()));
         let body = Body::of(kernel, Expression::List(matrices.collect()));
         let body = body.checked("velocity ratio derivatives", all);
         self.add(self.signatures.ratio_derivatives(), doc, body);
@@ -93,10 +89,8 @@ impl Plan<'_, '_> {
         let dimension = family.dimension();
         let all = results(0..nodes.len());
         let of_each = all.chunks(endings.len() * dimension).map(|entries| {
-            let component = |axis: usize| {
-                let entries: Vec<Expression> = entries.iter().skip(axis).step_by(dimension).cloned().collect();
-                self.symmetric(&entries)
-            };
+            let component =
+                |axis: usize| self.symmetric(&entries.iter().skip(axis).step_by(dimension).cloned().collect());
             match dimension {
                 1 => component(0),
                 _ => Expression::List((0..dimension).map(component).collect()),

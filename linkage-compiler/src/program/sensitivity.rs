@@ -7,8 +7,9 @@ use super::function::{Body, Value};
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
 use crate::algebra::simplify;
-use crate::derivation::{Form, Step, needed};
+use crate::derivation::{Form, Solutions, Step, needed};
 use crate::graph::{NodeId, SymbolId};
+use crate::ids::{Id, ParameterId, Table, UnknownId};
 
 const ERRORS: [&str; 3] =
     ["", "# Errors", "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value."];
@@ -30,6 +31,7 @@ impl Plan<'_, '_> {
         doc.extend(fenced(laws.map(|(name, formula)| self.law(self.derivation.graph.symbol_name(name), formula))));
         doc.extend(lines(ERRORS));
         let (mut steps, solved) = self.derivation.solve(&systems, Form::Factored);
+        let solved = Table::from(solved);
         // The length of a link turns its own side of J: cos^2 + sin^2 is 1.
         let given = self.pose.angles().collect();
         for step in &mut steps {
@@ -37,9 +39,11 @@ impl Plan<'_, '_> {
                 *node = simplify(&mut self.derivation.graph, &[*node], &given)[0];
             }
         }
-        // du/dp by parameter and unknown: names, or zero.
-        let entries = (0..p).flat_map(|column| (0..u).map(move |row| (row, column)));
-        let entries = entries.zip(solved.concat()).map(|((row, column), node)| (row, column, node));
+        // du/dp: names, or zero.
+        let column = |(p, solved): (ParameterId, &Table<UnknownId, NodeId>)| {
+            solved.enumerated().map(move |(u, &node)| (u.index(), p.index(), node)).collect::<Vec<_>>()
+        };
+        let entries = solved.enumerated().flat_map(column);
         let entries: Vec<_> = entries.filter(|(_, _, node)| !self.derivation.graph.is_zero(*node)).collect();
         let nodes: Vec<NodeId> = entries.iter().map(|(_, _, node)| *node).collect();
         let steps = needed(&self.derivation.graph, steps, &nodes);
@@ -56,7 +60,7 @@ impl Plan<'_, '_> {
         }
     }
 
-    fn quantity_sensitivities(&mut self, family: Family, solved: &[Vec<NodeId>]) {
+    fn quantity_sensitivities(&mut self, family: Family, solved: &Solutions<ParameterId, NodeId>) {
         let (word, dimension) = (family.word(), family.dimension());
         let names = family.names(self.signatures.mechanism);
         let mut doc = vec![
@@ -77,7 +81,7 @@ impl Plan<'_, '_> {
         doc.extend(lines(ERRORS));
         let mut nodes = Vec::new();
         for quantity in self.quantities_of(family).to_vec() {
-            nodes.extend(self.derivation.quantity_sensitivities(&quantity, solved).concat());
+            nodes.extend(self.derivation.quantity_sensitivities(&quantity, solved).into_iter().flatten());
         }
         let first = self.derivation.sensitivity.iter();
         let symbols: Vec<SymbolId> = first.flat_map(|first| first.names.iter().flatten()).copied().collect();

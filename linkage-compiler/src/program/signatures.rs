@@ -4,6 +4,7 @@ use super::branch::Position;
 use super::expression::Type;
 use super::function::{Access, Argument, Body, Function, Passed};
 use super::names::{Arguments, TypeNames};
+use crate::ids::InputId;
 use crate::model::{Driver, Mechanism, Request};
 
 /// The functions of one driver of a mechanism, without bodies.
@@ -68,7 +69,7 @@ impl<'a> Signatures<'a> {
         all.extend(self.assemblies(position));
         all.push(self.branch_of());
         if wants(Request::Limits) {
-            all.extend((0..self.driver.inputs.len()).map(|place| self.limits(position, place)));
+            all.extend(self.driver.inputs.ids().map(|place| self.limits(position, place)));
         }
         all.extend([
             self.residual(),
@@ -181,8 +182,8 @@ impl<'a> Signatures<'a> {
         total("branch_of", [self.pose()], Type::Bare(self.types.branch.clone()))
     }
 
-    /// The limits of one input, by its place.
-    pub fn limits(&self, position: &Position, place: usize) -> Function<Body> {
+    /// The limits of one input.
+    pub fn limits(&self, position: &Position, place: InputId) -> Function<Body> {
         let from = match position.is_closed {
             true => self.converted(&self.arguments.inputs),
             false => self.coordinates(&self.arguments.guess),

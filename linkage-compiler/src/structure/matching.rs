@@ -1,39 +1,41 @@
 //! An equation for each unknown: a maximum matching of the incidence.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::ids::{RowId, Table, UnknownId};
+
 /// What is left over on either side.
 #[derive(Debug, PartialEq, Eq)]
 pub struct StructurallySingular {
     /// Unknowns of which one is determined by nothing.
-    pub undetermined: Vec<usize>,
+    pub undetermined: Vec<UnknownId>,
     /// The fewer equations in which they appear.
-    pub too_few: Vec<usize>,
+    pub too_few: Vec<RowId>,
     /// Equations that compete, more of them than unknowns that they hold.
-    pub competing: Vec<usize>,
+    pub competing: Vec<RowId>,
     /// The unknowns that they hold.
-    pub contested: Vec<usize>,
+    pub contested: Vec<UnknownId>,
 }
 
 /// Which unknown each equation is given to, and the other way round.
 pub(super) struct Matching {
-    /// By equation.
-    unknown: Vec<Option<usize>>,
-    /// By unknown.
-    equation: Vec<Option<usize>>,
+    unknown: Table<RowId, Option<UnknownId>>,
+    equation: Table<UnknownId, Option<RowId>>,
 }
 
 impl Matching {
     /// # Errors
     /// [`StructurallySingular`] if some unknowns together appear in fewer equations than they are.
-    pub(super) fn new(incidence: &[Vec<usize>], unknowns: usize) -> Result<Self, StructurallySingular> {
-        let mut equations_of: Vec<Vec<usize>> = vec![Vec::new(); unknowns];
-        for (equation, row) in incidence.iter().enumerate() {
+    pub(super) fn new(incidence: &Table<RowId, Vec<UnknownId>>, unknowns: usize) -> Result<Self, StructurallySingular> {
+        let mut equations_of: Table<UnknownId, Vec<RowId>> = vec![Vec::new(); unknowns].into();
+        for (equation, row) in incidence.enumerated() {
             for &unknown in row {
                 equations_of[unknown].push(equation);
             }
         }
-        let mut matching = Self { unknown: vec![None; incidence.len()], equation: vec![None; unknowns] };
+        let mut matching = Self { unknown: incidence.filled(None), equation: equations_of.filled(None) };
         let mut missing = None;
-        for unknown in 0..unknowns {
+        for unknown in equations_of.ids() {
             if let Err(stuck) = matching.augment(unknown, &equations_of) {
                 missing.get_or_insert(stuck);
             }
@@ -44,9 +46,10 @@ impl Matching {
     }
 
     /// An equation that is left over, with all that compete with it for the same unknowns.
-    fn surplus(&self, incidence: &[Vec<usize>]) -> (Vec<usize>, Vec<usize>) {
-        let mut equations: Vec<usize> = self.unknown.iter().position(Option::is_none).into_iter().collect();
-        let mut unknowns = std::collections::BTreeSet::new();
+    fn surplus(&self, incidence: &Table<RowId, Vec<UnknownId>>) -> (Vec<RowId>, Vec<UnknownId>) {
+        let left_over = self.unknown.ids().find(|&equation| self.unknown[equation].is_none());
+        let mut equations: Vec<RowId> = left_over.into_iter().collect();
+        let mut unknowns = BTreeSet::new();
         let mut next = 0;
         while next < equations.len() {
             for &unknown in &incidence[equations[next]] {
@@ -60,19 +63,23 @@ impl Matching {
         (equations, unknowns.into_iter().collect())
     }
 
-    pub(super) fn unknown(&self, equation: usize) -> Option<usize> {
+    pub(super) fn unknown(&self, equation: RowId) -> Option<UnknownId> {
         self.unknown[equation]
     }
 
-    pub(super) fn equation(&self, unknown: usize) -> Option<usize> {
+    pub(super) fn equation(&self, unknown: UnknownId) -> Option<RowId> {
         self.equation[unknown]
     }
 
     /// Finds an equation for `start` along an alternating path, breadth first; else the unknowns and the
     /// equations that the search came to.
-    fn augment(&mut self, start: usize, equations_of: &[Vec<usize>]) -> Result<(), (Vec<usize>, Vec<usize>)> {
+    fn augment(
+        &mut self,
+        start: UnknownId,
+        equations_of: &Table<UnknownId, Vec<RowId>>,
+    ) -> Result<(), (Vec<UnknownId>, Vec<RowId>)> {
         // Ordered, so that what an error names does not depend on chance.
-        let mut reached_from = std::collections::BTreeMap::new();
+        let mut reached_from = BTreeMap::new();
         let mut queue = vec![start];
         let mut next = 0;
         while next < queue.len() {
@@ -105,27 +112,28 @@ impl Matching {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::structure::tests::{ids, incidence};
 
     #[test]
     fn finds_a_matching_through_alternating_paths() {
-        let matching = Matching::new(&[vec![0, 1], vec![0], vec![1, 2]], 3).unwrap();
-        assert_eq!(matching.equation, [Some(1), Some(0), Some(2)]);
-        assert_eq!(matching.unknown, [Some(1), Some(0), Some(2)]);
+        let matching = Matching::new(&incidence(&[&[0, 1], &[0], &[1, 2]]), 3).unwrap();
+        assert_eq!(matching.equation.map(Option::unwrap).to_vec(), ids(&[1, 0, 2]));
+        assert_eq!(matching.unknown.map(Option::unwrap).to_vec(), ids(&[1, 0, 2]));
     }
 
     #[test]
     fn names_the_unknowns_that_compete() {
-        let error = Matching::new(&[vec![0, 1], vec![2], vec![2]], 3).err();
+        let error = Matching::new(&incidence(&[&[0, 1], &[2], &[2]]), 3).err();
         let expected = StructurallySingular {
-            undetermined: vec![0, 1],
-            too_few: vec![0],
-            competing: vec![1, 2],
-            contested: vec![2],
+            undetermined: ids(&[0, 1]),
+            too_few: ids(&[0]),
+            competing: ids(&[1, 2]),
+            contested: ids(&[2]),
         };
         assert_eq!(error, Some(expected));
         // The chain 3 - 1 - 0 holds two unknowns, whatever stands beside it.
-        let error = Matching::new(&[vec![0, 1], vec![0], vec![2], vec![1]], 4).err().unwrap();
-        assert_eq!((error.undetermined, error.too_few), (vec![3], vec![]));
-        assert_eq!((error.competing, error.contested), (vec![0, 1, 3], vec![0, 1]));
+        let error = Matching::new(&incidence(&[&[0, 1], &[0], &[2], &[1]]), 4).err().unwrap();
+        assert_eq!((error.undetermined, error.too_few), (ids(&[3]), ids(&[])));
+        assert_eq!((error.competing, error.contested), (ids(&[0, 1, 3]), ids(&[0, 1])));
     }
 }

@@ -13,13 +13,15 @@ pub use group::Group;
 use matching::Matching;
 pub use matching::StructurallySingular;
 
+use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
+
 /// Unknowns that are solved together, from as many equations, once all blocks before are solved.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Block {
     /// Ascending.
-    pub equations: Vec<usize>,
+    pub equations: Vec<RowId>,
     /// Ascending.
-    pub unknowns: Vec<usize>,
+    pub unknowns: Vec<UnknownId>,
 }
 
 /// How the linear systems of a block are solved.
@@ -43,11 +45,13 @@ impl Block {
 /// # Errors
 /// [`StructurallySingular`] if for every value of the parameters the system is singular: it names
 /// a set of unknowns that together appear in fewer equations than there are unknowns.
-pub fn order(incidence: &[Vec<usize>], unknowns: usize) -> Result<Vec<Block>, StructurallySingular> {
+pub fn order(
+    incidence: &Table<RowId, Vec<UnknownId>>,
+    unknowns: usize,
+) -> Result<Table<BlockId, Block>, StructurallySingular> {
     let matching = Matching::new(incidence, unknowns)?;
-    let depends: Vec<Vec<usize>> = incidence
-        .iter()
-        .enumerate()
+    let depends: Table<RowId, Vec<RowId>> = incidence
+        .enumerated()
         .map(|(equation, row)| {
             let others = row.iter().filter_map(|&unknown| matching.equation(unknown));
             others.filter(|&other| other != equation).collect()
@@ -58,7 +62,7 @@ pub fn order(incidence: &[Vec<usize>], unknowns: usize) -> Result<Vec<Block>, St
         .into_iter()
         .map(|mut equations| {
             equations.sort_unstable();
-            let mut unknowns: Vec<usize> =
+            let mut unknowns: Vec<UnknownId> =
                 equations.iter().filter_map(|&equation| matching.unknown(equation)).collect();
             unknowns.sort_unstable();
             Block { equations, unknowns }
@@ -69,17 +73,17 @@ pub fn order(incidence: &[Vec<usize>], unknowns: usize) -> Result<Vec<Block>, St
 /// The sign of det J beside the product of the determinants of the blocks: that of the two
 /// permutations that bring J to its block-triangular form.
 #[must_use]
-pub fn is_odd(blocks: &[Block]) -> bool {
-    let equations: Vec<usize> = blocks.iter().flat_map(|block| block.equations.iter().copied()).collect();
-    let unknowns: Vec<usize> = blocks.iter().flat_map(|block| block.unknowns.iter().copied()).collect();
-    odd(&equations) != odd(&unknowns)
+pub fn is_odd(blocks: &Table<BlockId, Block>) -> bool {
+    let equations = blocks.iter().flat_map(|block| block.equations.iter().copied()).collect();
+    let unknowns = blocks.iter().flat_map(|block| block.unknowns.iter().copied()).collect();
+    odd::<RowId>(&equations) != odd::<UnknownId>(&unknowns)
 }
 
 /// A cycle of even length is an odd permutation.
-fn odd(permutation: &[usize]) -> bool {
-    let mut seen = vec![false; permutation.len()];
+fn odd<I: Id>(permutation: &Table<I, I>) -> bool {
+    let mut seen = permutation.filled(false);
     let mut odd = false;
-    for start in 0..permutation.len() {
+    for start in permutation.ids() {
         let mut at = start;
         let mut length = 0;
         while !seen[at] {
@@ -94,20 +98,19 @@ fn odd(permutation: &[usize]) -> bool {
 
 /// R. E. Tarjan, "Depth-first search and linear graph algorithms" (1972), without recursion:
 /// a component comes out after all that it depends on.
-fn strong_components(depends: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    const UNSEEN: usize = usize::MAX;
-    let mut index = vec![UNSEEN; depends.len()];
-    let mut low = vec![0; depends.len()];
-    let mut waiting = vec![false; depends.len()];
+fn strong_components(depends: &Table<RowId, Vec<RowId>>) -> Vec<Vec<RowId>> {
+    let mut index = depends.filled(None);
+    let mut low = depends.filled(0);
+    let mut waiting = depends.filled(false);
     let (mut stack, mut components, mut next) = (Vec::new(), Vec::new(), 0);
-    for root in 0..depends.len() {
-        if index[root] != UNSEEN {
+    for root in depends.ids() {
+        if index[root].is_some() {
             continue;
         }
         let mut path = vec![(root, 0)];
         while let Some((node, edge)) = path.pop() {
             if edge == 0 {
-                index[node] = next;
+                index[node] = Some(next);
                 low[node] = next;
                 next += 1;
                 stack.push(node);
@@ -118,18 +121,18 @@ fn strong_components(depends: &[Vec<usize>]) -> Vec<Vec<usize>> {
             // The next edge to a node not seen yet; an edge back to one that waits lowers the mark.
             let mut descend = None;
             for (position, &other) in depends[node].iter().enumerate().skip(edge) {
-                if index[other] == UNSEEN {
+                let Some(at) = index[other] else {
                     descend = Some((position, other));
                     break;
-                }
+                };
                 if waiting[other] {
-                    low[node] = low[node].min(index[other]);
+                    low[node] = low[node].min(at);
                 }
             }
             if let Some((position, other)) = descend {
                 path.push((node, position + 1));
                 path.push((other, 0));
-            } else if low[node] == index[node] {
+            } else if index[node] == Some(low[node]) {
                 let start = stack.iter().rposition(|&other| other == node).unwrap_or(0);
                 let component = stack.split_off(start);
                 for &member in &component {
@@ -146,39 +149,51 @@ fn strong_components(depends: &[Vec<usize>]) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
 
+    pub(super) fn ids<I: Id>(places: &[usize]) -> Vec<I> {
+        places.iter().map(|&place| I::new(place)).collect()
+    }
+
+    pub(super) fn incidence(rows: &[&[usize]]) -> Table<RowId, Vec<UnknownId>> {
+        rows.iter().map(|row| ids(row)).collect()
+    }
+
     fn block(equations: &[usize], unknowns: &[usize]) -> Block {
-        Block { equations: equations.to_vec(), unknowns: unknowns.to_vec() }
+        Block { equations: ids(equations), unknowns: ids(unknowns) }
+    }
+
+    fn is_odd_permutation(places: &[usize]) -> bool {
+        odd::<RowId>(&ids(places).into())
     }
 
     #[test]
     fn blocks_come_in_the_order_in_which_they_can_be_solved() {
         // Equations 2 and 3 hold the dyad that 0 and 1 stand on; 4 closes no loop of its own.
-        let incidence = [vec![0, 1, 2], vec![0, 1, 2], vec![2, 3], vec![2, 3], vec![4, 0]];
+        let incidence = incidence(&[&[0, 1, 2], &[0, 1, 2], &[2, 3], &[2, 3], &[4, 0]]);
         let blocks = order(&incidence, 5).unwrap();
-        assert_eq!(blocks, [block(&[2, 3], &[2, 3]), block(&[0, 1], &[0, 1]), block(&[4], &[4])]);
+        assert_eq!(*blocks, [block(&[2, 3], &[2, 3]), block(&[0, 1], &[0, 1]), block(&[4], &[4])]);
         assert!(!is_odd(&blocks));
     }
 
     #[test]
     fn a_ring_is_one_block() {
-        let ring: Vec<Vec<usize>> = (0..6).map(|i| vec![i, (i + 1) % 6]).collect();
-        assert_eq!(order(&ring, 6).unwrap(), [block(&[0, 1, 2, 3, 4, 5], &[0, 1, 2, 3, 4, 5])]);
+        let ring = (0..6).map(|i| ids(&[i, (i + 1) % 6])).collect();
+        assert_eq!(*order(&ring, 6).unwrap(), [block(&[0, 1, 2, 3, 4, 5], &[0, 1, 2, 3, 4, 5])]);
     }
 
     #[test]
     fn the_sign_is_that_of_the_permutations() {
         // J = [a 1; b 0]: block {1 | 0} before block {0 | 1}, det J = -b.
-        let blocks = order(&[vec![0, 1], vec![0]], 2).unwrap();
-        assert_eq!(blocks, [block(&[1], &[0]), block(&[0], &[1])]);
+        let blocks = order(&incidence(&[&[0, 1], &[0]]), 2).unwrap();
+        assert_eq!(*blocks, [block(&[1], &[0]), block(&[0], &[1])]);
         assert!(is_odd(&blocks));
-        assert!(odd(&[1, 0, 2]) && !odd(&[1, 2, 0]) && odd(&[1, 2, 3, 0]));
+        assert!(is_odd_permutation(&[1, 0, 2]) && !is_odd_permutation(&[1, 2, 0]) && is_odd_permutation(&[1, 2, 3, 0]));
     }
 
     #[test]
     fn a_long_chain_neither_recurses_nor_crawls() {
-        let chain: Vec<Vec<usize>> = (0..20_000_usize).map(|i| vec![i.saturating_sub(1), i]).collect();
+        let chain = (0..20_000_usize).map(|i| ids(&[i.saturating_sub(1), i])).collect();
         assert_eq!(order(&chain, 20_000).unwrap().len(), 20_000);
-        let backwards: Vec<Vec<usize>> = (0..20_000).map(|i| vec![i, (i + 1).min(19_999)]).collect();
+        let backwards = (0..20_000).map(|i| ids(&[i, (i + 1).min(19_999)])).collect();
         assert_eq!(order(&backwards, 20_000).unwrap().len(), 20_000);
     }
 }

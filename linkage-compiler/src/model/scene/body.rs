@@ -20,7 +20,7 @@ impl Lowering<'_> {
             name.push('_');
         }
         result.time = Some(self.graph.symbol(name));
-        for coordinate in &mut result.coordinates {
+        for coordinate in result.coordinates.iter_mut() {
             let rate = self.graph.symbol(format!("{}_rate", coordinate.name.field));
             coordinate.rate = Some(rate);
             self.rates.insert(coordinate.symbol, self.graph.variable(rate));

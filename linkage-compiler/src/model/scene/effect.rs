@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use syn::Attribute;
 
-use super::{Account, Law, Names, Reading, Scene, Wish};
+use super::{Account, Draft, Law, Reading, Wish};
 use crate::graph::{Function, NodeId, Number, SymbolId};
 use crate::model::expression::Lowering;
 use crate::model::scope::Value;
@@ -12,35 +12,34 @@ use crate::syntax::{self, EffectKind, ExpressionId, Place};
 
 impl Lowering<'_> {
     pub(in crate::model) fn scene(&mut self, tree: &syntax::Scene, attributes: &[Attribute], reading: &mut Reading) {
-        let mut scene = Scene {
+        let mut scene = Draft {
             name: tree.name.clone(),
             attributes: attributes.to_vec(),
-            driver: 0,
-            inertia: None,
-            weights: Vec::new(),
+            of: tree.of.clone(),
             laws: Vec::new(),
             contacts: Vec::new(),
-            drives: Vec::new(),
             wishes: BTreeSet::new(),
-            parameters: Vec::new(),
+            inertia: None,
+            contact: None,
+            gravity: Vec::new(),
+            drives: Vec::new(),
         };
-        let mut names = Names { inertia: None, contact: None, gravity: Vec::new(), drives: Vec::new() };
         for effect in &tree.effects {
-            self.effect(effect, &mut scene, &mut names);
+            self.effect(effect, &mut scene);
             self.blame(effect.keyword.span());
         }
         if !tree.is_complete {
             // What a contact needs may be in what could not be read.
-            names.contact = None;
+            scene.contact = None;
         }
-        reading.scenes.push((scene, tree.of.clone(), names));
+        reading.scenes.push(scene);
     }
 
-    pub(super) fn effect(&mut self, effect: &syntax::Effect, scene: &mut Scene, names: &mut Names) {
+    fn effect(&mut self, effect: &syntax::Effect, scene: &mut Draft) {
         let keyword = &effect.keyword;
         match &effect.kind {
             EffectKind::Inertia(bodies) => {
-                if names.inertia.replace((keyword.span(), bodies.clone())).is_some() {
+                if scene.inertia.replace((keyword.span(), bodies.clone())).is_some() {
                     let message = "`inertia` is said twice; name all bodies at once, or none for all";
                     self.diagnostics.error(keyword.span(), message);
                 }
@@ -50,7 +49,7 @@ impl Lowering<'_> {
                 for part in [x, y] {
                     self.still(*field, part, "the field of gravity");
                 }
-                names.gravity.push(([x, y], bodies.clone()));
+                scene.gravity.push(([x, y], bodies.clone()));
             }
             EffectKind::Spring { stiffness, free, place } => {
                 let k = self.scalar(*stiffness);
@@ -107,7 +106,7 @@ impl Lowering<'_> {
                 }
             }
             EffectKind::Friction { .. } | EffectKind::Stop { .. } => {
-                names.contact.get_or_insert_with(|| (keyword.span(), keyword.to_string()));
+                scene.contact.get_or_insert_with(|| (keyword.span(), keyword.to_string()));
                 scene.contacts.extend(self.contact(&effect.kind));
             }
             EffectKind::Drive { input, law } => {
@@ -118,7 +117,7 @@ impl Lowering<'_> {
                     let region = self.expressions.region(*law);
                     self.diagnostics.error(region, "a drive is a law of `t` and parameters alone");
                 }
-                names.drives.push((input.clone(), node));
+                scene.drives.push((input.clone(), node));
             }
             EffectKind::Wish => {
                 let wish = match keyword.to_string().as_str() {

@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
-use super::{Drive, Reading, Scene};
+use super::{Draft, Drive, Reading, Scene};
 use crate::diagnostics::suggestion;
 use crate::graph::SymbolId;
+use crate::ids::{BodyId, DriverId};
 use crate::model::expression::Lowering;
 use crate::model::{Driver, Mechanism};
 
@@ -14,10 +15,21 @@ impl Lowering<'_> {
     /// What is known of the scenes once all statements are read: their bodies, drivers and parameters.
     pub(in crate::model) fn finish_scenes(&mut self, reading: Reading, result: &mut Mechanism) {
         let mut used = BTreeSet::new();
-        for (mut scene, of, names) in reading.scenes {
-            let Some(driver) = self.driver_of(&scene, of.as_ref(), result) else { continue };
-            scene.driver = driver;
-            if let Some((span, bodies)) = &names.inertia {
+        for draft in reading.scenes {
+            let Some(driver) = self.driver_of(&draft, result) else { continue };
+            let mut scene = Scene {
+                name: draft.name,
+                attributes: draft.attributes,
+                driver,
+                inertia: None,
+                weights: Vec::new(),
+                laws: draft.laws,
+                contacts: draft.contacts,
+                drives: Vec::new(),
+                wishes: draft.wishes,
+                parameters: Vec::new(),
+            };
+            if let Some((span, bodies)) = &draft.inertia {
                 let all = self.bodies(bodies, result);
                 if all.is_empty() {
                     self.diagnostics.error(*span, "there is no `body` whose inertia could count");
@@ -25,20 +37,20 @@ impl Lowering<'_> {
                 used.extend(all.iter().copied());
                 scene.inertia = Some(all);
             }
-            if let (Some((span, word)), None) = (&names.contact, &names.inertia) {
+            if let (Some((span, word)), None) = (&draft.contact, &draft.inertia) {
                 let message = format!("a `{word}` acts on what moves: add `inertia;` to `{}`", scene.name);
                 self.diagnostics.error(*span, message);
             }
-            for ([x, y], bodies) in &names.gravity {
+            for ([x, y], bodies) in &draft.gravity {
                 let all = self.bodies(bodies, result);
                 used.extend(all.iter().copied());
                 let heavy = all.into_iter().filter(|&index| result.bodies[index].mass.is_some());
                 scene.weights.extend(heavy.map(|index| (index, [*x, *y])));
             }
             let Driver { inputs, name, .. } = &result.drivers[driver];
-            for (input, law) in names.drives {
+            for (input, law) in draft.drives {
                 let text = input.to_string();
-                let place = inputs.iter().copied().find(|&index| result.coordinates[index].name.text == text);
+                let place = inputs.ids().find(|&input| result.coordinates[inputs[input]].name.text == text);
                 let Some(place) = place else {
                     let of = inputs.iter().map(|&index| result.coordinates[index].name.text.as_str());
                     let hint = suggestion(&text, of);
@@ -60,8 +72,8 @@ impl Lowering<'_> {
         }
         // A scene that was not understood would be missed.
         let is_complete = self.diagnostics.is_empty();
-        for (index, body) in result.bodies.iter().enumerate().filter(|_| is_complete) {
-            if !used.contains(&index) && !body.name.text.starts_with('_') {
+        for (id, body) in result.bodies.enumerated().filter(|_| is_complete) {
+            if !used.contains(&id) && !body.name.text.starts_with('_') {
                 let message = format!("no scene counts the inertia or the weight of `{}`; remove it", body.name.text);
                 self.diagnostics.error(body.name.span, message);
             }
@@ -69,14 +81,15 @@ impl Lowering<'_> {
         self.part_parameters(result);
     }
 
-    pub(super) fn driver_of(&mut self, scene: &Scene, of: Option<&Ident>, result: &Mechanism) -> Option<usize> {
-        let place = match of {
-            Some(name) => result.drivers.iter().position(|driver| driver.name == *name),
-            None => (result.drivers.len() == 1).then_some(0),
+    fn driver_of(&mut self, scene: &Draft, result: &Mechanism) -> Option<DriverId> {
+        let mut drivers = result.drivers.ids();
+        let place = match &scene.of {
+            Some(name) => drivers.find(|&id| result.drivers[id].name == *name),
+            None => drivers.next().filter(|_| result.drivers.len() == 1),
         };
         if place.is_none() {
             let names: Vec<String> = result.drivers.iter().map(|driver| driver.name.to_string()).collect();
-            let (span, message) = match of {
+            let (span, message) = match &scene.of {
                 Some(name) => {
                     let hint = suggestion(&name.to_string(), names.iter().map(String::as_str));
                     (name.span(), format!("no driver is called `{name}`{hint}"))
@@ -92,14 +105,14 @@ impl Lowering<'_> {
     }
 
     /// Bodies by their names; all of them if none is named.
-    pub(super) fn bodies(&mut self, names: &[Ident], result: &Mechanism) -> Vec<usize> {
+    fn bodies(&mut self, names: &[Ident], result: &Mechanism) -> Vec<BodyId> {
         if names.is_empty() {
-            return (0..result.bodies.len()).collect();
+            return result.bodies.ids().collect();
         }
         let mut found = Vec::new();
         for name in names {
             let text = name.to_string();
-            match result.bodies.iter().position(|body| body.name.text == text) {
+            match result.bodies.ids().find(|&id| result.bodies[id].name.text == text) {
                 Some(index) if found.contains(&index) => {
                     self.diagnostics.error(name.span(), format_args!("`{text}` is named twice"));
                 }
@@ -114,7 +127,7 @@ impl Lowering<'_> {
     }
 
     /// A parameter that no closure, point or output holds, but a scene, belongs to the scenes that hold it.
-    pub(super) fn part_parameters(&self, result: &mut Mechanism) {
+    fn part_parameters(&self, result: &mut Mechanism) {
         let kinematic: BTreeSet<SymbolId> = self.graph.symbols_of(&result.kinematic_formulas()).into_iter().collect();
         let held: Vec<BTreeSet<SymbolId>> = result
             .scenes
@@ -123,9 +136,10 @@ impl Lowering<'_> {
             .collect();
         let belongs = |symbol: &SymbolId| !kinematic.contains(symbol) && held.iter().any(|held| held.contains(symbol));
         let parameters = std::mem::take(&mut result.parameters);
-        (result.scene_parameters, result.parameters) = parameters.into_iter().partition(|p| belongs(&p.symbol));
+        let (own, shared): (Vec<_>, Vec<_>) = parameters.into_iter().partition(|p| belongs(&p.symbol));
+        (result.scene_parameters, result.parameters) = (own.into(), shared.into());
         for (scene, held) in result.scenes.iter_mut().zip(held) {
-            let own = result.scene_parameters.iter().enumerate().filter(|(_, p)| held.contains(&p.symbol));
+            let own = result.scene_parameters.enumerated().filter(|(_, p)| held.contains(&p.symbol));
             scene.parameters = own.map(|(place, _)| place).collect();
         }
     }

@@ -12,6 +12,7 @@ use syn::Attribute;
 
 use super::name::Name;
 use crate::graph::NodeId;
+use crate::ids::{BodyId, DriverId, InputId, SceneParameterId, Table};
 
 /// A rigid body.
 pub struct Body {
@@ -26,18 +27,16 @@ pub struct Body {
 pub struct Scene {
     pub name: Ident,
     pub attributes: Vec<Attribute>,
-    /// The place of its driver among those of the mechanism.
-    pub driver: usize,
+    pub driver: DriverId,
     /// The bodies whose inertia counts; nothing accelerates in a scene without.
-    pub inertia: Option<Vec<usize>>,
+    pub inertia: Option<Vec<BodyId>>,
     /// A body and the field that its mass is in.
-    pub weights: Vec<(usize, [NodeId; 2])>,
+    pub weights: Vec<(BodyId, [NodeId; 2])>,
     pub laws: Vec<Law>,
     pub contacts: Vec<Contact>,
     pub drives: Vec<Drive>,
     pub wishes: BTreeSet<Wish>,
-    /// Places among [`Mechanism::scene_parameters`](super::Mechanism::scene_parameters).
-    pub parameters: Vec<usize>,
+    pub parameters: Vec<SceneParameterId>,
 }
 
 /// A force along a scalar: its work is `law` times the change of `along`.
@@ -79,8 +78,7 @@ pub enum Account {
 
 /// The motion of an input is given.
 pub struct Drive {
-    /// An index into [`Mechanism::coordinates`](super::Mechanism::coordinates).
-    pub input: usize,
+    pub input: InputId,
     /// In terms of parameters and time.
     pub law: NodeId,
 }
@@ -97,11 +95,17 @@ pub enum Wish {
 /// What the scenes of a mechanism share while they are read.
 #[derive(Default)]
 pub(super) struct Reading {
-    scenes: Vec<(Scene, Option<Ident>, Names)>,
+    scenes: Vec<Draft>,
 }
 
-/// What a scene names before all bodies and drivers are known.
-struct Names {
+/// A scene with names in place of the bodies, drivers and inputs, which are not all known yet.
+struct Draft {
+    name: Ident,
+    attributes: Vec<Attribute>,
+    of: Option<Ident>,
+    laws: Vec<Law>,
+    contacts: Vec<Contact>,
+    wishes: BTreeSet<Wish>,
     inertia: Option<(Span, Vec<Ident>)>,
     /// Where the first contact is named.
     contact: Option<(Span, String)>,
@@ -131,7 +135,7 @@ impl Scene {
 
     /// Everything that forces act along.
     #[must_use]
-    pub fn paths(&self, bodies: &[Body]) -> Vec<NodeId> {
+    pub fn paths(&self, bodies: &Table<BodyId, Body>) -> Vec<NodeId> {
         let mut paths: Vec<NodeId> = self.laws.iter().map(|law| law.along).collect();
         paths.extend(self.contacts.iter().map(|contact| contact.along));
         let heavy = self.inertia.iter().flatten().chain(self.weights.iter().map(|(index, _)| index));
@@ -144,7 +148,7 @@ impl Scene {
     }
 
     /// Everything that it is made of.
-    fn formulas(&self, bodies: &[Body]) -> Vec<NodeId> {
+    fn formulas(&self, bodies: &Table<BodyId, Body>) -> Vec<NodeId> {
         let mut formulas: Vec<NodeId> = self.laws.iter().flat_map(|law| [law.law, law.along]).collect();
         for (index, field) in &self.weights {
             formulas.extend(field);

@@ -3,6 +3,7 @@
 use super::{ERRORS, ScenePlan};
 use crate::derivation::Prescribed;
 use crate::graph::NodeId;
+use crate::ids::InputId;
 use crate::program::doc::{lines, without_result};
 use crate::program::expression::Expression;
 use crate::program::function::{Body, Output, Value, results};
@@ -58,7 +59,7 @@ impl ScenePlan<'_, '_, '_> {
         outputs.extend(self.minor(&driven, &free).into_iter().map(Output::from));
         let sides = self.right_sides(&driven);
         let inputs = self.signatures.inputs.clone();
-        let name = |at: &usize| format!("{}_drive", inputs[*at]);
+        let name = |at: &InputId| format!("{}_drive", inputs[*at]);
         for (side, at) in sides.into_iter().zip(&driven) {
             let force = self.plan.derivation.graph.negate(side);
             // Without a free input this is the force; with one, what is added to it has the name.

@@ -42,8 +42,7 @@ impl ScenePlan<'_, '_, '_> {
             Output::named(self.scene.dissipated, "dissipated"),
         ];
         let (body, applied) = if are_drives_known {
-            let inputs = driven.iter().map(|&at| self.plan.derivation.inputs[at]).collect::<Vec<_>>();
-            let speeds = self.plan.rates(&inputs);
+            let speeds = self.plan.rates(&self.plan.derivation.inputs).at(&driven);
             let speeds = self.plan.variables(&speeds);
             outputs.extend(speeds.into_iter().map(Output::from));
             let has_forces = !self.plan.derivation.graph.is_zero(self.scene.applied);

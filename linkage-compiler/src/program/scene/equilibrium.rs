@@ -3,6 +3,7 @@
 use super::ScenePlan;
 use crate::derivation::{Form, needed};
 use crate::graph::NodeId;
+use crate::ids::InputId;
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
@@ -13,8 +14,9 @@ impl ScenePlan<'_, '_, '_> {
     pub(super) fn equilibrium(&mut self) {
         self.balance();
         let Arguments { time, q, guess, .. } = self.signatures.arguments.clone();
-        let names =
-            |places: &[usize]| -> Vec<String> { places.iter().map(|&at| self.signatures.inputs[at].clone()).collect() };
+        let names = |places: &[InputId]| -> Vec<String> {
+            places.iter().map(|&at| self.signatures.inputs[at].clone()).collect()
+        };
         let (free, driven) = (names(&self.signatures.free), names(&self.signatures.driven));
         let start = free.iter().map(|input| Expression::name(&guess).field(input)).collect();
         let members = free.iter().chain(&driven).map(|input| (input.clone(), Expression::name(input)));

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use super::ScenePlan;
 use super::signatures::layer;
 use crate::graph::{NodeId, Number, SymbolId};
+use crate::ids::{ColumnId, Id, InputId, Table};
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value, results};
@@ -36,9 +37,9 @@ pub enum Read {
 #[derive(Debug, Default)]
 pub struct Layers {
     /// M by rows; an entry and the one opposite are the same.
-    pub inertia: Vec<Vec<SymbolId>>,
-    /// Q by input.
-    pub forces: Vec<SymbolId>,
+    pub inertia: Table<InputId, Table<InputId, SymbolId>>,
+    /// Q.
+    pub forces: Table<InputId, SymbolId>,
     /// For each part of Q that varies its label and its name.
     parts: Vec<(String, SymbolId)>,
     inertia_reads: BTreeSet<Read>,
@@ -50,9 +51,9 @@ impl ScenePlan<'_, '_, '_> {
     pub(super) fn reduced_inertia(&mut self) {
         let Some(matrix) = self.scene.mass_matrix.clone() else { return };
         let names = self.signatures.inputs.clone();
-        for (row, name) in names.iter().enumerate() {
-            let mut entries: Vec<SymbolId> = self.layers.inertia.iter().map(|above| above[row]).collect();
-            let right = names[row + 1..].iter().map(|other| format!("{name}_{other}_inertia"));
+        for (row, name) in names.enumerated() {
+            let mut entries: Table<InputId, SymbolId> = self.layers.inertia.iter().map(|above| above[row]).collect();
+            let right = names.iter().skip(row.number()).map(|other| format!("{name}_{other}_inertia"));
             let wishes = std::iter::once(format!("{name}_inertia")).chain(right);
             entries.extend(wishes.map(|wish| self.plan.derivation.graph.symbol(wish)));
             self.layers.inertia.push(entries);
@@ -148,13 +149,13 @@ impl ScenePlan<'_, '_, '_> {
             sources.push(Source { from: Expression::name(rate), ..self.plan.inputs(rate, |c| c.rate) });
         }
         if own.contains(&Read::Inertia) {
-            let entry = |(row, column): (usize, usize)| match row <= column {
-                true => Shape::Symbol(self.layers.inertia[row][column]),
+            let inertia = &self.layers.inertia;
+            let entry = |(row, column): (InputId, InputId)| match row <= column {
+                true => Shape::Symbol(inertia[row][column]),
                 false => Shape::Ignored,
             };
-            let many = self.layers.inertia.len();
-            let column = |row| Shape::List((0..many).map(|column| entry((row, column))).collect());
-            let shape = Shape::List((0..many).map(column).collect());
+            let column = |row| Shape::List(inertia.ids().map(|column| entry((row, column))).collect());
+            let shape = Shape::List(inertia.ids().map(column).collect());
             sources.push(Source { from: self.call_of("reduced_inertia", |argument| self.passed(argument)), shape });
             body.calls.push("reduced_inertia".to_owned());
         }
@@ -228,16 +229,16 @@ impl ScenePlan<'_, '_, '_> {
         let mut reads = BTreeSet::new();
         reads.extend(swept.iter().any(|&id| given.holds(graph, id)).then_some(Read::Pose));
         let symbols: BTreeSet<SymbolId> = swept.into_iter().filter_map(|id| graph.as_symbol(id)).collect();
-        let rates = |places: &[usize]| places.iter().map(|&place| derivation.coordinates[place].rate).collect();
+        let rates = |places: &[ColumnId]| places.iter().map(|&place| derivation.coordinates[place].rate).collect();
         let all: [(Read, Vec<SymbolId>); 8] = [
             (Read::Time, self.signatures.mechanism.time.into_iter().collect()),
             (Read::Q, derivation.coordinates.iter().map(|coordinate| coordinate.value).collect()),
-            (Read::Ratios, derivation.ratios.concat()),
+            (Read::Ratios, derivation.ratios.iter().flatten().copied().collect()),
             (Read::Velocity, rates(&derivation.unknowns)),
-            (Read::Bias, self.scene.bias.clone()),
+            (Read::Bias, self.scene.bias.to_vec()),
             (Read::Rates, rates(&derivation.inputs)),
-            (Read::Inertia, self.layers.inertia.concat()),
-            (Read::Forces, self.layers.forces.clone()),
+            (Read::Inertia, self.layers.inertia.iter().flatten().copied().collect()),
+            (Read::Forces, self.layers.forces.to_vec()),
         ];
         let read = all.into_iter().filter(|(_, of)| of.iter().any(|symbol| symbols.contains(symbol)));
         reads.extend(read.map(|(read, _)| read));

@@ -3,6 +3,7 @@
 use super::{ERRORS, ScenePlan};
 use crate::derivation::Prescribed;
 use crate::graph::{NodeId, Number, SymbolId};
+use crate::ids::{ColumnId, InputId, Table};
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
@@ -51,21 +52,21 @@ impl ScenePlan<'_, '_, '_> {
     }
 
     /// M of some rows and columns.
-    pub(super) fn minor(&mut self, rows: &[usize], columns: &[usize]) -> Vec<NodeId> {
-        let entry = |row: usize, column: usize| self.layers.inertia[row][column];
+    pub(super) fn minor(&mut self, rows: &[InputId], columns: &[InputId]) -> Vec<NodeId> {
+        let entry = |row: InputId, column: InputId| self.layers.inertia[row][column];
         let entries = rows.iter().flat_map(|&row| columns.iter().map(move |&column| entry(row, column)));
         self.plan.variables(&entries.collect::<Vec<SymbolId>>())
     }
 
     /// `Q - M_d a_d` of some inputs, with the accelerations of the driven ones.
-    pub(super) fn right_sides(&mut self, rows: &[usize]) -> Vec<NodeId> {
+    pub(super) fn right_sides(&mut self, rows: &[InputId]) -> Vec<NodeId> {
         let graph = &mut self.plan.derivation.graph;
         let mut sides = Vec::new();
         for &row in rows {
             let mut terms = vec![(Number::ONE, graph.variable(self.layers.forces[row]))];
             for (column, Prescribed { acceleration, .. }) in &self.scene.drives {
-                if let Some(entries) = self.layers.inertia.get(row) {
-                    let entry = graph.variable(entries[*column]);
+                if !self.layers.inertia.is_empty() {
+                    let entry = graph.variable(self.layers.inertia[row][*column]);
                     terms.push((Number::MINUS_ONE, graph.multiply(entry, *acceleration)));
                 }
             }
@@ -112,7 +113,7 @@ impl ScenePlan<'_, '_, '_> {
 
     /// q' and v'' in one function, and v'' alone by the same.
     pub(super) fn rates(&mut self) {
-        let all: Vec<usize> = (0..self.plan.derivation.coordinates.len()).collect();
+        let all: Table<ColumnId, ColumnId> = self.plan.derivation.coordinates.ids().collect();
         let free = self.signatures.free.clone();
         let symbols = self.plan.rates(&all);
         let mut outputs: Vec<Output> = self.plan.variables(&symbols).into_iter().map(Output::from).collect();
@@ -129,7 +130,7 @@ impl ScenePlan<'_, '_, '_> {
         let laws = sides.end..outputs.len();
         let mut body = self.on_motion(outputs);
         let accelerations = self.solve_free(&mut body, results(entries), results(sides));
-        let mut accelerations: Vec<(usize, Expression)> = free.into_iter().zip(accelerations).collect();
+        let mut accelerations: Vec<(InputId, Expression)> = free.into_iter().zip(accelerations).collect();
         accelerations.extend(self.signatures.driven.iter().copied().zip(results(laws)));
         accelerations.sort_by_key(|(at, _)| *at);
         let accelerations: Vec<Expression> = accelerations.into_iter().map(|(_, value)| value).collect();

@@ -1,6 +1,7 @@
 //! The functions of a scene by their names, arguments and results.
 
 use super::layers::Read;
+use crate::ids::{InputId, Table};
 use crate::model::{self, Driver, Mechanism, Wish};
 use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
@@ -16,16 +17,16 @@ pub struct SceneSignatures<'a> {
     /// The field of the mechanism.
     pub field: String,
     /// The inputs by field, and the places of those that are free and of those that are driven.
-    pub inputs: Vec<String>,
-    pub free: Vec<usize>,
-    pub driven: Vec<usize>,
+    pub inputs: Table<InputId, String>,
+    pub free: Vec<InputId>,
+    pub driven: Vec<InputId>,
     unknowns: usize,
 }
 
 impl<'a> SceneSignatures<'a> {
     pub fn new(mechanism: &'a Mechanism, driver: &'a Driver, scene: &'a model::Scene) -> Self {
-        let is_driven = |place: &usize| scene.drives.iter().any(|drive| drive.input == driver.inputs[*place]);
-        let (driven, free) = (0..driver.inputs.len()).partition(is_driven);
+        let is_driven = |input: &InputId| scene.drives.iter().any(|drive| drive.input == *input);
+        let (driven, free) = driver.inputs.ids().partition(is_driven);
         let inputs = driver.inputs.iter().map(|&index| mechanism.coordinates[index].name.field.clone());
         Self {
             mechanism,

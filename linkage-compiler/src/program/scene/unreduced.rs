@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ScenePlan;
+use crate::ids::{ColumnId, Id, Table};
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
@@ -11,8 +12,8 @@ impl ScenePlan<'_, '_, '_> {
     pub(super) fn unreduced(&mut self) {
         let Some(unreduced) = self.scene.unreduced.clone() else { return };
         let (u, v) = (self.plan.signatures.unknowns(), self.plan.signatures.inputs());
-        let names = self.plan.fields();
-        let inertia = |(row, column): (usize, usize)| match row == column {
+        let names = Table::from(self.plan.fields());
+        let inertia = |(row, column): (ColumnId, ColumnId)| match row == column {
             true => format!("{}_inertia", names[row]),
             false => format!("{}_{}_inertia", names[row], names[column]),
         };
@@ -24,10 +25,10 @@ impl ScenePlan<'_, '_, '_> {
         let rate = &self.signatures.arguments.rate;
         let sources = vec![self.plan.coordinates(rate, |c| c.rate)];
         let mut body = self.on_pose(sources, Vec::new(), outputs).checked("the equations of motion", results(0..count));
-        let entries: BTreeMap<(usize, usize), usize> =
+        let entries: BTreeMap<(ColumnId, ColumnId), usize> =
             unreduced.mass_matrix.keys().enumerate().map(|(result, &place)| (place, result)).collect();
         // Each entry above the diagonal is below it as well.
-        let block = |rows: &[usize], columns: &[usize]| -> Vec<(usize, usize, Expression)> {
+        let block = |rows: &[ColumnId], columns: &[ColumnId]| -> Vec<(usize, usize, Expression)> {
             let mut block = Vec::new();
             for (j, &column) in columns.iter().enumerate() {
                 for (i, &row) in rows.iter().enumerate() {
@@ -44,8 +45,8 @@ impl ScenePlan<'_, '_, '_> {
             body.matrix(&block(unknowns, inputs), u, v),
             body.matrix(&block(inputs, inputs), v, v),
         ];
-        let force = |at: &usize| Expression::Result(entries.len() + at);
-        let forces = [unknowns, inputs].map(|places| Expression::vector(places.iter().map(force).collect()));
+        let force = |at: &ColumnId| Expression::Result(entries.len() + at.index());
+        let forces = [&**unknowns, &**inputs].map(|places| Expression::vector(places.iter().map(force).collect()));
         let members = ["unknowns", "mixed", "inputs", "unknown_forces", "input_forces"].map(str::to_owned);
         let members = members.into_iter().zip(matrices.into_iter().chain(forces));
         let value = Expression::structure(Type::Runtime("Unreduced", Vec::new()), members);
