@@ -85,7 +85,8 @@ fn long_chains_are_only_long() {
 /// Depth that no parenthesis shows: each name stands on the one before.
 #[test]
 fn deep_names_need_no_deep_stack() {
-    for (depth, message) in [(200, ""), (8000, "the derivatives of `M` take"), (12_000, "the derivatives of `M` take")] {
+    for (depth, message) in [(200, ""), (8000, "the derivatives of `M` take"), (12_000, "the derivatives of `M` take")]
+    {
         let source = hopeless::nested(depth);
         let thread = std::thread::Builder::new().stack_size(1 << 20);
         let found = thread.spawn(move || expansion_messages(&source)).unwrap().join().unwrap();

@@ -146,18 +146,22 @@ impl<'d, 'a> Plan<'d, 'a> {
         steps.into_iter().flat_map(with).collect()
     }
 
-    /// The results to be checked where some are the user's own, in the order of the coordinates from a place on: the
-    /// unknowns, and the inputs that are in no loop equation. Rates of unknowns are sums of multiples of the rates of
-    /// the other inputs, so that they are not finite where those are not.
-    pub(super) fn checked(&self, from: usize) -> Vec<Expression> {
+    /// The coordinates whose rates are to be checked where some are the user's own: the unknowns, and the inputs that are
+    /// in no loop equation. Rates of unknowns are sums of multiples of the rates of the other inputs, so that they are not
+    /// finite where those are not.
+    pub(super) fn to_check(&self) -> Vec<ColumnId> {
         let (derivation, rows) = (&self.derivation, self.derivation.jacobian_inputs());
         let is_idle = |place: InputId| {
             let mut entries = rows.iter().filter_map(|row| row.get(&place));
             entries.all(|&entry| derivation.graph.is_zero(entry))
         };
         let idle = derivation.inputs.enumerated().filter(|(place, _)| is_idle(*place));
-        let checked = derivation.unknowns.iter().chain(idle.map(|(_, index)| index));
-        checked.map(|&index| Expression::Result(from + index.index())).collect()
+        derivation.unknowns.iter().chain(idle.map(|(_, index)| index)).copied().collect()
+    }
+
+    /// The same as results, which from a place on are in the order of the coordinates.
+    pub(super) fn checked(&self, from: usize) -> Vec<Expression> {
+        self.to_check().into_iter().map(|column| Expression::Result(from + column.index())).collect()
     }
 
     // Sources of symbols.
@@ -168,7 +172,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         Source { from: Expression::own().behind(), shape: Shape::fields(Type::Itself, fields, true) }
     }
 
-    fn pose_source(&self) -> Source {
+    pub(super) fn pose_source(&self) -> Source {
         let values = self.pose.values.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
         let determinants = self.pose.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
         let externals = self.pose.externals.iter().map(|(_, field, symbol)| (field.clone(), *symbol));

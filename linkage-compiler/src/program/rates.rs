@@ -152,7 +152,8 @@ impl Plan<'_, '_> {
         ];
         let before = before.map(|(name, value)| Statement::Let(Pattern::Name(name.clone()), value));
         let moving = Source { from: name(&velocity), ..self.coordinates(&velocity, |c| c.rate) };
-        let sources = vec![self.parameters(), self.computed(), moving];
+        let at_pose = Source { from: name(&pose), ..self.pose_source() };
+        let sources = vec![self.parameters(), at_pose, moving];
         let whose = is_fallible.then_some(whose);
         let kernel = Kernel { sources, steps, results: unnamed(nodes), whose, is_on_pose: true, ..Kernel::default() };
         let bias = Expression::List(results(0..names.len()));

@@ -84,7 +84,7 @@ impl ScenePlan<'_, '_, '_> {
         let symbols: Vec<SymbolId> = inertia.chain(forces).chain(ratios).chain(&self.scene.bias).copied().collect();
         let outputs = unnamed(self.plan.variables(&symbols));
         let count = outputs.len();
-        let body = self.on_motion(outputs);
+        let body = self.on_motion(outputs, None);
         let body = self.blamed(body, "the equations of motion", results(0..count));
         let body = self.with_rates(body);
         let (forces, ratios) = (v * v + v, v * v + v + u * v);

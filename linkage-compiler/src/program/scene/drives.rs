@@ -69,7 +69,7 @@ impl ScenePlan<'_, '_, '_> {
         let right = entries.end..entries.end + free.len();
         let coupling = right.end..right.end + free.len() * driven.len();
         let forces = results(coupling.end..outputs.len());
-        let mut body = self.on_motion(outputs);
+        let mut body = self.on_motion(outputs, None);
         if free.is_empty() {
             return (body, forces);
         }

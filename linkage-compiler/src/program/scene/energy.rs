@@ -12,7 +12,7 @@ impl ScenePlan<'_, '_, '_> {
         let members = ["kinetic", "potential"];
         let nodes = [self.scene.kinetic, self.scene.potential];
         let outputs = nodes.into_iter().zip(members).map(|(node, name)| Output::named(node, name)).collect();
-        let body = self.on_motion(outputs).checked("the energy", results(0..2));
+        let body = self.on_motion(outputs, None).checked("the energy", results(0..2));
         let body = self.with_rates(body);
         let members = members.map(str::to_owned).into_iter().zip(results(0..2));
         let energy = Expression::structure(Type::Runtime("Energy", Vec::new()), members);
@@ -57,7 +57,7 @@ impl ScenePlan<'_, '_, '_> {
             let applied = body.bound("applied".to_owned(), sum);
             (body, applied)
         } else {
-            (self.on_motion(outputs), Expression::Result(0))
+            (self.on_motion(outputs, None), Expression::Result(0))
         };
         let values = [applied, Expression::Result(1)];
         let body = self.blamed(body, "the power", values.to_vec());

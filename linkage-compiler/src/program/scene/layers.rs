@@ -131,11 +131,12 @@ impl ScenePlan<'_, '_, '_> {
         self.add(self.signatures.blame(), doc, body);
     }
 
-    /// A body on coordinates and the rates of the inputs, with W, q', u'' at v'' = 0, M and Q as far as results need them.
-    pub(super) fn on_motion(&self, results: Vec<Output>) -> Body {
+    /// A body on coordinates and the rates of the inputs, with W, q', u'' at v'' = 0, M and Q as far as results need them,
+    /// and what else is read under its name.
+    pub(super) fn on_motion(&self, results: Vec<Output>, by_name: Option<Read>) -> Body {
         let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
         let own = self.reads(&nodes);
-        let mut all = own.clone();
+        let mut all: BTreeSet<Read> = own.iter().copied().chain(by_name).collect();
         if own.contains(&Read::Inertia) {
             all.extend(&self.layers.inertia_reads);
         }

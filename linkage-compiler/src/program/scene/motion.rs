@@ -1,9 +1,10 @@
 //! M, Q and the accelerations of a scene.
 
+use super::layers::Read;
 use super::{ERRORS, ScenePlan};
 use crate::derivation::Prescribed;
 use crate::graph::{NodeId, Number, SymbolId};
-use crate::ids::{ColumnId, InputId, Table};
+use crate::ids::InputId;
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
@@ -29,7 +30,7 @@ impl ScenePlan<'_, '_, '_> {
         let symbols: Vec<SymbolId> = self.layers.inertia.iter().flatten().copied().collect();
         let outputs = unnamed(self.plan.variables(&symbols));
         let entries = results(0..symbols.len());
-        let body = self.on_motion(outputs).checked("the mass matrix", entries.clone());
+        let body = self.on_motion(outputs, None).checked("the mass matrix", entries.clone());
         let body = Body { value: Value::Plain(Expression::matrix(&entries, v)), ..body };
         self.add(self.signatures.mass_matrix(), doc, body);
     }
@@ -45,7 +46,7 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(lines(ERRORS));
         let count = self.scene.forces.len();
         let outputs = unnamed(self.plan.variables(&self.layers.forces));
-        let body = self.on_motion(outputs);
+        let body = self.on_motion(outputs, None);
         let body = self.blamed(body, "the forces", results(0..count));
         let body = Body { value: Value::Plain(Expression::vector(results(0..count))), ..self.with_rates(body) };
         self.add(self.signatures.forces(), doc, body);
@@ -113,36 +114,33 @@ impl ScenePlan<'_, '_, '_> {
 
     /// q' and v'' in one function, and v'' alone by the same.
     pub(super) fn rates(&mut self) {
-        let all: Table<ColumnId, ColumnId> = self.plan.derivation.coordinates.ids().collect();
         let free = self.signatures.free.clone();
-        let symbols = self.plan.rates(&all);
-        let mut outputs: Vec<Output> = self.plan.variables(&symbols).into_iter().map(Output::from).collect();
-        outputs.extend(self.minor(&free, &free).into_iter().map(Output::from));
-        outputs.extend(self.right_sides(&free).into_iter().map(Output::from));
+        let mut outputs = unnamed(self.minor(&free, &free));
+        outputs.extend(unnamed(self.right_sides(&free)));
         let laws = self.scene.drives.values().zip(&self.signatures.driven);
         outputs.extend(
             laws.map(|(law, &at)| {
                 Output::named(law.acceleration, format!("{}_acceleration", self.signatures.inputs[at]))
             }),
         );
-        let entries = all.len()..all.len() + free.len().pow(2);
+        let entries = 0..free.len().pow(2);
         let sides = entries.end..entries.end + free.len();
         let laws = sides.end..outputs.len();
-        let mut body = self.on_motion(outputs);
+        let mut body = self.on_motion(outputs, Some(Read::Velocity));
         let accelerations = self.solve_free(&mut body, results(entries), results(sides));
         let mut accelerations: Vec<(InputId, Expression)> = free.into_iter().zip(accelerations).collect();
         accelerations.extend(self.signatures.driven.iter().copied().zip(results(laws)));
         accelerations.sort_by_key(|(at, _)| *at);
         let accelerations: Vec<Expression> = accelerations.into_iter().map(|(_, value)| value).collect();
-        let checked = [accelerations.clone(), self.plan.checked(0)].concat();
+        let velocity = Expression::name(&self.signatures.arguments.velocity);
+        let rates = self.plan.to_check().into_iter();
+        let rates = rates.map(|column| velocity.clone().field(&self.plan.derivation.coordinates[column].name));
+        let checked = accelerations.iter().cloned().chain(rates).collect();
         let body = self.blamed(body, "the acceleration", checked);
         let body = self.with_rates(body);
         let inputs = self.signatures.inputs.iter().cloned().zip(accelerations);
         let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), inputs);
-        let fields = self.plan.fields().into_iter().zip(results(0..all.len()));
-        let coordinates = Type::Bare(self.signatures.types.coordinates.clone());
-        let coordinates = Expression::structure(coordinates, fields);
-        let body = Body { value: Value::Plain(Expression::Tuple(vec![coordinates, inputs])), ..body };
+        let body = Body { value: Value::Plain(Expression::Tuple(vec![velocity, inputs])), ..body };
         let mut errors = lines(ERRORS);
         errors.push("`NoInertia` where an input could accelerate without a force.".to_owned());
         let mut doc = lines([
