@@ -16,8 +16,8 @@ pub use crate::limits::{Bound, Search, limits};
 pub use crate::linear::{Factorization, product_of_pivots, regular};
 pub use crate::motion::{finite_matrices, finite_outputs, finite_points, output_motions, point_motions};
 pub use crate::position::newton_group;
-pub use crate::scalar::{sine_cosine_of, unit};
-pub use crate::scene::{finite_each, not_negative};
+pub use crate::scalar::unit;
+pub use crate::scene::{Kinematics, finite_each, not_negative};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
     Along, Assembly, Balance, Contact, ContactLaw, Elbow, Energy, Equations, Error, Group, Limits, Mechanism,

@@ -53,13 +53,6 @@ pub fn unit<T: Real>(cosine: T, sine: T) -> UnitComplex<T> {
     Unit::new_unchecked(Complex { re: cosine, im: sine })
 }
 
-/// The sine and cosine of the angle of a direction.
-#[inline(always)]
-#[must_use]
-pub fn sine_cosine_of<T: Real>(direction: UnitComplex<T>) -> (T, T) {
-    (direction.im, direction.re)
-}
-
 /// The larger of two numbers; not a number if one of them is none, which `max` and a comparison lose.
 #[inline]
 pub(crate) fn larger<T: Real>(a: T, b: T) -> T {

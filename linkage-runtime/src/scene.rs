@@ -8,6 +8,18 @@ use crate::scalar::to_f64;
 use crate::simulation::scales::Scales;
 use crate::{Contact, ContactLaw, Equations, Error, Mechanism, Real, finite, newton};
 
+/// What the functions of a scene share at a position and rates of the inputs.
+#[derive(Debug, Clone, Copy)]
+pub struct Kinematics<P, Q, T, const U: usize, const V: usize> {
+    pub pose: P,
+    /// W, column by column.
+    pub ratios: [[T; U]; V],
+    /// q' = (W v', v').
+    pub velocity: Q,
+    /// u'' where the inputs do not accelerate.
+    pub bias: [T; U],
+}
+
 /// A mechanism of `U` dependent and `V` independent coordinates with inertia and forces, as a differential
 /// equation of `N` = `U` + 2 `V` unknowns, with `C` frictions and stops.
 ///

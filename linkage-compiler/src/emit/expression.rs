@@ -270,6 +270,11 @@ impl ToTokens for Type {
                 quote!([#item; #count])
             }
             Self::Tuple(items) => quote!((#(#items),*)),
+            Self::Kinematics { pose, coordinates, unknowns, inputs } => {
+                let [pose, coordinates] = [pose, coordinates].map(|name| ident(name));
+                let [unknowns, inputs] = [unknowns, inputs].map(|count| literal(*count));
+                quote!(__rt::Kinematics<#pose<T>, #coordinates<T>, T, #unknowns, #inputs>)
+            }
             Self::Branches { branch, pose } => {
                 let (branch, pose) = (ident(branch), ident(pose));
                 quote!(impl __rt::Iterator<Item = __rt::Result<(#branch, #pose<T>), __rt::Error>> + '_)

@@ -1,5 +1,5 @@
-//! The order of factors: numbers, symbols as they were declared, products and squares of these, sines and cosines, and
-//! then what is made of others.
+//! The order of factors: numbers, products that are shared, symbols as they were declared, sines and cosines, and then
+//! what is made of others.
 
 use super::{Value, ValueId};
 use crate::graph::SymbolId;
@@ -8,9 +8,9 @@ use crate::graph::SymbolId;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Number,
-    Symbol(SymbolId),
-    /// A product with this symbol first, or its square.
+    /// A product of this symbol and others, or its square.
     Made(SymbolId),
+    Symbol(SymbolId),
     Direction,
     Function,
     Sum,
@@ -52,10 +52,13 @@ fn settle(values: &[Value], kinds: &mut [Option<Kind>], root: ValueId) {
             Value::Call(..) | Value::External(..) => Kind::Function,
             Value::Sum(_) => Kind::Sum,
             Value::Quotient(..) => Kind::Quotient,
-            Value::Product(_) | Value::Square(_) => match factors.iter().filter_map(|factor| kinds[factor.0]).min() {
-                Some(Kind::Symbol(first)) => Kind::Made(first),
-                first => first.unwrap_or(Kind::Number),
-            },
+            Value::Product(_) | Value::Square(_) => {
+                let kinds = factors.iter().filter_map(|factor| kinds[factor.0]);
+                match kinds.filter(|kind| *kind != Kind::Number).min() {
+                    Some(Kind::Symbol(first)) => Kind::Made(first),
+                    first => first.unwrap_or(Kind::Number),
+                }
+            }
         });
     }
 }

@@ -15,10 +15,6 @@ use crate::program::{
     Value as Returned,
 };
 
-/// The most directions that one statement reads. With half as many there are twice as many statements; in functions that
-/// are divided into stretches, one that reads more would stand far from where most of them are used.
-const MOST_DIRECTIONS: usize = 8;
-
 /// What the functions of one driver or scene have in common.
 pub struct Context<'a> {
     pub derivation: &'a Derivation,
@@ -50,7 +46,8 @@ pub struct Code {
 /// Lowers a function.
 pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code> {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = planned;
-    let mut body = body.map(|body| self::body(body, context));
+    let is_layer = matches!(access, Access::Layer | Access::PublicLayer);
+    let mut body = body.map(|body| self::body(body, is_layer, context));
     if let (Some(code), Access::Cold) = (&mut body, access) {
         // It is not called where all is well.
         code.operations = Operations::default();
@@ -61,12 +58,13 @@ pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code
     Function { name, doc, access, is_method, arguments, returns, is_fallible, body }
 }
 
-fn body(body: Body, context: &Context) -> Code {
+fn body(body: Body, is_layer: bool, context: &Context) -> Code {
     let Body { before, kernel, after, value, locals, calls, mut operations } = body;
     for call in calls {
         operations += context.works.get(&call).copied().unwrap_or_default();
     }
-    let mut formulas = kernel.map_or_else(|| Formulas::none(context), |kernel| Formulas::of(&kernel, context));
+    let mut formulas =
+        kernel.map_or_else(|| Formulas::none(context), |kernel| Formulas::of(&kernel, is_layer, context));
     operations += formulas.operations;
     let locals: Vec<String> = locals.iter().map(|wish| formulas.taken.unique(wish)).collect();
     let computed = std::mem::take(&mut formulas.statements);
@@ -141,7 +139,7 @@ impl<'a> Formulas<'a> {
         }
     }
 
-    fn of(kernel: &Kernel, context: &Context<'a>) -> Self {
+    fn of(kernel: &Kernel, is_layer: bool, context: &Context<'a>) -> Self {
         let derivation = context.derivation;
         let nothing = Given::default();
         let given = if kernel.is_on_pose { &context.pose.given } else { &nothing };
@@ -149,7 +147,7 @@ impl<'a> Formulas<'a> {
         // A value that has a line of its own is called as the result that it is, or as the user calls it.
         let results = kernel.results.iter().filter_map(|output| Some((output.node, output.name.clone()?)));
         let named: Vec<(NodeId, String)> = results.chain(context.named.iter().cloned()).collect();
-        let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, &named);
+        let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, &named, is_layer);
         let is_proven = schedule.proven();
         let mut names = Names::new(&derivation.graph, context.reserved);
         // The user's own names come first, so that they stay as they are.
@@ -237,7 +235,7 @@ fn pattern(shape: &Shape, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Pa
     }
 }
 
-/// `let [(sin_a, cos_a), (sin_b, cos_b)] = [pose.a, pose.b].map(sine_cosine_of);` for the directions that are used.
+/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
 fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Schedule, names: &mut Names) {
     let mut used: Vec<(NodeId, Elementary, ValueId)> = Vec::new();
     for &id in schedule.used() {
@@ -246,27 +244,22 @@ fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Sch
         }
     }
     used.sort_unstable();
-    let mut pairs: Vec<(Pattern, Expression)> = Vec::new();
     for parts in used.chunk_by(|one, other| one.0 == other.0) {
         let field = context.pose.direction(parts[0].0);
-        let mut pair = [Pattern::Ignored, Pattern::Ignored];
+        let (mut patterns, mut values) = (Vec::new(), Vec::new());
         for &(_, function, id) in parts {
-            let place = usize::from(function == Elementary::Cos);
-            pair[place] = Pattern::Name(names.give(id, &direction_name(function, field)));
+            patterns.push(Pattern::Name(names.give(id, &direction_name(function, field))));
+            let part = if function == Elementary::Sin { "im" } else { "re" };
+            values.push(Expression::name(context.pose_argument).field(field).field(part));
         }
-        pairs.push((Pattern::Tuple(pair.to_vec()), Expression::name(context.pose_argument).field(field)));
-    }
-    for pairs in pairs.chunks(MOST_DIRECTIONS) {
-        let (patterns, fields): (Vec<Pattern>, Vec<Expression>) = pairs.iter().cloned().unzip();
-        statements.push(match (patterns.as_slice(), fields.as_slice()) {
-            ([pattern], [field]) => {
-                Statement::Let(pattern.clone(), Expression::runtime("sine_cosine_of", [field.clone()]))
-            }
-            _ => {
-                let map = [Expression::Constant("sine_cosine_of")];
-                Statement::Let(Pattern::List(patterns), Expression::List(fields).method("map", map))
-            }
-        });
+        let (pattern, value) = match (patterns.pop(), values.pop()) {
+            (Some(pattern), Some(value)) if patterns.is_empty() => (pattern, value),
+            (pattern, value) => (
+                Pattern::Tuple(patterns.into_iter().chain(pattern).collect()),
+                Expression::Tuple(values.into_iter().chain(value).collect()),
+            ),
+        };
+        statements.push(Statement::Let(pattern, value));
     }
 }
 

@@ -59,9 +59,18 @@ impl<'a, 'n> Writer<'a, 'n> {
         match line {
             Line::Let(id) => {
                 // What a value is made of has names before it has one itself.
-                let value = self.computed(*id);
-                let name = self.names.invent(self.schedule, *id);
-                self.let_name(name, value);
+                match self.schedule.name(*id) {
+                    Some((wish, true)) => {
+                        let value = self.signed(Signed { negative: true, value: *id });
+                        let name = self.names.give_negative(*id, wish);
+                        self.let_name(name, value);
+                    }
+                    _ => {
+                        let value = self.signed(Signed { negative: false, value: *id });
+                        let name = self.names.invent(self.schedule, *id);
+                        self.let_name(name, value);
+                    }
+                }
             }
             Line::SineCosine { sine, cosine, angle } => {
                 let angle = self.signed(*angle);
@@ -150,6 +159,14 @@ impl<'a, 'n> Writer<'a, 'n> {
 
     /// A value under the name of a symbol.
     fn name(&mut self, symbol: SymbolId, value: Signed) {
+        // What has a name already needs no other.
+        if !value.negative
+            && !self.names.is_negative(value.value)
+            && let Some(known) = self.known(value.value)
+        {
+            self.names.call(symbol, known);
+            return;
+        }
         let is_number = matches!(self.schedule.value(value.value), Value::Constant(_));
         let is_new = !value.negative && !is_number && self.names.get(self.schedule, value.value).is_none();
         let definition = self.signed(value);
@@ -158,6 +175,13 @@ impl<'a, 'n> Writer<'a, 'n> {
         if is_new {
             self.names.set(value.value, name);
         }
+    }
+
+    /// The name of a symbol, or one that the user gave.
+    fn known(&self, value: ValueId) -> Option<String> {
+        let is_symbol = matches!(self.schedule.value(value), Value::Symbol(_));
+        let name = self.names.get(self.schedule, value).filter(|_| is_symbol || self.schedule.name(value).is_some());
+        name.map(str::to_owned)
     }
 
     fn chord(&mut self, (block, symbol): (BlockId, SymbolId), factors: [Signed; 2], size: Signed, of: ChordOf<Signed>) {
@@ -261,58 +285,100 @@ impl<'a, 'n> Writer<'a, 'n> {
         values.iter().map(|value| self.signed(*value)).collect()
     }
 
-    /// A value, by its name if it has one.
-    pub(super) fn signed(&self, Signed { negative, value }: Signed) -> Expression {
-        let name = self.names.get(self.schedule, value).map(Expression::name);
-        let inside = match (name, self.schedule.value(value)) {
-            (Some(name), _) => name,
-            // -(a - b) is b - a.
-            (None, Value::Sum(terms)) if negative && terms.iter().any(|term| term.negative) => {
-                let flip = |term: &Signed| Signed { negative: !term.negative, ..*term };
-                let mut terms: Vec<Signed> = terms.iter().map(flip).collect();
-                terms.sort_by_key(|term| term.negative);
-                return self.sum(&terms);
+    /// A value, by its name if it has one; of a difference, or of a product with one, that is taken negative the difference
+    /// is turned round.
+    pub(super) fn signed(&self, signed: Signed) -> Expression {
+        let (is_negative, value) = self.parts(signed);
+        if !is_negative {
+            return value;
+        }
+        let turned = |value: ValueId| self.turned(value);
+        match self.schedule.value(signed.value) {
+            _ if self.names.get(self.schedule, signed.value).is_some() => {}
+            Value::Sum(_) => {
+                if let Some(sum) = turned(signed.value) {
+                    return sum;
+                }
             }
-            (None, Value::Constant(number)) if number.is_zero() => return Expression::Number(*number),
-            (None, _) => self.computed(value),
-        };
-        if negative { Expression::Negative(Box::new(inside)) } else { inside }
+            Value::Product(factors) => {
+                let mut expressions: Vec<Expression> = factors.iter().map(|&factor| self.parts_of(factor).1).collect();
+                let difference = factors.iter().enumerate().find_map(|(at, &factor)| Some((at, turned(factor)?)));
+                if let Some((at, sum)) = difference {
+                    expressions[at] = sum;
+                    return Expression::Product(expressions);
+                }
+            }
+            _ => {}
+        }
+        Expression::Negative(Box::new(value))
     }
 
-    fn positive(&self, value: ValueId) -> Expression {
-        self.signed(Signed { negative: false, value })
+    /// b - a for a - b without a name.
+    fn turned(&self, value: ValueId) -> Option<Expression> {
+        let is_named = self.names.get(self.schedule, value).is_some();
+        let Value::Sum(terms) = self.schedule.value(value) else { return None };
+        if is_named || !terms.iter().any(|term| self.is_taken_away(*term)) {
+            return None;
+        }
+        let terms: Vec<Signed> = terms.iter().map(|term| Signed { negative: !term.negative, ..*term }).collect();
+        Some(self.sum(&terms))
     }
 
+    /// True if a minus stands before a term as it is written.
+    fn is_taken_away(&self, term: Signed) -> bool {
+        term.negative != self.names.is_negative(term.value)
+    }
+
+    /// A value with the sign before it.
+    fn parts(&self, Signed { negative, value }: Signed) -> (bool, Expression) {
+        let (is_negative, value) = self.parts_of(value);
+        let is_zero = matches!(&value, Expression::Number(number) if number.is_zero());
+        (negative != is_negative && !is_zero, value)
+    }
+
+    fn parts_of(&self, value: ValueId) -> (bool, Expression) {
+        match self.names.get(self.schedule, value) {
+            Some(name) => (self.names.is_negative(value), Expression::name(name)),
+            None => self.computed(value),
+        }
+    }
+
+    /// The terms of a sum, first those that are added.
     fn sum(&self, terms: &[Signed]) -> Expression {
-        let term = |(place, term): (usize, &Signed)| match self.signed(*term) {
-            // Of the first term, which has no sign before it, a difference is turned round.
-            first if place == 0 => match first {
+        let mut terms = terms.to_vec();
+        terms.sort_by_key(|term| self.is_taken_away(*term));
+        let term = |(place, term): (usize, &Signed)| match place {
+            // The first has no sign before it.
+            0 => match self.signed(*term) {
                 Expression::Negative(inside) => (true, *inside),
                 first => (false, first),
             },
-            _ => (term.negative, self.positive(term.value)),
+            _ => self.parts(*term),
         };
         Expression::Sum(terms.iter().enumerate().map(term).collect())
     }
 
-    /// How a value is computed, even if it has a name.
-    fn computed(&self, value: ValueId) -> Expression {
+    /// How a value is computed, even if it has a name, with the sign before it.
+    fn computed(&self, value: ValueId) -> (bool, Expression) {
         match self.schedule.value(value) {
-            Value::Symbol(symbol) => Expression::Name(self.names.symbol(*symbol)),
-            Value::Constant(number) => Expression::Number(*number),
-            Value::Sum(terms) => self.sum(terms),
             Value::Product(factors) => {
-                Expression::Product(factors.iter().map(|&factor| self.positive(factor)).collect())
+                let parts = factors.iter().map(|&factor| self.parts_of(factor));
+                let (signs, factors): (Vec<bool>, Vec<Expression>) = parts.unzip();
+                (signs.into_iter().fold(false, |sign, other| sign != other), Expression::Product(factors))
             }
             Value::Quotient(above, below) => {
-                Expression::Quotient(Box::new([self.positive(*above), self.positive(*below)]))
+                let [(above_sign, above), (below_sign, below)] = [above, below].map(|&part| self.parts_of(part));
+                (above_sign != below_sign, Expression::Quotient(Box::new([above, below])))
             }
-            Value::Square(base) => Expression::Square(Box::new(self.positive(*base))),
-            Value::Call(function, arguments) => Expression::Elementary(*function, self.all_signed(arguments)),
+            Value::Square(base) => (false, Expression::Square(Box::new(self.parts_of(*base).1))),
+            Value::Symbol(symbol) => (false, Expression::Name(self.names.symbol(*symbol))),
+            Value::Constant(number) => (false, Expression::Number(*number)),
+            Value::Sum(terms) => (false, self.sum(terms)),
+            Value::Call(function, arguments) => (false, Expression::Elementary(*function, self.all_signed(arguments))),
             // Directions and user functions have lines of their own, which name them.
-            Value::Direction(function, _) => Expression::name(function.operation().name),
+            Value::Direction(function, _) => (false, Expression::name(function.operation().name)),
             Value::External(external, _) => {
-                Expression::name(self.derivation.graph.external_name(external).unwrap_or_default())
+                (false, Expression::name(self.derivation.graph.external_name(external).unwrap_or_default()))
             }
         }
     }

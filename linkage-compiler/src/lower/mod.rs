@@ -3,6 +3,7 @@
 
 mod factors;
 mod function;
+mod joined;
 mod lines;
 mod names;
 mod operations;
@@ -133,8 +134,8 @@ pub struct Schedule {
     pub lines: Vec<Line>,
     /// What the lines are for.
     pub results: Vec<Signed>,
-    /// The expressions that the user named, where they are computed.
-    names: Vec<(ValueId, String)>,
+    /// The expressions that have names, where they or their negatives are computed.
+    names: Vec<(ValueId, bool, String)>,
     used: Vec<ValueId>,
 }
 
@@ -146,6 +147,7 @@ pub fn schedule(
     results: &[NodeId],
     given: &Given,
     named: &[(NodeId, String)],
+    keeps_inverses: bool,
 ) -> Schedule {
     let mut nodes: Vec<NodeId> = steps.iter().flat_map(Step::nodes).collect();
     nodes.extend(results);
@@ -154,14 +156,16 @@ pub fn schedule(
     let roots: Vec<Signed> = nodes.iter().map(|node| translated[node]).collect();
     graph.budget().spend(nodes.len() + values.len());
     sharing::share(&mut values, &roots, graph.budget());
+    joined::join(&mut values, &roots, keeps_inverses);
     factors::order(&mut values);
-    let mut names: Vec<(ValueId, String)> = Vec::new();
+    let mut names: Vec<(ValueId, bool, String)> = Vec::new();
     for (node, name) in named {
-        if let Some(Signed { negative: false, value }) = translated.get(node).copied() {
-            names.push((value, name.clone()));
+        if let Some(Signed { negative, value }) = translated.get(node).copied() {
+            names.push((value, negative, name.clone()));
         }
     }
-    names.sort_by_key(|(value, _)| *value);
+    // A name of the value itself comes after those of its negative.
+    names.sort_by_key(|(value, negative, _)| (*value, !negative));
     let mut ordering = Ordering::new(graph, values, &roots);
     ordering.gather_sines(&introduced);
     let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| translated[node]).collect() };
@@ -199,7 +203,7 @@ pub fn schedule(
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
             }
             Step::Newton { block, targets, start, known, system } => {
-                let system = Box::new(schedule(graph, &[], system, given, &[]));
+                let system = Box::new(schedule(graph, &[], system, given, &[], false));
                 let (targets, start, known) = (targets.clone(), signed(start), signed(known));
                 Line::Newton { block: *block, targets, start, known, system }
             }
@@ -243,13 +247,13 @@ impl Schedule {
         &self.values[id.0]
     }
 
-    /// The name that the user gave to a value.
+    /// The name of a value, and whether it is that of its negative.
     #[must_use]
-    pub fn name(&self, id: ValueId) -> Option<&str> {
+    pub fn name(&self, id: ValueId) -> Option<(&str, bool)> {
         // Of several names the last.
-        let after = self.names.partition_point(|(value, _)| *value <= id);
-        let (value, name) = self.names.get(after.checked_sub(1)?)?;
-        (*value == id).then_some(name)
+        let after = self.names.partition_point(|(value, ..)| *value <= id);
+        let (value, negative, name) = self.names.get(after.checked_sub(1)?)?;
+        (*value == id).then_some((name, *negative))
     }
 
     /// Every value that the lines depend on, ascending.

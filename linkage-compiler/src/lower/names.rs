@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Schedule, Signed, Value, ValueId};
 use crate::graph::{Graph, Number, SymbolId};
@@ -14,17 +14,20 @@ pub(super) struct Names<'a> {
     graph: &'a Graph,
     pub(super) taken: Taken<'a>,
     values: FxHashMap<ValueId, String>,
+    /// The values whose names are those of their negatives.
+    negatives: FxHashSet<ValueId>,
     symbols: FxHashMap<SymbolId, String>,
 }
 
 impl<'a> Names<'a> {
     pub(super) fn new(graph: &'a Graph, reserved: &'a BTreeSet<String>) -> Self {
-        Self { graph, taken: Taken::new(reserved), values: FxHashMap::default(), symbols: FxHashMap::default() }
+        let (values, symbols) = (FxHashMap::default(), FxHashMap::default());
+        Self { graph, taken: Taken::new(reserved), values, negatives: FxHashSet::default(), symbols }
     }
 
     /// The names of a scope within this one: other values, the same symbols.
     pub(super) fn within(&self) -> Self {
-        Self { values: FxHashMap::default(), ..self.clone() }
+        Self { values: FxHashMap::default(), negatives: FxHashSet::default(), ..self.clone() }
     }
 
     /// The local name of a symbol.
@@ -37,6 +40,21 @@ impl<'a> Names<'a> {
         let name = self.taken.unique(self.graph.symbol_name(symbol));
         self.symbols.insert(symbol, name.clone());
         name
+    }
+
+    /// Gives a symbol the name of something else.
+    pub(super) fn call(&mut self, symbol: SymbolId, name: String) {
+        self.symbols.insert(symbol, name);
+    }
+
+    /// Gives a value the name of its negative.
+    pub(super) fn give_negative(&mut self, value: ValueId, wish: &str) -> String {
+        self.negatives.insert(value);
+        self.give(value, wish)
+    }
+
+    pub(super) fn is_negative(&self, value: ValueId) -> bool {
+        self.negatives.contains(&value)
     }
 
     pub(super) fn set(&mut self, value: ValueId, name: String) {
@@ -62,8 +80,8 @@ impl<'a> Names<'a> {
     /// Names a value after what it is made of.
     pub(super) fn invent(&mut self, schedule: &Schedule, value: ValueId) -> String {
         let wish = match schedule.name(value) {
-            Some(name) => Some(name.to_owned()),
-            None => self.describe(schedule, value),
+            Some((name, false)) => Some(name.to_owned()),
+            _ => self.describe(schedule, value),
         };
         let name = match wish.filter(|wish| wish.len() <= LONGEST_NAME) {
             Some(wish) => self.taken.unique(&wish),
@@ -89,9 +107,10 @@ impl<'a> Names<'a> {
                 Some(format!("inverse_{}", self.text(schedule, *below)?))
             }
             Value::Quotient(above, below) => {
-                Some(format!("{}_by_{}", self.part(schedule, *above)?, self.part(schedule, *below)?))
+                Some(format!("{}_over_{}", self.part(schedule, *above)?, self.part(schedule, *below)?))
             }
-            Value::Square(base) => Some(format!("{}_squared", self.text(schedule, *base)?)),
+            // The square of the negative is the same.
+            Value::Square(base) => Some(format!("{}_squared", self.get(schedule, *base)?)),
             Value::Call(function, arguments) => {
                 let &[argument] = arguments.as_slice() else { return None };
                 let argument =
@@ -122,8 +141,9 @@ impl<'a> Names<'a> {
         }
     }
 
+    /// The name of a value, but for that of its negative.
     fn text(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
-        self.get(schedule, value).map(str::to_owned)
+        self.get(schedule, value).filter(|_| !self.is_negative(value)).map(str::to_owned)
     }
 }
 

@@ -70,14 +70,11 @@ fn read_late(statements: Vec<Statement>) -> Vec<Statement> {
     late
 }
 
-/// True if a value is a field, or what is made of several.
+/// True if a value is a field, or several.
 fn is_read(value: &Expression) -> bool {
     match value {
         Expression::Field(of, _) => matches!(**of, Expression::Name(_)) || is_read(of),
-        Expression::List(values) | Expression::Runtime(_, values) => !values.is_empty() && values.iter().all(is_read),
-        Expression::Method(of, _, arguments) => {
-            arguments.iter().all(|argument| matches!(argument, Expression::Constant(_))) && is_read(of)
-        }
+        Expression::Tuple(values) => !values.is_empty() && values.iter().all(is_read),
         _ => false,
     }
 }

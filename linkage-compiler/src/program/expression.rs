@@ -120,6 +120,14 @@ pub enum Type {
     Around(&'static str, Box<Type>),
     List(Box<Type>, usize),
     Tuple(Vec<Type>),
+    /// What the functions of scenes share at a pose of this type with coordinates of that, for so many unknowns and
+    /// inputs.
+    Kinematics {
+        pose: String,
+        coordinates: String,
+        unknowns: usize,
+        inputs: usize,
+    },
     /// The positions on all branches: an iterator of results.
     Branches {
         branch: String,

@@ -157,7 +157,9 @@ impl Plan<'_, '_> {
         let whose = is_fallible.then_some(whose);
         let kernel = Kernel { sources, steps, results: unnamed(nodes), whose, is_on_pose: true, ..Kernel::default() };
         let bias = Expression::List(results(0..names.len()));
-        let value = Expression::Tuple(vec![name(&pose), name(&ratios), name(&velocity), bias]);
+        let members = [("pose", name(&pose)), ("ratios", name(&ratios)), ("velocity", name(&velocity)), ("bias", bias)];
+        let members = members.map(|(field, value)| (field.to_owned(), value));
+        let value = Expression::structure(Type::Runtime("Kinematics", Vec::new()), members);
         let calls = ["pose_at", "ratio_columns", "coordinate_rates"].map(str::to_owned).to_vec();
         let body = Body { before: before.to_vec(), calls, ..Body::of(kernel, value) };
         let mut signature = self.signatures.kinematics_at();

@@ -266,8 +266,12 @@ impl<'a> Signatures<'a> {
         let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
         let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
         let arguments = [self.coordinates(&self.arguments.q), rate, self.whose()];
-        let bias = Type::List(Box::new(Type::Scalar), self.unknowns());
-        let of = Type::Tuple(vec![self.pose_type(), self.columns(), self.coordinates_type(), bias]);
+        let of = Type::Kinematics {
+            pose: self.types.pose.clone(),
+            coordinates: self.types.coordinates.clone(),
+            unknowns: self.unknowns(),
+            inputs: self.inputs(),
+        };
         layer(fallible("kinematics_at", arguments, of))
     }
 

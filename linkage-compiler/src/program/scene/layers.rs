@@ -176,16 +176,16 @@ impl ScenePlan<'_, '_, '_> {
         let mut body = Body::default();
         if reads.contains(&Read::Bias) {
             let found = [
-                (Read::Pose, &arguments.pose),
-                (Read::Ratios, &arguments.ratios),
-                (Read::Velocity, &arguments.velocity),
-                (Read::Bias, &arguments.bias),
+                (Read::Pose, "pose", &arguments.pose),
+                (Read::Ratios, "ratios", &arguments.ratios),
+                (Read::Velocity, "velocity", &arguments.velocity),
+                (Read::Bias, "bias", &arguments.bias),
             ];
-            let pattern = |(read, name): (Read, &String)| match reads.contains(&read) {
-                true => Pattern::Name(name.clone()),
-                false => Pattern::Ignored,
-            };
-            let pattern = Pattern::Tuple(found.into_iter().map(pattern).collect());
+            let read = found.into_iter().filter(|(read, ..)| reads.contains(read));
+            let fields = read.map(|(_, field, name)| (field.to_owned(), Pattern::Name(name.clone())));
+            let fields: Vec<_> = fields.collect();
+            let of = Type::Runtime("Kinematics", Vec::new());
+            let pattern = Pattern::Struct { of, is_whole: fields.len() == found.len(), fields };
             let call = self.judged("kinematics_at", vec![Expression::name(&arguments.q), rate]);
             body.before.push(Statement::Let(pattern, call));
             body.calls.push(self.of_driver("kinematics_at"));

@@ -1,0 +1,74 @@
+//! What sharing took apart and nothing shares in the end: a sum within one sum, a product within one product, and the
+//! inverse of a divisor in one product, which becomes a quotient.
+
+use super::{Signed, Value, ValueId};
+
+/// Rewrites the sums and products that the roots depend on. What is used once stands where it is used; a kernel whose
+/// function is inlined into others keeps its inverses, which those have in common with it.
+pub(super) fn join(values: &mut Vec<Value>, roots: &[Signed], keeps_inverses: bool) {
+    let (mut uses, mut stack) = (vec![0; values.len()], Vec::new());
+    let mut reached = Vec::new();
+    stack.extend(roots.iter().map(|root| root.value));
+    while let Some(id) = stack.pop() {
+        uses[id.0] += 1;
+        if uses[id.0] == 1 {
+            reached.push(id);
+            values[id.0].each_part(|part| stack.push(part));
+        }
+    }
+    for id in reached {
+        let once = |value: ValueId| uses.get(value.0) == Some(&1);
+        match &values[id.0] {
+            Value::Sum(terms) => {
+                let mut joined = Vec::new();
+                let mut stack: Vec<Signed> = terms.iter().rev().copied().collect();
+                while let Some(term) = stack.pop() {
+                    match &values[term.value.0] {
+                        Value::Sum(inner) if once(term.value) => {
+                            let signed = |part: &Signed| Signed { negative: part.negative != term.negative, ..*part };
+                            stack.extend(inner.iter().rev().map(signed));
+                        }
+                        _ => joined.push(term),
+                    }
+                }
+                joined.sort_by_key(|term| term.negative);
+                values[id.0] = Value::Sum(joined);
+            }
+            Value::Product(factors) => {
+                let (mut joined, mut divisor) = (Vec::new(), None);
+                let mut stack: Vec<ValueId> = factors.iter().rev().copied().collect();
+                while let Some(factor) = stack.pop() {
+                    match &values[factor.0] {
+                        // Numbers are one factor already.
+                        Value::Product(inner) if once(factor) && !inner.iter().any(|&part| is_number(values, part)) => {
+                            stack.extend(inner.iter().rev());
+                        }
+                        Value::Quotient(one, below)
+                            if once(factor) && !keeps_inverses && divisor.is_none() && is_one(values, *one) =>
+                        {
+                            divisor = Some(*below);
+                        }
+                        _ => joined.push(factor),
+                    }
+                }
+                values[id.0] = match (divisor, joined.as_slice()) {
+                    (None, _) => Value::Product(joined),
+                    (Some(below), &[above]) => Value::Quotient(above, below),
+                    (Some(below), _) => {
+                        values.push(Value::Product(joined));
+                        Value::Quotient(ValueId(values.len() - 1), below)
+                    }
+                };
+            }
+            _ => {}
+        }
+    }
+}
+
+fn is_number(values: &[Value], id: ValueId) -> bool {
+    matches!(values[id.0], Value::Constant(_))
+}
+
+fn is_one(values: &[Value], id: ValueId) -> bool {
+    matches!(values[id.0], Value::Constant(number) if number.is_one())
+}
