@@ -124,10 +124,13 @@ snapshot!(
     of_scene(
         "four_bar_scenes",
         "Idle",
-        &["mass_matrix", "forces", "rates", "acceleration", "energy", "check", "blame"]
+        &["reduced_inertia", "effects", "reduced_forces", "mass_matrix", "forces", "rates", "energy", "check", "blame"]
     )
 );
-snapshot!(slider_crank_steady, of_scene("slider_crank_scenes", "Steady", &["rates", "drive_forces", "power"]));
+snapshot!(
+    slider_crank_steady,
+    of_scene("slider_crank_scenes", "Steady", &["effects", "rates", "drive_forces", "power"])
+);
 
 /// The statements of `four_bar_scenes` that `keep` accepts, and its expansion without white space by items.
 fn part_of_scenes(keep: impl Fn(&str) -> bool) -> Vec<String> {

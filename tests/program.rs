@@ -64,7 +64,10 @@ snapshot!(
     [
         "ratio_columns",
         "coordinate_rates",
-        "bias_accelerations",
+        "kinematics_at",
+        "reduced_inertia",
+        "effects",
+        "reduced_forces",
         "mass_matrix",
         "forces",
         "rates",

@@ -11,6 +11,7 @@ use crate::{Contact, ContactLaw, Equations, Error, Mechanism, Real, finite, newt
 /// What the functions of a scene share at a position and rates of the inputs.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinematics<P, Q, T, const U: usize, const V: usize> {
+    /// The position.
     pub pose: P,
     /// W, column by column.
     pub ratios: [[T; U]; V],

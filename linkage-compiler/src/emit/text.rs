@@ -119,7 +119,10 @@ fn expression(value: &Expression) -> String {
         Expression::Repeated(value, count) => format!("[{}; {count}]", expression(value)),
         Expression::Tuple(values) => format!("({})", expressions(values)),
         Expression::Struct(of, members, rest) => {
-            let member = |(name, value): &(String, Expression)| format!("{name}: {}", expression(value));
+            let member = |(field, value): &(String, Expression)| match value {
+                Expression::Name(name) if name == field => field.clone(),
+                value => format!("{field}: {}", expression(value)),
+            };
             let mut members: Vec<String> = members.iter().map(member).collect();
             members.extend(rest.iter().map(|rest| format!("..{}", expression(rest))));
             format!("{} {{{}}}", path(of), members.join(", "))

@@ -35,8 +35,8 @@ pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) 
                 #is_finite
             }
             #[doc = " The coordinates of this position; an angle that is held as its direction alone comes out"]
-            #[doc = " between -pi and pi, at the price of an arc tangent. Nothing is refused: results of numbers"]
-            #[doc = " that are not finite are not finite either, or mean nothing."]
+            #[doc = " between -pi and pi, at the price of an arc tangent. It never fails: where a number is not"]
+            #[doc = " finite, the result is not finite, or has no meaning."]
             #[must_use]
             pub fn coordinates(&self) -> #coordinates<T> {
                 #values

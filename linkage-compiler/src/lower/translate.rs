@@ -102,8 +102,8 @@ impl<'a> Builder<'a> {
             Node::Product { coefficient, factors } => self.product(*coefficient, factors, shared),
             Node::Call(function, arguments) => {
                 let mut arguments: Vec<Signed> = arguments.iter().map(|argument| self.of[argument]).collect();
-                if *function == Function::Hypot {
-                    // It does not see them.
+                if matches!(function, Function::Hypot | Function::Abs) {
+                    // They do not see them.
                     arguments.iter_mut().for_each(|argument| argument.negative = false);
                 }
                 self.positive(Value::Call(*function, arguments))

@@ -38,7 +38,7 @@ pub fn count(operations: Operations) -> String {
 pub fn without_result(mut docs: Vec<String>) -> Vec<String> {
     docs.extend(lines([
         "",
-        "Nothing is refused: results of numbers that are not finite are not finite either, or mean nothing.",
+        "It never fails: where an argument is not finite, the result is not finite, or has no meaning.",
     ]));
     docs
 }

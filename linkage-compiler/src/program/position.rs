@@ -265,15 +265,15 @@ impl Plan<'_, '_> {
         let zeros = turns.iter().map(|turn| (turn.field.clone(), Expression::Count(0)));
         let members = Expression::structure(of.clone(), sides.chain(zeros));
         let mut doc = lines([
-            "The branch that a position belongs to, by the signs of determinants; nothing is refused: of one that is not a",
-            "number the sign tells as well.",
+            "The branch that a position belongs to, by the signs of determinants. It never fails: a determinant that is not",
+            "a number counts by its sign bit.",
         ]);
         let mut body = Body::plain(members.clone());
         if !turns.is_empty() {
             doc = lines([
                 "The branch that a position belongs to, by the signs of determinants, and by assembling it for the turns:",
-                "`assemble` on the branch gives the numbers of the angles back. Nothing is refused: of a determinant that is",
-                "not a number the sign tells as well, and the turn of such an angle is 0.",
+                "`assemble` on the branch gives the numbers of the angles back. It never fails: a determinant that is not a",
+                "number counts by its sign bit, and the turn of such an angle is 0.",
             ]);
             let given = self.pose.values.iter().filter(|(index, ..)| self.derivation.inputs.contains(index));
             let given = given

@@ -57,7 +57,7 @@ impl Plan<'_, '_> {
         let kernel = self.on_pose(vec![source], steps, outputs);
         let body = Body::of(kernel, Expression::vector(results(0..u))).checked("the solution", results(0..u));
         let doc = lines([
-            "The x of J x = `right`.",
+            "The solution x of J x = `right`.",
             "",
             "# Errors",
             "`Singular` where J has no inverse, `NotFinite` if the solution is not finite.",

@@ -122,13 +122,18 @@ impl ScenePlan<'_, '_, '_> {
         self.add(Function { is_method, ..signature }, lines(["Q, the sums of what bodies and effects add."]), body);
     }
 
+    /// True if some effect depends on time.
+    pub(super) fn blame_takes_time(&self) -> bool {
+        self.layers.parts_read.contains(&Read::Time)
+    }
+
     /// The function that says which body or effect has no finite value.
     pub(super) fn blame(&mut self) {
         let body = self.moved(&self.layers.parts_read);
         let finite = [Expression::mechanism(), self.call_of("effects", |argument| self.passed(argument))];
         let body = Body { value: Value::Result(Expression::runtime("finite_each", finite)), ..body };
         let doc = lines(["Refuses the body or the effect that has no finite value, by its name."]);
-        self.add(self.signatures.blame(), doc, body);
+        self.add(self.signatures.blame(self.blame_takes_time()), doc, body);
     }
 
     /// A body on coordinates and the rates of the inputs, with W, q', u'' at v'' = 0, M and Q as far as results need them,
@@ -223,7 +228,7 @@ impl ScenePlan<'_, '_, '_> {
     }
 
     /// What formulas on a pose depend on.
-    fn reads(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
+    pub(super) fn reads(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
         let (derivation, given) = (&*self.plan.derivation, &self.plan.pose.given);
         let graph = &derivation.graph;
         let swept = graph.sweep(nodes, |_| false, |id| given.holds(graph, id));

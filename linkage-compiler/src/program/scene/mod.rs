@@ -16,8 +16,9 @@ use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
 use super::plan::Plan;
 use crate::derivation::{Scene, Step};
+use crate::graph::NodeId;
 use crate::model::{self, Wish};
-use layers::Layers;
+use layers::{Layers, Read};
 pub use signatures::SceneSignatures;
 
 const ERRORS: [&str; 4] = [
@@ -142,7 +143,10 @@ impl ScenePlan<'_, '_, '_> {
     /// A body on coordinates and what else it is given, without any motion.
     fn on_pose(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Body {
         let mut body = Body::default();
-        self.pose_at(&mut body);
+        let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
+        if !steps.is_empty() || self.reads(&nodes).contains(&Read::Pose) {
+            self.pose_at(&mut body);
+        }
         let sources = self.still().into_iter().chain(sources).collect();
         body.kernel = Some(Kernel { sources, steps, results, is_on_pose: true, ..Kernel::default() });
         body
@@ -179,7 +183,8 @@ impl ScenePlan<'_, '_, '_> {
             _ => true,
         };
         let blame = (self.is_blamable && values.iter().any(is_formula)).then(|| {
-            let state = [&arguments.time, &arguments.q, &arguments.rate];
+            let time = self.blame_takes_time().then_some(&arguments.time);
+            let state = time.into_iter().chain([&arguments.q, &arguments.rate]);
             let blame = Expression::call("blame", state.map(Expression::name));
             let refused = Expression::runtime("Err", [Expression::name("error")]);
             Expression::Closure {

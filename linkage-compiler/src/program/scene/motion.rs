@@ -142,9 +142,11 @@ impl ScenePlan<'_, '_, '_> {
         let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), inputs);
         let body = Body { value: Value::Plain(Expression::Tuple(vec![velocity, inputs])), ..body };
         let mut errors = lines(ERRORS);
-        errors.push("`NoInertia` where an input could accelerate without a force.".to_owned());
+        if !self.signatures.free.is_empty() {
+            errors.push("`NoInertia` where an input could accelerate without a force.".to_owned());
+        }
         let mut doc = lines([
-            "The velocity q' = (W v', v') and the input accelerations v'' of M v'' = Q: what an integrator takes.",
+            "The velocity q' = (W v', v') and the input accelerations v'' of M v'' = Q: the right-hand side for an integrator.",
         ]);
         doc.extend(errors.clone());
         self.add(self.signatures.rates(), doc, body);

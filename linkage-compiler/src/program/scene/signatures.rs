@@ -138,10 +138,11 @@ impl<'a> SceneSignatures<'a> {
         fallible("check", [], Type::Tuple(Vec::new()))
     }
 
-    pub fn blame(&self) -> Function<Body> {
+    pub fn blame(&self, takes_time: bool) -> Function<Body> {
         let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
         let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
-        let arguments = [self.time(), self.coordinates(&self.arguments.q), rate];
+        let time = takes_time.then(|| self.time());
+        let arguments = time.into_iter().chain([self.coordinates(&self.arguments.q), rate]);
         Function { access: Access::Cold, ..fallible("blame", arguments, Type::Tuple(Vec::new())) }
     }
 
