@@ -43,7 +43,7 @@ fn velocity_and_acceleration_in_products(file: &str) -> Operations {
     }
     let results = rates.into_iter().chain(accelerations).map(|symbol| d.graph.variable(symbol));
     let results: Vec<_> = results.collect();
-    schedule(&d.graph, &steps, &results, &Given::default(), &[]).operations()
+    schedule(&d.graph, &steps, &results, &Given::default(), &[], false).operations()
 }
 
 /// Of the generators measured on the same four-bar CasADi emits 38 / 11 / 4, SymPy's `cse` 41 / 11 / 1,

@@ -59,6 +59,8 @@ impl ScenePlan<'_, '_, '_> {
             self.layers.inertia.push(entries);
         }
         let entries: Vec<NodeId> = matrix.into_iter().flatten().collect();
+        let symbols: Vec<SymbolId> = self.layers.inertia.iter().flatten().copied().collect();
+        self.name(&entries, &symbols);
         self.layers.inertia_reads = self.read_by_layer(&entries);
         let columns = Expression::List(Expression::nested(results(0..entries.len()), &[names.len()]));
         let column = Type::List(Box::new(Type::Scalar), names.len());
@@ -83,6 +85,8 @@ impl ScenePlan<'_, '_, '_> {
         if nodes.is_empty() {
             return;
         }
+        let symbols: Vec<SymbolId> = self.layers.parts.iter().map(|(_, symbol)| *symbol).collect();
+        self.name(&nodes, &symbols);
         self.layers.parts_read = self.read_by_layer(&nodes);
         let labels = self.layers.parts.iter().map(|(label, _)| Expression::text(label));
         let parts = labels.zip(results(0..nodes.len())).map(|(label, part)| Expression::Tuple(vec![label, part]));
@@ -90,6 +94,14 @@ impl ScenePlan<'_, '_, '_> {
         let of = Type::List(Box::new(Type::Tuple(vec![Type::Text, Type::Scalar])), nodes.len());
         let signature = self.layer("effects", &nodes, of);
         self.add_layer(signature, "What each body and effect adds to the forces of the inputs.", nodes, parts);
+    }
+
+    /// Calls formulas as the symbols that stand for them elsewhere; names that the user gave go before.
+    fn name(&mut self, nodes: &[NodeId], symbols: &[SymbolId]) {
+        let graph = &self.plan.derivation.graph;
+        let names = symbols.iter().map(|&symbol| graph.symbol_name(symbol).to_owned());
+        let named: Vec<(NodeId, String)> = nodes.iter().copied().zip(names).collect();
+        self.plan.named.splice(0..0, named);
     }
 
     /// Q, the sums of what bodies and effects add.
