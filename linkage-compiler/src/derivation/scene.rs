@@ -142,7 +142,11 @@ impl Derivation {
                 potential.push((Number::MINUS_ONE, self.graph.multiply(factor, weight)));
             }
             if is_moved {
-                let added = added.iter().map(|terms| self.graph.sum(terms)).collect();
+                let gathered = |terms: &Vec<(Number, NodeId)>| {
+                    let sum = self.graph.sum(terms);
+                    gather(&mut self.graph, sum, &motion)
+                };
+                let added = added.iter().map(gathered).collect();
                 effects.push((format!("body {}", body.name.text), added));
             }
         }
