@@ -1,7 +1,7 @@
 //! The order of factors: numbers, products that are shared, symbols as they were declared, sines and cosines, and then
 //! what is made of others.
 
-use super::{Value, ValueId};
+use super::value::{Value, ValueId};
 use crate::graph::SymbolId;
 
 /// The place among factors, of which the smallest comes first.

@@ -6,7 +6,10 @@ use rustc_hash::FxHashSet;
 
 use super::lines::{Writer, direction_name};
 use super::names::Names;
-use super::{Schedule, Value, ValueId, schedule, stretches};
+use super::schedule::Schedule;
+use super::scheduling::schedule;
+use super::stretches;
+use super::value::{Value, ValueId};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, NodeId, SymbolId};
 use crate::ids::BlockId;
@@ -383,19 +386,4 @@ fn check(what: &str, values: Vec<Expression>, blame: Option<Expression>) -> Opti
         None => check,
     };
     Some(Statement::Do(check.tried()))
-}
-
-impl Schedule {
-    /// The symbols that are used.
-    fn symbols(&self) -> impl Iterator<Item = SymbolId> {
-        self.used().iter().filter_map(|&id| match self.value(id) {
-            Value::Symbol(symbol) => Some(*symbol),
-            _ => None,
-        })
-    }
-
-    /// True if some line uses a symbol.
-    pub(super) fn uses(&self, symbol: SymbolId) -> bool {
-        self.symbols().any(|used| used == symbol)
-    }
 }

@@ -1,7 +1,7 @@
 //! What sharing took apart and nothing shares in the end: a sum within one sum, a product within one product, and the
 //! inverse of a divisor in one product, which becomes a quotient.
 
-use super::{Signed, Value, ValueId};
+use super::value::{Signed, Value, ValueId};
 
 /// Rewrites the sums and products that the roots depend on. What is used once stands where it is used; a kernel whose
 /// function is inlined into others keeps its inverses, which those have in common with it.

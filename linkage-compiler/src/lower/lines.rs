@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::names::Names;
-use super::{Line, Schedule, Signed, Value, ValueId, stretches};
+use super::schedule::{Line, Schedule};
+use super::stretches;
+use super::value::{Signed, Value, ValueId};
 use crate::derivation::{ChordOf, Derivation};
 use crate::graph::{ExternalId, Function, SymbolId};
 use crate::ids::{BlockId, Id};
@@ -147,7 +149,7 @@ impl<'a, 'n> Writer<'a, 'n> {
                 let name = self.names.introduce(*symbol);
                 self.let_name(name, Expression::runtime("product_of_pivots", [columns]));
             }
-            Line::Newton { block, targets, start, system, .. } => {
+            Line::Newton { block, targets, start, system } => {
                 let start = Expression::List(self.all_signed(start));
                 let evaluation = self.evaluation(targets, system);
                 let call = self.judged("newton_group", *block, [start, evaluation]).tried();

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::{Schedule, Signed, Value, ValueId};
+use super::schedule::Schedule;
+use super::value::{Signed, Value, ValueId};
 use crate::graph::{Graph, Number, SymbolId};
 use crate::program::{LONGEST_NAME, Taken};
 

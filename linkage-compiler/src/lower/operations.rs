@@ -1,6 +1,7 @@
 //! Operation counts of a kernel.
 
-use super::{Line, Schedule, Value};
+use super::schedule::{Line, Schedule};
+use super::value::Value;
 use crate::graph::Function;
 use crate::program::Operations;
 

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::{Circular, Line, Signed, Value, ValueId};
+use super::schedule::{Circular, Line};
+use super::value::{Signed, Value, ValueId};
 use crate::graph::{ExternalId, Function, Graph, SymbolId};
 
 /// An inline expression nested deeper than this is hard to read; it gets a line of its own.

@@ -2,7 +2,8 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Line, Schedule, Value, ValueId};
+use super::schedule::{Line, Schedule};
+use super::value::{Value, ValueId};
 use crate::graph::{Function, SymbolId};
 
 impl Schedule {

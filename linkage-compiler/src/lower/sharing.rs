@@ -16,7 +16,7 @@ use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
 
-use super::{Signed, Value, ValueId};
+use super::value::{Signed, Value, ValueId};
 use crate::budget::Budget;
 use crate::graph::Function;
 

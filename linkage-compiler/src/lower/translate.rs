@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::{Signed, Value, ValueId};
+use super::value::{Signed, Value, ValueId};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 use crate::program::Given;
 

@@ -1,8 +1,8 @@
 //! LaTeX's mathematical mode; `atan2` and `hypot` need `amsmath`.
 
-use super::Formula;
+use super::formula::Formula;
 use super::name::{Name, Word, greek, is_number, latin, matrix_name, primes};
-use super::writer::{Argument, Binding, Marks, Style, function_name, is_circular};
+use super::style::{Argument, Binding, Marks, Style, function_name, is_circular};
 use crate::graph::Function;
 
 pub(super) struct Latex;

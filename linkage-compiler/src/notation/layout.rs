@@ -2,7 +2,9 @@
 
 use std::rc::Rc;
 
-use super::{Formula, Name};
+use super::formula::Formula;
+use super::name::Name;
+use super::spelled::Spelled;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 
 /// A denominator above this is better read as decimals, where those are exact.
@@ -52,13 +54,6 @@ pub(super) enum Base<'a> {
     Pi,
     /// Replaces a part that is too long.
     Ellipsis,
-}
-
-/// A name, spelled once for all its places in formulas.
-#[derive(Debug)]
-pub(super) struct Spelled<'a> {
-    pub(super) name: Name<'a>,
-    pub(super) formula: Formula,
 }
 
 /// The arguments of a call.

@@ -3,10 +3,13 @@
 //! `layout` turns a node of the graph into terms, fractions and factors in the order of mathematics. `writer`
 //! decides what needs brackets, and each notation spells the pieces: `unicode`, `latex`, `mathml`.
 
+mod formula;
 mod latex;
 mod layout;
 mod mathml;
 mod name;
+mod spelled;
+mod style;
 #[cfg(test)]
 mod tests;
 mod unicode;
@@ -15,36 +18,13 @@ mod writer;
 use std::rc::Rc;
 
 use crate::graph::{Condition, Graph, NodeId, SymbolId};
+pub use formula::Formula;
 use latex::Latex;
 use layout::{Layout, Sum};
 use mathml::MathMl;
 pub use name::Name;
 use unicode::Unicode;
-use writer::{Relation, Style, write};
-
-/// A formula in every notation.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Formula {
-    /// One line of Unicode: `−l₃·l₄·sin(θ₃ − θ₄)`.
-    pub text: String,
-    /// For LaTeX's mathematical mode, with `amsmath`.
-    pub latex: String,
-    /// Presentation MathML: one element, without the `math` element around it.
-    pub mathml: String,
-}
-
-impl Formula {
-    /// The formula that consists of this name alone.
-    #[must_use]
-    pub fn of_name(name: Name<'_>) -> Self {
-        let in_style = |style: &dyn Style| {
-            let mut out = String::new();
-            style.name(&mut out, name);
-            out
-        };
-        Self { text: in_style(&Unicode), latex: in_style(&Latex), mathml: in_style(&MathMl) }
-    }
-}
+use writer::{Relation, write};
 
 /// The largest length of a formula, counted in bytes with the names of the `linkage!` language (`theta3` is 6). A
 /// longer part is of no use to a reader, and a shared graph can unfold without bound: an ellipsis replaces it. The

@@ -1,8 +1,8 @@
 //! Formulas as one line of plain text.
 
-use super::Formula;
+use super::formula::Formula;
 use super::name::{Name, Word, greek, is_number, matrix_name, primes};
-use super::writer::{Argument, Binding, Marks, Style, function_name, is_circular};
+use super::style::{Argument, Binding, Marks, Style, function_name, is_circular};
 use crate::graph::Function;
 
 pub(super) struct Unicode;

@@ -30,7 +30,7 @@ pub use function::{Access, Argument, Body, Function, Kernel, Output, Passed, Sha
 pub use names::{Arguments, LONGEST_NAME, Taken, TypeNames, call_of};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};
-pub use scene::SceneSignatures;
+pub use scene::{SceneProgram, SceneSignatures};
 pub use signatures::{Family, Signatures};
 
 use crate::derivation::{Derivation, Formulas};
@@ -47,12 +47,6 @@ pub struct Program<'a, B> {
     pub scenes: Vec<SceneProgram<'a, B>>,
     /// Missing in a stub.
     pub derived: Option<Derived>,
-}
-
-/// The program of one scene.
-pub struct SceneProgram<'a, B> {
-    pub signatures: SceneSignatures<'a>,
-    pub functions: Vec<Function<B>>,
 }
 
 /// What functions and types are made of.

@@ -5,17 +5,20 @@
 
 mod attributes;
 mod expression;
+mod kind;
 mod recovery;
 mod scene;
 mod statement;
+mod tokens;
 
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
 pub use expression::{Expression, ExpressionId, Expressions, Operator, Unread};
+pub use kind::StatementKind;
 pub use scene::{Body, Effect, EffectKind, Place, Scene};
-pub use statement::{Statement, StatementKind};
+pub use statement::Statement;
 
 /// One `mechanism NAME { … }`.
 pub struct Mechanism {

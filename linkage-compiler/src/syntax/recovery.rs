@@ -3,8 +3,8 @@
 use proc_macro2::{Ident, Span, TokenTree};
 
 use super::expression::{ExpressionId, Expressions, Unread};
+use super::kind::{KEYWORDS, StatementKind};
 use super::scene::{Body, Scene};
-use super::statement::{KEYWORDS, StatementKind};
 use crate::diagnostics::{Region, nearest};
 
 /// The kind of a statement by its tokens, the keyword among them.

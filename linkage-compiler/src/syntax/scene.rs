@@ -7,7 +7,7 @@ use syn::{Attribute, Token};
 
 use super::attributes::{self, Bearer};
 use super::expression::{self, ExpressionId, Expressions};
-use super::statement::{end, equals, name};
+use super::tokens::{end, equals, name};
 use crate::diagnostics::{Diagnostics, suggestion};
 
 /// `body NAME { mass m; inertia j; center G; angle phi; }`

@@ -6,105 +6,17 @@ use syn::parse::ParseStream;
 use syn::parse::discouraged::Speculative;
 use syn::{Attribute, Path, Token};
 
-use super::attributes::{self, Bearer};
 use super::expression::{self, ExpressionId, Expressions};
-use super::recovery;
-use super::scene::{self, Body, Scene};
-use crate::diagnostics::{Diagnostics, Region, nearest, suggestion};
+use super::kind::{KEYWORDS, StatementKind};
+use super::tokens::{end, equals, name};
+use super::{attributes, recovery, scene};
+use crate::diagnostics::{Diagnostics, nearest, suggestion};
 
 /// A statement and the doc comments above it.
 pub struct Statement {
     pub attributes: Vec<Attribute>,
     pub kind: StatementKind,
 }
-
-/// What a statement says.
-pub enum StatementKind {
-    Parameters(Vec<(Ident, Option<ExpressionId>)>),
-    Inputs(Vec<Ident>),
-    Unknowns(Vec<Ident>),
-    Coordinates(Vec<Ident>),
-    Drive {
-        name: Ident,
-        by: Vec<Ident>,
-    },
-    Loop {
-        left: ExpressionId,
-        right: ExpressionId,
-    },
-    Equation {
-        left: ExpressionId,
-        right: ExpressionId,
-    },
-    Let {
-        name: Ident,
-        value: ExpressionId,
-    },
-    Point {
-        name: Ident,
-        value: ExpressionId,
-    },
-    Output {
-        name: Ident,
-        value: ExpressionId,
-    },
-    /// A function of the user's: where it is found, what it takes and gives.
-    External {
-        path: Path,
-        arguments: Vec<Ident>,
-        names: Vec<Ident>,
-    },
-    Derive(Vec<Ident>),
-    Body(Body),
-    Scene(Scene),
-    /// A point or an output whose keyword is missing.
-    Quantity {
-        name: Ident,
-        value: ExpressionId,
-    },
-    /// One that could not be read: the names in it, and whether it could be a list of coordinates.
-    Unread {
-        names: Vec<Ident>,
-        is_list: bool,
-    },
-}
-
-impl StatementKind {
-    /// The construct that its attributes belong to.
-    fn bearer(&self) -> Bearer {
-        match self {
-            Self::Parameters(_) | Self::Drive { .. } | Self::Scene(_) => Bearer::Item,
-            Self::Inputs(_) | Self::Unknowns(_) | Self::Coordinates(_) | Self::Point { .. } | Self::Output { .. } => {
-                Bearer::Field
-            }
-            Self::Loop { .. }
-            | Self::Equation { .. }
-            | Self::Let { .. }
-            | Self::External { .. }
-            | Self::Derive(_)
-            | Self::Quantity { .. }
-            | Self::Unread { .. }
-            | Self::Body(_) => Bearer::Part,
-        }
-    }
-}
-
-pub(super) const KEYWORDS: [&str; 14] = [
-    "param",
-    "input",
-    "unknown",
-    "coordinate",
-    "drive",
-    "loop",
-    "equation",
-    "let",
-    "point",
-    "output",
-    "extern",
-    "derive",
-    "body",
-    "scene",
-];
 
 /// Every statement up to the end of the braces.
 pub(super) fn statements(
@@ -246,16 +158,6 @@ fn listed(stream: ParseStream) -> syn::Result<Ident> {
     name(stream)
 }
 
-pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
-    let is_free = stream.peek(syn::Ident);
-    let name = stream.call(Ident::parse_any).map_err(|error| syn::Error::new(error.span(), "expected a name"))?;
-    let text = name.to_string();
-    if !is_free || text.starts_with("r#") {
-        return Err(syn::Error::new(name.span(), format!("`{text}` is a word of Rust; choose another name")));
-    }
-    Ok(name)
-}
-
 fn names(stream: ParseStream) -> syn::Result<Vec<Ident>> {
     let mut names = vec![listed(stream)?];
     while stream.parse::<Option<Token![,]>>()?.is_some() {
@@ -299,25 +201,10 @@ fn list(stream: ParseStream, missing: impl Fn(Span) -> syn::Error) -> syn::Resul
     if names.is_empty() { Err(missing(found)) } else { Ok(names) }
 }
 
-pub(super) fn equals(stream: ParseStream) -> syn::Result<()> {
-    let found = stream.span();
-    stream.parse::<Token![=]>().map(drop).map_err(|_| syn::Error::new(found, "expected `=`"))
-}
-
 fn sides(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(ExpressionId, ExpressionId)> {
     let left = expression::parse(stream, expressions)?;
     equals(stream)?;
     Ok((left, expression::parse(stream, expressions)?))
-}
-
-/// The `;`; at the end of the braces its absence is reported on the last token that was written.
-pub(super) fn end(stream: ParseStream, last: Option<Region>) -> syn::Result<()> {
-    if stream.is_empty() {
-        let span = last.map_or_else(|| stream.span(), |region| region.last);
-        return Err(syn::Error::new(span, "expected `;` after this"));
-    }
-    let found = stream.span();
-    stream.parse::<Token![;]>().map(drop).map_err(|_| syn::Error::new(found, "expected `;` before this"))
 }
 
 /// True before an attribute and before a keyword that something follows.

@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::ScenePlan;
+use super::reads::Read;
 use super::signatures::layer;
 use crate::graph::{NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Id, InputId, Table};
@@ -12,39 +13,6 @@ use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value, results};
 use crate::program::names::name_of;
 use crate::program::plan::unnamed;
-
-/// What formulas of a scene depend on, in the order in which layers take it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Read {
-    Time,
-    Q,
-    Pose,
-    /// W.
-    Ratios,
-    /// q'.
-    Velocity,
-    /// u'' at v'' = 0.
-    Bias,
-    /// v'.
-    Rates,
-    /// M.
-    Inertia,
-    /// Q.
-    Forces,
-}
-
-/// M and Q as symbols of formulas that are made of them, and what they depend on.
-#[derive(Debug, Default)]
-pub struct Layers {
-    /// M by rows; an entry and the one opposite are the same.
-    pub inertia: Table<InputId, Table<InputId, SymbolId>>,
-    /// Q.
-    pub forces: Table<InputId, SymbolId>,
-    /// For each part of Q that varies its label and its name.
-    parts: Vec<(String, SymbolId)>,
-    inertia_reads: BTreeSet<Read>,
-    parts_read: BTreeSet<Read>,
-}
 
 impl ScenePlan<'_, '_, '_> {
     /// M, column by column.

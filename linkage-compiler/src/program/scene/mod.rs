@@ -7,18 +7,18 @@ mod equilibrium;
 mod layers;
 mod motion;
 mod reactions;
+mod reads;
 mod signatures;
 mod unreduced;
 mod validity;
 
-use super::SceneProgram;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
 use super::plan::Plan;
 use crate::derivation::{Scene, Step};
 use crate::graph::NodeId;
 use crate::model::{self, Wish};
-use layers::{Layers, Read};
+use reads::{Layers, Read};
 pub use signatures::SceneSignatures;
 
 const ERRORS: [&str; 4] = [
@@ -27,6 +27,12 @@ const ERRORS: [&str; 4] = [
     "`Singular` where J has no inverse, `NotFinite` with the name of the body or the effect that has no finite",
     "value.",
 ];
+
+/// The program of one scene.
+pub struct SceneProgram<'a, B> {
+    pub signatures: SceneSignatures<'a>,
+    pub functions: Vec<Function<B>>,
+}
 
 /// A scene whose functions are planned one by one.
 pub struct ScenePlan<'p, 'd, 'a> {

@@ -1,6 +1,6 @@
 //! M, Q and the accelerations of a scene.
 
-use super::layers::Read;
+use super::reads::Read;
 use super::{ERRORS, ScenePlan};
 use crate::derivation::Prescribed;
 use crate::graph::{NodeId, Number, SymbolId};

@@ -1,6 +1,6 @@
 //! The functions of a scene by their names, arguments and results.
 
-use super::layers::Read;
+use super::reads::Read;
 use crate::ids::{InputId, Table};
 use crate::model::{self, Driver, Mechanism, Wish};
 use crate::program::expression::Type;

@@ -1,0 +1,127 @@
+//! Straight-line code: lines that compute values in their order.
+
+use super::value::{Signed, Value, ValueId};
+use crate::derivation::ChordOf;
+use crate::graph::{ExternalId, SymbolId};
+use crate::ids::BlockId;
+
+/// One line of straight-line code.
+#[derive(Debug, Clone)]
+pub enum Line {
+    Let(ValueId),
+    SineCosine {
+        sine: ValueId,
+        cosine: ValueId,
+        angle: Signed,
+    },
+    /// The sines and cosines of several angles at once, those that are used.
+    SinesCosines(Vec<Circular>),
+    /// One call of a user function, for its value and its derivatives: those that are used.
+    External {
+        function: ExternalId,
+        arguments: Vec<Signed>,
+        values: Vec<Option<ValueId>>,
+    },
+    Name {
+        symbol: SymbolId,
+        value: Signed,
+    },
+    Turn {
+        symbol: SymbolId,
+        principal: Signed,
+    },
+    Guard {
+        block: BlockId,
+        determinant: Signed,
+        size: Signed,
+    },
+    Factor {
+        block: BlockId,
+        matrix: Vec<Vec<Signed>>,
+        sizes: Vec<Signed>,
+    },
+    Solve {
+        block: BlockId,
+        targets: Vec<SymbolId>,
+        right: Vec<Signed>,
+    },
+    Pivots {
+        symbol: SymbolId,
+        matrix: Vec<Vec<Signed>>,
+    },
+    Chord {
+        block: BlockId,
+        symbol: SymbolId,
+        factors: [Signed; 2],
+        size: Signed,
+        of: ChordOf<Signed>,
+    },
+    Solvable {
+        block: BlockId,
+        determinant: Signed,
+        numerators: Vec<Signed>,
+        scales: Vec<Signed>,
+    },
+    Newton {
+        block: BlockId,
+        targets: Vec<SymbolId>,
+        start: Vec<Signed>,
+        /// One evaluation of the block.
+        system: Box<Schedule>,
+    },
+}
+
+/// An angle with its sine and cosine.
+#[derive(Debug, Clone, Copy)]
+pub struct Circular {
+    pub angle: Signed,
+    pub sine: Option<ValueId>,
+    pub cosine: Option<ValueId>,
+}
+
+/// A kernel as straight-line code.
+#[derive(Debug, Clone)]
+pub struct Schedule {
+    pub(super) values: Vec<Value>,
+    pub lines: Vec<Line>,
+    /// What the lines are for.
+    pub results: Vec<Signed>,
+    /// The expressions that have names, where they or their negatives are computed.
+    pub(super) names: Vec<(ValueId, bool, String)>,
+    pub(super) used: Vec<ValueId>,
+}
+
+impl Schedule {
+    #[must_use]
+    pub fn value(&self, id: ValueId) -> &Value {
+        &self.values[id.0]
+    }
+
+    /// The name of a value, and whether it is that of its negative.
+    #[must_use]
+    pub fn name(&self, id: ValueId) -> Option<(&str, bool)> {
+        // Of several names the last.
+        let after = self.names.partition_point(|(value, ..)| *value <= id);
+        let (value, negative, name) = self.names.get(after.checked_sub(1)?)?;
+        (*value == id).then_some((name, *negative))
+    }
+
+    /// Every value that the lines depend on, ascending.
+    #[must_use]
+    pub fn used(&self) -> &[ValueId] {
+        &self.used
+    }
+
+    /// The symbols that are used.
+    pub(super) fn symbols(&self) -> impl Iterator<Item = SymbolId> {
+        self.used().iter().filter_map(|&id| match self.value(id) {
+            Value::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        })
+    }
+
+    /// True if some line uses a symbol.
+    pub(super) fn uses(&self, symbol: SymbolId) -> bool {
+        self.symbols().any(|used| used == symbol)
+    }
+}

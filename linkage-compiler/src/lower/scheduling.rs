@@ -1,0 +1,91 @@
+//! A kernel as straight-line code: its formulas translated, shared, joined and ordered.
+
+use std::collections::BTreeSet;
+
+use super::order::Ordering;
+use super::schedule::{Line, Schedule};
+use super::translate::Builder;
+use super::value::{Signed, ValueId};
+use super::{factors, joined, sharing};
+use crate::derivation::Step;
+use crate::graph::{Graph, NodeId, SymbolId};
+use crate::program::Given;
+
+/// Orders the steps of a kernel and the formulas of its results.
+#[must_use]
+pub fn schedule(
+    graph: &Graph,
+    steps: &[Step],
+    results: &[NodeId],
+    given: &Given,
+    named: &[(NodeId, String)],
+    keeps_inverses: bool,
+) -> Schedule {
+    let mut nodes: Vec<NodeId> = steps.iter().flat_map(Step::nodes).collect();
+    nodes.extend(results);
+    let introduced: BTreeSet<SymbolId> = steps.iter().flat_map(Step::introduced).collect();
+    let (mut values, translated) = Builder::translate_all(graph, given, &nodes);
+    let roots: Vec<Signed> = nodes.iter().map(|node| translated[node]).collect();
+    graph.budget().spend(nodes.len() + values.len());
+    sharing::share(&mut values, &roots, graph.budget());
+    joined::join(&mut values, &roots, keeps_inverses);
+    factors::order(&mut values);
+    let mut names: Vec<(ValueId, bool, String)> = Vec::new();
+    for (node, name) in named {
+        if let Some(Signed { negative, value }) = translated.get(node).copied() {
+            names.push((value, negative, name.clone()));
+        }
+    }
+    // A name of the value itself comes after those of its negative.
+    names.sort_by_key(|(value, negative, _)| (*value, !negative));
+    let mut ordering = Ordering::new(graph, values, &roots);
+    ordering.gather_sines(&introduced);
+    let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| translated[node]).collect() };
+    for step in steps {
+        for node in step.nodes() {
+            ordering.require(translated[&node].value, matches!(step, Step::Let { .. } | Step::Turn { .. }));
+        }
+        ordering.lines.push(match step {
+            Step::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated[node] },
+            Step::Turn { symbol, principal } => Line::Turn { symbol: *symbol, principal: translated[principal] },
+            Step::Guard { block, determinant, size } => {
+                Line::Guard { block: *block, determinant: translated[determinant], size: translated[size] }
+            }
+            Step::Factor { block, matrix, sizes } => {
+                let matrix = matrix.iter().map(|row| signed(row)).collect();
+                Line::Factor { block: *block, matrix, sizes: signed(sizes) }
+            }
+            Step::Solve { block, targets, right } => {
+                Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }
+            }
+            Step::Chord { block, symbol, factors, size, of } => Line::Chord {
+                block: *block,
+                symbol: *symbol,
+                factors: factors.map(|node| translated[&node]),
+                size: translated[size],
+                of: of.map(|node| translated[&node]),
+            },
+            Step::Solvable { block, determinant, numerators, scales } => Line::Solvable {
+                block: *block,
+                determinant: translated[determinant],
+                numerators: signed(numerators),
+                scales: signed(scales),
+            },
+            Step::Pivots { symbol, matrix } => {
+                Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
+            }
+            Step::Newton { block, targets, start, system, .. } => {
+                let system = Box::new(schedule(graph, &[], system, given, &[], false));
+                let (targets, start) = (targets.clone(), signed(start));
+                Line::Newton { block: *block, targets, start, system }
+            }
+        });
+    }
+    let results = signed(results);
+    for result in &results {
+        ordering.require(result.value, false);
+    }
+    let used = ordering.used();
+    let Ordering { values, lines, .. } = ordering;
+    Schedule { values, lines, results, names, used }
+}

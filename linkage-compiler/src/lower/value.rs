@@ -1,0 +1,53 @@
+//! Values: how each is computed from others.
+
+use crate::graph::{External, Function, NodeId, Number, SymbolId};
+
+/// A value of straight-line code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ValueId(pub(super) usize);
+
+/// A value or its negative.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Signed {
+    pub negative: bool,
+    pub value: ValueId,
+}
+
+/// How a value is computed; signs have been moved to the sums and results that use it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Value {
+    Symbol(SymbolId),
+    /// The sine or cosine of an angle whose direction is given.
+    Direction(Function, NodeId),
+    Constant(Number),
+    Sum(Vec<Signed>),
+    Product(Vec<ValueId>),
+    Quotient(ValueId, ValueId),
+    Square(ValueId),
+    Call(Function, Vec<Signed>),
+    /// A user function or a derivative of it.
+    External(External, Vec<Signed>),
+}
+
+impl Value {
+    pub(super) fn each_part(&self, mut visit: impl FnMut(ValueId)) {
+        match self {
+            Self::Symbol(_) | Self::Direction(..) | Self::Constant(_) => {}
+            Self::Sum(parts) | Self::Call(_, parts) | Self::External(_, parts) => {
+                for part in parts {
+                    visit(part.value);
+                }
+            }
+            Self::Product(factors) => {
+                for factor in factors {
+                    visit(*factor);
+                }
+            }
+            Self::Quotient(above, below) => {
+                visit(*above);
+                visit(*below);
+            }
+            Self::Square(base) => visit(*base),
+        }
+    }
+}
