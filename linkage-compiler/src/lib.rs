@@ -1,8 +1,8 @@
 //! The compiler behind `linkage!`: tokens in, tokens out.
 //!
-//! [`expand`] is the whole of it in one paragraph. The stages, in this order: syntax, model, graph, algebra, structure,
-//! derivation (mathematics only), program (which functions a mechanism gets), lower (shared, ordered and named formulas),
-//! notation (formulas for people), emit (printers).
+//! [`expand`] is the whole of it in one paragraph. The stages, each of which depends on stages before it alone: syntax,
+//! graph, structure, model, algebra, derivation (mathematics only), program (which functions a mechanism gets), lower
+//! (shared, ordered and named formulas), notation (formulas for people), emit (printers).
 
 pub mod algebra;
 pub mod budget;

@@ -16,8 +16,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
+use super::data::{Block, Derivation};
+use super::magnitude;
 use super::step::{ChordOf, Step};
-use super::{Block, Derivation, magnitude};
 use crate::algebra::{cramer, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, ColumnId, Id};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::Derivation;
+use super::data::Derivation;
 use crate::diagnostics::Diagnostics;
 use crate::graph::{External, Graph, SymbolId};
 use crate::model::{Call, Driver, ExternalFunction, Mechanism, Request, Scene, Wish};

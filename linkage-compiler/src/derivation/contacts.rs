@@ -4,38 +4,11 @@
 
 use std::collections::BTreeSet;
 
-use super::{Derivation, Row, along_rates};
+use super::data::Derivation;
+use super::jacobian::along_rates;
+use super::scene::{Contact, ContactFormula};
 use crate::graph::{NodeId, SymbolId};
-use crate::ids::ColumnId;
 use crate::model::{self, ContactLaw, Mechanism};
-
-/// What is derived for one friction or stop, in terms of q, q' and t.
-#[derive(Debug, Clone)]
-pub struct Contact {
-    /// What errors call it.
-    pub label: String,
-    pub value: NodeId,
-    /// `ds/dq`.
-    pub row: Row<ColumnId>,
-    pub rate: NodeId,
-    /// s'' at q'' = 0.
-    pub bias: NodeId,
-    pub law: ContactFormula,
-}
-
-/// What a contact does.
-#[derive(Debug, Clone)]
-pub enum ContactFormula {
-    Friction {
-        limit: NodeId,
-        /// The factors of the limit that are made of parameters.
-        given: Vec<NodeId>,
-    },
-    Stop {
-        range: [NodeId; 2],
-        restitution: NodeId,
-    },
-}
 
 impl Derivation {
     pub(super) fn derive_contacts(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> Vec<Contact> {

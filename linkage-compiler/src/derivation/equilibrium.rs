@@ -5,23 +5,11 @@
 
 use rustc_hash::FxHashMap;
 
-use super::scene::Scene;
-use super::{Derivation, RatioDerivatives, System};
+use super::data::{Derivation, RatioDerivatives};
+use super::linear::System;
+use super::scene::{Equilibrium, Scene};
 use crate::graph::{Function, NodeId, Number};
-use crate::ids::{InputId, Table};
-
-/// What is derived for the equilibrium of a scene, in terms of q, t, W and L.
-#[derive(Debug, Clone)]
-pub struct Equilibrium {
-    /// Q at rest.
-    pub forces: Table<InputId, NodeId>,
-    /// The sum of the magnitudes of what each is made of.
-    pub sizes: Table<InputId, NodeId>,
-    /// dQ/dv by rows.
-    pub slopes: Table<InputId, Table<InputId, NodeId>>,
-    /// The systems of W and L with the names of their solutions.
-    pub systems: Vec<System>,
-}
+use crate::ids::Table;
 
 impl Derivation {
     pub(super) fn derive_equilibrium(&mut self, scene: &Scene) -> Equilibrium {

@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use super::{Derivation, Quantity, Row, Solutions};
+use super::data::{Derivation, Quantity};
+use super::linear::{Row, Solutions};
 use crate::algebra::adjugate;
 use crate::graph::{Condition, NodeId};
 use crate::ids::{BlockId, InputId, MemberId, PairId, ParameterId, Table};

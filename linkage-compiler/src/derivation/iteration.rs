@@ -4,8 +4,8 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::assembly::Assembly;
+use super::data::{Block, Derivation};
 use super::step::Step;
-use super::{Block, Derivation};
 use crate::graph::{Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, ColumnId};
 

@@ -1,7 +1,8 @@
 //! Third order: Psi''' = Psi_q q''' + eta with eta = 3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q', in terms
 //! of q, q' and q''.
 
-use super::{Derivation, along_rates};
+use super::data::Derivation;
+use super::jacobian::along_rates;
 use crate::graph::NodeId;
 use crate::ids::{RowId, Table};
 

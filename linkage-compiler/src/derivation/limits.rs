@@ -8,8 +8,9 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
+use super::assembly::Assembly;
+use super::data::Derivation;
 use super::step::Step;
-use super::{Assembly, Derivation};
 use crate::algebra::simplify;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, InputId, Table};

@@ -1,7 +1,19 @@
-//! Linear systems J x = r of one or two unknowns, by formula.
+//! Linear systems J x = r: their rows, right sides and solutions, and the formula for one or two unknowns.
+
+use std::collections::BTreeMap;
 
 use crate::algebra::factor;
-use crate::graph::{Graph, NodeId};
+use crate::graph::{Graph, NodeId, SymbolId};
+use crate::ids::{RowId, Table, UnknownId};
+
+/// The derivatives of one scalar by coordinates or parameters; those not named are zero.
+pub type Row<Column> = BTreeMap<Column, NodeId>;
+
+/// The solutions x of several systems J x = r.
+pub type Solutions<I, X> = Table<I, Table<UnknownId, X>>;
+
+/// J x = r: r, and the names of x.
+pub type System = (Table<RowId, NodeId>, Table<UnknownId, SymbolId>);
 
 /// How the solution of two equations is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,24 +7,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{Derivation, Quantity, Solutions, System};
+use super::data::{Derivation, Quantity, RatioDerivatives};
+use super::linear::{Solutions, System};
 use crate::graph::{Graph, NodeId, SymbolId};
-use crate::ids::{InputId, PairId, RowId, Table, UnknownId};
-
-/// What is derived for the derivatives of the velocity ratios.
-#[derive(Debug, Clone)]
-pub struct RatioDerivatives {
-    /// The inputs j <= k, each pair once.
-    pub pairs: Table<PairId, (InputId, InputId)>,
-    /// The pair of two inputs in either order.
-    pub places: Table<InputId, Table<InputId, PairId>>,
-    /// What stands behind the name of what is derived.
-    pub endings: Table<PairId, String>,
-    /// The names of L.
-    pub names: Solutions<PairId, SymbolId>,
-    /// (Psi_q w_j)_q w_k, in terms of W.
-    pub terms: Table<PairId, Table<RowId, NodeId>>,
-}
+use crate::ids::{InputId, PairId, Table, UnknownId};
 
 impl Derivation {
     pub(super) fn derive_ratio_derivatives(&mut self) {

@@ -1,7 +1,8 @@
 //! Velocity ratios as formulas: W of each block by Cramer's rule, in terms of the ratios of the blocks
 //! before it, which keep their names.
 
-use super::{Coordinate, Derivation, Row, Solutions, System};
+use super::data::{Coordinate, Derivation};
+use super::linear::{Row, Solutions, System};
 use crate::algebra::{cramer, factor};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, InputId, Table, UnknownId};

@@ -4,20 +4,14 @@
 //! block by block from the last to the first, each block of J transposed. A `loop` of two chains is cut where they
 //! meet, and lambda is the force there with which the left side pulls at the right side.
 
+use super::data::Derivation;
+use super::jacobian::along_rates;
+use super::linear::{Form, solve_closed};
+use super::scene::Reactions;
 use super::step::Step;
-use super::{Derivation, Form, along_rates, solve_closed};
-use crate::graph::{Function, NodeId, Number, SymbolId};
-use crate::ids::{Id, RowId, Table, UnknownId};
+use crate::graph::{Function, NodeId, Number};
+use crate::ids::{Id, RowId};
 use crate::model::{self, Mechanism};
-
-/// The system of the reactions.
-#[derive(Debug, Clone)]
-pub struct Reactions {
-    /// lambda.
-    pub names: Table<RowId, SymbolId>,
-    /// F_u - (M q'')_u, in terms of q, q', q'' and t.
-    pub side: Table<UnknownId, NodeId>,
-}
 
 impl Derivation {
     pub(super) fn derive_reactions(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> Reactions {

@@ -1,22 +1,16 @@
 //! Sensitivities to the parameters p at fixed inputs: Psi(u(p), p) = 0 gives J du/dp = -Psi_p.
 
-use super::{Derivation, Quantity, Row, Solutions, System, jacobian, minus_column, places_of};
-use crate::graph::{NodeId, SymbolId};
-use crate::ids::{ParameterId, RowId, Table, UnknownId};
+use super::data::{Derivation, Quantity, Sensitivity};
+use super::jacobian::{jacobian, places_of};
+use super::linear::{Solutions, System};
+use super::systems::minus_column;
+use crate::graph::NodeId;
+use crate::ids::{ParameterId, Table, UnknownId};
 use crate::model::Mechanism;
 
 /// Of a larger du/dp the reader is told Psi_p alone: it grows with the square of the mechanism, and nobody reads
 /// so many formulas.
 const MOST_FORMULAS: usize = 400;
-
-/// What is derived for the sensitivities.
-#[derive(Debug, Clone)]
-pub struct Sensitivity {
-    /// The names of du/dp.
-    pub names: Solutions<ParameterId, SymbolId>,
-    /// Psi_p.
-    pub jacobian: Table<RowId, Row<ParameterId>>,
-}
 
 impl Derivation {
     pub(super) fn derive_sensitivity(&mut self, mechanism: &Mechanism) {

@@ -1,7 +1,8 @@
 //! Linear systems in J as the steps of a kernel: the blocks in order, each by its own method.
 
+use super::data::{Block, Derivation};
+use super::linear::{Form, Row, System, solve_closed};
 use super::step::Step;
-use super::{Block, Derivation, Form, Row, System, solve_closed};
 use crate::graph::NodeId;
 use crate::ids::{BlockId, ColumnId, Table, UnknownId};
 

@@ -6,19 +6,12 @@
 
 use std::collections::BTreeMap;
 
-use super::{Derivation, along_rates};
+use super::data::Derivation;
+use super::jacobian::along_rates;
+use super::scene::Unreduced;
 use crate::graph::{NodeId, Number};
-use crate::ids::{ColumnId, Table};
+use crate::ids::ColumnId;
 use crate::model::{self, Mechanism};
-
-/// M and F, in terms of q, q' and t.
-#[derive(Debug, Clone)]
-pub struct Unreduced {
-    /// The entries of M that are not zero, on its diagonal and above.
-    pub mass_matrix: BTreeMap<(ColumnId, ColumnId), NodeId>,
-    /// F with the quadratic velocity terms of the inertia.
-    pub forces: Table<ColumnId, NodeId>,
-}
 
 impl Derivation {
     pub(super) fn derive_unreduced(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> Unreduced {

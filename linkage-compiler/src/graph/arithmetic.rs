@@ -1,6 +1,8 @@
 //! Sums and products: like terms collected, constants folded, signs where they belong.
 
-use super::{Condition, Fault, Graph, Node, NodeId, Number};
+use super::arena::Graph;
+use super::node::{Condition, Fault, Node, NodeId};
+use super::number::Number;
 
 /// A sum of more terms than this stays one term of a sum that it is put into: otherwise a chain in
 /// which each member adds to the one before would grow with the square of its length.

@@ -1,6 +1,9 @@
 //! Sines and cosines in one form: no sign, no quarter turn and no angle of a rational value is left inside.
 
-use super::{Function, Graph, Node, NodeId, Number};
+use super::arena::Graph;
+use super::function::Function;
+use super::node::{Node, NodeId};
+use super::number::Number;
 
 impl Graph {
     /// sin(-x) = -sin x, cos(-x) = cos x, sin(x + pi/2) = cos x, cos(x + pi/2) = -sin x.

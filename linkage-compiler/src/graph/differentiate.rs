@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{Graph, Node, NodeId, Number, SymbolId};
+use super::arena::Graph;
+use super::node::{Node, NodeId, SymbolId};
+use super::number::Number;
 
 impl Graph {
     /// The derivatives of `roots` along `seeds`, which gives the derivative of each symbol.

@@ -1,51 +1,7 @@
 //! User functions: their names are known, and which derivatives come with their value, nothing else.
 
-use super::{Graph, Node, NodeId};
-
-/// The number of a user function in a [`Graph`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ExternalId(usize);
-
-/// A user function, or a derivative of it.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct External {
-    pub function: ExternalId,
-    /// The order of the derivative by each of its arguments.
-    pub by: Vec<usize>,
-}
-
-impl ExternalId {
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0
-    }
-}
-
-impl External {
-    /// The derivative of this order by the first argument.
-    #[must_use]
-    pub fn new(function: ExternalId, arguments: usize, order: usize) -> Self {
-        let mut by = vec![0; arguments];
-        if let Some(first) = by.first_mut() {
-            *first = order;
-        }
-        Self { function, by }
-    }
-
-    /// The order, if it is derived by its first argument alone.
-    #[must_use]
-    pub fn order(&self) -> Option<usize> {
-        let (first, rest) = self.by.split_first()?;
-        rest.iter().all(|&times| times == 0).then_some(*first)
-    }
-
-    /// The derivative of this by one of its arguments.
-    pub(super) fn derived(&self, argument: usize) -> Self {
-        let mut derivative = self.clone();
-        derivative.by[argument] += 1;
-        derivative
-    }
-}
+use super::arena::Graph;
+use super::node::{External, ExternalId, Node, NodeId};
 
 impl Graph {
     /// A function by the names of its value and of its derivatives by the first argument, in order.

@@ -2,7 +2,8 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{External, Graph, Node, NodeId, SymbolId};
+use super::arena::Graph;
+use super::node::{External, NodeId, SymbolId, node_value};
 
 impl Graph {
     /// The values of `roots` where `bind` gives the value of each symbol; user functions are not a number.
@@ -27,41 +28,5 @@ impl Graph {
             values.insert(id, value.unwrap_or(f64::NAN));
         }
         roots.iter().map(|root| values.get(root).copied().unwrap_or(f64::NAN)).collect()
-    }
-}
-
-/// The value of one node, given those of its symbols and children; `None` if one is missing.
-pub(super) fn node_value(
-    node: &Node,
-    bind: impl Fn(SymbolId) -> Option<f64>,
-    external: impl Fn(&External, &[f64]) -> Option<f64>,
-    child: impl Fn(NodeId) -> Option<f64>,
-) -> Option<f64> {
-    match node {
-        Node::Constant(value) => Some(value.to_f64()),
-        Node::Pi => Some(std::f64::consts::PI),
-        Node::Symbol(symbol) => bind(*symbol),
-        Node::Sum { constant, terms } => {
-            let mut sum = constant.to_f64();
-            for (factor, term) in terms {
-                sum += factor.to_f64() * child(*term)?;
-            }
-            Some(sum)
-        }
-        Node::Product { coefficient, factors } => {
-            let mut product = coefficient.to_f64();
-            for (base, exponent) in factors {
-                product *= child(*base)?.powi(*exponent);
-            }
-            Some(product)
-        }
-        Node::Call(function, arguments) => {
-            let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
-            arguments.map(|arguments| (function.operation().value)(&arguments))
-        }
-        Node::External(function, arguments) => {
-            let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
-            external(function, &arguments?)
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! Nodes and their ids, faults, and the conditions under which a shorter expression is equal.
 
-use super::{External, Function, Number};
+use super::function::Function;
+use super::number::Number;
 
 /// An expression of a [`Graph`](super::Graph).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -9,6 +10,18 @@ pub struct NodeId(pub(super) usize);
 /// A name of a [`Graph`](super::Graph): parameter, coordinate, rate, or a quantity solved for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SymbolId(pub(super) usize);
+
+/// The number of a user function in a [`Graph`](super::Graph).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ExternalId(pub(super) usize);
+
+/// A user function, or a derivative of it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct External {
+    pub function: ExternalId,
+    /// The order of the derivative by each of its arguments.
+    pub by: Vec<usize>,
+}
 
 /// An expression in terms of others.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -68,6 +81,39 @@ impl NodeId {
     }
 }
 
+impl ExternalId {
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+impl External {
+    /// The derivative of this order by the first argument.
+    #[must_use]
+    pub fn new(function: ExternalId, arguments: usize, order: usize) -> Self {
+        let mut by = vec![0; arguments];
+        if let Some(first) = by.first_mut() {
+            *first = order;
+        }
+        Self { function, by }
+    }
+
+    /// The order, if it is derived by its first argument alone.
+    #[must_use]
+    pub fn order(&self) -> Option<usize> {
+        let (first, rest) = self.by.split_first()?;
+        rest.iter().all(|&times| times == 0).then_some(*first)
+    }
+
+    /// The derivative of this by one of its arguments.
+    pub(super) fn derived(&self, argument: usize) -> Self {
+        let mut derivative = self.clone();
+        derivative.by[argument] += 1;
+        derivative
+    }
+}
+
 impl Node {
     /// The number of its parts.
     pub(super) fn parts(&self) -> usize {
@@ -76,6 +122,42 @@ impl Node {
             Self::Sum { terms, .. } => terms.len(),
             Self::Product { factors, .. } => factors.len(),
             Self::Call(_, arguments) | Self::External(_, arguments) => arguments.len(),
+        }
+    }
+}
+
+/// The value of one node, given those of its symbols and children; `None` if one is missing.
+pub(super) fn node_value(
+    node: &Node,
+    bind: impl Fn(SymbolId) -> Option<f64>,
+    external: impl Fn(&External, &[f64]) -> Option<f64>,
+    child: impl Fn(NodeId) -> Option<f64>,
+) -> Option<f64> {
+    match node {
+        Node::Constant(value) => Some(value.to_f64()),
+        Node::Pi => Some(std::f64::consts::PI),
+        Node::Symbol(symbol) => bind(*symbol),
+        Node::Sum { constant, terms } => {
+            let mut sum = constant.to_f64();
+            for (factor, term) in terms {
+                sum += factor.to_f64() * child(*term)?;
+            }
+            Some(sum)
+        }
+        Node::Product { coefficient, factors } => {
+            let mut product = coefficient.to_f64();
+            for (base, exponent) in factors {
+                product *= child(*base)?.powi(*exponent);
+            }
+            Some(product)
+        }
+        Node::Call(function, arguments) => {
+            let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
+            arguments.map(|arguments| (function.operation().value)(&arguments))
+        }
+        Node::External(function, arguments) => {
+            let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
+            external(function, &arguments?)
         }
     }
 }

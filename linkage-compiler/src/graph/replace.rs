@@ -2,7 +2,8 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Graph, Node, NodeId};
+use super::arena::Graph;
+use super::node::{Node, NodeId};
 
 impl Graph {
     /// The roots with nodes replaced; the parts of a replacement stay as they are.

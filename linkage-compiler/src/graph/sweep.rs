@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashSet;
 
-use super::{Function, Graph, Node, NodeId, Number, SymbolId};
+use super::arena::Graph;
+use super::function::Function;
+use super::node::{Node, NodeId, SymbolId};
+use super::number::Number;
 
 impl Graph {
     /// The direct parts of a node.

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::Span;
 
+use super::mechanism::{Driver, Mechanism, misnamed};
+use super::name::Name;
 use super::scope::Scope;
-use super::{Driver, Mechanism, Name};
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
 use crate::ids::{RowId, Table, UnknownId};
@@ -38,14 +39,6 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
             diagnostics.error(name.span, format_args!("the function `{}` is never used; remove it", name.text));
         }
     }
-}
-
-/// Mechanisms, drivers and scenes that are called like the scalar.
-pub(super) fn misnamed(mechanism: &Mechanism) -> impl Iterator<Item = &Ident> {
-    let drivers = mechanism.drivers.iter().map(|driver| &driver.name);
-    let shared = mechanism.is_driven_by_choice().then_some(&mechanism.name);
-    let scenes = mechanism.scenes.iter().map(|scene| &scene.name);
-    shared.into_iter().chain(drivers).chain(scenes).filter(|&name| name == "T")
 }
 
 pub(super) fn types(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use proc_macro2::Ident;
 
 use super::kind::{Kind, bare_symbols};
+use super::mechanism::{Call, ExternalFunction, Extreme};
 use super::scope::{Scope, VECTOR_FUNCTIONS, Value};
-use super::{Call, ExternalFunction, Extreme};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
 use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
 use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Unread};

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use proc_macro2::Ident;
 
 use super::kind::Kind;
+use super::mechanism::{Coordinate, Mechanism};
 use super::name::Name;
 use super::scope::Scope;
-use super::{Coordinate, Mechanism};
 use crate::diagnostics::nearest;
 use crate::ids::{CoordinateId, InputId, Table};
 use crate::structure;

@@ -9,11 +9,10 @@ use syn::{Attribute, Path};
 
 use super::expression::Lowering;
 use super::kind::Kind;
+use super::mechanism::{Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
 use super::name::Name;
 use super::scope::{Scope, Value};
-use super::{
-    Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point, check, guess, request, scene,
-};
+use super::{check, guess, request, scene};
 use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
@@ -23,7 +22,9 @@ use crate::syntax::{self, ExpressionId, StatementKind};
 /// A mechanism of more expressions than this is refused: its derivatives are several times as many.
 const LARGEST: usize = 25_000;
 
-pub(super) fn mechanism(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagnostics) -> Mechanism {
+/// Resolves one mechanism. What could be understood is returned even when there are errors, so
+/// that a stub with the right names can stand in for it.
+pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagnostics) -> Mechanism {
     let syntax::Mechanism { attributes, visibility, name, statements, expressions } = tree;
     const EVERYWHERE: [&str; 5] = ["cfg", "allow", "warn", "deny", "forbid"];
     let is_everywhere = |attribute: &Attribute| EVERYWHERE.iter().any(|word| attribute.path().is_ident(word));

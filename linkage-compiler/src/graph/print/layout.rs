@@ -1,8 +1,8 @@
 //! What is a sum, a fraction or a power, which signs are written and what needs brackets.
 
-use crate::graph::{External, Graph, Node, NodeId, Number};
-
-use super::Pieces;
+use crate::graph::arena::Graph;
+use crate::graph::node::{External, Node, NodeId};
+use crate::graph::number::Number;
 
 /// The strength with which a text holds together: any neighbour tears a sum apart, none an atom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -11,6 +11,26 @@ pub(super) enum Binding {
     Product,
     Power,
     Atom,
+}
+
+/// A part that is written.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    pub(super) body: String,
+    pub(super) binding: Binding,
+}
+
+/// The parts by the index of their node.
+#[derive(Debug, Default)]
+pub(super) struct Pieces(pub(super) Vec<Option<Piece>>);
+
+impl Pieces {
+    pub(super) fn get(&self, id: NodeId) -> Option<&Piece> {
+        match self.0.as_slice().get(id.index()) {
+            Some(Some(piece)) => Some(piece),
+            _ => None,
+        }
+    }
 }
 
 /// Writes one expression, its parts being written already.

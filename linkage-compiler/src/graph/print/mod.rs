@@ -5,32 +5,13 @@ mod layout;
 #[cfg(test)]
 mod tests;
 
-use super::{Graph, NodeId};
-use layout::{Binding, Layout};
+use crate::graph::arena::Graph;
+use crate::graph::node::NodeId;
+use layout::{Binding, Layout, Piece, Pieces};
 
 /// The largest length of a text in bytes. A longer one is of no use to a reader, and a shared graph can unfold
 /// without bound: an ellipsis replaces a part that is longer.
 const LONGEST: usize = 400;
-
-/// A part that is written.
-#[derive(Debug, Clone)]
-struct Piece {
-    body: String,
-    binding: Binding,
-}
-
-/// The parts by the index of their node.
-#[derive(Debug, Default)]
-struct Pieces(Vec<Option<Piece>>);
-
-impl Pieces {
-    fn get(&self, id: NodeId) -> Option<&Piece> {
-        match self.0.as_slice().get(id.index()) {
-            Some(Some(piece)) => Some(piece),
-            _ => None,
-        }
-    }
-}
 
 /// Texts of one graph; parts that they share are written once.
 #[derive(Debug, Default)]

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Body;
 use crate::graph::{NodeId, SymbolId};
-use crate::model::Mechanism;
 use crate::model::expression::Lowering;
+use crate::model::mechanism::Mechanism;
 use crate::model::name::Name;
 use crate::syntax::{self, ExpressionId};
 

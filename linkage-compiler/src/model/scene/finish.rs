@@ -9,7 +9,7 @@ use crate::diagnostics::suggestion;
 use crate::graph::SymbolId;
 use crate::ids::{BodyId, DriverId};
 use crate::model::expression::Lowering;
-use crate::model::{Driver, Mechanism};
+use crate::model::mechanism::{Driver, Mechanism};
 
 impl Lowering<'_> {
     /// What is known of the scenes once all statements are read: their bodies, drivers and parameters.

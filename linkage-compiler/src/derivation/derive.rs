@@ -1,0 +1,163 @@
+//! The derivation of a mechanism with one driver: the position first, then what is asked for beyond.
+
+use std::collections::BTreeMap;
+
+use super::angles::angles;
+use super::data::{Block, Coordinate, Derivation, Determinant, Quantity};
+use super::jacobian::{along_rates, jacobian, places_of};
+use super::linear::Row;
+use super::{magnitude, ratios};
+use crate::algebra::{self, simplify};
+use crate::graph::{Graph, NodeId, SymbolId};
+use crate::ids::{BlockId, ColumnId, CoordinateId, Id, InputId, RowId, Table, UnknownId};
+use crate::model::{Driver, Mechanism, Request};
+use crate::structure::{self, Group, Method};
+
+/// Derives a checked mechanism, whose closures can be solved in the order of the blocks of its driver.
+#[must_use]
+pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
+    let blocks = driver.blocks.clone();
+    let mut graph = mechanism.graph.clone();
+    let order = mechanism.coordinate_order(driver);
+    let columns: BTreeMap<CoordinateId, ColumnId> = order.enumerated().map(|(column, &id)| (id, column)).collect();
+    let coordinates: Table<ColumnId, Coordinate> = order.map(|id| {
+        let declared = &mechanism.coordinates[id];
+        let name = declared.name.field.clone();
+        Coordinate {
+            value: declared.symbol,
+            rate: declared.rate.unwrap_or_else(|| graph.symbol(format!("{name}_rate"))),
+            acceleration: graph.symbol(format!("{name}_acceleration")),
+            jerk: graph.symbol(format!("{name}_jerk")),
+            name,
+        }
+    });
+    let unknowns: Table<UnknownId, ColumnId> = driver.unknowns.iter().map(|id| columns[id]).collect();
+    let inputs: Table<InputId, ColumnId> = driver.inputs.iter().map(|id| columns[id]).collect();
+
+    let residual = mechanism.rows();
+    let place_of = places_of(&coordinates, |c| c.value);
+    let jacobian = Table::from(jacobian(&mut graph, &residual, &place_of));
+    let sizes = residual.iter().map(|&row| magnitude::of(&mut graph, row)).collect();
+    // gamma = (Psi_q q')_q q': the derivative along q' of Psi' with q' held.
+    let rates = along_rates(&mut graph, &coordinates);
+    let psi_rate = graph.differentiate(&residual, &rates);
+    let gamma = graph.differentiate(&psi_rate, &rates).into();
+
+    let is_odd = structure::is_odd(&blocks);
+    let mut parts = Table::default();
+    for block in blocks {
+        let symbols: Vec<SymbolId> = block.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
+        let group = Group::of(&mut graph, &residual.at(&block.equations), &symbols);
+        let determinant = determinant(&mut graph, &jacobian, &unknowns, &block);
+        parts.push((block, group, determinant));
+    }
+    let blocks = with_names(&mut graph, parts);
+    let ratios = ratios::names(&mut graph, &coordinates, &unknowns, &inputs);
+    // A pose has the directions of the closures at hand.
+    let given = angles(&graph, &residual);
+    let outputs: Vec<NodeId> = mechanism.outputs.iter().map(|output| output.value).collect();
+    let outputs: Vec<NodeId> = outputs.into_iter().map(|output| simplify(&mut graph, &[output], &given)[0]).collect();
+    let mut values: Vec<Vec<NodeId>> = mechanism.points.iter().map(|point| vec![point.x, point.y]).collect();
+    values.extend(outputs.into_iter().map(|output| vec![output]));
+    let mut points = quantities(&mut graph, values, &coordinates, &place_of);
+    let outputs = points.split_off(mechanism.points.len());
+    let mut derivation = Derivation {
+        coordinates,
+        unknowns,
+        inputs,
+        residual,
+        sizes,
+        jacobian,
+        blocks,
+        is_odd,
+        ratios,
+        gamma,
+        points,
+        outputs,
+        eta: None,
+        ratio_derivatives: None,
+        sensitivity: None,
+        scenes: Vec::new(),
+        graph,
+    };
+    for request in &mechanism.requests {
+        match request {
+            // These follow from the position, when it is emitted.
+            Request::Limits => {}
+            Request::Jerk => derivation.derive_jerk(),
+            Request::VelocityRatioDerivatives => derivation.derive_ratio_derivatives(),
+            Request::Sensitivity => derivation.derive_sensitivity(mechanism),
+        }
+    }
+    derivation.derive_scenes(mechanism, driver);
+    derivation
+}
+
+/// The determinant of a block in closed form and its size.
+fn determinant(
+    graph: &mut Graph,
+    jacobian: &Table<RowId, Row<ColumnId>>,
+    unknowns: &Table<UnknownId, ColumnId>,
+    block: &structure::Block,
+) -> Option<(NodeId, NodeId)> {
+    let zero = graph.zero();
+    let entry = |row: usize, column: usize| {
+        jacobian[block.equations[row]].get(&unknowns[block.unknowns[column]]).copied().unwrap_or(zero)
+    };
+    (block.method() == Method::ClosedForm).then(|| {
+        let value = match block.unknowns.len() {
+            1 => entry(0, 0),
+            _ => algebra::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
+        };
+        (value, magnitude::of_determinant(graph, value))
+    })
+}
+
+/// A block with the value and the size of its determinant, which has no name yet.
+type Unnamed = (structure::Block, Group, Option<(NodeId, NodeId)>);
+
+/// Blocks with their determinants named: a mechanism with one determinant calls it so; of several each has the
+/// number of its block.
+fn with_names(graph: &mut Graph, parts: Table<BlockId, Unnamed>) -> Table<BlockId, Block> {
+    let is_variable = |graph: &Graph, value: NodeId| graph.constant_value(value).is_none();
+    let values = parts.iter().filter_map(|(_, _, determinant)| Some(determinant.as_ref()?.0));
+    let is_single = values.filter(|&value| is_variable(graph, value)).count() == 1;
+    let named = parts.ids().zip(parts).map(|(id, (block, group, determinant))| {
+        let structure::Block { equations, unknowns } = block;
+        let determinant = determinant.map(|(value, size)| {
+            let is_only = is_single && is_variable(graph, value);
+            let name = if is_only { "determinant".to_owned() } else { format!("determinant_{}", id.number()) };
+            Determinant { value, symbol: graph.symbol(name), size }
+        });
+        Block { equations, unknowns, group, determinant }
+    });
+    named.collect()
+}
+
+/// Quantities by the values of their components.
+fn quantities(
+    graph: &mut Graph,
+    values: Vec<Vec<NodeId>>,
+    coordinates: &Table<ColumnId, Coordinate>,
+    places: &BTreeMap<SymbolId, ColumnId>,
+) -> Vec<Quantity> {
+    let rows: Vec<NodeId> = values.concat();
+    let mut jacobian = jacobian(graph, &rows, places).into_iter();
+    let mut seeds = along_rates(graph, coordinates);
+    let rates = graph.differentiate(&rows, &seeds);
+    for coordinate in coordinates {
+        seeds.insert(coordinate.rate, graph.variable(coordinate.acceleration));
+    }
+    let mut accelerations = graph.differentiate(&rates, &seeds).into_iter();
+    let mut rates = rates.into_iter();
+    let quantity = |value: Vec<NodeId>| Quantity {
+        jacobian: jacobian.by_ref().take(value.len()).collect(),
+        rate: rates.by_ref().take(value.len()).collect(),
+        acceleration: accelerations.by_ref().take(value.len()).collect(),
+        value,
+        jerk: Vec::new(),
+        along_inputs: Table::default(),
+        by_parameters: Vec::new(),
+    };
+    values.into_iter().map(quantity).collect()
+}

@@ -1,0 +1,194 @@
+//! The op table: the name, value and derivatives of each elementary function. One row a function; everything else
+//! reads the table.
+
+use super::arena::Graph;
+use super::function::Function;
+use super::node::NodeId;
+use super::number::Number;
+
+/// The partial derivatives of `f` at `arguments`, one for each; `value` is `f(arguments)` itself.
+type Partials = fn(graph: &mut Graph, arguments: &[NodeId], value: NodeId) -> Vec<NodeId>;
+
+/// One row of the op table.
+pub struct Operation {
+    pub function: Function,
+    /// The name in the `linkage!` language, and of the method of nalgebra's `RealField` that computes it.
+    pub name: &'static str,
+    pub arity: usize,
+    /// The value, for the interpreter; takes `arity` numbers.
+    pub value: fn(&[f64]) -> f64,
+    pub partials: Partials,
+    /// True if it has no value at some finite arguments.
+    pub may_be_undefined: bool,
+}
+
+/// The table, in the order of [`Function`].
+pub const OPERATIONS: [Operation; 12] = [
+    Operation {
+        function: Function::Sin,
+        name: "sin",
+        arity: 1,
+        value: |x| x[0].sin(),
+        // d sin x = cos x
+        partials: |g, x, _| vec![g.call(Function::Cos, &[x[0]])],
+        may_be_undefined: false,
+    },
+    Operation {
+        function: Function::Cos,
+        name: "cos",
+        arity: 1,
+        value: |x| x[0].cos(),
+        // d cos x = -sin x
+        partials: |g, x, _| {
+            let sine = g.call(Function::Sin, &[x[0]]);
+            vec![g.negate(sine)]
+        },
+        may_be_undefined: false,
+    },
+    Operation {
+        function: Function::Tan,
+        name: "tan",
+        arity: 1,
+        value: |x| x[0].tan(),
+        // d tan x = 1 + tan^2 x
+        partials: |g, _, tan| {
+            let square = g.power(tan, 2);
+            let one = g.one();
+            vec![g.add(one, square)]
+        },
+        may_be_undefined: true,
+    },
+    Operation {
+        function: Function::Asin,
+        name: "asin",
+        arity: 1,
+        value: |x| x[0].asin(),
+        // d asin x = 1 / sqrt((1 - x)(1 + x))
+        partials: |g, x, _| vec![inverse_half_chord(g, x[0])],
+        may_be_undefined: true,
+    },
+    Operation {
+        function: Function::Acos,
+        name: "acos",
+        arity: 1,
+        value: |x| x[0].acos(),
+        // d acos x = -1 / sqrt((1 - x)(1 + x))
+        partials: |g, x, _| {
+            let inverse = inverse_half_chord(g, x[0]);
+            vec![g.negate(inverse)]
+        },
+        may_be_undefined: true,
+    },
+    Operation {
+        function: Function::Atan,
+        name: "atan",
+        arity: 1,
+        value: |x| x[0].atan(),
+        // d atan x = 1 / (1 + x^2)
+        partials: |g, x, _| {
+            let square = g.power(x[0], 2);
+            let one = g.one();
+            let sum = g.add(one, square);
+            vec![g.power(sum, -1)]
+        },
+        may_be_undefined: false,
+    },
+    Operation {
+        function: Function::Atan2,
+        name: "atan2",
+        arity: 2,
+        value: |x| x[0].atan2(x[1]),
+        // d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)
+        partials: |g, yx, _| {
+            let (y2, x2) = (g.power(yx[0], 2), g.power(yx[1], 2));
+            let square = g.add(y2, x2);
+            let by_y = g.divide(yx[1], square);
+            let by_x = g.divide(yx[0], square);
+            vec![by_y, g.negate(by_x)]
+        },
+        may_be_undefined: false,
+    },
+    Operation {
+        function: Function::Sqrt,
+        name: "sqrt",
+        arity: 1,
+        value: |x| x[0].sqrt(),
+        // d sqrt x = 1 / (2 sqrt x)
+        partials: |g, _, root| {
+            let inverse = g.power(root, -1);
+            vec![g.scale(Number::ratio(1, 2), inverse)]
+        },
+        may_be_undefined: true,
+    },
+    Operation {
+        function: Function::Abs,
+        name: "abs",
+        arity: 1,
+        value: |x| x[0].abs(),
+        // d |x| = x / |x|, undefined at 0
+        partials: |g, x, modulus| vec![g.divide(x[0], modulus)],
+        may_be_undefined: false,
+    },
+    Operation {
+        function: Function::Exp,
+        name: "exp",
+        arity: 1,
+        value: |x| x[0].exp(),
+        // d e^x = e^x
+        partials: |_, _, value| vec![value],
+        may_be_undefined: false,
+    },
+    Operation {
+        function: Function::Ln,
+        name: "ln",
+        arity: 1,
+        value: |x| x[0].ln(),
+        // d ln x = 1 / x
+        partials: |g, x, _| vec![g.power(x[0], -1)],
+        may_be_undefined: true,
+    },
+    Operation {
+        function: Function::Hypot,
+        name: "hypot",
+        arity: 2,
+        value: |x| x[0].hypot(x[1]),
+        // d hypot(x, y) = (x dx + y dy) / hypot(x, y)
+        partials: |g, xy, modulus| vec![g.divide(xy[0], modulus), g.divide(xy[1], modulus)],
+        may_be_undefined: false,
+    },
+];
+
+impl Function {
+    #[must_use]
+    pub fn operation(self) -> &'static Operation {
+        &OPERATIONS[self as usize]
+    }
+
+    /// The function of this name in the language.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        OPERATIONS.iter().find(|row| row.name == name).map(|row| row.function)
+    }
+}
+
+/// 1 / sqrt((1 - x)(1 + x)): the factored form keeps its digits near |x| = 1.
+fn inverse_half_chord(g: &mut Graph, x: NodeId) -> NodeId {
+    let one = g.one();
+    let below = g.subtract(one, x);
+    let above = g.add(one, x);
+    let product = g.multiply(below, above);
+    let chord = g.call(Function::Sqrt, &[product]);
+    g.power(chord, -1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_stand_in_the_order_of_the_enum() {
+        for row in &OPERATIONS {
+            assert_eq!(row.function.operation().name, row.name);
+        }
+    }
+}
