@@ -67,16 +67,21 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
         }
         scenes.extend(ScenePlan::of(&mut plan, scene, number).map(ScenePlan::into_program));
     }
-    let Plan { signatures, position, mut functions, pose, formulas, named, .. } = plan;
-    // A private function is there only if it is called.
-    let all = || scenes.iter().flat_map(|scene: &SceneProgram<Body>| &scene.functions).chain(&functions);
-    let called: BTreeSet<&String> =
-        all().filter_map(|function| function.body.as_ref()).flat_map(|body| &body.calls).collect();
-    let is_called = |name: &String| called.contains(name) || called.contains(&signatures.types.function(name));
-    let kept: Vec<bool> =
-        functions.iter().map(|function| function.access.is_public() || is_called(&function.name)).collect();
-    let mut kept = kept.into_iter();
-    functions.retain(|_| kept.next().unwrap_or(true));
+    let Plan { signatures, position, functions, pose, formulas, named, .. } = plan;
+    // A private function is there only if it is called, by those of scenes or by functions after it.
+    let calls =
+        |function: &Function<Body>| function.body.iter().flat_map(|body| body.calls.clone()).collect::<Vec<_>>();
+    let mut called: BTreeSet<String> = scenes.iter().flat_map(|scene| &scene.functions).flat_map(calls).collect();
+    let mut kept = Vec::new();
+    for function in functions.into_iter().rev() {
+        let (name, known) = (&function.name, signatures.types.function(&function.name));
+        if function.access.is_public() || called.contains(name) || called.contains(&known) {
+            called.extend(calls(&function));
+            kept.push(function);
+        }
+    }
+    kept.reverse();
+    let functions = kept;
     Program { signatures, position, functions, scenes, derived: Some(Derived { pose, formulas, named }) }
 }
 
