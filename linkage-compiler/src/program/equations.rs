@@ -87,7 +87,6 @@ impl Plan<'_, '_> {
     }
 
     fn determinants(&mut self) {
-        let pose = self.signatures.arguments.pose.clone();
         let mut doc = lines(["det J, zero in the singular configurations."]);
         match self.derivation.determinant() {
             Some(node) => doc.extend(fenced([self.law("det J", node)].into_iter())),
@@ -108,28 +107,17 @@ impl Plan<'_, '_> {
             factors.push(if varies { named } else { determinant.value });
             laws.push(format!("{names} ({}): {}", block.group.words(), self.text(determinant.value)));
         }
-        let count = factors.len();
-        let names: Vec<String> = match count {
-            1 => vec!["determinant".to_owned()],
-            _ => (1..=count).map(|number| format!("determinant_{number}")).collect(),
-        };
-        let mut product: Vec<Expression> = names.iter().map(Expression::name).collect();
-        if self.derivation.is_odd
-            && let Some(first) = product.first_mut()
-        {
-            *first = Expression::Negative(Box::new(first.clone()));
-        }
-        let product = match product.as_slice() {
-            [only] => only.clone(),
-            _ => Expression::Product(product),
-        };
-        let mut body = Body::plain(product);
-        let names = Pattern::List(names.into_iter().map(Pattern::Name).collect());
-        body.before = vec![Statement::Let(names, Expression::call("block_determinants", [Expression::name(&pose)]))];
+        let graph = &mut self.derivation.graph;
+        let one = graph.one();
+        let product = factors.iter().fold(one, |product, &factor| graph.multiply(product, factor));
+        let product = if self.derivation.is_odd { self.derivation.graph.negate(product) } else { product };
+        let kernel = self.on_pose(Vec::new(), steps.clone(), unnamed([product]));
+        let body = Body::of(kernel, Expression::Result(0));
         self.add(self.signatures.determinant(), without_result(doc), body);
 
         let mut doc = lines(["The determinants of the blocks of J, in the order in which the blocks are solved."]);
         doc.extend(fenced(laws.into_iter()));
+        let count = factors.len();
         let kernel = self.on_pose(Vec::new(), steps, unnamed(factors));
         let body = Body::of(kernel, Expression::List(results(0..count)));
         self.add(self.signatures.block_determinants(count), without_result(doc), body);

@@ -12,6 +12,9 @@ use crate::graph::{NodeId, SymbolId, Texts};
 use crate::ids::{ColumnId, Id, InputId, Table};
 use crate::model::{Driver, Mechanism, Request};
 
+/// The endings of the names of quantities and of their derivatives by time.
+pub const ENDINGS: [&str; 4] = ["", "_rate", "_acceleration", "_jerk"];
+
 /// A driver whose functions are planned one by one.
 pub struct Plan<'d, 'a> {
     pub signatures: Signatures<'a>,
@@ -79,7 +82,6 @@ impl<'d, 'a> Plan<'d, 'a> {
 
     /// Parts of formulas that are a point, an output or a rate of one are called so.
     fn name_quantities(&mut self) {
-        const ENDINGS: [&str; 4] = ["", "_rate", "_acceleration", "_jerk"];
         for family in [Family::Points, Family::Outputs] {
             let names = family.names(self.signatures.mechanism);
             for (quantity, name) in self.quantities_of(family).to_vec().iter().zip(names) {

@@ -2,9 +2,9 @@
 
 use super::doc::{fenced, lines};
 use super::expression::Expression;
-use super::function::{Body, results};
+use super::function::{Body, Output, results};
 use super::names::Arguments;
-use super::plan::{Plan, unnamed};
+use super::plan::{ENDINGS, Plan, unnamed};
 use super::signatures::{Family, ORDERS};
 use crate::derivation::{Quantity, QuantityFormulas};
 use crate::graph::{NodeId, SymbolId};
@@ -74,7 +74,11 @@ impl Plan<'_, '_> {
             self.coordinates(&acceleration, |c| c.acceleration),
             self.coordinates(&jerk, |c| c.jerk),
         ];
-        let kernel = self.on_pose(sources.into_iter().take(order).collect(), Vec::new(), unnamed(nodes));
+        let ending = ENDINGS[order];
+        let names = family.names(self.signatures.mechanism);
+        let names = names.iter().flat_map(|name| family.axes().iter().map(move |axis| format!("{name}{axis}{ending}")));
+        let outputs = nodes.into_iter().zip(names).map(|(node, name)| Output::named(node, name)).collect();
+        let kernel = self.on_pose(sources.into_iter().take(order).collect(), Vec::new(), outputs);
         let (finite, sizes): (_, &[usize]) =
             if family == Family::Points { ("finite_points", &[2]) } else { ("finite_outputs", &[]) };
         let values = Expression::List(Expression::nested(results(0..count), sizes));
