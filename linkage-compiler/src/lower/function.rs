@@ -90,8 +90,21 @@ fn body(body: Body, is_layer: bool, context: &Context) -> Code {
     let computed = stretches::divided(computed, uses.iter().map(String::as_str));
     computed.iter().for_each(|statement| statement.each_name(&mut |name| uses.extend([name.to_owned()])));
     let before = needed(before, &mut uses);
-    let statements = before.into_iter().chain(computed).chain(after).collect();
+    let mut statements: Vec<Statement> = before.into_iter().chain(computed).chain(after).collect();
+    let value = unnamed(&mut statements, value);
     Code { statements, value, operations, uses, externals: formulas.externals }
+}
+
+/// The value of a function, without the name that the last statement gives it.
+fn unnamed(statements: &mut Vec<Statement>, value: Returned) -> Returned {
+    let is_named = |statement: &mut Statement| match (statement, &value) {
+        (Statement::Let(Pattern::Name(last), _), Returned::Plain(Expression::Name(name))) => last == name,
+        _ => false,
+    };
+    match statements.pop_if(is_named) {
+        Some(Statement::Let(_, last)) => Returned::Plain(last),
+        _ => value,
+    }
 }
 
 /// The statements without names for conversions and poses that nothing uses; adds what they use themselves.
