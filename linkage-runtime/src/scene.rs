@@ -8,7 +8,7 @@ use crate::scalar::to_f64;
 use crate::simulation::scales::Scales;
 use crate::{Contact, ContactLaw, Equations, Error, Mechanism, Real, finite, newton};
 
-/// What the functions of a scene share at a position and rates of the inputs.
+/// Values that the functions of a scene share at a position and rates of the inputs.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinematics<P, Q, T, const U: usize, const V: usize> {
     /// The position.

@@ -55,7 +55,7 @@ pub struct Block {
     pub determinant: Option<Determinant>,
 }
 
-/// What is derived for the derivatives of the velocity ratios.
+/// The derivatives of the velocity ratios.
 #[derive(Debug, Clone)]
 pub struct RatioDerivatives {
     /// The inputs j <= k, each pair once.
@@ -70,7 +70,7 @@ pub struct RatioDerivatives {
     pub terms: Table<PairId, Table<RowId, NodeId>>,
 }
 
-/// What is derived for the sensitivities.
+/// The sensitivities to the parameters.
 #[derive(Debug, Clone)]
 pub struct Sensitivity {
     /// The names of du/dp.
@@ -94,7 +94,7 @@ pub struct Derivation {
     /// Psi_q.
     pub jacobian: Table<RowId, Row<ColumnId>>,
     pub blocks: Table<BlockId, Block>,
-    /// Whether det J is the negative of the product of the determinants of the blocks.
+    /// True if det J is the negative of the product of the determinants of the blocks.
     pub is_odd: bool,
     /// The names of W.
     pub ratios: Solutions<InputId, SymbolId>,

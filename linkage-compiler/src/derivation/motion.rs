@@ -24,7 +24,7 @@ pub(super) struct MovingPart {
     pub factor: NodeId,
     pub scalars: Vec<NodeId>,
     pub fields: Vec<NodeId>,
-    /// Whether it counts but for its weight.
+    /// True if it has inertia, and not only weight.
     pub is_inert: bool,
 }
 
@@ -202,7 +202,7 @@ impl Derivation {
         self.simplest(sum)
     }
 
-    /// Whether there is no sum in it, nor in its factors.
+    /// True if there is no sum in it, nor in its factors.
     fn is_one_term(&self, node: NodeId) -> bool {
         let is_sum = |node: NodeId| matches!(self.graph.node(node), Node::Sum { .. });
         match self.graph.node(node) {

@@ -43,10 +43,10 @@ pub struct Prescribed {
     pub acceleration: NodeId,
 }
 
-/// What is derived for one friction or stop, in terms of q, q' and t.
+/// The formulas of one friction or stop, in terms of q, q' and t.
 #[derive(Debug, Clone)]
 pub struct Contact {
-    /// What errors call it.
+    /// The label that errors give.
     pub label: String,
     pub value: NodeId,
     /// `ds/dq`.
@@ -57,7 +57,7 @@ pub struct Contact {
     pub law: ContactFormula,
 }
 
-/// What a contact does.
+/// The law of a contact.
 #[derive(Debug, Clone)]
 pub enum ContactFormula {
     Friction {
@@ -89,7 +89,7 @@ pub struct Reactions {
     pub side: Table<UnknownId, NodeId>,
 }
 
-/// What is derived for the equilibrium of a scene, in terms of q, t, W and L.
+/// The formulas of the equilibrium of a scene, in terms of q, t, W and L.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
     /// Q at rest.

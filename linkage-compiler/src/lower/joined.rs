@@ -1,5 +1,5 @@
-//! What sharing took apart and nothing shares in the end: a sum within one sum, a product within one product, and the
-//! inverse of a divisor in one product, which becomes a quotient.
+//! Parts that sharing took out and nothing shares in the end: a sum within one sum, a product within one product, and
+//! the inverse of a divisor in one product, which becomes a quotient.
 
 use super::value::{Signed, Value, ValueId};
 

@@ -99,7 +99,7 @@ struct Sharing<'a> {
     factors: Vec<Factor>,
 }
 
-/// What a component of a link is made of.
+/// A factor of a component of a link.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Factor {
     Symbol,

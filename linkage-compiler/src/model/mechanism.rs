@@ -134,7 +134,7 @@ pub struct ExternalFunction {
     pub arguments: Vec<String>,
     /// Its value and its derivatives in order.
     pub names: Vec<Name>,
-    /// Where it is called.
+    /// The places where it is called.
     pub calls: Vec<Call>,
 }
 
@@ -147,7 +147,7 @@ pub struct Call {
 }
 
 impl Mechanism {
-    /// Whether the mechanism leaves the choice of input to `drive` statements.
+    /// True if the mechanism leaves the choice of input to `drive` statements.
     #[must_use]
     pub fn is_driven_by_choice(&self) -> bool {
         !matches!(&*self.drivers, [only] if only.name == self.name)
@@ -159,7 +159,7 @@ impl Mechanism {
         self.scenes.iter().filter(move |scene| self.drivers[scene.driver].name == name)
     }
 
-    /// Whether its types and those of the emitted code can be told apart.
+    /// True if its types and those of the emitted code have different names.
     #[must_use]
     pub fn is_well_named(&self) -> bool {
         misnamed(self).next().is_none()

@@ -38,7 +38,7 @@ pub(super) struct Marks {
     pub(super) fraction: [&'static str; 3],
     /// The same with several factors below.
     pub(super) fraction_of_many: [&'static str; 3],
-    /// Whether fractions have a bar.
+    /// True if fractions have a bar.
     pub(super) has_bars: bool,
     /// Before a power.
     pub(super) power: &'static str,

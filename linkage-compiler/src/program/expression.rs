@@ -120,7 +120,7 @@ pub enum Type {
     Around(&'static str, Box<Type>),
     List(Box<Type>, usize),
     Tuple(Vec<Type>),
-    /// What the functions of scenes share at a pose of this type with coordinates of that, for so many unknowns and
+    /// Values that the functions of scenes share, for a type of pose and of coordinates, and so many unknowns and
     /// inputs.
     Kinematics {
         pose: String,

@@ -161,7 +161,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         derivation.unknowns.iter().chain(idle.map(|(_, index)| index)).copied().collect()
     }
 
-    /// The same as results, which from a place on are in the order of the coordinates.
+    /// These coordinates as results, which from a place on are in the order of the coordinates.
     pub(super) fn checked(&self, from: usize) -> Vec<Expression> {
         self.to_check().into_iter().map(|column| Expression::Result(from + column.index())).collect()
     }

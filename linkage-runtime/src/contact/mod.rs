@@ -56,7 +56,7 @@ pub struct Contact<T, const U: usize, const V: usize> {
     pub law: ContactLaw<T>,
 }
 
-/// What a contact does.
+/// The law of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactLaw<T> {
     /// Dry friction: a force up to the limit while it sticks, the limit against s' while it slips.

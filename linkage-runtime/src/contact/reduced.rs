@@ -28,7 +28,7 @@ pub struct ReducedEquations<T, const V: usize, const C: usize> {
 /// A contact by the independent coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReducedContact<T, const V: usize> {
-    /// What errors call it.
+    /// The label that errors give.
     pub name: &'static str,
     /// s.
     pub value: T,

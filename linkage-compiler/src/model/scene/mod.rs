@@ -41,7 +41,7 @@ pub struct Scene {
 
 /// A force along a scalar: its work is `law` times the change of `along`.
 pub struct Law {
-    /// What errors call it.
+    /// The label that errors give.
     pub label: String,
     /// In terms of parameters, coordinates, rates and time.
     pub law: NodeId,
@@ -51,13 +51,13 @@ pub struct Law {
 
 /// A dry friction or a stop.
 pub struct Contact {
-    /// What errors call it.
+    /// The label that errors give.
     pub label: String,
     pub along: NodeId,
     pub law: ContactLaw,
 }
 
-/// What a contact does.
+/// The law of a contact.
 pub enum ContactLaw {
     /// The greatest force is the product of these, in terms of parameters, coordinates, rates and time.
     Friction(Vec<NodeId>),

@@ -36,7 +36,7 @@ impl ScenePlan<'_, '_, '_> {
         self.add_layer(signature, "M, column by column.", entries, columns);
     }
 
-    /// What each body and effect adds to Q, by what errors call it.
+    /// The part of Q of each body and effect, with the label that errors give.
     pub(super) fn effects(&mut self) {
         let inputs = self.signatures.inputs.clone();
         let mut nodes = Vec::new();
@@ -207,7 +207,7 @@ impl ScenePlan<'_, '_, '_> {
         read.map(|(_, name, shape)| Source { from: Expression::name(name), shape }).collect()
     }
 
-    /// What formulas on a pose depend on.
+    /// The dependencies of formulas on a pose.
     pub(super) fn reads(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
         let (derivation, given) = (&*self.plan.derivation, &self.plan.pose.given);
         let graph = &derivation.graph;
@@ -231,7 +231,7 @@ impl ScenePlan<'_, '_, '_> {
         reads
     }
 
-    /// The same for a layer, which takes q' even where the rates of the inputs would do.
+    /// The dependencies of a layer, which takes q' even where the rates of the inputs would do.
     fn read_by_layer(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
         let reads = self.reads(nodes).into_iter();
         reads.map(|read| if read == Read::Rates { Read::Velocity } else { read }).collect()

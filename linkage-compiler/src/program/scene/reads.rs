@@ -1,11 +1,11 @@
-//! What the formulas of a scene depend on: what its layers take, M and Q as symbols.
+//! The dependencies of the formulas of a scene, and M and Q as symbols.
 
 use std::collections::BTreeSet;
 
 use crate::graph::SymbolId;
 use crate::ids::{InputId, Table};
 
-/// What formulas of a scene depend on, in the order in which layers take it.
+/// A dependency of formulas of a scene, in the order in which layers take it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Read {
     Time,
