@@ -6,8 +6,8 @@
 use std::error::Error;
 
 use linkage::drawing::Drawing;
-use linkage::linkage;
 use linkage::sheet::Sheet;
+use linkage::{Document, linkage};
 
 linkage! {
     /// The sheet's four-bar A-B-C-D: crank l2, coupler l3, l4 from C to D, frame l1.
@@ -75,7 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let html = sheet.to_html();
     let path = std::env::args().nth(1).unwrap_or_else(|| "target/sheet.html".to_owned());
     std::fs::write(&path, &html)?;
-    println!("{}", FourBar::DERIVATION);
+    println!("{}", FourBar::DERIVATION.to_text());
     println!("Sheet: {path}, {} kB", html.len() / 1000);
 
     // The sheet prints what the Maple sheet derives, and the number that it gives for theta3' / theta2'.

@@ -7,15 +7,18 @@ compile_error!("enable the feature `std` of `linkage`, or `libm` where there is 
 
 #[cfg(all(feature = "double-double", any(feature = "std", feature = "libm")))]
 pub use linkage_double::DoubleDouble;
+#[cfg(all(feature = "dynamics", any(feature = "std", feature = "libm")))]
+pub use linkage_dynamics::{
+    Along, Balance, Contact, ContactLaw, Energy, Equations, Mode, Power, Scene, Unreduced, contact, simulation,
+};
 #[cfg(feature = "drawing")]
-pub use linkage_runtime::drawing;
+pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]
-pub use linkage_runtime::sheet;
+pub use linkage_report::{Document, sheet};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
-    Along, Assembly, Balance, Contact, ContactLaw, Elbow, Energy, Equations, Error, Group, Mechanism, Mode,
-    OutputMotion, PointMotion, Power, Real, Scene, Slider, Slope, Solution, Unreduced, accuracy, contact, continuation,
-    derivation, limits, nalgebra, position, simulation, singularity,
+    Assembly, Elbow, Error, Group, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, accuracy,
+    continuation, derivation, limits, nalgebra, position, singularity,
 };
 
 /// A mechanism under forces: the position is solved for within the rate, the last one being the guess.
@@ -52,8 +55,8 @@ pub use linkage_runtime::{
 /// assert!(motion.state()[0] > 10.0);
 /// # Ok::<(), linkage::Error>(())
 /// ```
-#[cfg(any(feature = "std", feature = "libm"))]
-pub use linkage_runtime::integrate;
+#[cfg(all(feature = "dynamics", any(feature = "std", feature = "libm")))]
+pub use linkage_dynamics::integrate;
 
 /// Mechanisms from their closure equations.
 ///
@@ -73,6 +76,11 @@ pub mod __private {
     pub use linkage_macros::linkage;
 }
 
+/// What emitted code names; not part of the interface.
 #[doc(hidden)]
 #[cfg(any(feature = "std", feature = "libm"))]
-pub use linkage_runtime::__rt;
+pub mod __rt {
+    #[cfg(feature = "dynamics")]
+    pub use linkage_dynamics::__rt::*;
+    pub use linkage_runtime::__rt::*;
+}

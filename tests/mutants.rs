@@ -79,12 +79,20 @@ fn a_budget_that_ends_anywhere_is_one_message() {
     {
         let all = {
             let budget = Budget::default();
-            assert!(!is_refused(&linkage_compiler::expand_within(source::tokens_of(file), &root, &budget)));
+            assert!(!is_refused(&linkage_compiler::expand_within(
+                source::tokens_of(file),
+                &linkage_compiler::Facade::complete(&root),
+                &budget
+            )));
             MOST_STEPS - budget.left()
         };
         for _ in 0..setting("MUTANTS", 2000) / 100 {
             let budget = Budget::new(rand::Rng::random_range(&mut random, 1..all));
-            let expansion = linkage_compiler::expand_within(source::tokens_of(file), &root, &budget);
+            let expansion = linkage_compiler::expand_within(
+                source::tokens_of(file),
+                &linkage_compiler::Facade::complete(&root),
+                &budget,
+            );
             let file: syn::File = syn::parse2(expansion).unwrap();
             let messages = file.items.iter().filter_map(|item| match item {
                 syn::Item::Macro(item) if item.mac.path.is_ident("compile_error") => Some(item.mac.tokens.to_string()),

@@ -3,8 +3,8 @@
 #![cfg(feature = "sheet")]
 
 use linkage::derivation::{Entry, Formula, Matrix};
-use linkage::linkage;
 use linkage::sheet::Sheet;
+use linkage::{Document, linkage};
 
 #[path = "source/cam_laws.rs"]
 mod cam_laws;
@@ -95,7 +95,7 @@ fn equations_are_numbered_as_in_the_text() {
     let orders = Sheet::new(NortonFourBar::DERIVATION).to_html();
     assert_balanced(&orders);
     for (html, derivation) in [(&html, FourBar::DERIVATION), (&orders, NortonFourBar::DERIVATION)] {
-        let last = derivation.to_string().matches("\n  (").count();
+        let last = derivation.to_text().matches("\n  (").count();
         assert!(html.contains(&format!("id=\"equation-{last}\"")));
         assert!(!html.contains(&format!("id=\"equation-{}\"", last + 1)));
     }

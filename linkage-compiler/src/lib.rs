@@ -33,18 +33,39 @@ use program::Operations;
 /// names and types of what was meant, so that one mistake is one message.
 #[must_use]
 pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
-    expand_within(input, root, &Budget::default())
+    expand_within(input, &Facade::complete(root), &Budget::default())
+}
+
+/// The `linkage` crate that an expansion stands on.
+#[derive(Debug, Clone)]
+pub struct Facade {
+    /// Its path.
+    pub path: TokenStream,
+    /// Whether it has the feature `dynamics`.
+    pub has_dynamics: bool,
+}
+
+impl Facade {
+    /// With all features.
+    #[must_use]
+    pub fn complete(path: &TokenStream) -> Self {
+        Self { path: path.clone(), has_dynamics: true }
+    }
 }
 
 /// Expands an invocation that may take so many steps of work.
 #[must_use]
-pub fn expand_within(input: TokenStream, root: &TokenStream, budget: &Budget) -> TokenStream {
+pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> TokenStream {
+    let root = &facade.path;
     let mut diagnostics = Diagnostics::default();
     let trees = syntax::parse(input, &mut diagnostics);
     let mut mechanisms = Vec::new();
     for tree in trees {
         let (before, was_spent) = (diagnostics.len(), budget.is_spent());
-        let mechanism = model::resolve(tree, budget, &mut diagnostics);
+        let mut mechanism = model::resolve(tree, budget, &mut diagnostics);
+        if !facade.has_dynamics {
+            refuse_scenes(&mut mechanism, &mut diagnostics);
+        }
         if budget.is_spent() {
             diagnostics.truncate(before);
             if !was_spent {
@@ -69,6 +90,13 @@ pub fn expand_within(input: TokenStream, root: &TokenStream, budget: &Budget) ->
         return quote! { #errors #(#stubs)* };
     }
     tokens
+}
+
+/// Reports each scene, and leaves it out: nothing that its stub would name is there.
+fn refuse_scenes(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
+    for scene in std::mem::take(&mut mechanism.scenes).iter() {
+        diagnostics.error(scene.name.span(), "a scene needs the feature `dynamics` of `linkage`");
+    }
 }
 
 /// Derives a mechanism, reports what only its derivatives tell, and prints its program; one driver after the other, so

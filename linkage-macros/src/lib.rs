@@ -4,6 +4,8 @@
 
 #![warn(missing_docs)]
 
+use linkage_compiler::Facade;
+use linkage_compiler::budget::Budget;
 use proc_macro::TokenStream;
 
 /// A mechanism from its closure equations.
@@ -604,5 +606,6 @@ pub fn linkage(input: TokenStream) -> TokenStream {
     // The facade's macro hands its own path over as the first token.
     let mut tokens = proc_macro2::TokenStream::from(input).into_iter();
     let root = tokens.next().into_iter().collect();
-    linkage_compiler::expand(tokens.collect(), &root).into()
+    let facade = Facade { path: root, has_dynamics: cfg!(feature = "dynamics") };
+    linkage_compiler::expand_within(tokens.collect(), &facade, &Budget::default()).into()
 }

@@ -1,4 +1,4 @@
-//! The names that emitted code uses, so that no name of the user's is taken. Not part of the interface.
+//! The names that emitted kinematics uses, so that no name of the user's is taken. Not part of the interface.
 
 pub use core::convert::Into;
 pub use core::iter::Iterator;
@@ -8,20 +8,16 @@ pub use core::result::Result::{self, Err, Ok};
 pub use nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
 
 pub use crate::branch::{Triangle, chord, elbow_chord, existing, reach_chord, side_of, solvable};
-pub use crate::contact::{sound, stops};
-pub use crate::equilibrium::{equilibrium, on_branch};
 pub use crate::error::{finite, finite_matrix};
-pub use crate::inertia::reduced;
 pub use crate::limits::{Bound, Search, limits};
 pub use crate::linear::{Factorization, product_of_pivots, regular};
 pub use crate::motion::{finite_matrices, finite_outputs, finite_points, output_motions, point_motions};
 pub use crate::position::newton_group;
 pub use crate::scalar::unit;
-pub use crate::scene::{Kinematics, finite_each, not_negative};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
-    Along, Assembly, Balance, Contact, ContactLaw, Elbow, Energy, Equations, Error, Group, Limits, Mechanism,
-    OutputMotion, PointMotion, Power, Real, Scene, Slider, Slope, Solution, Unreduced, newton, real,
+    Assembly, Elbow, Error, Group, Limits, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, newton,
+    real,
 };
 
 /// The names that derivations are written with.

@@ -377,8 +377,12 @@ pub fn finite_matrix<T: Real, const R: usize, const C: usize>(
     all_finite(mechanism, quantity, matrix.iter())
 }
 
+/// As [`finite`], of any number of values.
+///
+/// # Errors
+/// [`Error::NotFinite`] with these names.
 #[inline]
-pub(crate) fn all_finite<'a, T: Real>(
+pub fn all_finite<'a, T: Real>(
     mechanism: &'static str,
     quantity: &'static str,
     values: impl Iterator<Item = &'a T> + Clone,

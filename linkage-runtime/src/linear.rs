@@ -25,7 +25,7 @@ pub fn regular<T: Real>(mechanism: &'static str, group: &'static str, determinan
 
 /// Whether numbers have the same signs, one by one; zero counts as positive.
 #[inline]
-pub(crate) fn same_signs<T: Real>(these: &[T], those: &[T]) -> bool {
+pub fn same_signs<T: Real>(these: &[T], those: &[T]) -> bool {
     these.iter().zip(those).all(|(this, that)| (*this >= T::zero()) == (*that >= T::zero()))
 }
 

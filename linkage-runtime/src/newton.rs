@@ -15,9 +15,10 @@ const ROUNDINGS: f64 = 4.0;
 const MOST_HALVINGS: usize = 40;
 
 /// Closures in some unknowns.
-pub(crate) trait Closures<T: Real, const N: usize> {
+pub trait Closures<T: Real, const N: usize> {
     /// All that follows from values of the unknowns.
     type Point;
+    /// What follows from these values.
     fn at(&self, unknowns: &SVector<T, N>) -> Self::Point;
     /// Psi, and the sum of the magnitudes of the terms of each closure.
     fn residual(&self, point: &Self::Point) -> (SVector<T, N>, SVector<T, N>);
@@ -32,19 +33,19 @@ pub(crate) trait Closures<T: Real, const N: usize> {
 }
 
 /// Where a search is or ends.
-pub(crate) struct Iterate<P, T, const N: usize> {
-    pub(crate) unknowns: SVector<T, N>,
-    pub(crate) point: P,
+pub struct Iterate<P, T, const N: usize> {
+    pub unknowns: SVector<T, N>,
+    pub point: P,
     residual: SVector<T, N>,
     /// The largest relative residual; not finite if a number of the iterate is not.
-    pub(crate) size: T,
+    pub size: T,
 }
 
 /// What a search finds from `start`, and the steps it took.
 ///
 /// Steps are halved until the residual falls. The search ends at a residual that rounding explains,
 /// after one more step that removes what the last one left.
-pub(crate) fn search<T: Real, C: Closures<T, N>, const N: usize>(
+pub fn search<T: Real, C: Closures<T, N>, const N: usize>(
     closures: &C,
     start: SVector<T, N>,
 ) -> Result<(Iterate<C::Point, T, N>, usize), Error> {

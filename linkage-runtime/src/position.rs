@@ -179,7 +179,7 @@ where
 }
 
 /// |det J| beside the product of the sizes of its columns.
-pub(crate) fn beside_columns<T: Real, const N: usize>(determinant: T, jacobian: &SMatrix<T, N, N>) -> f64 {
+pub fn beside_columns<T: Real, const N: usize>(determinant: T, jacobian: &SMatrix<T, N, N>) -> f64 {
     let product = jacobian.column_iter().fold(T::one(), |product, column| product * column.norm());
     if product > T::zero() { to_f64(determinant.abs() / product) } else { 0.0 }
 }

@@ -55,7 +55,7 @@ pub fn unit<T: Real>(cosine: T, sine: T) -> UnitComplex<T> {
 
 /// The larger of two numbers; not a number if one of them is none, which `max` and a comparison lose.
 #[inline]
-pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
+pub fn larger<T: Real>(a: T, b: T) -> T {
     if a >= b {
         a
     } else if b >= a {
@@ -67,14 +67,14 @@ pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
 
 /// The largest magnitude; not a number if one of the values is none, which nalgebra's `amax` loses.
 #[inline]
-pub(crate) fn largest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
+pub fn largest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
     values.into_iter().fold(T::zero(), |most, value| larger(most, value.abs()))
 }
 
 /// The smallest magnitude, of no values the largest number there is; not a number if one of the values is none, which
 /// nalgebra's `amin` loses.
 #[inline]
-pub(crate) fn smallest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
+pub fn smallest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
     let none = T::max_value().unwrap_or_else(T::one);
     values.into_iter().fold(none, |least, value| {
         let value = value.abs();
@@ -98,6 +98,6 @@ pub(crate) fn relative<T: Real>(value: T, size: T) -> T {
 }
 
 /// The scalar as it is reported.
-pub(crate) fn to_f64<T: Real>(value: T) -> f64 {
+pub fn to_f64<T: Real>(value: T) -> f64 {
     value.to_subset().unwrap_or(f64::NAN)
 }

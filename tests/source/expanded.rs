@@ -7,7 +7,7 @@ use proc_macro2::{TokenStream, TokenTree};
 
 /// The macro does not panic, gives something, and accepts nothing that is beyond the budget.
 pub fn expanded(mutant: &TokenStream, root: &TokenStream, budget: &Budget) -> TokenStream {
-    let expand = || linkage_compiler::expand_within(mutant.clone(), root, budget);
+    let expand = || linkage_compiler::expand_within(mutant.clone(), &linkage_compiler::Facade::complete(root), budget);
     let expansion = catch_unwind(AssertUnwindSafe(expand)).unwrap_or_else(|_| panic!("the macro panics:\n{mutant}"));
     assert!(!expansion.is_empty(), "this vanishes:\n{mutant}");
     assert!(!budget.is_spent() || is_refused(&expansion), "this is beyond the budget:\n{mutant}");

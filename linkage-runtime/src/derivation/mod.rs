@@ -1,15 +1,8 @@
 //! A mechanism's derivation as data: every formula as text, LaTeX and MathML.
 //!
 //! The compiler writes each [`Formula`] in all three notations, so that nothing is parsed or laid out at run time.
-//!
-//! The [`Display`](fmt::Display) of a [`Derivation`] is the whole of it in plain text;
-//! `Derivation::to_latex` a part of a LaTeX document.
 
-#[cfg(feature = "std")]
-mod latex;
-pub(crate) mod outline;
 mod scene;
-mod text;
 
 use core::fmt;
 
@@ -215,24 +208,5 @@ impl fmt::Display for Formula {
 impl fmt::Display for Equation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}", self.left, self.right)
-    }
-}
-
-/// The whole derivation in plain text, the equations numbered.
-impl fmt::Display for Derivation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        outline::write(self, &mut text::Text::new(f))
-    }
-}
-
-#[cfg(feature = "std")]
-impl Derivation {
-    /// The whole derivation as a part of a LaTeX document that uses `amsmath`.
-    #[must_use]
-    pub fn to_latex(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string does not fail.
-        let _ = outline::write(self, &mut latex::Latex::new(&mut text));
-        text
     }
 }

@@ -1,8 +1,6 @@
 //! The equations of motion of a scene as data.
 
-use core::fmt;
-
-use super::{Equation, Kernel, Symbol, outline, text};
+use super::{Equation, Kernel, Symbol};
 
 /// How the motion of a scene follows from its bodies and effects: M(v)·v̈ = Q(v, v̇, t).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,23 +29,4 @@ pub struct Effect {
     pub name: &'static str,
     /// Its share of each Q, but for those that are zero; of a body with the quadratic velocity terms.
     pub forces: &'static [Equation],
-}
-
-/// The equations of motion in plain text, numbered.
-impl fmt::Display for Scene {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        outline::write_scene(self, &mut text::Text::new(f))
-    }
-}
-
-#[cfg(feature = "std")]
-impl Scene {
-    /// The equations of motion as a part of a LaTeX document that uses `amsmath`.
-    #[must_use]
-    pub fn to_latex(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string does not fail.
-        let _ = outline::write_scene(self, &mut super::latex::Latex::new(&mut text));
-        text
-    }
 }

@@ -1,0 +1,188 @@
+//! Forces within bounds: which contacts hold, and which give way.
+//!
+//! Forces f between bounds with w = A f + b: w = 0 where f is between them, w >= 0 at a lower and w <= 0 at an upper
+//! bound. It is the minimum of f A f / 2 + b f, and w is unique although f need not be. One force after the other is let
+//! go of its bound, that first with which most is gained; those let go are solved for together, and the first that
+//! meets a bound stays there (C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter 23, for
+//! two bounds). What is minimised falls with every turn, so that no set of forces comes twice.
+
+use nalgebra::SMatrix;
+
+use super::held::{Factors, nothing};
+use linkage_runtime::{Real, real};
+
+/// A force between bounds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds<T> {
+    pub lower: T,
+    pub upper: T,
+    /// b, and the sum of the magnitudes of its terms.
+    pub bias: (T, T),
+}
+
+/// The forces, and w; of what rounding may have made that is nothing.
+pub(super) struct Solution<T, const C: usize> {
+    pub forces: [T; C],
+    pub slack: [T; C],
+}
+
+struct Search<'a, T, const C: usize> {
+    matrix: &'a SMatrix<T, C, C>,
+    bounds: &'a [Option<Bounds<T>>; C],
+    forces: [T; C],
+    /// Let go, in the order in which they were.
+    free: [usize; C],
+    count: usize,
+}
+
+/// Of the contacts that have bounds.
+///
+/// # Errors
+/// The contact that no force could hold, or with which the search did not end.
+pub(super) fn bounded<T: Real, const C: usize>(
+    matrix: &SMatrix<T, C, C>,
+    bounds: &[Option<Bounds<T>>; C],
+) -> Result<Solution<T, C>, usize> {
+    let start = |bounds: &Option<Bounds<T>>| match bounds {
+        Some(Bounds { lower, upper, bias }) if !lower.is_finite() || (bias.0 < T::zero() && upper.is_finite()) => {
+            *upper
+        }
+        Some(Bounds { lower, .. }) => *lower,
+        None => T::zero(),
+    };
+    let forces = core::array::from_fn(|place| start(&bounds[place]));
+    let mut search = Search { matrix, bounds, forces, free: [0; C], count: 0 };
+    let mut stuck = [false; C];
+    // Far more turns than any set of contacts has been seen to need.
+    for _ in 0..32 * (C + 1) {
+        let slack: [T; C] = core::array::from_fn(|place| search.slack(place));
+        let Some(next) = search.next(&slack, &stuck) else {
+            return Ok(Solution { forces: search.forces, slack });
+        };
+        let before = search.forces;
+        search.release(next, slack[next])?;
+        if search.forces == before {
+            // Rounding alone let it go.
+            stuck[next] = true;
+        } else {
+            stuck = [false; C];
+        }
+    }
+    Err((0..C).find(|&place| bounds[place].is_some()).unwrap_or(0))
+}
+
+impl<T: Real, const C: usize> Search<'_, T, C> {
+    /// w of a contact, without what is rounding.
+    fn slack(&self, place: usize) -> T {
+        let Some(Bounds { bias, .. }) = self.bounds[place] else { return T::zero() };
+        if self.free[..self.count].contains(&place) {
+            return T::zero();
+        }
+        let terms = self.forces.iter().enumerate().map(|(other, &force)| self.matrix[(place, other)] * force);
+        let (sum, size) = terms.fold(bias, |(sum, size), term| (sum + term, size + term.abs()));
+        // Less than what sets a contact free that was held.
+        if sum.abs() <= nothing::<T>() * size * real(0.125) { T::zero() } else { sum }
+    }
+
+    /// The contact with whose force most is gained.
+    fn next(&self, slack: &[T; C], stuck: &[bool; C]) -> Option<usize> {
+        let mut best: Option<(usize, T)> = None;
+        for place in 0..C {
+            let Some(Bounds { lower, upper, .. }) = self.bounds[place] else { continue };
+            let force = self.forces[place];
+            let gains = (slack[place] < T::zero() && force < upper) || (slack[place] > T::zero() && force > lower);
+            if !gains || stuck[place] || self.free[..self.count].contains(&place) {
+                continue;
+            }
+            // Along one force alone w^2 / 2 A is gained; where nothing answers to it there is no end of it.
+            let entry = self.matrix[(place, place)];
+            let gain = slack[place] * slack[place] / entry;
+            let gain = if gain.is_finite() { gain } else { real(f64::INFINITY) };
+            if best.is_none_or(|(_, most)| gain > most) {
+                best = Some((place, gain));
+            }
+        }
+        best.map(|(place, _)| place)
+    }
+
+    /// Lets a force go, and moves all that are free to where they gain nothing more.
+    fn release(&mut self, next: usize, slack: T) -> Result<(), usize> {
+        self.free[self.count] = next;
+        self.count += 1;
+        loop {
+            let factors = Factors::in_order(self.matrix, self.free, self.count);
+            let mut direction = [T::zero(); C];
+            // Where the new one depends on those before it, all move along and nothing else changes.
+            let is_endless = factors.rank < self.count;
+            if is_endless {
+                let combination = factors.combination(self.count - 1);
+                let sign = if slack > T::zero() { -T::one() } else { T::one() };
+                for (entry, &c) in direction.iter_mut().zip(&combination).take(factors.rank) {
+                    *entry = -sign * c;
+                }
+                direction[self.count - 1] = sign;
+            } else {
+                direction = factors.solve(|row| -self.gradient(row));
+            }
+            let mut blocked: Option<(usize, T)> = None;
+            for (place, &way) in direction.iter().enumerate().take(self.count) {
+                let Some(Bounds { lower, upper, .. }) = self.bounds[self.free[place]] else { continue };
+                let force = self.forces[self.free[place]];
+                let room = if way > T::zero() {
+                    upper - force
+                } else if way < T::zero() {
+                    lower - force
+                } else {
+                    continue;
+                };
+                let part = (room / way).max(T::zero());
+                if (is_endless || part < T::one()) && blocked.is_none_or(|(_, least)| part < least) {
+                    blocked = Some((place, part));
+                }
+            }
+            let part = match blocked {
+                Some((_, part)) if part.is_finite() => part,
+                _ if is_endless && self.is_level(&direction) => {
+                    self.count -= 1;
+                    return Ok(());
+                }
+                _ if is_endless => return Err(next),
+                _ => T::one(),
+            };
+            for (&contact, &way) in self.free.iter().zip(&direction).take(self.count) {
+                self.forces[contact] += way * part;
+            }
+            let Some((place, _)) = blocked else { return Ok(()) };
+            self.pin(place, direction[place] > T::zero());
+            if self.count == 0 {
+                return Ok(());
+            }
+        }
+    }
+
+    /// True if nothing but rounding is gained along a combination of the free forces to which nothing answers.
+    fn is_level(&self, direction: &[T; C]) -> bool {
+        let terms = self.free.iter().zip(direction).take(self.count).map(|(&contact, &way)| {
+            let bias = self.bounds[contact].map_or((T::zero(), T::zero()), |bounds| bounds.bias);
+            (bias.0 * way, bias.1 * way.abs())
+        });
+        let (slope, size) = terms.fold((T::zero(), T::zero()), |(a, b), (slope, size)| (a + slope, b + size));
+        slope.abs() <= nothing::<T>() * size
+    }
+
+    /// b + A f.
+    fn gradient(&self, row: usize) -> T {
+        let bias = self.bounds[row].map_or(T::zero(), |bounds| bounds.bias.0);
+        self.forces.iter().enumerate().fold(bias, |sum, (other, &force)| sum + self.matrix[(row, other)] * force)
+    }
+
+    /// Leaves a force at the bound that it has met.
+    fn pin(&mut self, place: usize, at_upper: bool) {
+        let contact = self.free[place];
+        if let Some(Bounds { lower, upper, .. }) = self.bounds[contact] {
+            self.forces[contact] = if at_upper { upper } else { lower };
+        }
+        self.free.copy_within(place + 1..self.count, place);
+        self.count -= 1;
+    }
+}

@@ -1,0 +1,192 @@
+//! The length of steps: their error beside the tolerance, the next length, the first one.
+//!
+//! Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993), section II.4, as in their
+//! codes DOP853 and DOPRI5. Lengths are plain numbers: derivatives that a dual scalar carries have no part in them.
+
+use nalgebra::{ComplexField, SVector};
+
+use super::tableau::{self, Control, Slopes, Tableau};
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::{Error, Real};
+
+/// What of the change that the last error asks for is dared.
+const SAFETY: f64 = 0.9;
+
+/// The least relative tolerance, in roundings.
+const LEAST_ROUNDINGS: f64 = 10.0;
+
+/// The local error that is allowed: of component i `relative` (`scale_i` + |`y_i`|).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance<T, const N: usize> {
+    relative: f64,
+    scale: SVector<T, N>,
+}
+
+impl<T: Real, const N: usize> Tolerance<T, N> {
+    /// `relative` is a pure number, such as 1e-9. `scale` tells of each component, in its own unit, what size of it
+    /// matters: what is small beside it is allowed the error `relative * scale`. A code with absolute and relative
+    /// tolerances has `scale` = absolute / relative.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a relative tolerance below ten roundings or above 1, and for a scale
+    /// that is not positive and finite.
+    pub fn new(relative: f64, scale: impl Into<SVector<T, N>>) -> Result<Self, Error> {
+        let least = LEAST_ROUNDINGS * to_f64(T::default_epsilon());
+        within("the relative tolerance", relative, least, 1.0)?;
+        let scale = scale.into();
+        for &scale in &scale {
+            positive("the scale of a component", to_f64(scale))?;
+        }
+        Ok(Self { relative, scale })
+    }
+
+    /// The error allowed at a component of this size.
+    fn allowed(&self, component: usize, size: f64) -> f64 {
+        self.relative * (to_f64(self.scale[component]) + size)
+    }
+
+    /// The root of the mean square of a change at `y` beside what is allowed.
+    pub(super) fn share(&self, change: &SVector<T, N>, y: &SVector<T, N>) -> f64 {
+        self.norm(change, |i| to_f64(y[i]).abs()) / ComplexField::sqrt(N as f64)
+    }
+
+    /// The root of sum (`v_i` / allowed)^2, also where the squares are too large for the scalar.
+    fn norm(&self, v: &SVector<T, N>, size: impl Fn(usize) -> f64) -> f64 {
+        let part = |i: usize| to_f64(v[i]) / self.allowed(i, size(i));
+        let sum = (0..N).fold(0.0, |sum, i| sum + part(i) * part(i));
+        if sum < f64::INFINITY {
+            return ComplexField::sqrt(sum);
+        }
+        let most = (0..N).fold(0.0, |most: f64, i| most.max(part(i).abs()));
+        if most == f64::INFINITY {
+            return most;
+        }
+        let sum = (0..N).fold(0.0, |sum, i| sum + (part(i) / most) * (part(i) / most));
+        most * ComplexField::sqrt(sum)
+    }
+}
+
+/// Refuses a setting outside of what it may be.
+pub(super) fn within(quantity: &'static str, value: f64, least: f64, most: f64) -> Result<(), Error> {
+    if (least..=most).contains(&value) { Ok(()) } else { Err(Error::OutOfRange { quantity, value, least, most }) }
+}
+
+/// Refuses what is not positive and finite.
+pub(super) fn positive(quantity: &'static str, value: f64) -> Result<(), Error> {
+    within(quantity, value, f64::MIN_POSITIVE, f64::MAX)
+}
+
+/// The error of a step beside what is allowed: up to 1 it is accepted.
+#[inline]
+pub(super) fn error<T: Real, const N: usize>(
+    tableau: &Tableau,
+    tolerance: &Tolerance<T, N>,
+    (y, next): (&SVector<T, N>, &SVector<T, N>),
+    slopes: &Slopes<T, N>,
+    h: f64,
+) -> f64 {
+    let size = |i: usize| to_f64(y[i]).abs().max(to_f64(next[i]).abs());
+    let [first, second] = tableau.errors.map(|weights| {
+        if weights.is_empty() { 0.0 } else { tolerance.norm(&tableau::combination(slopes, weights), size) }
+    });
+    if first == 0.0 {
+        return 0.0;
+    }
+    if first == f64::INFINITY || second == f64::INFINITY {
+        return f64::INFINITY;
+    }
+    // |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N, where no square of a small error is lost.
+    let share = second / first;
+    h.abs() * first / ComplexField::sqrt(N as f64 * (1.0 + 0.01 * share * share))
+}
+
+/// A step to be tried: h = 0.01 |y| / |f|, and with the second derivative that a step of Euler's of that length shows,
+/// h^p max(|f|, |y''|) = 0.01, both in the time that the solution takes to change by its size.
+/// Where nothing moves or the state is zero, a millionth of `span`, or less if the state moves by its scale sooner.
+#[inline]
+pub(super) fn first_length<T: Real, const N: usize>(
+    order: u32,
+    tolerance: &Tolerance<T, N>,
+    (y, slope): (&SVector<T, N>, &SVector<T, N>),
+    span: f64,
+    euler: impl FnOnce(f64) -> Result<SVector<T, N>, Error>,
+) -> f64 {
+    let size = |i: usize| to_f64(y[i]).abs();
+    let (moving, there) = (tolerance.norm(slope, size), tolerance.norm(y, size));
+    let known = moving * span > 1e-5 && there > 1e-5;
+    // The time in which the state moves by its scale.
+    let across = (tolerance.relative * moving).recip();
+    let time = if known {
+        there / moving
+    } else if 1e-4 * span > across {
+        across
+    } else {
+        span
+    };
+    let guess = if known || time < span { 0.01 * time } else { 1e-6 * span }.min(span);
+    // Where there is no rate so far ahead, shorter steps are tried.
+    let Ok(ahead) = euler(guess) else { return guess };
+    let bend = tolerance.norm(&(ahead - slope), size) / guess;
+    let steepest = (bend * time * time).max(moving * time);
+    let (most, root) = (0.01, 1.0 / f64::from(order));
+    let length = if steepest <= 1e-15 {
+        (1e-6 * time).max(1e-3 * guess)
+    } else if steepest < f64::INFINITY {
+        time * ComplexField::powf(most / steepest, root)
+    } else {
+        let [bend, moving, time] = [bend, moving, time].map(ComplexField::ln);
+        ComplexField::exp(time + root * (ComplexField::ln(most) - (bend + 2.0 * time).max(moving + time)))
+    };
+    // Beside a change that is too large for the scalar every length is nothing: it is found by trying.
+    let length = if length > 0.0 { length } else { guess };
+    (100.0 * guess).min(length).min(span)
+}
+
+/// What is kept from step to step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Controller {
+    /// What of the change that the last error asks for is dared.
+    pub(super) safety: f64,
+    /// The length proposed, without sign; none before the first step.
+    pub(super) length: Option<f64>,
+    /// The last error that was accepted.
+    error: f64,
+    /// The last step was not accepted.
+    rejected: bool,
+}
+
+impl Controller {
+    pub(super) fn new() -> Self {
+        Self { safety: SAFETY, length: None, error: 1e-4, rejected: false }
+    }
+
+    /// Takes the error of a step of this length, proposes the next length and tells whether the step is accepted.
+    #[inline]
+    pub(super) fn accepts(&mut self, rule: &Control, error: f64, length: f64) -> bool {
+        let power = if rule.exponent == 0.125 {
+            // By square roots, which all machines round alike.
+            ComplexField::sqrt(ComplexField::sqrt(ComplexField::sqrt(error)))
+        } else {
+            ComplexField::powf(error, rule.exponent)
+        };
+        let (slowest, fastest) = (1.0 / rule.shrink, 1.0 / rule.grow);
+        let accepted = error <= 1.0;
+        let next = if accepted {
+            let stabilised = if rule.beta == 0.0 { power } else { power / ComplexField::powf(self.error, rule.beta) };
+            self.error = error.max(1e-4);
+            length / (stabilised / self.safety).min(slowest).max(fastest)
+        } else {
+            length / (power / self.safety).min(slowest)
+        };
+        // A step that follows a rejected one is not longer.
+        self.length = Some(if accepted && self.rejected { next.min(length) } else { next });
+        self.rejected = !accepted;
+        accepted
+    }
+
+    /// After a step of this length that has no error, as its rate failed.
+    pub(super) fn failed(&mut self, rule: &Control, length: f64) {
+        self.length = Some(length * rule.shrink);
+        self.rejected = true;
+    }
+}

@@ -1,0 +1,77 @@
+//! The events of an integration under way, one after the other.
+
+use nalgebra::SVector;
+
+use super::System;
+use super::event::{Action, Found};
+use super::run::{Instant, Integration, Place, Step, finite};
+use super::tableau::Method;
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::{Error, Real};
+
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
+    /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
+    /// rate, and if there may be one on the dense output.
+    pub(super) fn search(&mut self, from: f64) -> Result<Found<T, N>, Error> {
+        let roundings = self.roundings();
+        let sides = self.sides;
+        if self.interpolant.is_none() {
+            let cubic = self.cubic();
+            let found = self.sides.search(&mut self.system, (&cubic, true), (from, self.parts), roundings)?;
+            if !matches!(found, Found::Perhaps) {
+                return Ok(found);
+            }
+        }
+        self.sides = sides;
+        let interpolant = self.interpolant()?;
+        self.sides.search(&mut self.system, (&interpolant, false), (from, self.parts), roundings)
+    }
+
+    /// What rounding leaves of the time, as a part of the last step.
+    fn roundings(&self) -> f64 {
+        let [start, end] = [self.from.0, self.to.0].map(to_f64);
+        to_f64(T::default_epsilon()) * (start.abs().max(end.abs()) / (end - start).abs()).max(1.0)
+    }
+
+    /// The next of the events that have happened here.
+    pub(super) fn deliver(&mut self) -> Result<Step<T, N>, Error> {
+        let (t, state) = (self.t, self.state);
+        let resolution = 4.0 * self.roundings() * to_f64(self.to.0 - self.from.0).abs();
+        if to_f64(t - self.instant.t).abs() > resolution {
+            self.instant = Instant { t, anew: false };
+            self.sides.anew();
+        }
+        let (event, again) = self.sides.deliver();
+        if again && self.instant.anew {
+            return Err(Error::EventsWithoutEnd { t: to_f64(t), event });
+        }
+        match self.system.at_event(event, t, &state)? {
+            Action::Record => {}
+            Action::Stop => self.stop(),
+            Action::Restart(state) => self.restart(state)?,
+        }
+        Ok(Step { t, state, event: Some(event) })
+    }
+
+    /// Nothing follows.
+    pub(crate) fn stop(&mut self) {
+        self.place = Place::Over;
+    }
+
+    /// The motion starts anew here, from this state.
+    pub(crate) fn restart(&mut self, state: SVector<T, N>) -> Result<(), Error> {
+        finite("the state after an event", self.t, &state)?;
+        self.state = state;
+        self.continues = false;
+        self.instant.anew = true;
+        if self.place != Place::Over {
+            self.place = Place::Boundary;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,451 @@
+//! An integration: step after step, from event to event.
+
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use super::control::{Controller, Tolerance, positive, within};
+use super::dense::Interpolant;
+use super::event::{Found, Sides};
+use super::tableau::{self, Method, SLOPES, Slopes};
+use super::{Outputs, System, step};
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::{Error, Real};
+
+/// The part of the tolerance by which a state may be corrected without another evaluation of the rate.
+const NEGLIGIBLE: f64 = 0.01;
+
+/// How often steps are made shorter in a row, each time to a sixteenth, for the sake of their guards: to a millionth of
+/// what the tolerance asks for. With 4 a jump of a guard is met by steps 16 times as long, with 6 it costs one more step.
+const MOST_SHORTENED: u32 = 5;
+
+/// What an integration has cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Evaluations of the rate, those that failed included.
+    pub evaluations: usize,
+    /// Steps accepted.
+    pub accepted: usize,
+    /// Steps rejected, the first one's included.
+    pub rejected: usize,
+}
+
+/// Where the integration has arrived: at the end of a step or, within one, at an event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step<T, const N: usize> {
+    /// The time.
+    pub t: T,
+    /// The state; at an event before what it does.
+    pub state: SVector<T, N>,
+    /// The number of the event, if there is one.
+    pub event: Option<usize>,
+}
+
+/// The last time of an event, and whether the motion started anew with one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Instant<T> {
+    pub(super) t: T,
+    pub(super) anew: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    /// At the start, at the end of a step, or where the motion starts anew.
+    Boundary,
+    /// At this part of a step.
+    Within(f64),
+    /// Nothing follows.
+    Over,
+}
+
+/// An integration under way: an iterator over its steps and events, which ends with an error or at the end of the
+/// interval. What was reached stays readable after an error.
+#[derive(Debug, Clone)]
+pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0, const C: usize = 0> {
+    pub(super) method: PhantomData<M>,
+    pub(super) system: S,
+    pub(super) tolerance: Tolerance<T, N>,
+    pub(super) largest: f64,
+    pub(super) most_steps: usize,
+    pub(super) stiffness_every: usize,
+    pub(super) parts: usize,
+    pub(super) start: T,
+    pub(super) end: T,
+    /// How far the integration is.
+    pub(super) t: T,
+    pub(super) state: SVector<T, N>,
+    pub(super) place: Place,
+    /// The last step: its start, its end, its slopes, and its dense output once that was asked for.
+    pub(super) from: (T, SVector<T, N>),
+    pub(super) to: (T, SVector<T, N>),
+    pub(super) slopes: Slopes<T, N>,
+    pub(super) interpolant: Option<Interpolant<T, N>>,
+    /// The last slope is that of the state.
+    pub(super) continues: bool,
+    pub(super) controller: Controller,
+    pub(super) counts: Counts,
+    pub(super) stiff: u32,
+    pub(super) not_stiff: u32,
+    pub(super) sides: Sides<K, C>,
+    pub(super) instant: Instant<T>,
+    /// How often the step has been made shorter for the sake of its guards.
+    pub(super) shortened: u32,
+}
+
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
+    /// Of this system from state `y` at `start` to `end`, which may be the earlier.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a time is not finite, [`Error::NotFiniteAt`] if the state is not.
+    pub fn new(system: S, (start, y): (T, SVector<T, N>), end: T, tolerance: Tolerance<T, N>) -> Result<Self, Error> {
+        for t in [start, end] {
+            within("the time", to_f64(t), f64::MIN, f64::MAX)?;
+        }
+        finite("the initial state", start, &y)?;
+        let sides = Sides::new(system.crossings());
+        Ok(Self {
+            method: PhantomData,
+            system,
+            tolerance,
+            largest: f64::INFINITY,
+            most_steps: 100_000,
+            stiffness_every: 1000,
+            parts: 4,
+            start,
+            end,
+            t: start,
+            state: y,
+            place: Place::Boundary,
+            from: (start, y),
+            to: (start, y),
+            slopes: [SVector::zeros(); SLOPES],
+            interpolant: Some(Interpolant::constant(start, y)),
+            continues: false,
+            controller: Controller::new(),
+            counts: Counts::default(),
+            stiff: 0,
+            not_stiff: 0,
+            sides,
+            instant: Instant { t: start, anew: false },
+            shortened: 0,
+        })
+    }
+
+    /// The length of the first step, in place of an estimate that takes one evaluation.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if it is not positive and finite.
+    pub fn first_step(mut self, length: T) -> Result<Self, Error> {
+        positive("the first step", to_f64(length))?;
+        self.controller.length = Some(to_f64(length));
+        Ok(self)
+    }
+
+    /// The largest length of a step; without it the whole interval.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if it is not positive and finite.
+    pub fn largest_step(mut self, length: T) -> Result<Self, Error> {
+        positive("the largest step", to_f64(length))?;
+        self.largest = to_f64(length);
+        Ok(self)
+    }
+
+    /// Steps, accepted or not, after which the integration is given up; 100 000 without it.
+    #[must_use]
+    pub fn most_steps(mut self, steps: usize) -> Self {
+        self.most_steps = steps;
+        self
+    }
+
+    /// Tests after every so many accepted steps whether the equations have become stiff; 0 never does. 1000
+    /// without it.
+    #[must_use]
+    pub fn stiffness_test(mut self, every: usize) -> Self {
+        self.stiffness_every = every;
+        self
+    }
+
+    /// Looks at the event functions at so many equal parts of each step; 4 without it, at least 1. An event
+    /// function that goes through zero and back between two of them is seen if it turns once in the step; what turns
+    /// more often may need more parts ([which events are found](super)). Between the ends of a step the functions are
+    /// evaluated, but no rate unless something may happen.
+    #[must_use]
+    pub fn event_parts(mut self, parts: usize) -> Self {
+        self.parts = parts.max(1);
+        self
+    }
+
+    /// How far the integration is.
+    #[must_use]
+    pub fn t(&self) -> T {
+        self.t
+    }
+
+    /// The state there; after an event what it made of it.
+    #[must_use]
+    pub fn state(&self) -> &SVector<T, N> {
+        &self.state
+    }
+
+    /// How much of the interval is done, from 0 to 1.
+    #[must_use]
+    pub fn progress(&self) -> f64 {
+        let (done, whole) = (to_f64(self.t - self.start), to_f64(self.end - self.start));
+        if whole == 0.0 { 1.0 } else { done / whole }
+    }
+
+    /// What it has cost.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// The system, with what it has learned on the way.
+    #[must_use]
+    pub fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// Whether nothing follows: the end is reached, an event stopped the integration, or an error.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        match self.place {
+            Place::Boundary => self.t == self.end && !self.sides.waits(),
+            Place::Within(_) => false,
+            Place::Over => true,
+        }
+    }
+
+    /// The states of the last step, also before its end where an event cut it off. Made when it is first asked for,
+    /// in one step at most once.
+    ///
+    /// # Errors
+    /// What the rate returns where the method evaluates it for dense output, and [`Error::NotFiniteAt`].
+    pub fn interpolant(&mut self) -> Result<Interpolant<T, N>, Error> {
+        if let Some(interpolant) = self.interpolant {
+            return Ok(interpolant);
+        }
+        let (t, y) = self.from;
+        let h = self.to.0 - t;
+        let table = const { &M::TABLEAU };
+        let rate = step::counted(&mut self.system, &mut self.counts);
+        tableau::evaluate(rate, table.dense_stages, table.end + 1, (t, &y), h, &mut self.slopes)?;
+        let interpolant = self.cubic().complete(table, &self.slopes);
+        if !interpolant.is_finite() {
+            return Err(Error::NotFiniteAt { quantity: "the dense output", t: to_f64(t) });
+        }
+        self.interpolant = Some(interpolant);
+        Ok(interpolant)
+    }
+
+    /// The states at these times, which follow one another in the direction of the integration.
+    pub fn at<I: IntoIterator<Item = T>>(&mut self, times: I) -> Outputs<'_, M, S, T, I::IntoIter, N, K, C> {
+        Outputs::new(self, times.into_iter())
+    }
+
+    /// Integrates to the end. `watch` sees every step and event and how much of the interval is done; where it
+    /// returns false the integration pauses, and may be continued.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance).
+    pub fn finish(&mut self, mut watch: impl FnMut(&Step<T, N>, f64) -> bool) -> Result<(), Error> {
+        while let Some(step) = self.advance()? {
+            if !watch(&step, self.progress()) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// To the next event or, if there is none, to the end of the step; None where nothing follows.
+    ///
+    /// # Errors
+    /// What the system returns, if no shorter step avoids it; [`Error::NotFiniteAt`], [`Error::StepTooSmall`],
+    /// [`Error::TooManySteps`], [`Error::Stiff`], [`Error::EventsWithoutEnd`]. Nothing follows after an error, and time and
+    /// state stay what they were before it.
+    pub fn advance(&mut self) -> Result<Option<Step<T, N>>, Error> {
+        if self.is_over() {
+            return Ok(None);
+        }
+        let result = self.proceed();
+        if result.is_err() {
+            self.place = Place::Over;
+            // The slopes of the last step are lost.
+            (self.from, self.to) = ((self.t, self.state), (self.t, self.state));
+            self.interpolant = Some(Interpolant::constant(self.t, self.state));
+        }
+        result.map(Some)
+    }
+
+    fn proceed(&mut self) -> Result<Step<T, N>, Error> {
+        if self.sides.waits() {
+            return self.deliver();
+        }
+        loop {
+            let (from, is_new) = match self.place {
+                Place::Within(part) => (part, false),
+                _ => {
+                    self.step()?;
+                    (0.0, true)
+                }
+            };
+            let found = if K + C > 0 { self.search(from)? } else { Found::Nothing };
+            let length = to_f64(self.to.0 - self.from.0).abs();
+            match found {
+                Found::Hit(hit) => {
+                    self.shortened = 0;
+                    (self.t, self.state) = (hit.t, hit.state);
+                    self.place = Place::Within(hit.at);
+                    return self.deliver();
+                }
+                Found::Unclear if is_new && self.shortened < MOST_SHORTENED => {
+                    self.shortened += 1;
+                    self.go_back(self.from.0, self.from.1);
+                    self.counts.accepted -= 1;
+                    self.counts.rejected += 1;
+                    self.limit_next(length / 16.0);
+                }
+                _ => {
+                    // What jumps stays unclear, in this step and in those that follow it.
+                    if !matches!(found, Found::Unclear) {
+                        self.shortened = 0;
+                    }
+                    (self.t, self.state) = self.to;
+                    self.place = Place::Boundary;
+                    return Ok(Step { t: self.t, state: self.state, event: None });
+                }
+            }
+        }
+    }
+
+    /// The same start, end and settings by another method or with another system.
+    pub(crate) fn with<M2: Method, S2: System<T, N, K2, C>, const K2: usize>(
+        self,
+        system: impl FnOnce(S) -> S2,
+    ) -> Result<Integration<M2, S2, T, N, K2, C>, Error> {
+        let (largest, most_steps, stiffness_every, parts) =
+            (self.largest, self.most_steps, self.stiffness_every, self.parts);
+        let (length, safety) = (self.controller.length, self.controller.safety);
+        let mut other = Integration::new(system(self.system), (self.start, self.state), self.end, self.tolerance)?;
+        (other.largest, other.most_steps, other.stiffness_every, other.parts) =
+            (largest, most_steps, stiffness_every, parts);
+        (other.controller.length, other.controller.safety) = (length, safety);
+        Ok(other)
+    }
+
+    /// Whether a step begins here.
+    pub(crate) fn is_at_boundary(&self) -> bool {
+        self.place == Place::Boundary && !self.sides.waits()
+    }
+
+    pub(crate) fn system_mut(&mut self) -> &mut S {
+        &mut self.system
+    }
+
+    /// The length of the step to be tried next, without sign.
+    pub(crate) fn next_length(&self) -> Option<f64> {
+        self.controller.length
+    }
+
+    /// Makes the next step no longer than this.
+    pub(crate) fn limit_next(&mut self, length: f64) {
+        self.controller.length =
+            Some(self.controller.length.map_or(length, |next| if next < length { next } else { length }));
+    }
+
+    /// Dares this part of the change of length that the last error asks for.
+    pub(crate) fn set_safety(&mut self, safety: f64) {
+        self.controller.safety = safety;
+    }
+
+    pub(crate) fn set_tolerance(&mut self, tolerance: Tolerance<T, N>) {
+        self.tolerance = tolerance;
+    }
+
+    /// Goes on from another state than the one reached: a projected one, or one in other coordinates.
+    pub(crate) fn exchange(&mut self, state: SVector<T, N>) {
+        self.state = state;
+        self.continues = false;
+    }
+
+    /// Goes on from a state that differs from the one reached by what is left of the closures. Beside the tolerance that
+    /// is mostly nothing, and the last slope stands for the next one.
+    pub(crate) fn correct(&mut self, state: SVector<T, N>) {
+        self.continues = self.continues && self.tolerance.share(&(state - self.state), &state) <= NEGLIGIBLE;
+        self.state = state;
+    }
+
+    /// Goes on from a place before the one reached; the length of the steps is kept.
+    pub(crate) fn go_back(&mut self, t: T, state: SVector<T, N>) {
+        (self.from, self.to) = ((t, state), (t, state));
+        self.interpolant = Some(Interpolant::constant(t, state));
+        self.t = t;
+        self.place = Place::Boundary;
+        self.sides.forget();
+        self.exchange(state);
+    }
+
+    /// Takes a step that was made by other means, up to the end of the interpolant.
+    pub(crate) fn pass(&mut self, step: Interpolant<T, N>) {
+        let end = step.interval().1;
+        self.from = (self.t, self.state);
+        self.to = (end, step.at(end));
+        self.interpolant = Some(step);
+        self.place = Place::Within(0.0);
+        self.continues = false;
+    }
+
+    /// The interval of which the states are at hand: from the start of the last step to where the integration is.
+    pub(crate) fn reached(&self) -> [T; 2] {
+        [self.from.0, self.t]
+    }
+
+    pub(crate) fn end(&self) -> T {
+        self.end
+    }
+
+    /// The state at a time that was reached in the last step; its ends as they are.
+    pub(crate) fn state_within(&mut self, t: T) -> Result<SVector<T, N>, Error> {
+        if t == self.from.0 {
+            return Ok(self.from.1);
+        }
+        if t == self.to.0 {
+            return Ok(self.to.1);
+        }
+        let state = self.interpolant()?.at(t);
+        finite("the state", t, &state)?;
+        Ok(state)
+    }
+
+    pub(super) fn cubic(&self) -> Interpolant<T, N> {
+        let ((t, y), (end, next)) = (&self.from, &self.to);
+        Interpolant::cubic(*t, *end - *t, [y, next], [&self.slopes[0], &self.slopes[M::TABLEAU.end]])
+    }
+}
+
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Iterator for Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
+    type Item = Result<Step<T, N>, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.advance().transpose()
+    }
+}
+
+pub(super) fn finite<T: Real, const N: usize>(
+    quantity: &'static str,
+    t: T,
+    values: &SVector<T, N>,
+) -> Result<(), Error> {
+    if values.iter().all(T::is_finite) { Ok(()) } else { Err(Error::NotFiniteAt { quantity, t: to_f64(t) }) }
+}

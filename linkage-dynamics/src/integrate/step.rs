@@ -1,0 +1,170 @@
+//! One step: its stages, its error, its length, and whether the equations have become stiff.
+
+use nalgebra::{ComplexField, SVector};
+
+use super::run::{Counts, Integration, finite};
+use super::tableau::{self, Method, Weights};
+use super::{System, control};
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::{Error, Real, real};
+
+impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
+where
+    M: Method,
+    S: System<T, N, K, C>,
+    T: Real,
+{
+    /// Takes a step.
+    pub(super) fn step(&mut self) -> Result<(), Error> {
+        let rule = const { &M::TABLEAU.control };
+        let mut anew = !self.continues;
+        if let Some(state) = self.system.before_step(self.t, &self.state)? {
+            finite("the state before a step", self.t, &state)?;
+            self.state = state;
+            anew = true;
+        }
+        let (t, y) = (self.t, self.state);
+        self.slopes[0] = if anew { self.slope(t, &y)? } else { self.slopes[M::TABLEAU.end] };
+        let span = to_f64(self.end - t);
+        let direction = span.signum();
+        if self.controller.length.is_none() {
+            self.controller.length = Some(self.first_length(span));
+        }
+        let epsilon = to_f64(T::default_epsilon());
+        if K + C > 0 && anew {
+            let little = real::<T>(ComplexField::sqrt(epsilon) * direction * self.length());
+            let after = y + self.slopes[0] * little;
+            self.sides.begin(&mut self.system, (t, &y), (t + little, &after))?;
+        }
+        let mut failure = None;
+        loop {
+            let length = self.length();
+            if self.counts.accepted + self.counts.rejected >= self.most_steps {
+                return Err(Error::TooManySteps { t: to_f64(t), steps: self.most_steps });
+            }
+            let last = 1.01 * length > span.abs();
+            let end = if last { self.end } else { t + real::<T>(direction * length) };
+            // At time zero any length tells, however short beside the interval.
+            if 0.1 * length <= epsilon * to_f64(t).abs() || length < f64::MIN_POSITIVE || end == t {
+                return Err(failure.unwrap_or(Error::StepTooSmall { t: to_f64(t), step: direction * length }));
+            }
+            let taken = to_f64(end - t).abs();
+            match self.attempt((t, &y), end) {
+                Ok((error, next)) => {
+                    failure = None;
+                    if self.controller.accepts(rule, error, taken) {
+                        self.from = (t, y);
+                        self.to = (end, next);
+                        self.interpolant = None;
+                        self.continues = true;
+                        self.counts.accepted += 1;
+                        return self.test_stiffness();
+                    }
+                }
+                Err(error) => {
+                    failure = Some(error);
+                    self.controller.failed(rule, taken);
+                }
+            }
+            self.counts.rejected += 1;
+        }
+    }
+
+    /// A step to `end`: its error beside what is allowed, and its end, whose slope is evaluated if it may be accepted.
+    #[inline]
+    fn attempt(&mut self, (t, y): (T, &SVector<T, N>), end: T) -> Result<(f64, SVector<T, N>), Error> {
+        let table = const { &M::TABLEAU };
+        let h = end - t;
+        tableau::evaluate(counted(&mut self.system, &mut self.counts), table.stages, 1, (t, y), h, &mut self.slopes)?;
+        let next = y + tableau::combination(&self.slopes, table.solution) * h;
+        // Relative to an infinite state every error would be zero.
+        finite("the rate or the state", end, &next)?;
+        let of_end = const { uses(M::TABLEAU.errors[0], M::TABLEAU.end) };
+        if of_end {
+            self.slopes[table.end] = self.slope(end, &next)?;
+        }
+        let error = control::error(table, &self.tolerance, (y, &next), &self.slopes, to_f64(h));
+        if error.is_nan() || !next.iter().all(T::is_finite) {
+            return Err(Error::NotFiniteAt { quantity: "the rate or the state", t: to_f64(end) });
+        }
+        if !of_end && error <= 1.0 {
+            self.slopes[table.end] = self.slope(end, &next)?;
+        }
+        Ok((error, next))
+    }
+
+    fn slope(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+        self.counts.evaluations += 1;
+        let slope = self.system.rate(t, y)?;
+        finite("the rate", t, &slope)?;
+        Ok(slope)
+    }
+
+    fn first_length(&mut self, span: f64) -> f64 {
+        let (t, y, slope) = (self.t, self.state, self.slopes[0]);
+        let tolerance = self.tolerance;
+        control::first_length(M::TABLEAU.order, &tolerance, (&y, &slope), span.abs().min(self.largest), |h| {
+            let h = real::<T>(h * span.signum());
+            self.slope(t + h, &(y + slope * h))
+        })
+    }
+
+    /// The length of the next step, without sign.
+    fn length(&self) -> f64 {
+        let whole = to_f64(self.end - self.start).abs();
+        self.controller.length.unwrap_or(whole).min(self.largest).min(whole)
+    }
+
+    /// h |lambda| from the last stage and the end of the step, which are at the same time (Hairer and Wanner,
+    /// *Solving Ordinary Differential Equations II*, section IV.2): the equations are taken to be stiff if stability
+    /// sets the length of 15 tested steps without 6 others in a row among them.
+    fn test_stiffness(&mut self) -> Result<(), Error> {
+        let every = self.stiffness_every;
+        if every == 0 || (self.stiff == 0 && !self.counts.accepted.is_multiple_of(every)) {
+            return Ok(());
+        }
+        let table = const { &M::TABLEAU };
+        let (last, stages) = (table.stages.len(), table.stages);
+        let h = self.to.0 - self.from.0;
+        let stage = self.from.1 + tableau::combination(&self.slopes, stages[last - 1].weights) * h;
+        let slopes = to_f64((self.slopes[table.end] - self.slopes[last]).norm());
+        let states = to_f64((self.to.1 - stage).norm());
+        if states > 0.0 && to_f64(h).abs() * slopes > table.control.stability * states {
+            (self.stiff, self.not_stiff) = (self.stiff + 1, 0);
+            if self.stiff == 15 {
+                let product = to_f64(h).abs() * slopes / states;
+                return Err(Error::Stiff { t: to_f64(self.from.0), product });
+            }
+        } else {
+            self.not_stiff += 1;
+            if self.not_stiff == 6 {
+                self.stiff = 0;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether this slope takes part.
+const fn uses(weights: Weights, slope: usize) -> bool {
+    let mut i = 0;
+    while i < weights.len() {
+        if weights[i].0 == slope {
+            return true;
+        }
+        i += 1;
+    }
+    false
+}
+
+/// The rate, counting.
+#[inline(always)]
+pub(super) fn counted<'a, S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
+    system: &'a mut S,
+    counts: &'a mut Counts,
+) -> impl FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error> + 'a {
+    move |t, y| {
+        counts.evaluations += 1;
+        system.rate(t, y)
+    }
+}

@@ -1,0 +1,90 @@
+//! Embedded Runge-Kutta pairs as data, and the stages of a step.
+
+use nalgebra::SVector;
+
+use linkage_runtime::{Error, Real, real};
+
+/// A linear combination of slopes: the number of each slope, from 0, and its coefficient.
+pub type Weights = &'static [(usize, f64)];
+
+/// A slope k = f(t + c h, y + h sum a_j k_j).
+#[derive(Debug, Clone, Copy)]
+pub struct Stage {
+    /// The node c.
+    pub node: f64,
+    /// The coefficients a_j.
+    pub weights: Weights,
+}
+
+/// The rule by which the length of the next step follows from the error of this one.
+#[derive(Debug, Clone, Copy)]
+pub struct Control {
+    /// The power of the error in the rule, beta included.
+    pub exponent: f64,
+    /// The power of the error before (Lund's stabilisation); 0 leaves it out.
+    pub beta: f64,
+    /// The least ratio of a step to the one before.
+    pub shrink: f64,
+    /// The largest ratio of a step to the one before.
+    pub grow: f64,
+    /// h |lambda| at the border of stability: where it is exceeded, stability sets the step and not the error.
+    pub stability: f64,
+}
+
+/// An embedded pair of explicit Runge-Kutta methods with dense output, whose last slope is the first of the next
+/// step. Slope 0 is f(t, y), slope `end` is f(t + h, y1).
+#[derive(Debug, Clone, Copy)]
+pub struct Tableau {
+    /// The order p of the solution: its local error is O(h^(p + 1)).
+    pub order: u32,
+    /// Slopes 1, 2, ...
+    pub stages: &'static [Stage],
+    /// y1 = y + h sum b_j k_j.
+    pub solution: Weights,
+    /// The number of the slope at the end of the step.
+    pub end: usize,
+    /// y1 less a solution of lower order, beside h. Of two estimates, of orders 5 and 3, E = E5^2 / sqrt(E5^2 +
+    /// E3^2 / 100).
+    pub errors: [Weights; 2],
+    /// Slopes `end` + 1, ... that only dense output takes.
+    pub dense_stages: &'static [Stage],
+    /// The coefficients of dense output beside h that do not follow from y, y1 and their slopes.
+    pub dense: &'static [Weights],
+    /// The rule for the next step.
+    pub control: Control,
+}
+
+/// As many slopes as the largest method has.
+pub(super) const SLOPES: usize = 16;
+
+/// The slopes of a step.
+pub(super) type Slopes<T, const N: usize> = [SVector<T, N>; SLOPES];
+
+/// An adaptive method.
+pub trait Method {
+    /// Its coefficients.
+    const TABLEAU: Tableau;
+}
+
+/// sum w_j k_j.
+#[inline(always)]
+pub(super) fn combination<T: Real, const N: usize>(slopes: &Slopes<T, N>, weights: Weights) -> SVector<T, N> {
+    weights.iter().fold(SVector::zeros(), |sum, &(j, weight)| sum + slopes[j] * real::<T>(weight))
+}
+
+/// The slopes `from`, `from` + 1, ... of these stages.
+#[inline(always)]
+pub(super) fn evaluate<T: Real, const N: usize>(
+    mut rate: impl FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error>,
+    stages: &[Stage],
+    from: usize,
+    (t, y): (T, &SVector<T, N>),
+    h: T,
+    slopes: &mut Slopes<T, N>,
+) -> Result<(), Error> {
+    for (number, stage) in (from..).zip(stages) {
+        let inner = y + combination(slopes, stage.weights) * h;
+        slopes[number] = rate(t + real::<T>(stage.node) * h, &inner)?;
+    }
+    Ok(())
+}

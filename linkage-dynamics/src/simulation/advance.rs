@@ -1,0 +1,130 @@
+//! A simulation from state to state: steps, and what happens at events.
+
+use nalgebra::SVector;
+
+use super::motion::{Position, Road};
+use super::road::{AtSingularity, WARNED};
+use super::run::{Moment, Rates, Simulation};
+use super::state::{State, Touch};
+use super::watch::{Then, Watch};
+use crate::Scene;
+use crate::contact::Change;
+use crate::integrate::Method;
+use linkage_runtime::__shared::same_signs;
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::{Error, Mechanism, Real};
+
+impl<S, T, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize>
+    Simulation<'_, S, T, U, V, N, C, M, W, K>
+where
+    S: Scene<T, U, V, N, C>,
+    T: Real,
+    M: Method,
+    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
+{
+    pub(super) fn proceed(&mut self) -> Result<Option<Moment<S, T, U, V, N, C>>, Error> {
+        loop {
+            let is_prepared = core::mem::take(&mut self.is_prepared);
+            if self.integration.is_at_boundary() && !is_prepared {
+                self.prepare()?;
+            }
+            let start = (self.integration.is_at_boundary()).then(|| (self.integration.t(), *self.integration.state()));
+            let Some(step) = self.integration.advance()? else { return Ok(None) };
+            if let Some((t, y)) = start.filter(|_| step.event.is_none())
+                && self.ends_too_near(&y, &step.state)
+            {
+                // Again in two parts: over a change point leads a step that begins well before it.
+                self.integration.go_back(t, y);
+                self.integration.limit_next(0.5 * to_f64(step.t - t).abs());
+                self.is_prepared = true;
+                continue;
+            }
+            let motion = self.integration.system();
+            let (q, _) = S::parts(&step.state);
+            let mechanism = motion.scene.mechanism();
+            if matches!(motion.road, Road::Inputs) {
+                let signs = mechanism.block_determinants(&mechanism.pose_at(&q));
+                if !same_signs(self.signs.as_ref(), signs.as_ref()) {
+                    if self.at_singularity == AtSingularity::Stop {
+                        return Err(motion.singular(&q));
+                    }
+                    // The step went over a singularity: again from its start, in coordinates that tell.
+                    self.go_back()?;
+                    continue;
+                }
+            }
+            let contacts = motion.contacts;
+            let closed = motion.closed(step.t, &step.state)?;
+            let (kept, holds) = motion.reviewed(&contacts, step.t, &closed)?;
+            let mut state = State { event: step.event.filter(|&event| event < K), ..motion.state(step.t, &kept)? };
+            let result = match step.event {
+                Some(event) if event < K => self.happens(event, &mut state, &kept),
+                None if holds => {
+                    if kept != step.state {
+                        self.integration.correct(kept);
+                    }
+                    Ok(())
+                }
+                // At just the state at which the guard was zero.
+                _ => self.settle(&mut state, &closed),
+            };
+            // Of several events of contacts at one time the first decides for all.
+            if step.event.is_some() && state.event.is_none() && result.is_ok() && state.changes().next().is_none() {
+                continue;
+            }
+            self.failure = result.err();
+            if step.event.is_some() {
+                self.from = (step.t, *self.integration.state());
+            }
+            (self.state, self.contacts) = (state, contacts);
+            return Ok(Some(self.state));
+        }
+    }
+
+    /// Takes the step again, in other coordinates than the inputs.
+    fn go_back(&mut self) -> Result<(), Error> {
+        let (t, y) = self.from;
+        self.integration.go_back(t, y);
+        self.warned = WARNED;
+        self.leave_inputs()?;
+        self.is_prepared = true;
+        Ok(())
+    }
+
+    /// What the user wishes to happen at an event.
+    fn happens(
+        &mut self,
+        event: usize,
+        state: &mut Moment<S, T, U, V, N, C>,
+        closed: &SVector<T, N>,
+    ) -> Result<(), Error> {
+        let motion = self.integration.system_mut();
+        match motion.watch.at_event(event, state)? {
+            Then::GoOn => {}
+            Then::Stop => self.integration.stop(),
+            Then::Restart(rates) => {
+                let y = motion.with_rates(&state.q, &rates.into())?;
+                let (after, changes) = motion.resumed(state.t, closed, &y)?;
+                self.integration.restart(after)?;
+                self.note(state, changes);
+            }
+        }
+        Ok(())
+    }
+
+    /// What happens to the contacts.
+    fn settle(&mut self, state: &mut Moment<S, T, U, V, N, C>, closed: &SVector<T, N>) -> Result<(), Error> {
+        let (after, changes) = self.integration.system_mut().settled(state.t, closed)?;
+        self.integration.restart(after)?;
+        self.note(state, changes);
+        Ok(())
+    }
+
+    /// What the contacts have done, and do from here on.
+    fn note(&self, state: &mut Moment<S, T, U, V, N, C>, changes: [Option<Change>; C]) {
+        let modes = self.integration.system().contacts.modes;
+        for ((touch, mode), change) in state.contacts.iter_mut().zip(modes).zip(changes) {
+            *touch = Touch { mode, change, ..*touch };
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Over a change point, where [J A] loses rank and no coordinate helps.
+//!
+//! A motion that goes straight on through a change point is as smooth there as anywhere; it is only [J A] that does not
+//! tell. The step is a collocation at the eight nodes of Gauss (order 16; Hairer, Norsett and Wanner, *Solving Ordinary
+//! Differential Equations I*, 2nd ed. (1993), theorem II.7.9), placed so that the change point lies in the wide gap
+//! between the fourth and the fifth. The first four are solved alone, and their polynomial predicts the rest.
+//!
+//! The step stands if the motion that it found is one: if the closures hold at the nodes where the polynomial says, so
+//! that the branch beyond is the one whose tangent continues, and if they hold in the gap to rounding, so that there
+//! is a crossing and not two branches that only come near each other.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::independent::Independent;
+use super::motion::Motion;
+use crate::Scene;
+use crate::contact::ReducedEquations;
+use crate::integrate::Interpolant;
+use linkage_runtime::__shared::{larger, largest};
+use linkage_runtime::{Error, Mechanism, Real, real};
+
+/// Gauss's nodes on [0, 1]: the zeros of Legendre's polynomial of degree 8.
+const NODES: [f64; 8] = [
+    0.019_855_071_751_231_884,
+    0.101_666_761_293_186_64,
+    0.237_233_795_041_835_5,
+    0.408_282_678_752_175_1,
+    0.591_717_321_247_825,
+    0.762_766_204_958_164_5,
+    0.898_333_238_706_813_4,
+    0.980_144_928_248_768_1,
+];
+
+/// Iterations of the collocation; they converge by the ratio of the step to the time of the motion.
+const MOST_ITERATIONS: usize = 40;
+
+/// An iteration that changes the end by this many roots of roundings has converged if the next does not change it less:
+/// near a change point rounding is enlarged by the square of the distance to it.
+const SMALL: f64 = 0.01;
+
+/// How far from the middle the change point may lie, as a part of the step.
+const OFF_MIDDLE: f64 = 0.03;
+
+/// Of what is left of the closures at the change point, in roundings.
+const ROUNDINGS: f64 = 256.0;
+
+/// How far the closures at the nodes may be from where the polynomial says, beside the length of the step.
+const GAP: f64 = 1e-3;
+
+/// The longest step, in radians or as a part of the sizes of lengths.
+const LONGEST: f64 = 1.2;
+
+/// The step that is wanted: shorter ones suffer more from rounding, whose part grows as their inverse square.
+const WANTED: f64 = 0.9;
+
+/// Twice the way ahead in which a change point is looked for.
+const SEEN: f64 = 3.0;
+
+/// Below this length a step is not made shorter for the sake of its dense output.
+const SHORTEST: f64 = 0.04;
+
+/// What lies ahead.
+pub(super) enum Ahead<T: Real, const N: usize> {
+    /// No change point.
+    Clear,
+    /// It may be one: the next step is to be no longer than this.
+    Near(T),
+    /// A change point, and the step over it.
+    ChangePoint(Interpolant<T, N>),
+}
+
+impl<S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'_, S, W, T, U, V, N, C>
+where
+    S: Scene<T, U, V, N, C>,
+    T: Real,
+{
+    /// The step over the change point ahead, if one is near; `way` is 1 or -1 in time, `tolerance` that of the
+    /// steps.
+    pub(super) fn over(
+        &self,
+        independent: &Independent<T, U, V>,
+        (t, y): (T, &SVector<T, N>),
+        way: T,
+        tolerance: T,
+    ) -> Result<Ahead<T, N>, Error> {
+        let (q, rates) = Self::unpack(y);
+        let factors = self.factors(independent, &q);
+        let (unknowns, inputs) = independent.apart(&(factors.basis() * rates), &rates);
+        let speed = self.scales.speed(&unknowns, &inputs);
+        let moves = speed > T::zero();
+        if !moves {
+            return Ok(Ahead::Clear);
+        }
+        let smallest = independent.pivots.iamin();
+        // The time to its zero along the tangent.
+        let little = way * T::default_epsilon().sqrt() / speed;
+        let (at_unknowns, at_inputs) = (S::Mechanism::unknowns(&q), S::Mechanism::inputs(&q));
+        let later = Self::joined(&q, (at_unknowns + unknowns * little, at_inputs + inputs * little));
+        let change = self.factors(independent, &later).pivots()[smallest] - independent.pivots[smallest];
+        let mut length = -independent.pivots[smallest] * little / change * real(2.0);
+        let slope = self.rate_by(independent, &factors, (t, y))?;
+        for _ in 0..3 {
+            let turn = length * way * speed;
+            if !(turn > T::zero() && turn <= real(SEEN)) {
+                return Ok(Ahead::Clear);
+            }
+            if turn > real(LONGEST) {
+                return Ok(Ahead::Near((length * real(0.5)).abs() * (T::one() - real::<T>(WANTED) / turn)));
+            }
+            let nearer = Ahead::Near((length * real(0.25)).abs());
+            let Some((step, gap)) = self.collocation(independent, (t, y), &slope, length) else { return Ok(nearer) };
+            let Some(middle) = self.zero_of_pivot(independent, &step, smallest) else { return Ok(nearer) };
+            let off = (middle - real(0.5)).abs();
+            if off > real(OFF_MIDDLE) {
+                length *= middle * real(2.0);
+                continue;
+            }
+            let last = step.last();
+            let (of_q, of_rates) = Self::unpack(&last);
+            let size = self.scales.speed(&S::Mechanism::unknowns(&of_q), &S::Mechanism::inputs(&of_q));
+            let of_rates = largest((0..V).map(|k| of_rates[k] / self.scales.coordinate(independent.free[k])));
+            // Dense output is more exact than its last term by the next ratio of terms and the nodes' polynomial.
+            let inexact = larger(size, of_rates / speed) * real(1e-5);
+            let is_exact = inexact <= tolerance.max(real(1e-9));
+            if !is_exact && turn > real(SHORTEST) {
+                return Ok(nearer);
+            }
+            let is_smooth = gap <= turn * real(GAP);
+            let is_crossing = self.left_over(independent, &step, middle) <= T::default_epsilon() * real(ROUNDINGS);
+            return Ok(if is_smooth && is_crossing { Ahead::ChangePoint(step) } else { nearer });
+        }
+        Ok(Ahead::Clear)
+    }
+
+    /// The collocation, and how far the closures are from it.
+    fn collocation(
+        &self,
+        independent: &Independent<T, U, V>,
+        (t, y): (T, &SVector<T, N>),
+        slope: &SVector<T, N>,
+        length: T,
+    ) -> Option<(Interpolant<T, N>, T)> {
+        let near = [NODES[0], NODES[1], NODES[2], NODES[3]];
+        let guess = Interpolant::of_slopes((t, *y), length, &near, &[*slope; 4])?;
+        let (guess, _) = self.iterated(independent, (t, y), length, &near, guess)?;
+        self.iterated(independent, (t, y), length, &NODES, guess)
+    }
+
+    fn iterated<const P: usize>(
+        &self,
+        independent: &Independent<T, U, V>,
+        (t, y): (T, &SVector<T, N>),
+        length: T,
+        nodes: &[f64; P],
+        mut step: Interpolant<T, N>,
+    ) -> Option<(Interpolant<T, N>, T)> {
+        let mut last: Option<T> = None;
+        for _ in 0..MOST_ITERATIONS {
+            let mut slopes = [SVector::zeros(); P];
+            let mut gap = T::zero();
+            for (slope, &node) in slopes.iter_mut().zip(nodes) {
+                let there = step.at_fraction(real(node));
+                let (guess, rates) = Self::unpack(&there);
+                let q = self.closed_by(independent, &guess).ok()?;
+                let unknowns = S::Mechanism::unknowns(&q) - S::Mechanism::unknowns(&guess);
+                let inputs = S::Mechanism::inputs(&q) - S::Mechanism::inputs(&guess);
+                gap = larger(gap, self.scales.speed(&unknowns, &inputs));
+                let (at, factors) = (t + length * real(node), self.factors(independent, &q));
+                *slope = self.rate_by(independent, &factors, (at, &Self::pack(&q, &rates))).ok()?;
+            }
+            let next = Interpolant::of_slopes((t, *y), length, nodes, &slopes)?;
+            let end = next.at_fraction(T::one());
+            let [change, size] = [end - step.at_fraction(T::one()), end].map(|v| largest(v.iter().copied()));
+            let change = change / size;
+            step = next;
+            if !change.is_finite() {
+                return None;
+            }
+            let small = change <= T::default_epsilon().sqrt() * real(SMALL);
+            if change.is_zero() || (small && last.is_some_and(|last| change >= last * real(0.5))) {
+                return Some((step, gap));
+            }
+            last = Some(change);
+        }
+        None
+    }
+
+    /// M, Q and the contacts within the step, where [J A] does not tell: along it they are as smooth as the motion, and
+    /// their polynomial through the nodes is taken, with time and rates as they are.
+    pub(super) fn equations_over(
+        &self,
+        independent: &Independent<T, U, V>,
+        step: &Interpolant<T, N>,
+        (t, y): (T, &SVector<T, N>),
+    ) -> Result<ReducedEquations<T, V, C>, Error> {
+        let (_, rates) = Self::unpack(y);
+        let (start, end) = step.interval();
+        let at = (t - start) / (end - start);
+        let mut equations = self.contacts_alone(t, y)?;
+        equations.mass = SMatrix::zeros();
+        for contact in &mut equations.contacts {
+            contact.drift = T::zero();
+        }
+        for node in NODES {
+            let others = NODES.iter().filter(|&&other| other != node);
+            // Lagrange's polynomial that is 1 at this node.
+            let weight = others.fold(T::one(), |weight, &other| weight * (at - real(other)) / real(node - other));
+            let (guess, _) = Self::unpack(&step.at_fraction(real(node)));
+            let q = self.closed_by(independent, &guess)?;
+            let factors = self.factors(independent, &q);
+            let (there, _) = self.equations_by(independent, &factors, (t, &Self::pack(&q, &rates)))?;
+            equations.mass += there.mass * weight;
+            equations.forces += there.forces * weight;
+            for (contact, there) in equations.contacts.iter_mut().zip(&there.contacts) {
+                contact.row += there.row * weight;
+                contact.drift += there.drift * weight;
+                contact.bias += there.bias * weight;
+            }
+        }
+        Ok(equations)
+    }
+
+    /// The part of the step at which a pivot is zero, by the secant method.
+    fn zero_of_pivot(&self, independent: &Independent<T, U, V>, step: &Interpolant<T, N>, pivot: usize) -> Option<T> {
+        let value = |s: T| self.factors(independent, &Self::unpack(&step.at_fraction(s)).0).pivots()[pivot];
+        let (mut a, mut b) = (T::zero(), T::one());
+        let (mut of_a, mut of_b) = (value(a), value(b));
+        for _ in 0..12 {
+            if of_a == of_b {
+                break;
+            }
+            let s = b - of_b * (b - a) / (of_b - of_a);
+            (a, of_a) = (b, of_b);
+            (b, of_b) = (s, value(s));
+            if !(b >= T::zero() && b <= T::one() && of_b.is_finite()) {
+                return None;
+            }
+        }
+        Some(b)
+    }
+
+    /// What is left of the closures at the change point where small pivots cannot remove it.
+    fn left_over(&self, independent: &Independent<T, U, V>, step: &Interpolant<T, N>, middle: T) -> T {
+        let mechanism = self.scene.mechanism();
+        let (q, _) = Self::unpack(&step.at_fraction(middle));
+        let pose = mechanism.pose_at(&q);
+        let weak = T::default_epsilon().sqrt() * real(64.0);
+        let factors = independent.factors_above(mechanism, &pose, &self.scales, weak);
+        let rest = factors.reduce(&mechanism.residual(&pose));
+        let pivots = factors.pivots();
+        let open = rest.iter().zip(pivots.iter()).filter(|(_, pivot)| pivot.abs() <= weak);
+        largest(open.map(|(rest, _)| *rest))
+    }
+}

@@ -1,0 +1,252 @@
+//! What cannot be integrated, and what was computed until then.
+
+use std::cell::Cell;
+
+use linkage_dynamics::integrate::{Action, Crossing, FixedStep, System, Tolerance, dop853, dopri5, watched};
+use linkage_runtime::Error;
+use linkage_runtime::nalgebra::vector;
+
+use super::systems::{HORIZONTAL, pendulum};
+use super::{Rate, State, tolerance};
+
+#[test]
+fn tolerances_that_cannot_be_met_are_refused() {
+    for relative in [0.0, -1e-9, 2e-15, 1.5, f64::NAN, f64::INFINITY] {
+        let refused = Tolerance::<f64, 1>::new(relative, [1.0]).unwrap_err();
+        assert!(matches!(refused, Error::OutOfRange { quantity: "the relative tolerance", .. }), "{refused}");
+    }
+    assert!(Tolerance::<f64, 1>::new(2.5e-15, [1.0]).is_ok());
+    assert!(Tolerance::<f32, 1>::new(1e-7, [1.0]).is_err());
+    for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(Tolerance::<f64, 2>::new(1e-9, [1.0, scale]).is_err(), "{scale}");
+    }
+    let text = Tolerance::<f64, 1>::new(0.0, [1.0]).unwrap_err().to_string();
+    assert_eq!(text, "the relative tolerance is 0e0: it must be between 2.220446049250313e-15 and 1e0");
+}
+
+#[test]
+fn settings_that_make_no_sense_are_refused() {
+    let new = |start: f64, y: State<2>, end: f64| dop853(pendulum, (start, y), end, tolerance(1e-9));
+    for (start, end) in [(f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+        assert!(matches!(new(start, HORIZONTAL, end), Err(Error::OutOfRange { .. })));
+    }
+    assert!(matches!(new(0.0, vector![0.0, f64::NAN], 1.0), Err(Error::NotFiniteAt { .. })));
+    for length in [0.0, -1.0, f64::NAN] {
+        assert!(new(0.0, HORIZONTAL, 1.0).unwrap().first_step(length).is_err());
+        assert!(new(0.0, HORIZONTAL, 1.0).unwrap().largest_step(length).is_err());
+    }
+    assert!(FixedStep::new(pendulum, (0.0, HORIZONTAL), 0.0).is_err());
+}
+
+#[test]
+fn an_empty_interval_has_its_state_and_no_steps() {
+    let asked = Cell::new(0);
+    let rate = |t: f64, y: &State<2>| {
+        asked.set(asked.get() + 1);
+        pendulum(t, y)
+    };
+    let mut motion = dop853(rate, (3.0, HORIZONTAL), 3.0, tolerance(1e-9)).unwrap();
+    assert_eq!(motion.at([3.0, 3.0]).map(Result::unwrap).collect::<Vec<_>>(), [(3.0, HORIZONTAL); 2]);
+    assert!(motion.is_over() && motion.next().is_none());
+    assert_eq!((asked.get(), motion.progress()), (0, 1.0));
+}
+
+#[test]
+fn output_times_must_lie_ahead() {
+    for times in [[0.5, -0.1, 0.6], [0.5, 1.5, 0.6], [0.9, 0.0, 0.95], [0.5, f64::NAN, 0.6]] {
+        let mut motion = dop853(pendulum, (0.0, HORIZONTAL), 1.0, tolerance(1e-9)).unwrap().largest_step(0.2).unwrap();
+        let found: Vec<_> = motion.at(times).collect();
+        assert_eq!(found.len(), 2, "nothing follows an error");
+        assert!(found[0].is_ok() && matches!(found[1], Err(Error::OutOfRange { .. })), "{found:?}");
+    }
+}
+
+/// y' = 1 / sqrt(1 - t), which ends at t = 1 with y = 2; the rate is then not a number or an error.
+#[test]
+fn a_motion_that_ends_is_followed_to_its_end() {
+    let own = Error::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 };
+    for (fails, expected) in [(false, None), (true, Some(own))] {
+        let rate = move |t: f64, _: &State<1>| match expected {
+            Some(error) if t > 1.0 => Err(error),
+            _ => Ok(vector![1.0 / (1.0 - t).sqrt()]),
+        };
+        for end in [2.0, 100.0] {
+            let mut motion = dop853(rate, (0.0, vector![0.0]), end, tolerance(1e-9)).unwrap();
+            let mut states: Vec<_> = motion.at([0.25, 0.75, 1.5, 1.6]).collect();
+            let error = states.pop().unwrap().unwrap_err();
+            // The root itself ends in steps too small for either.
+            assert!(
+                expected == Some(error) || matches!(error, Error::NotFiniteAt { .. } | Error::StepTooSmall { .. }),
+                "{fails}: {error}"
+            );
+            for (state, exact) in states.into_iter().zip([1.0 - 0.75f64.sqrt(), 1.0 - 0.25f64.sqrt()]) {
+                assert!((state.unwrap().1[0] - 2.0 * exact).abs() < 1e-8);
+            }
+            assert!((motion.t() - 1.0).abs() < 1e-9, "{:e}", motion.t() - 1.0);
+            assert!(motion.is_over());
+        }
+    }
+}
+
+#[test]
+fn the_own_error_of_a_rate_comes_back_at_its_place() {
+    let own = Error::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 };
+    for wrong in [Err(own), Ok(vector![f64::NAN, 0.0]), Ok(vector![0.0, f64::INFINITY])] {
+        let rate = move |t: f64, y: &State<2>| if t > 1.0 { wrong } else { pendulum(t, y) };
+        let fails =
+            |error: Error| wrong.map_or_else(|own| error == own, |_| matches!(error, Error::NotFiniteAt { .. }));
+        let mut motion = dopri5(rate, (0.0, HORIZONTAL), 3.0, tolerance(1e-9)).unwrap();
+        let error = motion.find_map(Result::err).unwrap();
+        assert!(fails(error), "{error}");
+        assert!(motion.t() <= 1.0 && motion.t() > 1.0 - 1e-14, "{:e}", motion.t() - 1.0);
+        assert!(motion.counts().evaluations < 2000, "{:?}", motion.counts());
+        // Nothing is left that could be asked of the step that failed.
+        assert_eq!(motion.interpolant().unwrap().interval(), (motion.t(), motion.t()));
+
+        // At once.
+        let start = (2.0, HORIZONTAL);
+        let mut motion = dop853(rate, start, 3.0, tolerance(1e-9)).unwrap();
+        assert!(fails(motion.next().unwrap().unwrap_err()) && motion.next().is_none());
+        assert_eq!((motion.t(), *motion.state()), start);
+
+        let mut motion = FixedStep::new(rate, (0.0, HORIZONTAL), 0.3).unwrap();
+        (0..3).for_each(|_| motion.step().unwrap());
+        let before = *motion.state();
+        assert!(fails(motion.step().unwrap_err()));
+        assert_eq!(*motion.state(), before);
+    }
+}
+
+#[test]
+fn a_pole_needs_steps_too_small() {
+    // y' = y^2 from 1: y = 1 / (1 - t).
+    let rate = |_: f64, y: &State<1>| Ok(vector![y[0] * y[0]]);
+    for relative in [1e-6, 1e-12] {
+        let mut motion = dop853(rate, (0.0, vector![1.0]), 2.0, tolerance(relative)).unwrap();
+        let error = motion.find_map(Result::err).unwrap();
+        let Error::StepTooSmall { t, step } = error else { panic!("{error}") };
+        assert!((t - 1.0).abs() < 1e-4 && step > 0.0 && step < 1e-14, "{t} {step}");
+    }
+}
+
+#[test]
+fn stiff_equations_are_told_from_others() {
+    // y' = -10^4 (y - cos t).
+    let rate = |t: f64, y: &State<1>| Ok(vector![-1e4 * (y[0] - t.cos())]);
+    let new = || dop853(rate, (0.0, vector![0.0]), 10.0, tolerance(1e-4)).unwrap();
+    let error = new().find_map(Result::err).unwrap();
+    let Error::Stiff { t, product } = error else { panic!("{error}") };
+    assert!(t < 5.0 && product > 6.1 && product < 20.0, "{t} {product}");
+    let mut motion = new().stiffness_test(0);
+    motion.finish(|_, _| true).unwrap();
+    assert!((motion.state()[0] - 10f64.cos()).abs() < 1e-3);
+    let error = dopri5(rate, (0.0, vector![0.0]), 10.0, tolerance(1e-4)).unwrap().find_map(Result::err).unwrap();
+    assert!(matches!(error, Error::Stiff { .. }), "{error}");
+    // A long motion that is not stiff.
+    let mut motion = dopri5(pendulum, (0.0, HORIZONTAL), 200.0, tolerance(1e-10)).unwrap().stiffness_test(1);
+    motion.finish(|_, _| true).unwrap();
+    assert!(motion.counts().accepted > 5000);
+}
+
+#[test]
+fn steps_have_an_end() {
+    let mut motion = dop853(pendulum, (0.0, HORIZONTAL), 1e6, tolerance(1e-9)).unwrap().most_steps(50);
+    let steps = motion.by_ref().take_while(Result::is_ok).count();
+    let counts = motion.counts();
+    assert_eq!((counts.accepted, counts.accepted + counts.rejected), (steps, 50));
+    assert!(motion.t() > 1.0);
+    let error = dop853(pendulum, (0.0, HORIZONTAL), 1e6, tolerance(1e-9)).unwrap().most_steps(50).find_map(Result::err);
+    assert!(matches!(error, Some(Error::TooManySteps { steps: 50, .. })));
+}
+
+#[test]
+fn an_event_function_that_is_not_a_number_ends_the_motion() {
+    let values = |t: f64, _: &State<2>| Ok([(1.0 - t).sqrt() + 1.0]);
+    let system = watched(pendulum, [Crossing::Either], values, |_, _, _| Ok(Action::Stop));
+    let error = dop853(system, (0.0, HORIZONTAL), 3.0, tolerance(1e-9)).unwrap().find_map(Result::err).unwrap();
+    assert!(matches!(error, Error::NotFiniteAt { quantity: "an event function", .. }), "{error}");
+}
+
+/// A pendulum of 1 m by an angle from a direction that follows it in quarters of a turn: its other coordinates are
+/// singular elsewhere.
+#[derive(Default)]
+struct Quarters {
+    quarter: f64,
+    switches: usize,
+}
+
+const QUARTER: f64 = std::f64::consts::FRAC_PI_2;
+
+impl System<f64, 2, 0> for Quarters {
+    fn rate(&mut self, t: f64, y: &State<2>) -> Rate<2> {
+        pendulum(t, &vector![y[0] + self.quarter * QUARTER, y[1]])
+    }
+
+    fn events(&mut self, _: f64, _: &State<2>) -> Result<[f64; 0], Error> {
+        Ok([])
+    }
+
+    fn before_step(&mut self, _: f64, y: &State<2>) -> Result<Option<State<2>>, Error> {
+        let turned = (y[0] / QUARTER).round();
+        if turned == 0.0 {
+            return Ok(None);
+        }
+        self.quarter += turned;
+        self.switches += 1;
+        Ok(Some(vector![y[0] - turned * QUARTER, y[1]]))
+    }
+}
+
+#[test]
+fn coordinates_may_be_switched_between_steps() {
+    // It goes over the top.
+    let start = vector![0.0, 7.0];
+    let mut plain = dop853(pendulum, (0.0, start), 5.0, tolerance(1e-11)).unwrap();
+    let mut switched = dop853(Quarters::default(), (0.0, start), 5.0, tolerance(1e-11)).unwrap();
+    // Outputs within a step come in the coordinates of that step.
+    let times: Vec<f64> = (1..=500).map(|i| 0.01 * f64::from(i)).collect();
+    for &t in &times {
+        let (_, y) = switched.at([t]).next().unwrap().unwrap();
+        let angle = y[0] + switched.system().quarter * QUARTER;
+        let (_, exact) = plain.at([t]).next().unwrap().unwrap();
+        assert!((angle - exact[0]).abs() < 1e-8, "{t}: {:e}", angle - exact[0]);
+    }
+    assert!(switched.system().switches > 8, "{}", switched.system().switches);
+    // One evaluation each, and the steps are about as many.
+    let (plain, switched) = (plain.counts(), switched.counts());
+    assert!(switched.accepted.abs_diff(plain.accepted) <= plain.accepted / 5, "{plain:?} {switched:?}");
+}
+
+/// y' = y, as z = y / 4^n with n raised wherever z has passed 2: another state and another rate.
+#[derive(Default)]
+struct Rescaled(i32);
+
+impl System<f64, 1, 0> for Rescaled {
+    fn rate(&mut self, _: f64, z: &State<1>) -> Rate<1> {
+        Ok(*z)
+    }
+
+    fn events(&mut self, _: f64, _: &State<1>) -> Result<[f64; 0], Error> {
+        Ok([])
+    }
+
+    fn before_step(&mut self, _: f64, z: &State<1>) -> Result<Option<State<1>>, Error> {
+        if z[0] > 2.0 {
+            self.0 += 1;
+            return Ok(Some(z / 4.0));
+        }
+        Ok(None)
+    }
+}
+
+#[test]
+fn a_new_state_has_a_new_rate() {
+    let mut motion = dop853(Rescaled::default(), (0.0, vector![1.0]), 30.0, tolerance(1e-12)).unwrap();
+    motion.finish(|_, _| true).unwrap();
+    let y = motion.state()[0] * 4f64.powi(motion.system().0);
+    assert!((y / 30f64.exp() - 1.0).abs() < 1e-10 && motion.system().0 > 10, "{:e}", y / 30f64.exp() - 1.0);
+    let mut motion = FixedStep::new(Rescaled::default(), (0.0, vector![1.0]), 1e-3).unwrap();
+    (0..10_000).for_each(|_| motion.step().unwrap());
+    let y = motion.state()[0] * 4f64.powi(motion.system().0);
+    assert!((y / 10f64.exp() - 1.0).abs() < 1e-11 && motion.system().0 > 5, "{:e}", y / 10f64.exp() - 1.0);
+}

@@ -1,0 +1,91 @@
+//! Searches and integrations whose numbers leave the range: they are refused, wherever the number stands.
+
+use linkage_dynamics::__rt::equilibrium;
+use linkage_dynamics::Balance;
+use linkage_dynamics::integrate::{FixedStep, Tolerance, dop853, dopri5};
+use linkage_runtime::__rt::newton_group;
+use linkage_runtime::Error;
+use linkage_runtime::nalgebra::SVector;
+
+const IDENTITY: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
+
+/// The largest of several residuals is not a number if one of them is none, whichever that is.
+#[test]
+fn a_residual_that_is_not_a_number_is_not_lost() {
+    for row in 0..2 {
+        let found = newton_group("mechanism", "a, b", [1.0, 2.0], |_| {
+            let mut residual = [0.0; 2];
+            residual[row] = f64::NAN;
+            (residual, [1.0; 2], IDENTITY)
+        });
+        assert!(matches!(found, Err(Error::NotFinite { .. })), "row {row}: {found:?}");
+    }
+}
+
+/// Relative to an infinite size every residual would be zero, and the start a position.
+#[test]
+fn a_size_that_is_not_finite_closes_nothing() {
+    for size in [f64::INFINITY, f64::NAN] {
+        for row in 0..2 {
+            let found = newton_group("mechanism", "a, b", [1.0, 2.0], |unknowns| {
+                let mut sizes = [1.0; 2];
+                sizes[row] = size;
+                (unknowns, sizes, IDENTITY)
+            });
+            assert!(matches!(found, Err(Error::NotFinite { .. })), "row {row}, size {size}: {found:?}");
+        }
+    }
+}
+
+/// A closure may be zero at infinity; a step there is too long.
+#[test]
+fn no_unknown_is_infinite() {
+    let found = newton_group("mechanism", "a", [0.0], |[a]: [f64; 1]| {
+        ([if a.is_finite() { 1e5 } else { 0.0 }], [1.0], [[2_f64.powi(-1020)]])
+    });
+    assert!(matches!(found, Err(Error::NotConverged { .. })), "{found:?}");
+}
+
+/// Forces beside which any other is zero.
+#[test]
+fn an_equilibrium_of_infinite_forces_is_none() {
+    for (sizes, slopes) in [([f64::INFINITY], [[1.0]]), ([1.0], [[1e308]])] {
+        let found = equilibrium("scene", [10.0], |[x]| Ok((x, Balance { forces: [x], sizes, slopes })));
+        assert!(matches!(found, Err(Error::NotFinite { .. })), "{found:?}");
+    }
+}
+
+#[test]
+fn an_integration_begins_and_ends_at_finite_states() {
+    let rate = |_: f64, _: &SVector<f64, 1>| Ok(SVector::from([1e308]));
+    for y in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(FixedStep::new(rate, (0.0, SVector::from([y])), 1.0), Err(Error::NotFiniteAt { .. })));
+    }
+    let tolerance = Tolerance::new(1e-6, [1.0]).unwrap();
+    let mut steps = FixedStep::new(rate, (0.0, SVector::from([0.0])), 1.0).unwrap();
+    assert!((0..3).any(|_| matches!(steps.step(), Err(Error::NotFiniteAt { .. }))));
+    // Relative to an infinite state every error would be zero.
+    for states in [
+        dopri5(rate, (0.0, SVector::from([0.0])), 1e3, tolerance)
+            .unwrap()
+            .map(|step| step.map(|s| s.state[0]))
+            .collect(),
+        dop853(rate, (0.0, SVector::from([0.0])), 1e3, tolerance)
+            .unwrap()
+            .map(|step| step.map(|s| s.state[0]))
+            .collect(),
+    ] as [Vec<Result<f64, Error>>; 2]
+    {
+        assert!(states.iter().flatten().all(|state| state.is_finite()), "{states:?}");
+        assert!(matches!(states.last(), Some(Err(_))), "{states:?}");
+    }
+}
+
+/// Time leaves the range as well.
+#[test]
+fn a_fixed_step_ends_at_a_finite_time() {
+    let rate = |_: f64, _: &SVector<f64, 1>| Ok(SVector::from([0.0]));
+    let mut steps = FixedStep::new(rate, (f64::MAX, SVector::from([0.0])), f64::MAX).unwrap();
+    assert!(matches!(steps.step(), Err(Error::NotFiniteAt { .. })));
+    assert!(steps.t().is_finite());
+}

@@ -1,0 +1,103 @@
+//! A derivation as a part of a LaTeX document.
+
+use core::fmt::{self, Write};
+
+use super::outline::{Law, Pen};
+use linkage_runtime::derivation::{Block, Equation, Formula, Kernel, Matrix};
+
+/// A matrix with more rows or columns than this is a list of its entries.
+const LARGEST_MATRIX: usize = 6;
+
+pub(super) struct Latex<'a> {
+    out: &'a mut String,
+}
+
+impl<'a> Latex<'a> {
+    pub(super) fn new(out: &'a mut String) -> Self {
+        Self { out }
+    }
+}
+
+/// Identifiers in running text.
+fn escape(name: &str) -> String {
+    name.replace('_', "\\_")
+}
+
+impl Pen for Latex<'_> {
+    fn title(&mut self, mechanism: &str) -> fmt::Result {
+        writeln!(self.out, "\\section*{{{}}}", escape(mechanism))
+    }
+
+    fn heading(&mut self, heading: &str) -> fmt::Result {
+        writeln!(self.out, "\n\\subsection*{{{heading}}}")
+    }
+
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result {
+        let formulas: Vec<_> = formulas.map(|formula| format!("${}$", formula.latex)).collect();
+        writeln!(self.out, "{role}: {}\\par", formulas.join(", "))
+    }
+
+    fn lead(&mut self, words: &str) -> fmt::Result {
+        writeln!(self.out, "{}", escape(words))
+    }
+
+    fn law(&mut self, law: &Law) -> fmt::Result {
+        writeln!(self.out, "\\[ {} \\]", law.latex)
+    }
+
+    fn display(&mut self, formula: &Formula) -> fmt::Result {
+        writeln!(self.out, "\\[ {} \\]", formula.latex)
+    }
+
+    fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result {
+        let Equation { left, right } = equation;
+        writeln!(self.out, "\\begin{{equation*}} {} = {} \\tag{{{number}}} \\end{{equation*}}", left.latex, right.latex)
+    }
+
+    fn matrix(&mut self, matrix: &Matrix) -> fmt::Result {
+        let name = matrix.name.latex;
+        let factor = matrix.factor.map_or_else(String::new, |factor| format!("{} ", factor.latex));
+        if matrix.rows.max(matrix.columns) > LARGEST_MATRIX {
+            for entry in matrix.entries {
+                let (row, column) = (entry.row + 1, entry.column + 1);
+                writeln!(self.out, "\\[ \\left({name}\\right)_{{{row},{column}}} = {factor}{} \\]", entry.value.latex)?;
+            }
+            return Ok(());
+        }
+        writeln!(self.out, "\\[ {name} = {factor}\\begin{{pmatrix}}")?;
+        for row in 0..matrix.rows {
+            let entries = (0..matrix.columns)
+                .map(|column| matrix.entry(row, column).map_or_else(|| "0".to_owned(), |entry| entry.latex.to_owned()));
+            writeln!(self.out, "  {} \\\\", entries.collect::<Vec<_>>().join(" & "))?;
+        }
+        writeln!(self.out, "\\end{{pmatrix}} \\]")
+    }
+
+    fn block(&mut self, n: usize, block: &Block) -> fmt::Result {
+        let equations: Vec<_> = block.equations.iter().map(|equation| format!("({})", equation + 1)).collect();
+        let equations = equations.join(", ");
+        writeln!(
+            self.out,
+            "\\paragraph{{Block {n}, {}}} Equations {equations}, solved {}.\\par",
+            block.group,
+            block.method.words()
+        )
+    }
+
+    fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {
+        writeln!(self.out, "\\begin{{tabular}}{{lrrrr}}")?;
+        writeln!(self.out, "Function & functions & divisions & multiplications & additions \\\\ \\hline")?;
+        for Kernel { function, operations } in kernels {
+            writeln!(
+                self.out,
+                "\\texttt{{{}}} & {} & {} & {} & {} \\\\",
+                escape(function),
+                operations.functions,
+                operations.divisions,
+                operations.multiplications,
+                operations.additions
+            )?;
+        }
+        writeln!(self.out, "\\end{{tabular}}")
+    }
+}

@@ -1,0 +1,57 @@
+//! Derivations in plain text and LaTeX, their equations numbered.
+
+mod latex;
+pub(crate) mod outline;
+mod text;
+
+use linkage_runtime::derivation::{Derivation, Scene};
+
+/// What can be written down as a document.
+///
+/// ```
+/// use linkage::Document;
+/// use linkage::linkage;
+///
+/// linkage! {
+///     mechanism Crank {
+///         param r;
+///         input phi;
+///         unknown x, y;
+///         loop r@phi = x@0 + y@(pi/2);
+///     }
+/// }
+/// assert!(Crank::<f64>::DERIVATION.to_text().contains("x = r·cos φ"));
+/// ```
+pub trait Document {
+    /// The whole of it in plain text.
+    fn to_text(&self) -> String;
+    /// The whole of it as a part of a LaTeX document that uses `amsmath`.
+    fn to_latex(&self) -> String;
+}
+
+impl Document for Derivation {
+    fn to_text(&self) -> String {
+        written(|text| outline::write(self, &mut text::Text::new(text)))
+    }
+
+    fn to_latex(&self) -> String {
+        written(|text| outline::write(self, &mut latex::Latex::new(text)))
+    }
+}
+
+impl Document for Scene {
+    fn to_text(&self) -> String {
+        written(|text| outline::write_scene(self, &mut text::Text::new(text)))
+    }
+
+    fn to_latex(&self) -> String {
+        written(|text| outline::write_scene(self, &mut latex::Latex::new(text)))
+    }
+}
+
+fn written(write: impl FnOnce(&mut String) -> core::fmt::Result) -> String {
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _ = write(&mut text);
+    text
+}

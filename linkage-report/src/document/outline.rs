@@ -1,0 +1,294 @@
+//! The order of a derivation, whatever it is written in.
+
+use core::fmt;
+
+use linkage_runtime::derivation::{Block, Derivation, Equation, Formula, Kernel, Matrix, Quantity, Scene};
+
+/// An equation between whole matrices, in every notation.
+pub(crate) struct Law {
+    pub(crate) text: &'static str,
+    pub(crate) latex: &'static str,
+    pub(crate) mathml: &'static str,
+}
+
+/// Ψ(u, v) = 0.
+pub(crate) const CLOSURE: Law = Law {
+    text: "Ψ(u, v) = 0",
+    latex: "\\Psi(u, v) = 0",
+    mathml: "<mrow><mi>Ψ</mi><mo>(</mo><mi>u</mi><mo>,</mo><mi>v</mi><mo>)</mo><mo>=</mo><mn>0</mn></mrow>",
+};
+/// J = ∂Ψ/∂u.
+pub(crate) const JACOBIAN_UNKNOWNS: Law = Law {
+    text: "J = ∂Ψ/∂u",
+    latex: "J = \\frac{\\partial \\Psi}{\\partial u}",
+    mathml: "<mrow><mi>J</mi><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>u</mi></mrow>\
+             </mfrac></mrow>",
+};
+/// A = ∂Ψ/∂v.
+pub(crate) const JACOBIAN_INPUTS: Law = Law {
+    text: "A = ∂Ψ/∂v",
+    latex: "A = \\frac{\\partial \\Psi}{\\partial v}",
+    mathml: "<mrow><mi>A</mi><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>v</mi></mrow>\
+             </mfrac></mrow>",
+};
+/// J·∂u/∂v = −A.
+pub(crate) const RATIOS: Law = Law {
+    text: "J·∂u/∂v = −A",
+    latex: "J \\frac{\\partial u}{\\partial v} = -A",
+    mathml: "<mrow><mi>J</mi><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow><mo>∂</mo><mi>v</mi></mrow></mfrac>\
+             <mo>=</mo><mrow><mo>−</mo><mi>A</mi></mrow></mrow>",
+};
+/// u̇ = ∂u/∂v·v̇.
+pub(crate) const VELOCITY: Law = Law {
+    text: "u̇ = (∂u/∂v)·v̇",
+    latex: "\\dot{u} = \\frac{\\partial u}{\\partial v} \\dot{v}",
+    mathml: "<mrow><mover><mi>u</mi><mo>˙</mo></mover><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow>\
+             <mo>∂</mo><mi>v</mi></mrow></mfrac><mover><mi>v</mi><mo>˙</mo></mover></mrow>",
+};
+/// J·∂²u/∂vⱼ∂vₖ = −γ(wⱼ, wₖ).
+pub(crate) const RATIO_DERIVATIVES: Law = Law {
+    text: "J·∂²u/∂vⱼ∂vₖ = −γ(wⱼ, wₖ)",
+    latex: "J \\frac{\\partial^2 u}{\\partial v_j \\partial v_k} = -\\gamma(w_j, w_k)",
+    mathml: "<mrow><mi>J</mi><mfrac><mrow><msup><mo>∂</mo><mn>2</mn></msup><mi>u</mi></mrow><mrow><mo>∂</mo><msub><mi>v\
+             </mi><mi>j</mi></msub><mo>∂</mo><msub><mi>v</mi><mi>k</mi></msub></mrow></mfrac><mo>=</mo><mrow><mo>−</mo>\
+             <mi>γ</mi><mo>(</mo><msub><mi>w</mi><mi>j</mi></msub><mo>,</mo><msub><mi>w</mi><mi>k</mi></msub><mo>)</mo>\
+             </mrow></mrow>",
+};
+/// J·u⃛ = −(A·v⃛ + η).
+pub(crate) const JERK: Law = Law {
+    text: "J·u⃛ = −(A·v⃛ + η)",
+    latex: "J \\dddot{u} = -(A \\dddot{v} + \\eta)",
+    mathml: "<mrow><mi>J</mi><mover><mi>u</mi><mo>⃛</mo></mover><mo>=</mo><mrow><mo>−</mo><mrow><mo>(</mo><mi>A</mi>\
+             <mover><mi>v</mi><mo>⃛</mo></mover><mo>+</mo><mi>η</mi><mo>)</mo></mrow></mrow></mrow>",
+};
+/// J·∂u/∂p = −Ψ_p.
+pub(crate) const SENSITIVITY: Law = Law {
+    text: "J·∂u/∂p = −Ψ_p",
+    latex: "J \\frac{\\partial u}{\\partial p} = -\\Psi_p",
+    mathml: "<mrow><mi>J</mi><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow><mo>∂</mo><mi>p</mi></mrow></mfrac>\
+             <mo>=</mo><mrow><mo>−</mo><msub><mi>Ψ</mi><mi>p</mi></msub></mrow></mrow>",
+};
+/// J·ü = −(A·v̈ + γ).
+pub(crate) const ACCELERATION: Law = Law {
+    text: "J·ü = −(A·v̈ + γ)",
+    latex: "J \\ddot{u} = -(A \\ddot{v} + \\gamma)",
+    mathml: "<mrow><mi>J</mi><mover><mi>u</mi><mo>¨</mo></mover><mo>=</mo><mrow><mo>−</mo><mrow><mo>(</mo><mi>A</mi>\
+             <mover><mi>v</mi><mo>¨</mo></mover><mo>+</mo><mi>γ</mi><mo>)</mo></mrow></mrow></mrow>",
+};
+
+/// M·v̈ = Q.
+pub(crate) const MOTION: Law = Law {
+    text: "M·v̈ = Q",
+    latex: "M \\ddot{v} = Q",
+    mathml: "<mrow><mi>M</mi><mover><mi>v</mi><mo>¨</mo></mover><mo>=</mo><mi>Q</mi></mrow>",
+};
+
+/// The headings and what leads each section in.
+pub(crate) mod words {
+    pub(crate) const COORDINATES: &str = "Coordinates";
+    pub(crate) const CLOSURE: &str = "Closure equations";
+    pub(crate) const JACOBIAN: &str = "Jacobian";
+    pub(crate) const STRUCTURE: &str = "Order of solution";
+    pub(crate) const RATIOS: &str = "Velocity ratios";
+    pub(crate) const ACCELERATION: &str = "Acceleration";
+    pub(crate) const RATIO_DERIVATIVES: &str = "Derivatives of the velocity ratios";
+    pub(crate) const JERK: &str = "Jerk";
+    pub(crate) const SENSITIVITY: &str = "Sensitivity";
+    pub(crate) const POINTS: &str = "Points";
+    pub(crate) const OUTPUTS: &str = "Outputs";
+    pub(crate) const MOTION: &str = "Equations of motion";
+    pub(crate) const POTENTIAL: &str = "Potential energy";
+    pub(crate) const OPERATIONS: &str = "Operations";
+    pub(crate) const CONDITIONS: &str = "Conditions";
+
+    pub(crate) const GIVEN: &str = "Given";
+    pub(crate) const DRIVEN: &str = "Driven";
+    pub(crate) const UNKNOWN: &str = "Unknown";
+
+    pub(crate) const LEAD_CLOSURE: &str = "The mechanism closes where";
+    pub(crate) const LEAD_JACOBIAN: &str =
+        "The derivatives of the closure equations with respect to the unknowns and the inputs:";
+    pub(crate) const LEAD_DETERMINANT: &str = "All blocks together:";
+    pub(crate) const LEAD_RATIOS: &str = "With the closure equations held, the unknowns move by";
+    pub(crate) const LEAD_VELOCITY: &str = "so that";
+    pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the closure equations give";
+    pub(crate) const LEAD_GAMMA: &str = "with the terms that remain where no coordinate accelerates:";
+    pub(crate) const LEAD_RATIO_DERIVATIVES: &str = "With w, the motion of all coordinates for a unit rate of one input, and γ as the bilinear form of two motions,";
+    pub(crate) const LEAD_JERK: &str = "Differentiated three times, the closure equations give";
+    pub(crate) const LEAD_ETA: &str = "with the terms that remain where no coordinate jerks:";
+    pub(crate) const LEAD_SENSITIVITY: &str = "With the inputs held, the unknowns follow the parameters p by";
+    pub(crate) const LEAD_PARAMETERS: &str =
+        "with the derivatives of the closure equations with respect to the parameters, where they are not zero:";
+    pub(crate) const LEAD_MOTION: &str = "The velocity ratios carry all inertia and all forces to the inputs:";
+    pub(crate) const LEAD_MASS_MATRIX: &str = "with the reduced mass matrix";
+    pub(crate) const LEAD_FORCES: &str = "and the generalised forces, the sum of what follows; the bias of an unknown is its acceleration while no input accelerates:";
+    pub(crate) const LEAD_CONDITIONS: &str = "The formulas take for granted that";
+}
+
+/// What a kind of document must be able to write.
+pub(super) trait Pen {
+    fn title(&mut self, mechanism: &str) -> fmt::Result;
+    fn heading(&mut self, heading: &str) -> fmt::Result;
+    /// A line such as "Given: l₁, l₂".
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result;
+    fn lead(&mut self, words: &str) -> fmt::Result;
+    fn law(&mut self, law: &Law) -> fmt::Result;
+    fn display(&mut self, formula: &Formula) -> fmt::Result;
+    fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result;
+    fn matrix(&mut self, matrix: &Matrix) -> fmt::Result;
+    /// The n-th block, counted from 1.
+    fn block(&mut self, n: usize, block: &Block) -> fmt::Result;
+    fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result;
+}
+
+/// Writes a derivation with this pen.
+pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
+    let mut number = 0;
+    pen.title(derivation.mechanism)?;
+    pen.heading(words::COORDINATES)?;
+    let roles = [
+        (words::GIVEN, derivation.parameters),
+        (words::DRIVEN, derivation.inputs),
+        (words::UNKNOWN, derivation.unknowns),
+    ];
+    for (role, symbols) in roles {
+        pen.list(role, &mut symbols.iter().map(|symbol| symbol.formula))?;
+    }
+
+    pen.heading(words::CLOSURE)?;
+    pen.lead(words::LEAD_CLOSURE)?;
+    pen.law(&CLOSURE)?;
+    equations(pen, &mut number, derivation.residual)?;
+
+    pen.heading(words::JACOBIAN)?;
+    pen.lead(words::LEAD_JACOBIAN)?;
+    for (law, matrix) in
+        [(JACOBIAN_UNKNOWNS, derivation.jacobian_unknowns), (JACOBIAN_INPUTS, derivation.jacobian_inputs)]
+    {
+        pen.law(&law)?;
+        pen.matrix(&matrix)?;
+    }
+
+    if !derivation.blocks.is_empty() {
+        pen.heading(words::STRUCTURE)?;
+    }
+    for (index, block) in derivation.blocks.iter().enumerate() {
+        pen.block(index + 1, block)?;
+        pen.list(words::UNKNOWN, &mut block.unknowns.iter().copied())?;
+        if let Some(determinant) = block.determinant {
+            equations(pen, &mut number, &[determinant])?;
+        }
+        if let Some(inverse) = &block.inverse {
+            pen.matrix(inverse)?;
+        }
+    }
+
+    if let (Some(determinant), [_, _, ..]) = (derivation.determinant, derivation.blocks) {
+        pen.lead(words::LEAD_DETERMINANT)?;
+        equations(pen, &mut number, &[determinant])?;
+    }
+
+    pen.heading(words::RATIOS)?;
+    pen.lead(words::LEAD_RATIOS)?;
+    pen.law(&RATIOS)?;
+    pen.lead(words::LEAD_VELOCITY)?;
+    pen.law(&VELOCITY)?;
+    equations(pen, &mut number, derivation.ratios)?;
+
+    pen.heading(words::ACCELERATION)?;
+    pen.lead(words::LEAD_ACCELERATION)?;
+    pen.law(&ACCELERATION)?;
+    if !derivation.gamma.is_empty() {
+        pen.lead(words::LEAD_GAMMA)?;
+    }
+    equations(pen, &mut number, derivation.gamma)?;
+
+    if let Some(formulas) = derivation.ratio_derivatives {
+        pen.heading(words::RATIO_DERIVATIVES)?;
+        pen.lead(words::LEAD_RATIO_DERIVATIVES)?;
+        pen.law(&RATIO_DERIVATIVES)?;
+        equations(pen, &mut number, formulas)?;
+    }
+    if let Some(eta) = derivation.jerk {
+        pen.heading(words::JERK)?;
+        pen.lead(words::LEAD_JERK)?;
+        pen.law(&JERK)?;
+        pen.lead(words::LEAD_ETA)?;
+        equations(pen, &mut number, eta)?;
+    }
+    if let Some(sensitivity) = derivation.sensitivity {
+        pen.heading(words::SENSITIVITY)?;
+        pen.lead(words::LEAD_SENSITIVITY)?;
+        pen.law(&SENSITIVITY)?;
+        pen.lead(words::LEAD_PARAMETERS)?;
+        pen.matrix(&sensitivity.jacobian)?;
+        equations(pen, &mut number, sensitivity.formulas)?;
+    }
+
+    quantities(pen, &mut number, words::POINTS, derivation.points)?;
+    quantities(pen, &mut number, words::OUTPUTS, derivation.outputs)?;
+    if !derivation.kernels.is_empty() {
+        pen.heading(words::OPERATIONS)?;
+        pen.kernels(derivation.kernels)?;
+    }
+    if !derivation.conditions.is_empty() {
+        pen.heading(words::CONDITIONS)?;
+        pen.lead(words::LEAD_CONDITIONS)?;
+        for condition in derivation.conditions {
+            pen.display(condition)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes the equations of motion with this pen.
+pub(super) fn write_scene(scene: &Scene, pen: &mut dyn Pen) -> fmt::Result {
+    let mut number = 0;
+    pen.title(scene.scene)?;
+    if !scene.parameters.is_empty() {
+        pen.list(words::GIVEN, &mut scene.parameters.iter().map(|symbol| symbol.formula))?;
+    }
+    pen.heading(words::MOTION)?;
+    pen.lead(words::LEAD_MOTION)?;
+    pen.law(&MOTION)?;
+    if !scene.mass_matrix.is_empty() {
+        pen.lead(words::LEAD_MASS_MATRIX)?;
+        equations(pen, &mut number, scene.mass_matrix)?;
+    }
+    pen.lead(words::LEAD_FORCES)?;
+    for effect in scene.forces {
+        pen.lead(effect.name)?;
+        equations(pen, &mut number, effect.forces)?;
+    }
+    if let Some(potential) = scene.potential {
+        pen.heading(words::POTENTIAL)?;
+        equations(pen, &mut number, &[potential])?;
+    }
+    if !scene.kernels.is_empty() {
+        pen.heading(words::OPERATIONS)?;
+        pen.kernels(scene.kernels)?;
+    }
+    Ok(())
+}
+
+fn equations(pen: &mut dyn Pen, number: &mut usize, equations: &[Equation]) -> fmt::Result {
+    for equation in equations {
+        *number += 1;
+        pen.equation(*number, equation)?;
+    }
+    Ok(())
+}
+
+fn quantities(pen: &mut dyn Pen, number: &mut usize, heading: &str, quantities: &[Quantity]) -> fmt::Result {
+    if !quantities.is_empty() {
+        pen.heading(heading)?;
+    }
+    for quantity in quantities {
+        pen.lead(quantity.name)?;
+        equations(pen, number, quantity.value)?;
+        equations(pen, number, quantity.ratios)?;
+        equations(pen, number, quantity.ratio_derivatives)?;
+        equations(pen, number, quantity.sensitivities)?;
+    }
+    Ok(())
+}

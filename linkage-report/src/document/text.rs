@@ -1,0 +1,96 @@
+//! A derivation as plain text.
+
+use core::fmt::{self, Write};
+
+use super::outline::{Law, Pen};
+use linkage_runtime::derivation::{Block, Equation, Formula, Kernel, Matrix};
+
+pub(super) struct Text<'a> {
+    out: &'a mut String,
+    sections: usize,
+}
+
+impl<'a> Text<'a> {
+    pub(super) fn new(out: &'a mut String) -> Self {
+        Self { out, sections: 0 }
+    }
+
+    fn underline(&mut self, text: &str, line: &str) -> fmt::Result {
+        writeln!(self.out, "{text}")?;
+        for _ in text.chars() {
+            self.out.write_str(line)?;
+        }
+        writeln!(self.out)
+    }
+}
+
+impl Pen for Text<'_> {
+    fn title(&mut self, mechanism: &str) -> fmt::Result {
+        self.underline(mechanism, "═")
+    }
+
+    fn heading(&mut self, heading: &str) -> fmt::Result {
+        self.sections += 1;
+        writeln!(self.out, "\n{}. {heading}\n", self.sections)
+    }
+
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result {
+        write!(self.out, "  {role:<8}")?;
+        for (index, formula) in formulas.enumerate() {
+            write!(self.out, "{} {formula}", if index == 0 { "" } else { "," })?;
+        }
+        writeln!(self.out)
+    }
+
+    fn lead(&mut self, words: &str) -> fmt::Result {
+        writeln!(self.out, "  {words}")
+    }
+
+    fn law(&mut self, law: &Law) -> fmt::Result {
+        writeln!(self.out, "        {}", law.text)
+    }
+
+    fn display(&mut self, formula: &Formula) -> fmt::Result {
+        writeln!(self.out, "        {formula}")
+    }
+
+    fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result {
+        let width = if number < 10 { 3 } else { 2 };
+        writeln!(self.out, "  ({number}){:width$}{equation}", "")
+    }
+
+    fn matrix(&mut self, matrix: &Matrix) -> fmt::Result {
+        if let Some(factor) = matrix.factor {
+            writeln!(self.out, "        {} = {factor} times the matrix with", matrix.name)?;
+        }
+        for entry in matrix.entries {
+            let (row, column) = (entry.row + 1, entry.column + 1);
+            match matrix.factor {
+                Some(_) => writeln!(self.out, "          [{row}, {column}] = {}", entry.value)?,
+                None => writeln!(self.out, "        {}[{row}, {column}] = {}", matrix.name, entry.value)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn block(&mut self, n: usize, block: &Block) -> fmt::Result {
+        write!(self.out, "  Block {n}, {}: equations", block.group)?;
+        for (index, equation) in block.equations.iter().enumerate() {
+            write!(self.out, "{} ({})", if index == 0 { "" } else { "," }, equation + 1)?;
+        }
+        writeln!(self.out, ", solved {}", block.method.words())
+    }
+
+    fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {
+        let width = kernels.iter().map(|kernel| kernel.function.len()).max().unwrap_or(0);
+        writeln!(self.out, "  {:width$}  functions  divisions  multiplications  additions", "")?;
+        for Kernel { function, operations } in kernels {
+            writeln!(
+                self.out,
+                "  {function:width$}  {:>9}  {:>9}  {:>15}  {:>9}",
+                operations.functions, operations.divisions, operations.multiplications, operations.additions
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,91 @@
+//! Small pieces of HTML.
+
+use crate::document::outline::Law;
+use linkage_runtime::derivation::{Formula, Matrix};
+
+/// Text for the inside of an element or of an attribute in double quotes.
+pub(super) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            _ => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// A formula in a line of text.
+pub(super) fn inline(formula: &Formula) -> String {
+    format!("<math>{}</math>", formula.mathml)
+}
+
+/// A formula on its own line, with its LaTeX source for those who copy it.
+pub(super) fn display(mathml: &str, latex: &str) -> String {
+    format!(
+        "<div class=\"scroll\"><math display=\"block\"><semantics>{mathml}<annotation encoding=\"application/x-tex\">\
+         {}</annotation></semantics></math></div>",
+        escape(latex)
+    )
+}
+
+/// A matrix with more rows or columns than this is a list of its entries.
+const LARGEST_MATRIX: usize = 6;
+
+/// The MathML and LaTeX of `name = matrix`, or of each entry if there are many. A `law` such as
+/// J = ∂Ψ/∂u says what the matrix is.
+pub(super) fn matrix(matrix: &Matrix, law: Option<&Law>) -> Vec<(String, String)> {
+    let Matrix { name, factor, rows, columns, .. } = matrix;
+    let (before, before_latex) =
+        factor.map_or_else(Default::default, |factor| (factor.mathml.to_owned(), factor.latex.to_owned()));
+    if *rows.max(columns) > LARGEST_MATRIX {
+        let entries = matrix.entries.iter().map(|entry| {
+            let (row, column, value) = (entry.row + 1, entry.column + 1, entry.value);
+            let index = format!("<mrow><mn>{row}</mn><mo>,</mo><mn>{column}</mn></mrow>");
+            let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.mathml, value.mathml);
+            (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.latex, value.latex))
+        });
+        let law = law.map(|law| (law.mathml.to_owned(), law.latex.to_owned()));
+        return law.into_iter().chain(entries).collect();
+    }
+    let (mut mathml, mut latex) = (String::new(), String::new());
+    for row in 0..*rows {
+        let entries: Vec<_> = (0..*columns).map(|column| matrix.entry(row, column)).collect();
+        mathml.push_str("<mtr>");
+        for entry in &entries {
+            let entry = entry.map_or_else(|| "<mn>0</mn>".to_owned(), |entry| entry.mathml.to_owned());
+            mathml.push_str(&format!("<mtd>{entry}</mtd>"));
+        }
+        mathml.push_str("</mtr>");
+        let entries: Vec<String> =
+            entries.iter().map(|entry| entry.map_or_else(|| "0".to_owned(), |entry| entry.latex.to_owned())).collect();
+        latex.push_str(&format!(" {} \\\\", entries.join(" & ")));
+    }
+    // J = ∂Ψ/∂u = (…) reads as one chain.
+    let (name, name_latex) = match law {
+        Some(law) => (law.mathml.to_owned(), law.latex.to_owned()),
+        None => (name.mathml.to_owned(), name.latex.to_owned()),
+    };
+    // Fractions stay large while there is room.
+    let large = *columns <= 3;
+    let mathml = format!(
+        "<mrow>{name}<mo>=</mo>{before}<mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>"
+    );
+    vec![(mathml, format!("{name_latex} = {before_latex} \\begin{{pmatrix}}{latex} \\end{{pmatrix}}"))]
+}
+
+/// An SVG file as the address of an image.
+pub(super) fn svg_address(svg: &str) -> String {
+    let mut address = String::from("data:image/svg+xml,");
+    for byte in svg.trim().bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' => address.push(char::from(byte)),
+            _ => address.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    address
+}

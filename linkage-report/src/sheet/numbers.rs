@@ -1,0 +1,118 @@
+//! Tables of numbers: how names and values are shown.
+
+use linkage_runtime::derivation::{Derivation, Equation, Quantity, Symbol};
+
+use super::html::escape;
+
+/// Significant digits of a number.
+const DIGITS: i32 = 7;
+
+/// A name as a formula, or as it was given.
+pub(super) fn name(derivation: &Derivation, name: &str) -> String {
+    match formula(derivation, name) {
+        Some(mathml) => format!("<math>{mathml}</math>"),
+        None => escape(name),
+    }
+}
+
+fn formula(derivation: &Derivation, name: &str) -> Option<String> {
+    let symbol = |name: &str| {
+        let mut symbols = derivation.parameters.iter().chain(derivation.inputs).chain(derivation.unknowns);
+        symbols.find(|symbol| symbol.name == name || symbol.formula.to_string() == name)
+    };
+    if let Some(symbol) = symbol(name) {
+        return Some(symbol.formula.mathml.to_owned());
+    }
+    let quantities = derivation.points.iter().chain(derivation.outputs);
+    let mut equations = derivation
+        .ratios
+        .iter()
+        .chain(derivation.residual)
+        .chain(derivation.gamma)
+        .chain(derivation.blocks.iter().filter_map(|block| block.determinant.as_ref()))
+        .chain(derivation.ratio_derivatives.into_iter().flatten())
+        .chain(derivation.sensitivity.iter().flat_map(|sensitivity| sensitivity.formulas))
+        .chain(quantities.flat_map(|quantity| {
+            let Quantity { value, ratios, ratio_derivatives, sensitivities, .. } = quantity;
+            value.iter().chain(*ratios).chain(*ratio_derivatives).chain(*sensitivities)
+        }));
+    if let Some(Equation { left, .. }) = equations.find(|equation| equation.left.to_string() == name) {
+        return Some(left.mathml.to_owned());
+    }
+    if let Some((of, by)) = name.split_once('/') {
+        let side = |symbol: &Symbol| format!("<mrow><mo>∂</mo>{}</mrow>", symbol.formula.mathml);
+        return Some(format!("<mfrac>{}{}</mfrac>", side(symbol(of)?), side(symbol(by)?)));
+    }
+    let dotted = [("_rate", "˙"), ("_acceleration", "¨")];
+    dotted.into_iter().find_map(|(ending, dots)| Some(dot(symbol(name.strip_suffix(ending)?)?, dots)))
+}
+
+/// A symbol with dots above its letter.
+fn dot(symbol: &Symbol, dots: &str) -> String {
+    let mathml = symbol.formula.mathml.to_owned();
+    let over = |letter: &str| format!("<mover>{letter}<mo>{dots}</mo></mover>");
+    match mathml.strip_prefix("<msub>").and_then(|inside| inside.split_once("</mi>")) {
+        Some((letter, rest)) => format!("<msub>{}{rest}", over(&format!("{letter}</mi>"))),
+        None => over(&mathml),
+    }
+}
+
+/// The values of a column, their decimal points below each other if the numerals are of one width.
+pub(super) fn column(values: &[f64]) -> Vec<String> {
+    let texts: Vec<String> = values.iter().map(|&value| number(value)).collect();
+    let places =
+        |text: &str| if text.contains('·') { 0 } else { text.find('.').map_or(0, |point| text.len() - point) };
+    let most = texts.iter().map(|text| places(text)).max().unwrap_or(0);
+    let pad = |text: String| {
+        let missing = most - places(&text);
+        let mut padding = String::new();
+        for index in 0..missing {
+            // As wide as a point, as wide as a numeral.
+            let point = index == 0 && places(&text) == 0;
+            padding.push(if point { '\u{2008}' } else { '\u{2007}' });
+        }
+        text + &padding
+    };
+    texts.into_iter().map(pad).collect()
+}
+
+/// A number to seven significant digits.
+fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        let text = if value.is_nan() { "not a number".to_owned() } else { value.abs().to_string() };
+        return if value < 0.0 { format!("−{}", text.replace("inf", "∞")) } else { text.replace("inf", "∞") };
+    }
+    let scientific = format!("{:.*e}", (DIGITS - 1) as usize, value.abs());
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let trim = |text: &str| {
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
+    };
+    let sign = if value < 0.0 { "−" } else { "" };
+    if (-4..DIGITS + 2).contains(&exponent) {
+        let places = (DIGITS - 1 - exponent).max(0) as usize;
+        format!("{sign}{}", trim(&format!("{:.places$}", value.abs())))
+    } else {
+        let raised: String = exponent.to_string().chars().map(raise).collect();
+        format!("{sign}{}·10{raised}", trim(mantissa))
+    }
+}
+
+fn raise(c: char) -> char {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_seven_digits() {
+        let shown =
+            [80.0, -0.349_065_850_4, 0.0, 123_456_789.0, 1.5e-7, -2e300, f64::NAN, f64::NEG_INFINITY, 0.1 + 0.2];
+        let expected = ["80", "−0.3490659", "0", "123456789", "1.5·10⁻⁷", "−2·10³⁰⁰", "not a number", "−∞", "0.3"];
+        assert_eq!(shown.map(number), expected);
+        assert_eq!(column(&[80.0, 1.25]), ["80\u{2008}\u{2007}\u{2007}", "1.25"]);
+    }
+}

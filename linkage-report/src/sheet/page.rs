@@ -1,0 +1,331 @@
+//! The page, section by section.
+
+use crate::document::outline::{self, Law, words};
+use linkage_runtime::derivation::{Derivation, Equation, Formula, Kernel, Matrix, Quantity, Scene, Symbol};
+
+use super::html::{display, escape, inline, matrix, svg_address};
+use super::{Picture, Sheet, Table, lines, numbers};
+
+const STYLE: &str = include_str!("style.css");
+
+/// The body of the page and the number of the last equation.
+#[derive(Default)]
+struct Page {
+    body: String,
+    equations: usize,
+}
+
+pub(super) fn html(sheet: &Sheet<'_>) -> String {
+    let derivation = sheet.derivation;
+    let mut page = Page::default();
+    page.header(sheet);
+    page.closures(derivation);
+    page.jacobian(derivation);
+    page.structure(derivation);
+    page.ratios(derivation);
+    page.acceleration(derivation);
+    page.requests(derivation);
+    page.quantities(words::POINTS, derivation.points);
+    page.quantities(words::OUTPUTS, derivation.outputs);
+    for scene in &sheet.scenes {
+        page.scene(scene);
+    }
+    page.numbers(derivation, &sheet.tables);
+    page.pictures(&sheet.pictures);
+    page.operations(None, derivation.kernels);
+    for scene in &sheet.scenes {
+        page.operations(Some(scene.scene), scene.kernels);
+    }
+    page.conditions(derivation.conditions);
+    let title = escape(sheet.title.as_deref().unwrap_or(derivation.mechanism));
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n\
+         </head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
+        page.body
+    )
+}
+
+impl Page {
+    fn push(&mut self, html: &str) {
+        self.body.push_str(html);
+        self.body.push('\n');
+    }
+
+    fn section(&mut self, heading: &str, write: impl FnOnce(&mut Self)) {
+        self.push(&format!("<section>\n<h2>{heading}</h2>"));
+        write(self);
+        self.push("</section>");
+    }
+
+    fn lead(&mut self, words: &str) {
+        self.push(&format!("<p>{words}</p>"));
+    }
+
+    /// Without a number.
+    fn law(&mut self, law: &Law) {
+        self.push(&format!("<div class=\"law\">{}</div>", display(law.mathml, law.latex)));
+    }
+
+    fn equations(&mut self, equations: &[Equation]) {
+        if equations.is_empty() {
+            return;
+        }
+        self.push("<div class=\"equations\">");
+        for equation in equations {
+            self.equations += 1;
+            let latex = format!("{} = {}", equation.left.latex, equation.right.latex);
+            let formula = display(&lines::equation(equation), &latex);
+            let number = self.equations;
+            self.push(&format!(
+                "<div class=\"equation\" id=\"equation-{number}\">{formula}<span class=\"number\">({number})</span></div>"
+            ));
+        }
+        self.push("</div>");
+    }
+
+    fn matrix(&mut self, which: &Matrix, law: Option<&Law>) {
+        let lines: String = matrix(which, law).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
+        self.push(&format!("<div class=\"law\">{lines}</div>"));
+    }
+
+    fn header(&mut self, sheet: &Sheet<'_>) {
+        let derivation = sheet.derivation;
+        let (over, title) = match &sheet.title {
+            Some(title) => (escape(derivation.mechanism), escape(title)),
+            None => ("Kinematics".to_owned(), escape(derivation.mechanism)),
+        };
+        self.push(&format!("<header>\n<p class=\"over\">{over}</p>\n<h1>{title}</h1>\n<dl class=\"coordinates\">"));
+        let roles = [
+            (words::GIVEN, derivation.parameters),
+            (words::DRIVEN, derivation.inputs),
+            (words::UNKNOWN, derivation.unknowns),
+        ];
+        for (role, symbols) in roles.into_iter().filter(|(_, symbols)| !symbols.is_empty()) {
+            let symbols = list(symbols.iter().map(|Symbol { formula, .. }| formula));
+            self.push(&format!("<div><dt>{role}</dt><dd>{symbols}</dd></div>"));
+        }
+        self.push("</dl>\n</header>");
+    }
+
+    fn closures(&mut self, derivation: &Derivation) {
+        self.section(words::CLOSURE, |page| {
+            page.lead(words::LEAD_CLOSURE);
+            page.law(&outline::CLOSURE);
+            page.equations(derivation.residual);
+        });
+    }
+
+    fn jacobian(&mut self, derivation: &Derivation) {
+        self.section(words::JACOBIAN, |page| {
+            page.lead(words::LEAD_JACOBIAN);
+            page.matrix(&derivation.jacobian_unknowns, Some(&outline::JACOBIAN_UNKNOWNS));
+            page.matrix(&derivation.jacobian_inputs, Some(&outline::JACOBIAN_INPUTS));
+        });
+    }
+
+    fn structure(&mut self, derivation: &Derivation) {
+        let blocks = derivation.blocks;
+        if blocks.is_empty() {
+            return;
+        }
+        self.section(words::STRUCTURE, |page| {
+            for (index, block) in blocks.iter().enumerate() {
+                let links = block.equations.iter().map(|row| format!("<a href=\"#equation-{0}\">({0})</a>", row + 1));
+                let links = links.collect::<Vec<_>>().join(", ");
+                page.push("<article class=\"block\">");
+                if blocks.len() > 1 {
+                    page.push(&format!("<h3>Block {}</h3>", index + 1));
+                }
+                let (several, verb) = if block.equations.len() == 1 { ("", "gives") } else { ("s", "give") };
+                page.push(&format!(
+                    "<p class=\"group\">{}</p><p>Equation{several} {links} {verb} {}, solved {}.</p>",
+                    escape(&sentence(block.group)),
+                    list(block.unknowns.iter()),
+                    block.method.words()
+                ));
+                page.equations(block.determinant.as_slice());
+                if let Some(inverse) = &block.inverse {
+                    page.matrix(inverse, None);
+                }
+                page.push("</article>");
+            }
+            if let (Some(determinant), [_, _, ..]) = (derivation.determinant, blocks) {
+                page.lead(words::LEAD_DETERMINANT);
+                page.equations(&[determinant]);
+            }
+        });
+    }
+
+    fn ratios(&mut self, derivation: &Derivation) {
+        self.section(words::RATIOS, |page| {
+            page.lead(words::LEAD_RATIOS);
+            page.law(&outline::RATIOS);
+            page.lead(words::LEAD_VELOCITY);
+            page.law(&outline::VELOCITY);
+            page.equations(derivation.ratios);
+        });
+    }
+
+    fn acceleration(&mut self, derivation: &Derivation) {
+        self.section(words::ACCELERATION, |page| {
+            page.lead(words::LEAD_ACCELERATION);
+            page.law(&outline::ACCELERATION);
+            if !derivation.gamma.is_empty() {
+                page.lead(words::LEAD_GAMMA);
+            }
+            page.equations(derivation.gamma);
+        });
+    }
+
+    /// What the mechanism asks for beyond acceleration.
+    fn requests(&mut self, derivation: &Derivation) {
+        if let Some(formulas) = derivation.ratio_derivatives {
+            self.section(words::RATIO_DERIVATIVES, |page| {
+                page.lead(words::LEAD_RATIO_DERIVATIVES);
+                page.law(&outline::RATIO_DERIVATIVES);
+                page.equations(formulas);
+            });
+        }
+        if let Some(eta) = derivation.jerk {
+            self.section(words::JERK, |page| {
+                page.lead(words::LEAD_JERK);
+                page.law(&outline::JERK);
+                page.lead(words::LEAD_ETA);
+                page.equations(eta);
+            });
+        }
+        if let Some(sensitivity) = derivation.sensitivity {
+            self.section(words::SENSITIVITY, |page| {
+                page.lead(words::LEAD_SENSITIVITY);
+                page.law(&outline::SENSITIVITY);
+                page.lead(words::LEAD_PARAMETERS);
+                page.matrix(&sensitivity.jacobian, None);
+                page.equations(sensitivity.formulas);
+            });
+        }
+    }
+
+    fn quantities(&mut self, heading: &str, quantities: &[Quantity]) {
+        if quantities.is_empty() {
+            return;
+        }
+        self.section(heading, |page| {
+            for quantity in quantities {
+                page.push(&format!("<article>\n<h3><code>{}</code></h3>", escape(quantity.name)));
+                page.equations(quantity.value);
+                page.equations(quantity.ratios);
+                page.equations(quantity.ratio_derivatives);
+                page.equations(quantity.sensitivities);
+                page.push("</article>");
+            }
+        });
+    }
+
+    fn numbers(&mut self, derivation: &Derivation, tables: &[Table]) {
+        if tables.is_empty() {
+            return;
+        }
+        self.section("Numbers", |page| {
+            page.push("<div class=\"tables\">");
+            for Table { caption, rows } in tables {
+                let values: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
+                page.push(&format!("<table>\n<caption>{}</caption>\n<tbody>", escape(caption)));
+                for ((name, _), value) in rows.iter().zip(numbers::column(&values)) {
+                    let name = numbers::name(derivation, name);
+                    page.push(&format!("<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>"));
+                }
+                page.push("</tbody>\n</table>");
+            }
+            page.push("</div>");
+        });
+    }
+
+    fn pictures(&mut self, pictures: &[Picture]) {
+        if pictures.is_empty() {
+            return;
+        }
+        self.section(if pictures.len() == 1 { "Picture" } else { "Pictures" }, |page| {
+            for Picture { svg, caption } in pictures {
+                let (address, caption) = (svg_address(svg), escape(caption));
+                page.push(&format!(
+                    "<figure>\n<img alt=\"{caption}\" src=\"{address}\">\n<figcaption>{caption}</figcaption>\n</figure>"
+                ));
+            }
+        });
+    }
+
+    fn scene(&mut self, scene: &Scene) {
+        self.section(&format!("{}: <code>{}</code>", words::MOTION, escape(scene.scene)), |page| {
+            if !scene.parameters.is_empty() {
+                let given = list(scene.parameters.iter().map(|Symbol { formula, .. }| formula));
+                page.push(&format!("<p>{}: {given}</p>", words::GIVEN));
+            }
+            page.lead(words::LEAD_MOTION);
+            page.law(&outline::MOTION);
+            if !scene.mass_matrix.is_empty() {
+                page.lead(words::LEAD_MASS_MATRIX);
+                page.equations(scene.mass_matrix);
+            }
+            page.lead(words::LEAD_FORCES);
+            for effect in scene.forces {
+                page.push(&format!("<article>\n<h3>{}</h3>", escape(effect.name)));
+                page.equations(effect.forces);
+                page.push("</article>");
+            }
+            if let Some(potential) = scene.potential {
+                page.lead(words::POTENTIAL);
+                page.equations(&[potential]);
+            }
+        });
+    }
+
+    fn operations(&mut self, scene: Option<&str>, kernels: &[Kernel]) {
+        if kernels.is_empty() {
+            return;
+        }
+        let of = scene.map_or_else(String::new, |scene| format!(": <code>{}</code>", escape(scene)));
+        self.section(&format!("{}{of}", words::OPERATIONS), |page| {
+            page.lead("What one call of each function costs:");
+            let mut rows = String::new();
+            for kernel in kernels {
+                let counts = kernel.operations;
+                let counts = [counts.functions, counts.divisions, counts.multiplications, counts.additions];
+                let cells: String = counts.iter().map(|count| format!("<td>{count}</td>")).collect();
+                let function = escape(kernel.function);
+                rows.push_str(&format!("<tr><th scope=\"row\"><code>{function}</code></th>{cells}</tr>\n"));
+            }
+            let columns = [("sin, cos, √", "functions"), ("÷", "divisions"), ("×", "multiplications"), ("±", "additions")];
+            let head: String = columns
+                .iter()
+                .map(|(sign, name)| format!("<th scope=\"col\"><abbr title=\"{name}\">{sign}</abbr></th>"))
+                .collect();
+            page.push(&format!(
+                "<div class=\"scroll\">\n<table class=\"operations\">\n<thead><tr><th scope=\"col\">Function</th>{head}</tr></thead>\n\
+                 <tbody>\n{rows}</tbody>\n</table>\n</div>"
+            ));
+        });
+    }
+
+    fn conditions(&mut self, conditions: &[Formula]) {
+        if conditions.is_empty() {
+            return;
+        }
+        self.section(words::CONDITIONS, |page| {
+            let conditions = list(conditions.iter());
+            page.push(&format!("<p>{} {conditions}.</p>", words::LEAD_CONDITIONS));
+        });
+    }
+}
+
+/// Formulas in a line, separated by commas.
+fn list<'a>(formulas: impl Iterator<Item = &'a Formula>) -> String {
+    formulas.map(inline).collect::<Vec<_>>().join(", ")
+}
+
+/// With a capital at the start.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
