@@ -5,19 +5,21 @@ pub use core::iter::Iterator;
 pub use core::option::Option::{self, None, Some};
 pub use core::result::Result::{self, Err, Ok};
 
-pub use nalgebra::{SMatrix, SVector, UnitComplex, Vector2};
+pub use nalgebra::{Point2, SMatrix, SVector, Scalar, UnitComplex, Vector2};
 
 pub use crate::branch::{Triangle, chord, elbow_chord, existing, reach_chord, side_of, solvable};
 pub use crate::error::{finite, finite_matrix};
 pub use crate::limits::{Bound, Search, limits};
 pub use crate::linear::{Factorization, product_of_pivots, regular};
-pub use crate::motion::{finite_matrices, finite_outputs, finite_points, output_motions, point_motions};
+pub use crate::motion::{
+    finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
+};
 pub use crate::position::newton_group;
 pub use crate::scalar::unit;
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
-    Assembly, Elbow, Error, Group, Limits, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, newton,
-    real,
+    AnyBranch, Assembly, Column, D, Elbow, Group, Limits, Matrix, Mechanism, OutputMotion, PointMotion, PositionError,
+    Real, Slider, Slope, Solution, newton, newton_any_branch, real,
 };
 
 /// The names that derivations are written with.

@@ -4,4 +4,32 @@ pub use crate::error::{all_finite, finite};
 pub use crate::linear::{Factorization, product_of_pivots, same_signs};
 pub use crate::newton::{Closures, search};
 pub use crate::position::beside_columns;
-pub use crate::scalar::{larger, largest, smallest, to_f64};
+pub use crate::scalar::{arithmetic, larger, largest, smallest, to_f64};
+
+/// `Clone`, `Copy`, `PartialEq` and `Debug` by the fields of a struct whose parameter names their types: `derive` would ask
+/// the same of the parameter itself.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __by_fields {
+    ([$($parameters:tt)*] $name:ident<$($arguments:ident),*> { $($field:ident),* }) => {
+        impl<$($parameters)*> ::core::clone::Clone for $name<$($arguments),*> {
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+
+        impl<$($parameters)*> ::core::marker::Copy for $name<$($arguments),*> {}
+
+        impl<$($parameters)*> ::core::cmp::PartialEq for $name<$($arguments),*> {
+            fn eq(&self, other: &Self) -> bool {
+                $(self.$field == other.$field)&&*
+            }
+        }
+
+        impl<$($parameters)*> ::core::fmt::Debug for $name<$($arguments),*> {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                f.debug_struct(::core::stringify!($name))$(.field(::core::stringify!($field), &self.$field))*.finish()
+            }
+        }
+    };
+}

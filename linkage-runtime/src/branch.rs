@@ -2,7 +2,7 @@
 
 use crate::linear::power_of_two_below;
 use crate::scalar::to_f64;
-use crate::{Error, Real, real};
+use crate::{PositionError, Real, real};
 
 /// One of the two solutions of a group, which are the two signs of a root.
 pub trait Side: Copy + PartialEq {
@@ -63,10 +63,10 @@ choices! {
 /// one with infinitely many.
 pub fn existing<B: Copy, P>(
     branches: impl Iterator<Item = B>,
-    mut assemble: impl FnMut(B) -> Result<P, Error>,
-) -> impl Iterator<Item = Result<(B, P), Error>> {
+    mut assemble: impl FnMut(B) -> Result<P, PositionError>,
+) -> impl Iterator<Item = Result<(B, P), PositionError>> {
     branches.filter_map(move |branch| match assemble(branch) {
-        Err(Error::Unbuildable { .. } | Error::Undetermined { .. }) => None,
+        Err(PositionError::Unbuildable { .. } | PositionError::Undetermined { .. }) => None,
         position => Some(position.map(|position| (branch, position))),
     })
 }
@@ -86,7 +86,7 @@ const COINCIDENT: f64 = 8.0;
 /// the magnitudes of the terms that n and h are made of.
 ///
 /// # Errors
-/// [`Error::Unbuildable`] if there is none, [`Error::Undetermined`] if n and h are both zero, [`Error::NotFinite`] if a
+/// [`PositionError::Unbuildable`] if there is none, [`PositionError::Undetermined`] if n and h are both zero, [`PositionError::NotFinite`] if a
 /// number is not finite.
 #[inline]
 pub fn chord<T: Real, S: Side>(
@@ -96,7 +96,7 @@ pub fn chord<T: Real, S: Side>(
     size: T,
     scales: [T; 2],
     side: S,
-) -> Result<T, Error> {
+) -> Result<T, PositionError> {
     let [low, high] = factors;
     let radicand = low * high;
     // Both factors cannot be negative.
@@ -120,7 +120,7 @@ pub fn reach_chord<T: Real, S: Side>(
     size: T,
     scales: [T; 2],
     side: S,
-) -> Result<T, Error> {
+) -> Result<T, PositionError> {
     if size <= real::<T>(COINCIDENT) * T::default_epsilon() * scales[0] {
         touching_chord(mechanism, group, factors[0], factors[1], size, scales)?;
     }
@@ -131,7 +131,7 @@ pub fn reach_chord<T: Real, S: Side>(
 /// divides by the determinant, `scales` the sums of the magnitudes of their terms.
 ///
 /// # Errors
-/// [`Error::Undetermined`] if the numerators are zero as well, else [`Error::Unbuildable`]; [`Error::NotFinite`] if a
+/// [`PositionError::Undetermined`] if the numerators are zero as well, else [`PositionError::Unbuildable`]; [`PositionError::NotFinite`] if a
 /// numerator is not finite.
 #[inline]
 pub fn solvable<T: Real, const N: usize>(
@@ -140,24 +140,24 @@ pub fn solvable<T: Real, const N: usize>(
     determinant: T,
     numerators: [T; N],
     scales: [T; N],
-) -> Result<(), Error> {
+) -> Result<(), PositionError> {
     // What is not a number has its own error, at the end of the chain.
     if determinant.is_zero() { Err(unsolvable(mechanism, group, &numerators, &scales)) } else { Ok(()) }
 }
 
 #[cold]
 #[inline(never)]
-fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators: &[T], scales: &[T]) -> Error {
+fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators: &[T], scales: &[T]) -> PositionError {
     let gaps = numerators.iter().zip(scales).map(|(numerator, scale)| relative(numerator.abs(), *scale));
     let tolerance = COINCIDENT * to_f64(T::default_epsilon());
     // Not by `max`, which loses what is not a number.
     let gap = gaps.fold(0.0, |most: f64, gap| if gap <= most { most } else { gap });
     if !numerators.iter().all(T::is_finite) {
-        Error::NotFinite { mechanism, quantity: POSITION }
+        PositionError::NotFinite { mechanism, quantity: POSITION }
     } else if gap <= tolerance {
-        Error::Undetermined { mechanism, group }
+        PositionError::Undetermined { mechanism, group }
     } else {
-        Error::Unbuildable { mechanism, group, gap }
+        PositionError::Unbuildable { mechanism, group, gap }
     }
 }
 
@@ -219,15 +219,15 @@ pub struct Triangle<T> {
 /// Numerische Mathematik 18, 1971.
 ///
 /// # Errors
-/// [`Error::Unbuildable`] if there is none, [`Error::Undetermined`] if the joints coincide and the links are equally long
-/// or if a link has no length, [`Error::NotFinite`] if a number is not finite.
+/// [`PositionError::Unbuildable`] if there is none, [`PositionError::Undetermined`] if the joints coincide and the links are equally long
+/// or if a link has no length, [`PositionError::NotFinite`] if a number is not finite.
 #[inline]
 pub fn elbow_chord<T: Real, S: Side>(
     mechanism: &'static str,
     group: &'static str,
     triangle: Triangle<T>,
     side: S,
-) -> Result<(T, bool), Error> {
+) -> Result<(T, bool), PositionError> {
     let Triangle { links: [p, q], line: [x, y], scale, reach_squared, distance_squared, factors: [low, high] } =
         triangle;
     let part = real::<T>(CANCELLATION);
@@ -259,11 +259,11 @@ fn flat_chord<T: Real>(
     x: T,
     y: T,
     scale: T,
-) -> Result<T, Error> {
+) -> Result<T, PositionError> {
     let (p, q, epsilon) = (p.abs(), q.abs(), T::default_epsilon());
     let (sum, distance, line) = ((p + q) * (p + q), x * x + y * y, x.hypot(y));
     if !(sum.is_finite() && distance.is_finite()) {
-        return Err(Error::NotFinite { mechanism, quantity: POSITION });
+        return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
     }
     let coincident = real::<T>(COINCIDENT) * epsilon;
     let difference = (p - q).abs();
@@ -271,9 +271,9 @@ fn flat_chord<T: Real>(
         let gap = relative(difference, p + q);
         let is_undetermined = difference <= coincident * (scale + p + q);
         return Err(if is_undetermined {
-            Error::Undetermined { mechanism, group }
+            PositionError::Undetermined { mechanism, group }
         } else {
-            Error::Unbuildable { mechanism, group, gap: gap * gap }
+            PositionError::Unbuildable { mechanism, group, gap: gap * gap }
         });
     }
     let (low, high) = exactly(p, q, x, y, sum, distance);
@@ -288,10 +288,10 @@ fn flat_chord<T: Real>(
     } else if -least <= tolerance {
         T::zero()
     } else {
-        return Err(Error::Unbuildable { mechanism, group, gap: relative(-least, sum) });
+        return Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, sum) });
     };
     // The angle of a link without length is any.
-    if p.is_zero() || q.is_zero() { Err(Error::Undetermined { mechanism, group }) } else { Ok(root) }
+    if p.is_zero() || q.is_zero() { Err(PositionError::Undetermined { mechanism, group }) } else { Ok(root) }
 }
 
 /// (p + q)^2 - D^2 and D^2 - (p - q)^2 of the lengths and the line as they are. What is less than one rounding of the
@@ -337,9 +337,9 @@ fn touching_chord<T: Real>(
     high: T,
     size: T,
     [of_size, of_rest]: [T; 2],
-) -> Result<T, Error> {
+) -> Result<T, PositionError> {
     if !(low.is_finite() && high.is_finite() && size.is_finite()) {
-        return Err(Error::NotFinite { mechanism, quantity: POSITION });
+        return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
     }
     let (scale, epsilon) = (of_size + of_rest, T::default_epsilon());
     let least = if low < high { low } else { high };
@@ -348,9 +348,9 @@ fn touching_chord<T: Real>(
     if least > T::zero() && !vanishes {
         Ok(root(low, high, size))
     } else if -least > tolerance {
-        Err(Error::Unbuildable { mechanism, group, gap: relative(-least, size) })
+        Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, size) })
     } else if vanishes {
-        Err(Error::Undetermined { mechanism, group })
+        Err(PositionError::Undetermined { mechanism, group })
     } else {
         // Zero has the sign of the side, not of a factor.
         Ok(T::zero())

@@ -5,7 +5,7 @@
 //! - [`mod@limits`]: how far an input can go;
 //! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
 //! - [`accuracy`]: roads to the position by type, and what their digits cost;
-//! - [`Error`]: which mechanism, what residual, how near singular;
+//! - [`PositionError`], [`PathError`], [`InputError`]: which mechanism, what residual, how near singular;
 //! - [`singularity`]: singular configurations, and how accurate a position can be;
 //! - [`derivation`]: the formulas behind the code, as data.
 
@@ -20,11 +20,16 @@ pub mod __rt;
 pub mod __shared;
 pub mod accuracy;
 mod branch;
+mod column;
 pub mod continuation;
 pub mod derivation;
+mod dim;
 mod error;
+#[doc(hidden)]
+pub mod jacobian;
 pub mod limits;
 mod linear;
+mod matrix;
 mod mechanism;
 mod motion;
 mod newton;
@@ -35,12 +40,13 @@ pub mod singularity;
 mod turn;
 
 pub use branch::{Elbow, Side, Slider, Slope};
-pub use error::Error;
-use error::finite;
+pub use column::Column;
+pub use dim::{D, Dim};
+pub use error::{InputError, PathError, PositionError};
 pub use limits::Limits;
-use linear::{Factorization, product_of_pivots, same_signs};
-pub use mechanism::{Assembly, Group, Mechanism};
+pub use matrix::Matrix;
+pub use mechanism::{Assembly, Group, Mechanism, PerInput, PerUnknown};
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
-pub use position::{Solution, newton};
+pub use position::{AnyBranch, Solution, newton, newton_any_branch};
 pub use scalar::{Real, real};

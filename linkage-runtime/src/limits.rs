@@ -3,10 +3,10 @@
 //! A group that depends on the input alone, or through linear equations solved before it, can be assembled where one or
 //! two functions of it are not negative: a + b cos(k v) + c sin(k v) or a + b v + c v^2. Their zeros are known in closed
 //! form. Groups that depend on other groups are searched: in steps, with a closer look wherever the determinant of a
-//! group is smallest. An input at which a group is undetermined ([`Error::Undetermined`]) stops no search.
+//! group is smallest. An input at which a group is undetermined ([`PositionError::Undetermined`]) stops no search.
 
 use crate::linear::power_of_two_below;
-use crate::{Error, Real, real};
+use crate::{PositionError, Real, real};
 
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,9 +22,9 @@ pub struct Limits<T> {
 pub enum Limit<T> {
     /// There is none: an angle can turn all the way, a length can take any value. Where groups had to be
     /// searched, none was found within a turn, or within four times the lengths of all links together.
-    None,
+    Unlimited,
     /// In closed form: right to two ulp times the condition number, the sum of what a relative change of each length
-    /// does to it. There the links are in line; a later group may be undetermined ([`Error::Undetermined`]).
+    /// does to it. There the links are in line; a later group may be undetermined ([`PositionError::Undetermined`]).
     Exact {
         /// The last input at which the mechanism can be assembled.
         input: T,
@@ -48,7 +48,7 @@ impl<T: Copy> Limit<T> {
     /// The last input at which the mechanism is known to assemble; none if there is no limit.
     pub fn input(&self) -> Option<T> {
         match *self {
-            Self::None => None,
+            Self::Unlimited => None,
             Self::Exact { input, .. } => Some(input),
             Self::Bracketed { assembled, .. } => Some(assembled),
         }
@@ -71,7 +71,7 @@ pub type Block = (usize, &'static str);
 #[derive(Debug, Clone, Copy)]
 pub enum Search<T> {
     /// There are none.
-    Nothing,
+    ClosedFormOnly,
     /// As far as a turn.
     Turn,
     /// As far as this on either side.
@@ -102,31 +102,31 @@ const ULPS_INWARD: usize = 10;
 /// position at another input from one nearby, `determinants` those of its blocks.
 ///
 /// # Errors
-/// [`Error::NotFinite`] if a number is not finite.
+/// [`PositionError::NotFinite`] if a number is not finite.
 pub fn limits<T: Real, P, const B: usize, const N: usize>(
     mechanism: &'static str,
     start: T,
     position: P,
     bounds: [Bound<T>; B],
     search: Search<T>,
-    assemble: impl Fn(&P, T) -> Result<P, Error>,
+    assemble: impl Fn(&P, T) -> Result<P, PositionError>,
     determinants: impl Fn(&P) -> [T; N],
-) -> Result<Limits<T>, Error> {
+) -> Result<Limits<T>, PositionError> {
     let [mut lower, mut upper] = [None; 2];
     for bound in &bounds {
-        let [below, above] = bound.about(start).ok_or(Error::NotFinite { mechanism, quantity: "a limit" })?;
+        let [below, above] = bound.about(start).ok_or(PositionError::NotFinite { mechanism, quantity: "a limit" })?;
         lower = tighter(lower, below, |new, old| new > old);
         upper = tighter(upper, above, |new, old| new < old);
     }
     let searched = Searched { assemble, determinants };
-    let exact = |end: Option<(T, Block)>| -> Result<Limit<T>, Error> {
-        let Some((end, (place, group))) = end else { return Ok(Limit::None) };
+    let exact = |end: Option<(T, Block)>| -> Result<Limit<T>, PositionError> {
+        let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
         let input = searched.corrected(start, &position, end, place)?;
         Ok(Limit::Exact { input: searched.last(start, &position, input)?, group })
     };
     let (lower, upper) = (exact(lower)?, exact(upper)?);
     let reach = match search {
-        Search::Nothing => return Ok(Limits { lower, upper }),
+        Search::ClosedFormOnly => return Ok(Limits { lower, upper }),
         Search::Turn => T::two_pi(),
         Search::Length(reach) => reach,
     };
@@ -255,6 +255,13 @@ struct Stop<T, P, const N: usize> {
     determinants: [T; N],
 }
 
+impl<T: Real, P, const N: usize> Stop<T, P, N> {
+    /// The determinant of a block; there is one at each place that is asked for.
+    fn determinant(&self, place: usize) -> T {
+        self.determinants.get(place).copied().unwrap_or_else(T::zero)
+    }
+}
+
 impl<A, D> Searched<A, D> {
     /// An end in closed form without the rounding errors of its coefficients, which cancel where lengths are nearly equal.
     ///
@@ -262,9 +269,15 @@ impl<A, D> Searched<A, D> {
     /// at two inputs before the end, which are the nearer the less it moves the end. Of second order it is off by four
     /// squares of their distance, relative to that of the next zero: at `NEAREST` that is nothing, and three digits of the
     /// distance are left, of which an end that is this near needs one.
-    fn corrected<T: Real, P, const N: usize>(&self, start: T, position: &P, end: T, place: usize) -> Result<T, Error>
+    fn corrected<T: Real, P, const N: usize>(
+        &self,
+        start: T,
+        position: &P,
+        end: T,
+        place: usize,
+    ) -> Result<T, PositionError>
     where
-        A: Fn(&P, T) -> Result<P, Error>,
+        A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
     {
         const NEAREST: i32 = 40;
@@ -280,7 +293,7 @@ impl<A, D> Searched<A, D> {
             if let (Found::Assembled(one), Found::Assembled(other)) =
                 (self.at(position, near)?, self.at(position, far)?)
             {
-                let ratio = one.determinants[place] / other.determinants[place];
+                let ratio = one.determinant(place) / other.determinant(place);
                 let part = ratio * ratio;
                 let secant = ((near - input) - part * (far - input)) / (T::one() - part);
                 // From farther away the two determinants differ by too few digits.
@@ -308,9 +321,9 @@ impl<A, D> Searched<A, D> {
     }
 
     /// The last input at which no group stops the mechanism, next to a limit that is rounded.
-    fn last<T: Real, P, const N: usize>(&self, start: T, position: &P, end: T) -> Result<T, Error>
+    fn last<T: Real, P, const N: usize>(&self, start: T, position: &P, end: T) -> Result<T, PositionError>
     where
-        A: Fn(&P, T) -> Result<P, Error>,
+        A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
     {
         let mut input = end;
@@ -332,9 +345,9 @@ impl<A, D> Searched<A, D> {
         position: &P,
         known: Limit<T>,
         beyond: T,
-    ) -> Result<Limit<T>, Error>
+    ) -> Result<Limit<T>, PositionError>
     where
-        A: Fn(&P, T) -> Result<P, Error>,
+        A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
     {
         let end = known.input().unwrap_or(beyond);
@@ -363,8 +376,8 @@ impl<A, D> Searched<A, D> {
                 }
             };
             if let (Some(before), Some(here)) = (before, here) {
-                for block in 0..N {
-                    let [a, b, c] = [before, here, &there].map(|stop| stop.determinants[block]);
+                let determinants = before.determinants.iter().zip(&here.determinants).zip(&there.determinants);
+                for (block, ((a, b), c)) in determinants.enumerate() {
                     if b < a
                         && b <= c
                         && let Some(limit) = self.lowest(before, there.input, block)?
@@ -380,9 +393,9 @@ impl<A, D> Searched<A, D> {
     }
 
     /// The position at an input, or the group that stops it.
-    fn at<T: Real, P, const N: usize>(&self, from: &P, input: T) -> Result<Found<Stop<T, P, N>>, Error>
+    fn at<T: Real, P, const N: usize>(&self, from: &P, input: T) -> Result<Found<Stop<T, P, N>>, PositionError>
     where
-        A: Fn(&P, T) -> Result<P, Error>,
+        A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
     {
         match (self.assemble)(from, input) {
@@ -391,12 +404,12 @@ impl<A, D> Searched<A, D> {
                 Ok(Found::Assembled(Stop { input, position, determinants }))
             }
             Err(
-                Error::Unbuildable { group, .. }
-                | Error::Singular { group, .. }
-                | Error::OtherBranch { group, .. }
-                | Error::NotConverged { group: Some(group), .. },
+                PositionError::Unbuildable { group, .. }
+                | PositionError::Singular { group, .. }
+                | PositionError::OtherBranch { group, .. }
+                | PositionError::NotConverged { group: Some(group), .. },
             ) => Ok(Found::Stopped(group)),
-            Err(Error::Undetermined { .. }) => Ok(Found::Undetermined),
+            Err(PositionError::Undetermined { .. }) => Ok(Found::Undetermined),
             Err(error) => Err(error),
         }
     }
@@ -408,9 +421,9 @@ impl<A, D> Searched<A, D> {
         mut assembled: T,
         mut unbuildable: T,
         mut group: &'static str,
-    ) -> Result<Limit<T>, Error>
+    ) -> Result<Limit<T>, PositionError>
     where
-        A: Fn(&P, T) -> Result<P, Error>,
+        A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
     {
         let mut nearest: Option<Stop<T, P, N>> = None;
@@ -442,16 +455,16 @@ impl<A, D> Searched<A, D> {
         from: &Stop<T, P, N>,
         to: T,
         block: usize,
-    ) -> Result<Option<Limit<T>>, Error>
+    ) -> Result<Option<Limit<T>>, PositionError>
     where
-        A: Fn(&P, T) -> Result<P, Error>,
+        A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
     {
         let golden = real::<T>(0.618_033_988_749_894_9);
         let (mut a, mut b) = (from.input, to);
-        let look = |input: T| -> Result<Result<T, Limit<T>>, Error> {
+        let look = |input: T| -> Result<Result<T, Limit<T>>, PositionError> {
             Ok(match self.at(&from.position, input)? {
-                Found::Assembled(stop) => Ok(stop.determinants[block]),
+                Found::Assembled(stop) => Ok(stop.determinant(block)),
                 Found::Undetermined => Ok(T::zero()),
                 Found::Stopped(group) => Err(self.between(&from.position, from.input, input, group)?),
             })

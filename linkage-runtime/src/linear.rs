@@ -1,23 +1,24 @@
 //! The verdict on a Jacobian, and the factorisation of blocks of more than two unknowns.
 
-use nalgebra::{Const, DimMin, LU, SMatrix, SVector};
+use core::mem;
 
-use crate::scalar::{smallest, to_f64};
-use crate::{Error, Real, real};
-
-/// A determinant below this many roundings of the largest value that its formula could take is no
-/// better than the rounding of the stored angles it is made from (pi itself is off by half a
-/// rounding, a difference of two angles by two).
-const ROUNDINGS: f64 = 4.0;
+use crate::jacobian::rounding::{CLOSED, roundings};
+use crate::scalar::{largest, smallest, to_f64};
+use crate::{PositionError, Real, real};
 
 /// Refuses the determinant of a group of unknowns that is zero beside `size`, the largest value that
 /// its formula could take, whose sign does not matter.
 ///
 /// # Errors
-/// [`Error::Singular`], or [`Error::NotFinite`] if either is not a finite number.
+/// [`PositionError::Singular`], or [`PositionError::NotFinite`] if either is not a finite number.
 #[inline]
-pub fn regular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, size: T) -> Result<(), Error> {
-    if determinant.abs() > real::<T>(ROUNDINGS) * T::default_epsilon() * size.abs() && determinant.is_finite() {
+pub fn regular<T: Real>(
+    mechanism: &'static str,
+    group: &'static str,
+    determinant: T,
+    size: T,
+) -> Result<(), PositionError> {
+    if determinant.abs() > roundings::<T>(CLOSED) * size.abs() && determinant.is_finite() {
         return Ok(());
     }
     Err(singular(mechanism, group, determinant, size))
@@ -30,89 +31,166 @@ pub fn same_signs<T: Real>(these: &[T], those: &[T]) -> bool {
 }
 
 #[cold]
-fn singular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, size: T) -> Error {
+fn singular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, size: T) -> PositionError {
     if determinant.is_finite() && size.is_finite() {
         // A formula that vanishes with its own size is singular through and through.
         let regularity = if size.is_zero() { 0.0 } else { to_f64((determinant / size).abs()) };
-        Error::Singular { mechanism, group, regularity }
+        PositionError::Singular { mechanism, group, regularity }
     } else {
-        Error::NotFinite { mechanism, quantity: "the Jacobian" }
+        PositionError::NotFinite { mechanism, quantity: "the Jacobian" }
     }
 }
 
 /// J of a block of `N` unknowns, equilibrated and factorised with partial pivoting.
 #[derive(Debug, Clone)]
-pub struct Factorization<T: Real, const N: usize>
-where
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
-{
-    factors: LU<T, Const<N>, Const<N>>,
+pub struct Factorization<T: Real, const N: usize> {
+    factors: Factors<T, N>,
     rows: [T; N],
     columns: [T; N],
 }
 
-impl<T: Real, const N: usize> Factorization<T, N>
-where
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
-{
+impl<T: Real, const N: usize> Factorization<T, N> {
     /// Factorises the matrix of these columns, whose rows are of these sizes.
     ///
     /// Rows are divided by the sizes of their closures and columns by their largest entry, so that
     /// neither the unit of a closure nor that of an unknown has a say in the pivots or the verdict.
     ///
     /// # Errors
-    /// [`Error::Singular`] if the smallest pivot is no larger than its rounding error,
-    /// [`Error::NotFinite`] if an entry is not a finite number.
+    /// [`PositionError::Singular`] if the smallest pivot is no larger than its rounding error,
+    /// [`PositionError::NotFinite`] if an entry is not a finite number.
     pub fn new(
         mechanism: &'static str,
         group: &'static str,
-        columns: [[T; N]; N],
+        mut columns: [[T; N]; N],
         sizes: [T; N],
-    ) -> Result<Self, Error> {
-        let mut matrix = SMatrix::<T, N, N>::from(columns);
-        let mut row_factors = [T::one(); N];
-        for (row, (factor, size)) in row_factors.iter_mut().zip(sizes).enumerate() {
-            if size > T::zero() {
-                *factor = power_of_two_below(size).recip();
-            }
-            matrix.row_mut(row).scale_mut(*factor);
-        }
+    ) -> Result<Self, PositionError> {
+        let row_factors = sizes.map(unit_of);
         let mut column_factors = [T::one(); N];
-        for (column, factor) in column_factors.iter_mut().enumerate() {
-            let largest = matrix.column(column).amax();
-            if largest > T::zero() {
-                *factor = power_of_two_below(largest).recip();
+        for (column, column_factor) in columns.iter_mut().zip(&mut column_factors) {
+            for (entry, factor) in column.iter_mut().zip(&row_factors) {
+                *entry *= *factor;
             }
-            matrix.column_mut(column).scale_mut(*factor);
+            *column_factor = unit_of(largest(column.iter().copied()));
+            for entry in column {
+                *entry *= *column_factor;
+            }
         }
-        if !matrix.iter().all(T::is_finite) {
-            return Err(Error::NotFinite { mechanism, quantity: "the Jacobian" });
+        if !columns.as_flattened().iter().all(T::is_finite) {
+            return Err(PositionError::NotFinite { mechanism, quantity: "the Jacobian" });
         }
-        let factors = matrix.lu();
-        let smallest = smallest_pivot(&factors);
-        let roundings = ROUNDINGS * real_count(N);
-        if smallest > real::<T>(roundings) * T::default_epsilon() {
+        let factors = Factors::of(columns);
+        let smallest = smallest(factors.pivots());
+        if smallest > roundings(CLOSED * real_count(N)) {
             Ok(Self { factors, rows: row_factors, columns: column_factors })
         } else {
-            Err(Error::Singular { mechanism, group, regularity: to_f64(smallest) })
+            Err(PositionError::Singular { mechanism, group, regularity: to_f64(smallest) })
         }
     }
 
     /// The x of J x = `right`.
     #[must_use]
-    pub fn solve(&self, right: [T; N]) -> [T; N] {
-        let mut x = SVector::<T, N>::from(right);
-        for (entry, factor) in x.iter_mut().zip(self.rows) {
-            *entry *= factor;
+    pub fn solve(&self, mut right: [T; N]) -> [T; N] {
+        for (entry, factor) in right.iter_mut().zip(&self.rows) {
+            *entry *= *factor;
         }
-        // No pivot is zero, or there would be no factorisation.
-        self.factors.solve_mut(&mut x);
-        for (entry, factor) in x.iter_mut().zip(self.columns) {
-            *entry *= factor;
+        let mut x = self.factors.solve(&right);
+        for (entry, factor) in x.iter_mut().zip(&self.columns) {
+            *entry *= *factor;
         }
-        let [solution] = x.data.0;
-        solution
+        x
     }
+}
+
+/// P A = L U by elimination with partial pivoting. Parts of slices instead of indices: nothing here can panic, whatever
+/// the compiler proves.
+#[derive(Debug, Clone)]
+struct Factors<T, const N: usize> {
+    rows: [Row<T, N>; N],
+    /// det P.
+    sign: T,
+}
+
+/// A row of L before the diagonal, whose entries are 1, and of U from there on.
+#[derive(Debug, Clone, Copy)]
+struct Row<T, const N: usize> {
+    entries: [T; N],
+    /// The row of A that it comes from.
+    place: usize,
+}
+
+impl<T: Real, const N: usize> Factors<T, N> {
+    fn of(columns: [[T; N]; N]) -> Self {
+        let mut rows = [Row { entries: [T::zero(); N], place: 0 }; N];
+        for (place, row) in rows.iter_mut().enumerate() {
+            row.place = place;
+            for (entry, column) in row.entries.iter_mut().zip(&columns) {
+                *entry = part(column, place);
+            }
+        }
+        let mut sign = T::one();
+        let mut rest = rows.as_mut_slice();
+        let mut k = 0;
+        while let [row, below @ ..] = rest {
+            let (mut most, mut largest) = (part(&row.entries, k).abs(), None);
+            for (place, other) in below.iter().enumerate() {
+                let size = part(&other.entries, k).abs();
+                if size > most {
+                    (most, largest) = (size, Some(place));
+                }
+            }
+            if let Some(other) = largest.and_then(|place| below.get_mut(place)) {
+                mem::swap(row, other);
+                sign = -sign;
+            }
+            if let Some([pivot, entries @ ..]) = row.entries.get(k..)
+                && !pivot.is_zero()
+            {
+                let reciprocal = T::one() / *pivot;
+                for other in &mut *below {
+                    let Some([factor, others @ ..]) = other.entries.get_mut(k..) else { continue };
+                    *factor *= reciprocal;
+                    for (other, entry) in others.iter_mut().zip(entries) {
+                        *other -= *factor * *entry;
+                    }
+                }
+            }
+            rest = below;
+            k += 1;
+        }
+        Self { rows, sign }
+    }
+
+    /// The diagonal of U.
+    fn pivots(&self) -> impl Iterator<Item = T> {
+        self.rows.iter().enumerate().map(|(k, row)| part(&row.entries, k))
+    }
+
+    /// The x of A x = `right`, where no pivot is zero.
+    fn solve(&self, right: &[T; N]) -> [T; N] {
+        let mut x = [T::zero(); N];
+        for (k, row) in self.rows.iter().enumerate() {
+            let Some((known, [entry, ..])) = x.split_at_mut_checked(k) else { continue };
+            let factors = row.entries.iter().zip(known);
+            *entry = factors.fold(part(right, row.place), |rest, (factor, x)| rest - *factor * *x);
+        }
+        for (k, row) in self.rows.iter().enumerate().rev() {
+            let Some([pivot, factors @ ..]) = row.entries.get(k..) else { continue };
+            let Some([entry, known @ ..]) = x.get_mut(k..) else { continue };
+            let factors = factors.iter().zip(known).rev();
+            *entry = factors.fold(*entry, |rest, (factor, x)| rest - *factor * *x) / *pivot;
+        }
+        x
+    }
+}
+
+/// An entry; there is one at each place that is asked for.
+fn part<T: Real, const N: usize>(entries: &[T; N], place: usize) -> T {
+    entries.get(place).copied().unwrap_or_else(T::zero)
+}
+
+/// What makes a size a number near 1: 1 if there is no size.
+fn unit_of<T: Real>(size: T) -> T {
+    if size > T::zero() { power_of_two_below(size).recip() } else { T::one() }
 }
 
 fn real_count(count: usize) -> f64 {
@@ -127,19 +205,9 @@ pub(crate) fn power_of_two_below<T: Real>(value: T) -> T {
     if power.is_finite() && power > T::zero() { power } else { T::one() }
 }
 
-fn smallest_pivot<T: Real, const N: usize>(factors: &LU<T, Const<N>, Const<N>>) -> T
-where
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
-{
-    let packed = factors.lu_internal();
-    smallest((0..N).map(|index| packed[(index, index)]))
-}
-
 /// The determinant of a block of more than two unknowns, given by columns.
 #[must_use]
-pub fn product_of_pivots<T: Real, const N: usize>(columns: [[T; N]; N]) -> T
-where
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
-{
-    SMatrix::<T, N, N>::from(columns).lu().determinant()
+pub fn product_of_pivots<T: Real, const N: usize>(columns: [[T; N]; N]) -> T {
+    let factors = Factors::of(columns);
+    factors.pivots().fold(T::one(), |product, pivot| product * pivot) * factors.sign
 }

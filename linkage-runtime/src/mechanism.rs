@@ -1,9 +1,10 @@
 //! The trait that general algorithms take.
 
-use nalgebra::{SMatrix, SVector};
+use core::fmt::Debug;
 
 use crate::error::all_finite;
-use crate::{Error, Real, same_signs};
+use crate::linear::same_signs;
+use crate::{Column, Dim, Matrix, PositionError, Real};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,94 +17,132 @@ pub struct Group {
     pub unknowns: &'static [usize],
 }
 
-/// A mechanism with `U` dependent and `V` independent coordinates, closed where Psi(q) = 0.
+/// A number for each dependent coordinate of a mechanism, or for each closure.
+pub type PerUnknown<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::U>;
+
+/// A number for each independent coordinate of a mechanism.
+pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
+
+/// A mechanism whose dependent coordinates u follow its independent coordinates v: it closes where Psi(q) = 0, with
+/// q = (u, v).
 ///
 /// `linkage!` implements it for every mechanism and every driver of one. The functions without `Result` refuse nothing:
 /// their results of numbers that are not finite are not finite either, or mean nothing.
-pub trait Mechanism<T: Real, const U: usize, const V: usize> {
+pub trait Mechanism {
+    /// The number that a length or an angle is.
+    type Scalar: Real;
+    /// The number of dependent coordinates.
+    type U: Dim;
+    /// The number of independent coordinates.
+    type V: Dim;
+    /// The number of groups.
+    type G: Dim;
+    /// The coordinates q by name.
+    type Coordinates: Copy + Debug + PartialEq;
+    /// Their rates q' by name.
+    type Rates: Copy + Debug + PartialEq;
+    /// The independent coordinates v by name, and their rates and accelerations.
+    type Inputs: Copy + Debug + PartialEq + Into<PerInput<Self>> + From<PerInput<Self>>;
+    /// A position ready for use.
+    type Pose;
+
     /// The name of the mechanism, as errors give it.
     const NAME: &'static str;
     /// The names of the dependent coordinates u, in the order of the columns of J.
-    const UNKNOWNS: [&'static str; U];
+    const UNKNOWNS: &'static [&'static str];
     /// The names of the independent coordinates v, in the order of the columns of A.
-    const INPUTS: [&'static str; V];
+    const INPUTS: &'static [&'static str];
+    /// Which unknowns are angles.
+    const UNKNOWN_ANGLES: &'static [bool];
+    /// Which inputs are angles.
+    const INPUT_ANGLES: &'static [bool];
     /// The groups, in the order in which they are solved.
     const GROUPS: &'static [Group];
-    /// Which unknowns are angles.
-    const UNKNOWN_ANGLES: [bool; U];
-    /// Which inputs are angles.
-    const INPUT_ANGLES: [bool; V];
-    /// The coordinates q by name.
-    type Coordinates: Copy;
-    /// The independent coordinates v by name.
-    type Inputs: Copy + Into<SVector<T, V>> + From<SVector<T, V>>;
-    /// The dependent coordinates u by name.
-    type Unknowns: Copy;
-    /// A position ready for use.
-    type Pose;
-    /// A number for each of [`GROUPS`](Self::GROUPS).
-    type BlockDeterminants: Copy + AsRef<[T]> + AsMut<[T]>;
 
-    /// u, taken out of q.
-    fn unknowns(q: &Self::Coordinates) -> SVector<T, U>;
-    /// v, taken out of q.
-    fn inputs(q: &Self::Coordinates) -> SVector<T, V>;
-    /// q with other values of v.
-    fn with_inputs(q: &Self::Coordinates, inputs: SVector<T, V>) -> Self::Coordinates;
-    /// q with other values of u.
-    fn with_unknowns(q: &Self::Coordinates, unknowns: SVector<T, U>) -> Self::Coordinates;
+    /// q of u and v.
+    fn coordinates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Coordinates;
+    /// u and v of q.
+    fn parts(q: &Self::Coordinates) -> (PerUnknown<Self>, PerInput<Self>);
+    /// q' of u' and v'.
+    fn rates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Rates;
+    /// u' and v' of q'.
+    fn rate_parts(rates: &Self::Rates) -> (PerUnknown<Self>, PerInput<Self>);
     /// The position at these coordinates.
     fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose;
     /// True if every number of a position is finite.
     fn is_finite(pose: &Self::Pose) -> bool;
     /// Psi.
-    fn residual(&self, pose: &Self::Pose) -> SVector<T, U>;
+    fn residual(&self, pose: &Self::Pose) -> PerUnknown<Self>;
     /// The sum of the magnitudes of the terms of each closure.
-    fn closure_sizes(&self, pose: &Self::Pose) -> SVector<T, U>;
+    fn closure_sizes(&self, pose: &Self::Pose) -> PerUnknown<Self>;
     /// J, the derivative of Psi by u.
-    fn jacobian_unknowns(&self, pose: &Self::Pose) -> SMatrix<T, U, U>;
+    fn jacobian_unknowns(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
     /// A, the derivative of Psi by v.
-    fn jacobian_inputs(&self, pose: &Self::Pose) -> SMatrix<T, U, V>;
-    /// The largest magnitude that each entry of J and of A could have at these lengths.
-    fn jacobian_sizes(&self, pose: &Self::Pose) -> (SMatrix<T, U, U>, SMatrix<T, U, V>);
+    fn jacobian_inputs(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
+    /// The largest magnitude that each entry of J could have at these lengths.
+    fn jacobian_unknowns_sizes(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
+    /// The largest magnitude that each entry of A could have at these lengths.
+    fn jacobian_inputs_sizes(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
     /// det J.
-    fn determinant(&self, pose: &Self::Pose) -> T;
+    fn determinant(&self, pose: &Self::Pose) -> Self::Scalar;
     /// The determinant of each block of J: of each group.
-    fn block_determinants(&self, pose: &Self::Pose) -> Self::BlockDeterminants;
+    fn block_determinants(&self, pose: &Self::Pose) -> Column<Self::Scalar, Self::G>;
     /// The quadratic velocity term (Psi_q q')_q q'.
-    fn gamma(&self, pose: &Self::Pose, rate: &Self::Coordinates) -> SVector<T, U>;
-    /// Whether the determinant of each block of J has the same sign at both positions: if not, they
-    /// belong to different assembly branches. One that is not a number counts as negative.
-    fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
-        same_signs(self.block_determinants(pose).as_ref(), self.block_determinants(other).as_ref())
-    }
+    fn gamma(&self, pose: &Self::Pose, rates: &Self::Rates) -> PerUnknown<Self>;
     /// The x of J x = `right`.
     ///
     /// # Errors
-    /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] if the solution is not finite.
-    fn solve_jacobian(&self, pose: &Self::Pose, right: &SVector<T, U>) -> Result<SVector<T, U>, Error>;
+    /// [`PositionError::Singular`] where J has no inverse, [`PositionError::NotFinite`] if the solution is not finite.
+    fn solve_jacobian(&self, pose: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError>;
+
+    /// u, taken out of q.
+    #[inline]
+    fn unknowns(q: &Self::Coordinates) -> PerUnknown<Self> {
+        Self::parts(q).0
+    }
+    /// v, taken out of q.
+    #[inline]
+    fn inputs(q: &Self::Coordinates) -> PerInput<Self> {
+        Self::parts(q).1
+    }
+    /// q with other values of u.
+    #[inline]
+    fn with_unknowns(q: &Self::Coordinates, unknowns: PerUnknown<Self>) -> Self::Coordinates {
+        Self::coordinates(unknowns, Self::inputs(q))
+    }
+    /// q with other values of v.
+    #[inline]
+    fn with_inputs(q: &Self::Coordinates, inputs: PerInput<Self>) -> Self::Coordinates {
+        Self::coordinates(Self::unknowns(q), inputs)
+    }
+    /// Whether the determinant of each block of J has the same sign at both positions: if not, they
+    /// belong to different assembly branches. One that is not a number counts as negative.
+    #[inline]
+    fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
+        same_signs(self.block_determinants(pose).as_slice(), self.block_determinants(other).as_slice())
+    }
 }
 
 /// A mechanism whose position has a closed form.
 ///
 /// `linkage!` implements it where all groups have one; of the others some are found by Newton's method.
-pub trait Assembly<T: Real, const U: usize, const V: usize>: Mechanism<T, U, V> {
+pub trait Assembly: Mechanism {
     /// Which solution is meant of each group that has two.
-    type Branch: Copy;
+    type Branch: Copy + Debug + Eq;
 
     /// The position at these inputs on this branch.
     ///
     /// # Errors
-    /// [`Error::Unbuildable`] if a group does not reach, [`Error::Undetermined`] if it can stand anywhere,
-    /// [`Error::NotFinite`] if a number is not finite.
-    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, Error>;
+    /// [`PositionError::Unbuildable`] if a group does not reach, [`PositionError::Undetermined`] if it can stand anywhere,
+    /// [`PositionError::NotFinite`] if a number is not finite.
+    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, PositionError>;
     /// The position at the inputs of a guess on this branch; where the numbers of angles matter, in the turns that are
     /// nearest to the guess instead of those of the branch.
     ///
     /// # Errors
-    /// Those of [`assemble`](Self::assemble), and [`Error::OutOfRange`] if a guess is more turns away than a branch can
-    /// count.
-    fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, Error> {
+    /// Those of [`assemble`](Self::assemble), and [`InputError::OutOfRange`](crate::InputError::OutOfRange) if a guess is
+    /// more turns away than a branch can count.
+    fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError> {
         self.assemble(Self::inputs(guess).into(), branch)
     }
     /// The branch that a position belongs to: `assemble` on it gives the position back.
@@ -113,46 +152,31 @@ pub trait Assembly<T: Real, const U: usize, const V: usize>: Mechanism<T, U, V> 
 /// Refuses coordinates and their pose if a number of them is infinite or not a number.
 ///
 /// # Errors
-/// [`Error::NotFinite`].
+/// [`PositionError::NotFinite`].
 #[inline]
-pub(crate) fn finite_position<M, T, const U: usize, const V: usize>(
-    q: &M::Coordinates,
-    pose: &M::Pose,
-) -> Result<(), Error>
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
-    finite_coordinates::<M, T, U, V>(q)?;
-    if M::is_finite(pose) { Ok(()) } else { Err(Error::NotFinite { mechanism: M::NAME, quantity: "the position" }) }
+pub(crate) fn finite_position<M: Mechanism>(q: &M::Coordinates, pose: &M::Pose) -> Result<(), PositionError> {
+    finite_coordinates::<M>(q)?;
+    if M::is_finite(pose) {
+        Ok(())
+    } else {
+        Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the position" })
+    }
 }
 
 /// Refuses coordinates of which one is infinite or not a number.
 ///
 /// # Errors
-/// [`Error::NotFinite`].
+/// [`PositionError::NotFinite`].
 #[inline]
-pub(crate) fn finite_coordinates<M, T, const U: usize, const V: usize>(q: &M::Coordinates) -> Result<(), Error>
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
-    let (unknowns, inputs) = (M::unknowns(q), M::inputs(q));
+pub(crate) fn finite_coordinates<M: Mechanism>(q: &M::Coordinates) -> Result<(), PositionError> {
+    let (unknowns, inputs) = M::parts(q);
     all_finite(M::NAME, "the position", unknowns.iter().chain(inputs.iter()))
 }
 
 /// The name of the first group whose determinant changes its sign from one position to another.
-pub(crate) fn other_group<M, T, const U: usize, const V: usize>(
-    mechanism: &M,
-    pose: &M::Pose,
-    other: &M::Pose,
-) -> &'static str
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
+pub(crate) fn other_group<M: Mechanism>(mechanism: &M, pose: &M::Pose, other: &M::Pose) -> &'static str {
     let [these, those] = [pose, other].map(|pose| mechanism.block_determinants(pose));
-    let mut pairs = these.as_ref().iter().zip(those.as_ref()).zip(M::GROUPS);
+    let mut pairs = these.iter().zip(&those).zip(M::GROUPS);
     let group = pairs.find(|((this, that), _)| !same_signs(&[**this], &[**that]));
     group.map(|(_, group)| group.name).unwrap_or_default()
 }

@@ -1,16 +1,31 @@
 //! Position by Newton's method: of a mechanism as a whole, and of one group of it.
 
-use nalgebra::{Const, DimMin, SMatrix, SVector};
+use core::marker::PhantomData;
 
 use crate::error::all_finite;
+use crate::jacobian::Blocks;
+use crate::jacobian::correction;
+use crate::jacobian::rounding::weak;
+use crate::linear::{Factorization, product_of_pivots, same_signs};
 use crate::mechanism::finite_coordinates;
 use crate::newton::{Closures, Iterate, search};
 use crate::scalar::to_f64;
-use crate::{Error, Factorization, Mechanism, Real, linear::same_signs, product_of_pivots};
+use crate::{Column, D, Dim, Matrix, Mechanism, PerUnknown, PositionError, Real};
 
-/// A position and how it was found.
+/// A position on the branch of its guess, and how it was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solution<Q> {
+    /// The position.
+    pub coordinates: Q,
+    /// Newton steps taken.
+    pub iterations: usize,
+    /// The largest residual left, beside the sum of the magnitudes of its terms.
+    pub residual: f64,
+}
+
+/// A position on whatever branch it was found, and how.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnyBranch<Q> {
     /// The position.
     pub coordinates: Q,
     /// Newton steps taken.
@@ -25,47 +40,70 @@ pub struct Solution<Q> {
 /// One step of Newton's method without damping: q with u - J^-1 Psi in place of u.
 ///
 /// # Errors
-/// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] if the step is not finite.
-pub fn newton_step<T, M, const U: usize, const V: usize>(
-    mechanism: &M,
-    q: &M::Coordinates,
-) -> Result<M::Coordinates, Error>
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
+/// [`PositionError::Singular`] where J has no inverse, [`PositionError::NotFinite`] if the step is not finite.
+pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M::Coordinates, PositionError> {
     let pose = mechanism.pose_at(q);
-    let step = mechanism.solve_jacobian(&pose, &mechanism.residual(&pose))?;
+    let step = correction(mechanism, &pose)?;
     let next = M::with_unknowns(q, M::unknowns(q) - step);
-    finite_coordinates::<M, T, U, V>(&next)?;
+    finite_coordinates::<M>(&next)?;
     Ok(next)
 }
 
-/// The position near `guess` whose inputs are those of `guess`, all unknowns together.
+/// The position near `guess` whose inputs are those of `guess`, on the branch of `guess`; all unknowns together.
 ///
 /// Steps are halved until the residual falls. The search ends at a residual that rounding explains,
 /// after one more step that removes what the last one left.
 ///
 /// # Errors
-/// [`Error::NotConverged`] if the residual stays, [`Error::NotFinite`] if a number is not finite.
-pub fn newton<T, M, const U: usize, const V: usize>(
+/// [`PositionError::NotConverged`] if the residual stays, [`PositionError::OtherBranch`] if the determinant of a group has
+/// another sign than at the guess, [`PositionError::NotFinite`] if a number is not finite. Where the group is singular
+/// but for the root of a rounding, at the guess or at the position, its sign says nothing.
+pub fn newton<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Solution<M::Coordinates>, PositionError> {
+    let (found, start, end) = searched(mechanism, guess)?;
+    let AnyBranch { coordinates, iterations, residual, same_branch } = found;
+    match if same_branch { None } else { left_group(mechanism, &start, &end) } {
+        None => Ok(Solution { coordinates, iterations, residual }),
+        Some(group) => Err(PositionError::OtherBranch { mechanism: M::NAME, group }),
+    }
+}
+
+/// The first group whose determinant has another sign at the end than at the start and is larger than nothing at both: a
+/// position at a dead point is known to the root of a rounding.
+fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Option<&'static str> {
+    let ends = [Blocks::of(mechanism, start), Blocks::of(mechanism, end)];
+    let [before, after] = ends.each_ref().map(Blocks::determinants);
+    let mut signs = before.iter().zip(after).map(|(&before, &after)| same_signs(&[before], &[after])).enumerate();
+    let left = signs.find(|&(place, same)| !same && ends.iter().all(|blocks| blocks.regularity(place) > weak()));
+    left.and_then(|(place, _)| M::GROUPS.get(place)).map(|group| group.name)
+}
+
+/// The position near `guess` whose inputs are those of `guess`, on any branch: as [`newton`], which says what the search
+/// does.
+///
+/// # Errors
+/// [`PositionError::NotConverged`] if the residual stays, [`PositionError::NotFinite`] if a number is not finite.
+pub fn newton_any_branch<M: Mechanism>(
     mechanism: &M,
     guess: &M::Coordinates,
-) -> Result<Solution<M::Coordinates>, Error>
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
+) -> Result<AnyBranch<M::Coordinates>, PositionError> {
+    searched(mechanism, guess).map(|(found, ..)| found)
+}
+
+/// A position, and the poses of the guess and of what was found.
+type Searched<M> = (AnyBranch<<M as Mechanism>::Coordinates>, <M as Mechanism>::Pose, <M as Mechanism>::Pose);
+
+fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searched<M>, PositionError> {
     // An input may be in no closure.
     all_finite(M::NAME, "the input", M::inputs(guess).iter())?;
-    let (Iterate { unknowns, point, size, .. }, iterations) =
-        search(&Whole::<_, _, V> { mechanism, guess }, M::unknowns(guess))?;
-    Ok(Solution {
+    let (Iterate { unknowns, point, size, .. }, iterations) = search(&Whole { mechanism, guess }, M::unknowns(guess))?;
+    let start = mechanism.pose_at(guess);
+    let found = AnyBranch {
         coordinates: M::with_unknowns(guess, unknowns),
         iterations,
         residual: to_f64(size),
-        same_branch: mechanism.same_branch(&mechanism.pose_at(guess), &point),
-    })
+        same_branch: mechanism.same_branch(&start, &point),
+    };
+    Ok((found, start, point))
 }
 
 /// The unknowns of one group, by their names in `group`, near `start`; the groups before it are solved.
@@ -74,25 +112,24 @@ where
 /// by the unknowns, column by column. The search is that of [`newton`].
 ///
 /// # Errors
-/// [`Error::NotConverged`] if the residual stays, [`Error::OtherBranch`] if the group is singular somewhere
-/// between the start and what was found, [`Error::NotFinite`] if a number is not finite.
+/// [`PositionError::NotConverged`] if the residual stays, [`PositionError::OtherBranch`] if the group is singular somewhere
+/// between the start and what was found, [`PositionError::NotFinite`] if a number is not finite.
 pub fn newton_group<T, const N: usize>(
     mechanism: &'static str,
     group: &'static str,
     start: [T; N],
     evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
-) -> Result<[T; N], Error>
+) -> Result<[T; N], PositionError>
 where
     T: Real,
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let (_, _, before) = evaluate(start);
     let (Iterate { unknowns, point: (_, _, after), .. }, _) =
-        search(&Part { mechanism, group, evaluate }, SVector::from(start))?;
+        search(&Part { mechanism, group, evaluate, scalar: PhantomData }, Column::from(start))?;
     if same_signs(&[product_of_pivots(before)], &[product_of_pivots(after)]) {
         Ok(unknowns.into())
     } else {
-        Err(Error::OtherBranch { mechanism, group })
+        Err(PositionError::OtherBranch { mechanism, group })
     }
 }
 
@@ -100,31 +137,29 @@ where
 type Evaluated<T, const N: usize> = ([T; N], [T; N], [[T; N]; N]);
 
 /// A mechanism whose inputs are those of a guess.
-struct Whole<'a, M, Q, const V: usize> {
+struct Whole<'a, M: Mechanism> {
     mechanism: &'a M,
-    guess: &'a Q,
+    guess: &'a M::Coordinates,
 }
 
-impl<T, M, const U: usize, const V: usize> Closures<T, U> for Whole<'_, M, M::Coordinates, V>
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
+impl<M: Mechanism> Closures for Whole<'_, M> {
+    type Scalar = M::Scalar;
+    type N = M::U;
     type Point = M::Pose;
 
-    fn at(&self, unknowns: &SVector<T, U>) -> M::Pose {
+    fn at(&self, unknowns: &PerUnknown<M>) -> M::Pose {
         self.mechanism.pose_at(&M::with_unknowns(self.guess, *unknowns))
     }
 
-    fn residual(&self, pose: &M::Pose) -> (SVector<T, U>, SVector<T, U>) {
+    fn residual(&self, pose: &M::Pose) -> (PerUnknown<M>, PerUnknown<M>) {
         (self.mechanism.residual(pose), self.mechanism.closure_sizes(pose))
     }
 
-    fn solve(&self, pose: &M::Pose, right: &SVector<T, U>) -> Result<SVector<T, U>, Error> {
+    fn solve(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {
         self.mechanism.solve_jacobian(pose, right)
     }
 
-    fn jacobian(&self, pose: &M::Pose) -> SMatrix<T, U, U> {
+    fn jacobian(&self, pose: &M::Pose) -> Matrix<M::Scalar, M::U, M::U> {
         self.mechanism.jacobian_unknowns(pose)
     }
 
@@ -138,39 +173,45 @@ where
 }
 
 /// One group of a mechanism.
-struct Part<F> {
+struct Part<T, F, const N: usize> {
     mechanism: &'static str,
     group: &'static str,
     evaluate: F,
+    scalar: PhantomData<T>,
 }
 
-impl<T, F, const N: usize> Closures<T, N> for Part<F>
+impl<T, F, const N: usize> Closures for Part<T, F, N>
 where
     T: Real,
     F: Fn([T; N]) -> Evaluated<T, N>,
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
+    type Scalar = T;
+    type N = D<N>;
     type Point = Evaluated<T, N>;
 
-    fn at(&self, unknowns: &SVector<T, N>) -> Self::Point {
+    fn at(&self, unknowns: &Column<T, D<N>>) -> Self::Point {
         (self.evaluate)((*unknowns).into())
     }
 
-    fn residual(&self, (residual, sizes, _): &Self::Point) -> (SVector<T, N>, SVector<T, N>) {
-        (SVector::from(*residual), SVector::from(*sizes))
+    fn residual(&self, (residual, sizes, _): &Self::Point) -> (Column<T, D<N>>, Column<T, D<N>>) {
+        (Column::from(*residual), Column::from(*sizes))
     }
 
-    fn solve(&self, (_, sizes, columns): &Self::Point, right: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+    fn solve(
+        &self,
+        (_, sizes, columns): &Self::Point,
+        right: &Column<T, D<N>>,
+    ) -> Result<Column<T, D<N>>, PositionError> {
         let factors = Factorization::new(self.mechanism, self.group, *columns, *sizes)?;
-        Ok(SVector::from(factors.solve((*right).into())))
+        Ok(Column::from(factors.solve((*right).into())))
     }
 
-    fn jacobian(&self, (_, _, columns): &Self::Point) -> SMatrix<T, N, N> {
-        SMatrix::from(*columns)
+    fn jacobian(&self, (_, _, columns): &Self::Point) -> Matrix<T, D<N>, D<N>> {
+        Matrix::from(*columns)
     }
 
     fn regularity(&self, (_, _, columns): &Self::Point) -> f64 {
-        beside_columns(product_of_pivots(*columns), &SMatrix::from(*columns))
+        beside_columns(product_of_pivots(*columns), &Matrix::from(*columns))
     }
 
     fn names(&self) -> (&'static str, Option<&'static str>) {
@@ -179,7 +220,7 @@ where
 }
 
 /// |det J| beside the product of the sizes of its columns.
-pub fn beside_columns<T: Real, const N: usize>(determinant: T, jacobian: &SMatrix<T, N, N>) -> f64 {
-    let product = jacobian.column_iter().fold(T::one(), |product, column| product * column.norm());
+pub fn beside_columns<T: Real, N: Dim>(determinant: T, jacobian: &Matrix<T, N, N>) -> f64 {
+    let product = jacobian.columns().iter().fold(T::one(), |product, column| product * column.norm());
     if product > T::zero() { to_f64(determinant.abs() / product) } else { 0.0 }
 }

@@ -18,6 +18,22 @@ pub trait Real: RealField + Copy {
         sine::sin_cos(x).map_or_else(|| beyond(self), |(sine, cosine)| (real(sine), real(cosine)))
     }
 
+    /// The sine alone, as `sine_cosine` gives it.
+    #[inline(always)]
+    #[must_use]
+    fn sine(self) -> Self {
+        let Some(&x) = (&self as &dyn Any).downcast_ref::<f64>() else { return self.sin() };
+        sine::sin(x).map_or_else(|| beyond(self).0, real)
+    }
+
+    /// The cosine alone, as `sine_cosine` gives it.
+    #[inline(always)]
+    #[must_use]
+    fn cosine(self) -> Self {
+        let Some(&x) = (&self as &dyn Any).downcast_ref::<f64>() else { return self.cos() };
+        sine::cos(x).map_or_else(|| beyond(self).1, real)
+    }
+
     /// The sines and cosines of several angles, as `sine_cosine` gives them, side by side in vector operations.
     #[inline(always)]
     #[must_use]
@@ -37,6 +53,14 @@ impl<T: RealField + Copy> Real for T {}
 #[inline(never)]
 fn beyond<T: Real>(angle: T) -> (T, T) {
     angle.sin_cos()
+}
+
+/// The traits whose functions are those of a scalar that is an associated type: of such a one they are known only where
+/// they are imported.
+pub mod arithmetic {
+    pub use approx::AbsDiffEq as _;
+    pub use nalgebra::{ComplexField as _, RealField as _};
+    pub use num_traits::{One as _, Zero as _};
 }
 
 /// A constant of the formula as a scalar.

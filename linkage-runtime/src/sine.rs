@@ -1,4 +1,4 @@
-//! Sine and cosine of doubles, one inlined or several side by side.
+//! Sine and cosine of doubles: one or both of them inlined, or those of several angles side by side.
 //!
 //! The argument is reduced as in Cody and Waite, *Software Manual for the Elementary Functions* (1980); what it
 //! rounds off goes into the polynomials as in fdlibm (Sun Microsystems, 1993). No fused multiplication is used,
@@ -55,7 +55,19 @@ const COSINE: [f64; 6] = [
 /// sin x and cos x, for |x| up to `LIMIT`.
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> Option<(f64, f64)> {
-    (x.abs() <= LIMIT).then(|| reduced(x))
+    (x.abs() <= LIMIT).then(|| both(x))
+}
+
+/// sin x, for |x| up to `LIMIT`.
+#[inline(always)]
+pub(crate) fn sin(x: f64) -> Option<f64> {
+    (x.abs() <= LIMIT).then(|| one(x, 0))
+}
+
+/// cos x, for |x| up to `LIMIT`.
+#[inline(always)]
+pub(crate) fn cos(x: f64) -> Option<f64> {
+    (x.abs() <= LIMIT).then(|| one(x, 1))
 }
 
 /// sin x and cos x of several angles, if all are up to `LIMIT`: to the bit what each gives alone.
@@ -63,14 +75,16 @@ pub(crate) fn sin_cos(x: f64) -> Option<(f64, f64)> {
 pub(crate) fn sines_cosines<const N: usize>(angles: &[f64; N]) -> Option<[(f64, f64); N]> {
     angles.iter().fold(true, |within, x| within & (x.abs() <= LIMIT)).then(|| {
         let mut values = [(0.0, 0.0); N];
-        for (x, values) in angles.chunks(4).zip(values.chunks_mut(4)) {
-            match *x {
-                [a] => values[0] = reduced(a),
-                [a, b] => values.copy_from_slice(&columns(two(a, b))),
-                [a, b, c] => values.copy_from_slice(&columns(four(a, b, c, c))[..3]),
-                [a, b, c, d] => values.copy_from_slice(&columns(four(a, b, c, d))),
-                _ => {}
-            }
+        let (fours, rest) = angles.as_chunks::<4>();
+        let (values_of_fours, values_of_rest) = values.as_chunks_mut::<4>();
+        for (&[a, b, c, d], values) in fours.iter().zip(values_of_fours) {
+            *values = columns(four(a, b, c, d));
+        }
+        match (rest, values_of_rest) {
+            (&[a], [first]) => *first = both(a),
+            (&[a, b], [first, second]) => [*first, *second] = columns(two(a, b)),
+            (&[a, b, c], [first, second, third]) => [*first, *second, *third, _] = columns(four(a, b, c, c)),
+            _ => {}
         }
         values
     })
@@ -78,7 +92,11 @@ pub(crate) fn sines_cosines<const N: usize>(angles: &[f64; N]) -> Option<[(f64, 
 
 #[inline(always)]
 fn columns<const LANES: usize>([sines, cosines]: [[f64; LANES]; 2]) -> [(f64, f64); LANES] {
-    core::array::from_fn(|i| (sines[i], cosines[i]))
+    let mut values = [(0.0, 0.0); LANES];
+    for (value, pair) in values.iter_mut().zip(sines.into_iter().zip(cosines)) {
+        *value = pair;
+    }
+    values
 }
 
 /// Apart, so that the loop becomes vector operations whatever surrounds the call; the angles in registers.
@@ -96,33 +114,55 @@ fn four(a: f64, b: f64, c: f64, d: f64) -> [[f64; 4]; 2] {
 #[inline(always)]
 fn lanes<const LANES: usize>(angles: [f64; LANES]) -> [[f64; LANES]; 2] {
     let (mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES]);
-    for i in 0..LANES {
-        (sines[i], cosines[i]) = reduced(angles[i]);
+    for ((sine, cosine), angle) in sines.iter_mut().zip(&mut cosines).zip(angles) {
+        (*sine, *cosine) = both(angle);
     }
     [sines, cosines]
 }
 
 /// sin x and cos x, |x| <= `LIMIT`.
 #[inline(always)]
-fn reduced(x: f64) -> (f64, f64) {
-    // x = k pi/2 + r, |r| <= pi/4.
-    let shifted = x * core::f64::consts::FRAC_2_PI + SHIFT;
-    let k = shifted - SHIFT;
-    // Both terms of `near` are exact, and so is `far`; what `head` rounds off is in `tail`, and its zero
-    // has no sign: that of x stays.
-    let near = x - k * HALF_PI[0];
-    let far = k * HALF_PI[1];
-    let head = near - far;
-    let tail = k * HALF_PI[2] - ((near - head) - far);
-
+fn both(x: f64) -> (f64, f64) {
+    let Reduced { quadrant, head, tail } = Reduced::new(x);
     let (sine, cosine) = kernel(head, tail);
-
     // k mod 4: sin, cos; cos, -sin; -sin, -cos; -cos, sin.
-    let quadrant = shifted.to_bits();
     let swap = (quadrant & 1).wrapping_neg() & (sine.to_bits() ^ cosine.to_bits());
     let sine_sign = (quadrant & 2) << 62;
     let cosine_sign = (quadrant.wrapping_add(1) & 2) << 62;
     (f64::from_bits(sine.to_bits() ^ swap ^ sine_sign), f64::from_bits(cosine.to_bits() ^ swap ^ cosine_sign))
+}
+
+/// sin(x + n pi/2), |x| <= `LIMIT`: to the bit what `both` gives, by one of the two polynomials.
+#[inline(always)]
+fn one(x: f64, n: u64) -> f64 {
+    let Reduced { quadrant, head, tail } = Reduced::new(x);
+    let quadrant = quadrant.wrapping_add(n);
+    let value = if quadrant & 1 == 0 { kernel(head, tail).0 } else { kernel(head, tail).1 };
+    f64::from_bits(value.to_bits() ^ (quadrant & 2) << 62)
+}
+
+/// x = k pi/2 + head - tail, |head - tail| <= pi/4.
+struct Reduced {
+    /// k in the lowest bits.
+    quadrant: u64,
+    head: f64,
+    tail: f64,
+}
+
+impl Reduced {
+    #[inline(always)]
+    fn new(x: f64) -> Self {
+        let shifted = x * core::f64::consts::FRAC_2_PI + SHIFT;
+        let k = shifted - SHIFT;
+        // Both terms of `near` are exact, and so is `far`; what `head` rounds off is in `tail`, and its zero
+        // has no sign: that of x stays.
+        let [large, middle, small] = HALF_PI;
+        let near = x - k * large;
+        let far = k * middle;
+        let head = near - far;
+        let tail = k * small - ((near - head) - far);
+        Self { quadrant: shifted.to_bits(), head, tail }
+    }
 }
 
 /// sin(r - t) and cos(r - t), |t| below the last place of r or 2^-54.
@@ -133,13 +173,13 @@ fn kernel(r: f64, t: f64) -> (f64, f64) {
     let half = 0.5 * z;
     let rest = 1.0 - half;
     // Both polynomials in the same order of operations: a pair of them is one vector operation.
-    let both = |i: usize| [SINE[i] + z * SINE[i + 1], COSINE[i] + z * COSINE[i + 1]];
-    let ([a, d], [b, e], [c, f]) = (both(0), both(2), both(4));
+    let both = |[s, t]: [f64; 2], [c, d]: [f64; 2]| [s + z * t, c + z * d];
+    let ([s0, s1, s2, s3, s4, s5], [c0, c1, c2, c3, c4, c5]) = (SINE, COSINE);
+    let ([a, d], [b, e], [c, f]) = (both([s0, s1], [c0, c1]), both([s2, s3], [c2, c3]), both([s4, s5], [c4, c5]));
     let v = w * w;
     let polynomials = [a + (w * b + v * c), d + (w * e + v * f)];
     let factors = [r * z, w];
     let corrections = [t * rest, (half - (1.0 - rest)) - r * t];
-    let leading = [r, rest];
-    let part = |i: usize| leading[i] - (corrections[i] + factors[i] * polynomials[i]);
-    (part(0), part(1))
+    let ([sine, cosine], [of_sine, of_cosine], [to_sine, to_cosine]) = (polynomials, factors, corrections);
+    (r - (to_sine + of_sine * sine), rest - (to_cosine + of_cosine * cosine))
 }

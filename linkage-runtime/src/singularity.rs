@@ -60,36 +60,31 @@ mod decomposition;
 
 use core::fmt;
 
-use nalgebra::{SMatrix, SVector};
-
-use crate::error::all_finite;
-use crate::scalar::{larger, largest, relative, to_f64};
-use crate::{Error, Mechanism, Real, finite, real};
+use crate::error::{all_finite, finite};
+use crate::jacobian::rounding::{CLOSED, roundings};
+use crate::jacobian::{Blocks, largest_entries, positive};
+use crate::scalar::arithmetic::*;
+use crate::scalar::{largest, relative, to_f64};
+use crate::{Column, Dim, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real, real};
 use decomposition::Decomposition;
 
-/// A singular value below this many roundings for each unknown is zero.
-const ROUNDINGS: f64 = 4.0;
-
 /// How near a position is to a singular configuration, and what is special about it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Singularity<T, const U: usize, const V: usize> {
-    mechanism: &'static str,
-    unknowns: [&'static str; U],
-    inputs: [&'static str; V],
-    determinant: T,
+pub struct Singularity<M: Mechanism> {
+    determinant: M::Scalar,
     rank: usize,
-    sigma_min: T,
-    groups: [GroupMeasure<T>; U],
-    group_count: usize,
+    sigma_min: M::Scalar,
+    groups: Column<GroupMeasure<M::Scalar>, M::G>,
     rank_with_inputs: usize,
     /// The last U - rank columns.
-    free: SMatrix<T, U, U>,
+    free: Matrix<M::Scalar, M::U, M::U>,
     /// The last `admissible_count` columns.
-    admissible: SMatrix<T, V, V>,
+    admissible: Matrix<M::Scalar, M::V, M::V>,
     admissible_count: usize,
     /// sigma min with an input in place of an unknown, where that is regular.
-    exchanges: SMatrix<T, U, V>,
+    exchanges: Matrix<M::Scalar, M::U, M::V>,
 }
+
+crate::__by_fields!([M: Mechanism] Singularity<M> { determinant, rank, sigma_min, groups, rank_with_inputs, free, admissible, admissible_count, exchanges });
 
 /// How near one group of unknowns is to being singular.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +95,7 @@ pub struct GroupMeasure<T> {
     pub determinant: T,
     /// A pure number, 0 where the group is singular: of one and two unknowns the determinant beside the largest
     /// product of entries that it could be made of (of a dyad RRR |sin| of the angle between its links, of a slider
-    /// on a guide |cos| of the pressure angle), of more unknowns the determinant beside the product of its columns.
+    /// on a guide |cos| of the pressure angle), of more unknowns the smallest pivot of the equilibrated block.
     pub regularity: T,
     /// The smallest singular value of the equilibrated block.
     pub sigma_min: T,
@@ -120,63 +115,50 @@ pub struct Exchange<T> {
 }
 
 /// What the residual and the singular values say of a position.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Accuracy<T, const U: usize> {
+pub struct Accuracy<M: Mechanism> {
     /// The largest residual beside the sum of the magnitudes of its terms.
-    pub residual: T,
+    pub residual: M::Scalar,
     /// The smallest singular value of the equilibrated J.
-    pub sigma_min: T,
+    pub sigma_min: M::Scalar,
     /// The divisors of the columns of J.
-    scales: SVector<T, U>,
+    scales: PerUnknown<M>,
 }
 
-impl<T: Real, const U: usize> Accuracy<T, U> {
+crate::__by_fields!([M: Mechanism] Accuracy<M> { residual, sigma_min, scales });
+
+impl<M: Mechanism> Accuracy<M> {
     /// eps / sigma min: the relative error that rounding the closures once explains. Infinite in a singular
     /// configuration, where the position is a double root and right to about the root of eps.
     #[must_use]
-    pub fn attainable(&self) -> T {
-        T::default_epsilon() / self.sigma_min
+    pub fn attainable(&self) -> M::Scalar {
+        M::Scalar::default_epsilon() / self.sigma_min
     }
 
     /// The same of each unknown by itself, in radians and lengths.
     #[must_use]
-    pub fn unknowns(&self) -> SVector<T, U> {
+    pub fn unknowns(&self) -> PerUnknown<M> {
         self.scales.map(|scale| self.attainable() / scale)
     }
 }
 
 /// J and A with rows and columns of comparable sizes.
-struct Equilibrated<T, const U: usize, const V: usize> {
-    unknowns: SMatrix<T, U, U>,
-    inputs: SMatrix<T, U, V>,
-    sizes: SVector<T, U>,
+struct Equilibrated<M: Mechanism> {
+    unknowns: Matrix<M::Scalar, M::U, M::U>,
+    inputs: Matrix<M::Scalar, M::U, M::V>,
+    sizes: PerUnknown<M>,
     /// What the columns of J and of A were divided by.
-    unknown_scales: SVector<T, U>,
-    input_scales: SVector<T, V>,
+    unknown_scales: PerUnknown<M>,
+    input_scales: PerInput<M>,
 }
 
-impl<T: Real, const U: usize, const V: usize> Equilibrated<T, U, V> {
-    fn of<M: Mechanism<T, U, V>>(mechanism: &M, pose: &M::Pose) -> Result<Self, Error> {
-        let (mut unknowns, mut inputs) = (mechanism.jacobian_unknowns(pose), mechanism.jacobian_inputs(pose));
+impl<M: Mechanism> Equilibrated<M> {
+    fn of(mechanism: &M, pose: &M::Pose) -> Result<Self, PositionError> {
         let sizes = mechanism.closure_sizes(pose);
-        let (mut unknown_sizes, mut input_sizes) = mechanism.jacobian_sizes(pose);
-        for row in 0..U {
-            let size = positive(sizes[row]);
-            unknowns.row_mut(row).unscale_mut(size);
-            unknown_sizes.row_mut(row).unscale_mut(size);
-            inputs.row_mut(row).unscale_mut(size);
-            input_sizes.row_mut(row).unscale_mut(size);
-        }
-        let unknown_scales =
-            SVector::<T, U>::from_fn(|column, _| positive(largest(unknown_sizes.column(column).iter().copied())));
-        let input_scales =
-            SVector::<T, V>::from_fn(|column, _| positive(largest(input_sizes.column(column).iter().copied())));
-        for column in 0..U {
-            unknowns.column_mut(column).unscale_mut(unknown_scales[column]);
-        }
-        for column in 0..V {
-            inputs.column_mut(column).unscale_mut(input_scales[column]);
-        }
+        let divisors = sizes.map(positive);
+        let (unknowns, unknown_scales) =
+            equilibrated(&divisors, &mechanism.jacobian_unknowns(pose), &mechanism.jacobian_unknowns_sizes(pose));
+        let (inputs, input_scales) =
+            equilibrated(&divisors, &mechanism.jacobian_inputs(pose), &mechanism.jacobian_inputs_sizes(pose));
         // Divided by infinite sizes everything would be zero.
         let scales = sizes.iter().chain(unknown_scales.iter()).chain(input_scales.iter());
         all_finite(M::NAME, "the Jacobian", unknowns.iter().chain(inputs.iter()).chain(scales))?;
@@ -184,70 +166,69 @@ impl<T: Real, const U: usize, const V: usize> Equilibrated<T, U, V> {
     }
 }
 
-/// A divisor: what is zero divides nothing.
-fn positive<T: Real>(size: T) -> T {
-    if size.is_zero() { T::one() } else { size }
+/// A matrix with its rows divided, and its columns by the largest entry that they could then have.
+///
+/// These are not the sizes of [`Scales`](crate::jacobian::Scales): a row is divided by what its rounding is in proportion
+/// to, the sum of the magnitudes of its terms here, and the column of an angle is divided like any other, so that sigma min
+/// says how the closures determine the unknowns and not how far a unit of an angle moves something.
+fn equilibrated<T: Real, R: Dim, C: Dim>(
+    divisors: &Column<T, R>,
+    matrix: &Matrix<T, R, C>,
+    sizes: &Matrix<T, R, C>,
+) -> (Matrix<T, R, C>, Column<T, C>) {
+    let scales = largest_entries(sizes, divisors).map(positive);
+    let columns = matrix.columns().zip_map(&scales, |column, scale| column.component_div(divisors).map(|x| x / scale));
+    (Matrix::from_columns(columns), scales)
 }
 
 /// Below this a singular value of `count` unknowns is zero.
 fn threshold<T: Real>(count: usize) -> T {
-    real::<T>(ROUNDINGS * u32::try_from(count).map_or(f64::MAX, f64::from)) * T::default_epsilon()
+    roundings(CLOSED * u32::try_from(count).map_or(f64::MAX, f64::from))
 }
 
 /// All that can be said of a position as to singularity. It takes a singular value decomposition for each pair of an
 /// unknown and an input: a report, not a part of an inner loop.
 ///
 /// # Errors
-/// [`Error::NotFinite`] if an entry of the Jacobian, a determinant or a rate is not a finite number.
-pub fn report<T, M, const U: usize, const V: usize>(
-    mechanism: &M,
-    pose: &M::Pose,
-) -> Result<Singularity<T, U, V>, Error>
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
+/// [`PositionError::NotFinite`] if an entry of the Jacobian, a determinant or a rate is not a finite number.
+pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity<M>, PositionError> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let Equilibrated { unknowns: j, inputs: a, unknown_scales, input_scales, .. } = &equilibrated;
-    let zero = threshold::<T>(U);
+    let zero = threshold::<M::Scalar>(M::U::COUNT);
     let right = Decomposition::of(*j);
     let rank = right.rank(zero);
     // l J = 0: what is left of the closures where no unknown can answer, (l A) v' = 0.
     let left = Decomposition::of(j.transpose()).vectors;
-    let mut conditions = left.transpose() * a;
+    let mut conditions = left.tr_mul_matrix(a);
     for row in 0..rank {
-        conditions.row_mut(row).fill(T::zero());
+        conditions.scale_row(row, M::Scalar::zero());
     }
     let conditions = Decomposition::of(conditions);
     let conditions_rank = conditions.rank(zero);
-    let exchanges = SMatrix::<T, U, V>::from_fn(|unknown, input| {
+    let exchanges = Matrix::<M::Scalar, M::U, M::V>::from_fn(|unknown, input| {
         let mut exchanged = *j;
-        exchanged.set_column(unknown, &a.column(input));
+        exchanged.set_column(unknown, a.column(input));
         let sigma_min = Decomposition::of(exchanged).least();
-        if sigma_min > zero { sigma_min } else { T::zero() }
+        if sigma_min > zero { sigma_min } else { M::Scalar::zero() }
     });
     let determinant = mechanism.determinant(pose);
     finite(M::NAME, "the determinant", [determinant])?;
     all_finite(M::NAME, "a singular value", right.values.iter())?;
-    let groups = core::array::from_fn(|group| measure(mechanism, pose, &equilibrated, group));
-    let measures =
-        groups.iter().flat_map(|group: &GroupMeasure<T>| [&group.determinant, &group.regularity, &group.sigma_min]);
+    let blocks = Blocks::of(mechanism, pose);
+    let groups = Column::<_, M::G>::from_fn(|group| measure(&blocks, group));
+    let measures = groups.iter().flat_map(|group| [&group.determinant, &group.regularity, &group.sigma_min]);
     all_finite(M::NAME, "the determinant", measures)?;
     let (free, admissible) = (in_units(right.vectors, unknown_scales), in_units(conditions.vectors, input_scales));
     all_finite(M::NAME, "a rate", free.iter().chain(admissible.iter()).chain(exchanges.iter()))?;
     Ok(Singularity {
-        mechanism: M::NAME,
-        unknowns: M::UNKNOWNS,
-        inputs: M::INPUTS,
         determinant,
         rank,
         sigma_min: right.least(),
         groups,
-        group_count: M::GROUPS.len(),
         rank_with_inputs: rank + conditions_rank,
         free,
         admissible,
-        admissible_count: V - conditions_rank,
+        admissible_count: M::V::COUNT - conditions_rank,
         exchanges,
     })
 }
@@ -255,12 +236,8 @@ where
 /// sigma min of a position by itself.
 ///
 /// # Errors
-/// [`Error::NotFinite`] if an entry of the Jacobian is not a finite number.
-pub fn sigma_min<T, M, const U: usize, const V: usize>(mechanism: &M, pose: &M::Pose) -> Result<T, Error>
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
+/// [`PositionError::NotFinite`] if an entry of the Jacobian is not a finite number.
+pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scalar, PositionError> {
     let sigma_min = Decomposition::of(Equilibrated::of(mechanism, pose)?.unknowns).least();
     finite(M::NAME, "a singular value", [sigma_min])?;
     Ok(sigma_min)
@@ -269,12 +246,8 @@ where
 /// The residual of a position and how accurate a position can be there: eps / sigma min.
 ///
 /// # Errors
-/// [`Error::NotFinite`] if a residual or an entry of the Jacobian is not a finite number.
-pub fn accuracy<T, M, const U: usize, const V: usize>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<T, U>, Error>
-where
-    T: Real,
-    M: Mechanism<T, U, V>,
-{
+/// [`PositionError::NotFinite`] if a residual or an entry of the Jacobian is not a finite number.
+pub fn accuracy<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<M>, PositionError> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let residual = mechanism.residual(pose);
     let residual = largest(residual.iter().zip(equilibrated.sizes.iter()).map(|(&psi, &size)| relative(psi, size)));
@@ -285,61 +258,28 @@ where
 }
 
 /// Vectors of the equilibrated system as rates, the entry that counts most there being 1.
-fn in_units<T: Real, const N: usize>(vectors: SMatrix<T, N, N>, scales: &SVector<T, N>) -> SMatrix<T, N, N> {
-    let mut vectors = vectors;
-    for mut vector in vectors.column_iter_mut() {
-        let leading = vector.iamax();
-        for (entry, scale) in vector.iter_mut().zip(scales) {
-            *entry /= *scale;
-        }
-        let divisor = positive(vector[leading]);
-        vector.unscale_mut(divisor);
-    }
-    vectors
+fn in_units<T: Real, N: Dim>(vectors: Matrix<T, N, N>, scales: &Column<T, N>) -> Matrix<T, N, N> {
+    Matrix::from_columns(vectors.columns().map(|vector| {
+        let leading = vector.leading();
+        let rates = vector.component_div(scales);
+        rates.map(|rate| rate / positive(rates[leading]))
+    }))
 }
 
-fn measure<T: Real, M: Mechanism<T, U, V>, const U: usize, const V: usize>(
-    mechanism: &M,
-    pose: &M::Pose,
-    equilibrated: &Equilibrated<T, U, V>,
-    group: usize,
-) -> GroupMeasure<T> {
-    let (zero, one) = (T::zero(), T::one());
-    let Some(block) = M::GROUPS.get(group) else {
-        return GroupMeasure { name: "", determinant: one, regularity: one, sigma_min: one, is_regular: true };
-    };
-    let determinant = mechanism.block_determinants(pose).as_ref().get(group).copied().unwrap_or(zero);
-    // The block in the corner of a diagonal that is larger than any singular value of it; its columns equilibrated
-    // by what they could be in these rows alone.
-    let (sizes, _) = mechanism.jacobian_sizes(pose);
-    let count = real::<T>(u32::try_from(U).map_or(f64::MAX, f64::from));
-    let mut matrix = SMatrix::<T, U, U>::from_diagonal_element(count);
-    for (column, &unknown) in block.unknowns.iter().enumerate() {
-        let relative_size = |&equation: &usize| sizes[(equation, unknown)] / positive(equilibrated.sizes[equation]);
-        let scale = positive(largest(block.equations.iter().map(relative_size)));
-        for (row, &equation) in block.equations.iter().enumerate() {
-            let entry = equilibrated.unknowns[(equation, unknown)];
-            matrix[(row, column)] = entry * equilibrated.unknown_scales[unknown] / scale;
-        }
-    }
-    let decomposition = Decomposition::of(matrix);
-    let regularity = match (block.equations, block.unknowns) {
-        (&[i], &[j]) => relative(determinant, sizes[(i, j)]),
-        (&[i, k], &[j, l]) => {
-            relative(determinant, larger(sizes[(i, j)] * sizes[(k, l)], sizes[(i, l)] * sizes[(k, j)]))
-        }
-        // |det| is the product of the singular values.
-        _ => (0..U).fold(one, |part, place| part * decomposition.values[place] / positive(matrix.column(place).norm())),
-    };
-    let sigma_min = decomposition.least();
+fn measure<M: Mechanism>(blocks: &Blocks<M>, group: usize) -> GroupMeasure<M::Scalar> {
+    let block = &M::GROUPS[group];
+    // The block in the corner of a diagonal that is larger than any singular value of it.
+    let count = u32::try_from(M::U::COUNT).map_or(f64::MAX, f64::from);
+    let sigma_min = Decomposition::of(blocks.equilibrated(block, real(count))).least();
     let is_regular = sigma_min > threshold(block.unknowns.len());
-    GroupMeasure { name: block.name, determinant, regularity: regularity.abs(), sigma_min, is_regular }
+    let (determinant, regularity) = (blocks.determinants()[group], blocks.regularity(group));
+    GroupMeasure { name: block.name, determinant, regularity, sigma_min, is_regular }
 }
 
-impl<T: Real, const U: usize, const V: usize> Singularity<T, U, V> {
+impl<M: Mechanism> Singularity<M> {
     /// det J.
     #[must_use]
-    pub fn determinant(&self) -> T {
+    pub fn determinant(&self) -> M::Scalar {
         self.determinant
     }
 
@@ -352,7 +292,7 @@ impl<T: Real, const U: usize, const V: usize> Singularity<T, U, V> {
     /// Whether the rank of J is less than the number of unknowns: the inputs cannot drive the mechanism.
     #[must_use]
     pub fn is_singular(&self) -> bool {
-        self.rank < U
+        self.rank < M::U::COUNT
     }
 
     /// The rank of J and A together. Where it is less than the number of unknowns, no choice of inputs is regular:
@@ -364,46 +304,47 @@ impl<T: Real, const U: usize, const V: usize> Singularity<T, U, V> {
 
     /// The smallest singular value of the equilibrated J.
     #[must_use]
-    pub fn sigma_min(&self) -> T {
+    pub fn sigma_min(&self) -> M::Scalar {
         self.sigma_min
     }
 
     /// The groups, in the order in which they are solved.
-    pub fn groups(&self) -> impl Iterator<Item = &GroupMeasure<T>> {
-        self.groups.iter().take(self.group_count)
+    pub fn groups(&self) -> impl Iterator<Item = &GroupMeasure<M::Scalar>> {
+        self.groups.iter()
     }
 
     /// A basis of the rates u' that are possible while the inputs stand still; none where J is regular. In each
     /// the rate that matters most is 1.
-    pub fn free(&self) -> impl Iterator<Item = SVector<T, U>> {
-        (self.rank..U).map(|column| self.free.column(column).into_owned())
+    pub fn free(&self) -> impl Iterator<Item = PerUnknown<M>> {
+        (self.rank..M::U::COUNT).map(|column| self.free.column(column))
     }
 
     /// A basis of the input rates v' that are possible: as many as there are inputs where J is regular.
-    pub fn admissible(&self) -> impl Iterator<Item = SVector<T, V>> {
-        (V - self.admissible_count..V).map(|column| self.admissible.column(column).into_owned())
+    pub fn admissible(&self) -> impl Iterator<Item = PerInput<M>> {
+        (M::V::COUNT - self.admissible_count..M::V::COUNT).map(|column| self.admissible.column(column))
     }
 
     /// The exchanges of one input for one unknown with which J is regular.
-    pub fn drivers(&self) -> impl Iterator<Item = Exchange<T>> {
-        let pairs = (0..V).flat_map(|input| (0..U).map(move |unknown| (unknown, input)));
+    pub fn drivers(&self) -> impl Iterator<Item = Exchange<M::Scalar>> {
+        let pairs = (0..M::V::COUNT).flat_map(|input| (0..M::U::COUNT).map(move |unknown| (unknown, input)));
         pairs.filter_map(|(unknown, input)| {
             let sigma_min = self.exchanges[(unknown, input)];
-            let exchange = Exchange { unknown: self.unknowns[unknown], input: self.inputs[input], sigma_min };
-            (sigma_min > T::zero()).then_some(exchange)
+            let exchange = Exchange { unknown: M::UNKNOWNS[unknown], input: M::INPUTS[input], sigma_min };
+            (sigma_min > M::Scalar::zero()).then_some(exchange)
         })
     }
 }
 
-impl<T: Real, const U: usize, const V: usize> fmt::Display for Singularity<T, U, V> {
+impl<M: Mechanism> fmt::Display for Singularity<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verdict = if self.is_singular() { "singular" } else { "regular" };
         writeln!(
             f,
-            "{} is {verdict}: det J = {:.3e}, rank {} of {U}, sigma min {:.1e}",
-            self.mechanism,
+            "{} is {verdict}: det J = {:.3e}, rank {} of {}, sigma min {:.1e}",
+            M::NAME,
             to_f64(self.determinant),
             self.rank,
+            M::U::COUNT,
             to_f64(self.sigma_min)
         )?;
         for group in self.groups() {
@@ -412,14 +353,14 @@ impl<T: Real, const U: usize, const V: usize> fmt::Display for Singularity<T, U,
         }
         for free in self.free() {
             write!(f, "free:")?;
-            rates(f, &self.unknowns, free.iter())?;
+            rates(f, M::UNKNOWNS, free.iter())?;
         }
         if self.admissible_count == 0 {
             writeln!(f, "no input can move")?;
-        } else if self.admissible_count < V {
+        } else if self.admissible_count < M::V::COUNT {
             for admissible in self.admissible() {
                 write!(f, "admissible:")?;
-                rates(f, &self.inputs, admissible.iter())?;
+                rates(f, M::INPUTS, admissible.iter())?;
             }
         }
         if self.is_singular() {

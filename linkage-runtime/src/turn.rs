@@ -6,7 +6,7 @@
 use core::cell::Cell;
 
 use crate::scalar::to_f64;
-use crate::{Error, Real, real};
+use crate::{InputError, PositionError, Real, real};
 
 /// The choice of the turns of a mechanism's angles, each of which has a place.
 pub trait Turn<T: Real> {
@@ -21,7 +21,7 @@ pub struct Turns<const N: usize>(pub [i32; N]);
 impl<T: Real, const N: usize> Turn<T> for Turns<N> {
     #[inline]
     fn number(&self, place: usize, principal: T) -> T {
-        turned(principal, self.0[place])
+        turned(principal, self.0.get(place).copied().unwrap_or_default())
     }
 }
 
@@ -49,10 +49,13 @@ impl<T: Real, const N: usize> NearestTurns<T, N> {
 impl<T: Real, const N: usize> Turn<T> for NearestTurns<T, N> {
     #[inline]
     fn number(&self, place: usize, principal: T) -> T {
-        let mut turns = self.turns.get();
-        turns[place] = whole_turns(self.near[place] - principal);
-        self.turns.set(turns);
-        turned(principal, turns[place])
+        let mut all = self.turns.get();
+        // There is an angle at each place that is asked for.
+        let (Some(near), Some(turns)) = (self.near.get(place), all.get_mut(place)) else { return principal };
+        *turns = whole_turns(*near - principal);
+        let number = turned(principal, *turns);
+        self.turns.set(all);
+        number
     }
 }
 
@@ -72,16 +75,23 @@ fn whole_turns<T: Real>(angle: T) -> i32 {
 /// Refuses guesses of angles that are not numbers, or so many turns away that a branch could not count them.
 ///
 /// # Errors
-/// [`Error::NotFinite`], [`Error::OutOfRange`].
-pub fn countable<T: Real, const N: usize>(mechanism: &'static str, guesses: [T; N]) -> Result<(), Error> {
+/// [`PositionError::NotFinite`], [`InputError::OutOfRange`].
+pub fn countable<T: Real, const N: usize>(mechanism: &'static str, guesses: [T; N]) -> Result<(), PositionError> {
     let most = f64::from(i32::MAX) * core::f64::consts::TAU;
     for guess in guesses {
         if !guess.is_finite() {
-            return Err(Error::NotFinite { mechanism, quantity: "the guess" });
+            return Err(PositionError::NotFinite { mechanism, quantity: "the guess" });
         }
         let value = to_f64(guess);
         if value.abs() > most {
-            return Err(Error::OutOfRange { quantity: "the guess of an angle", value, least: -most, most });
+            return Err(InputError::OutOfRange {
+                of: Some(mechanism),
+                quantity: "the guess of an angle",
+                value,
+                least: -most,
+                most,
+            }
+            .into());
         }
     }
     Ok(())
@@ -107,8 +117,8 @@ mod tests {
     #[test]
     fn numbers_that_no_turn_reaches() {
         assert_eq!(NearestTurns::new([f64::NAN, 1e300, -1e300]).turns(), [0, i32::MAX, i32::MIN]);
-        assert!(matches!(countable("m", [f64::NAN]), Err(Error::NotFinite { .. })));
-        assert!(matches!(countable("m", [0.0, -1.4e10]), Err(Error::OutOfRange { .. })));
+        assert!(matches!(countable("m", [f64::NAN]), Err(PositionError::NotFinite { .. })));
+        assert!(matches!(countable("m", [0.0, -1.4e10]), Err(PositionError::Input(InputError::OutOfRange { .. }))));
         assert!(countable("m", [0.0, -1.3e10]).is_ok());
     }
 }

@@ -1,4 +1,4 @@
-//! The error of `Real::sine_cosine`, against a reference in pairs of doubles.
+//! The error of `Real::sine_cosine`, `sine` and `cosine`, against a reference in pairs of doubles.
 //!
 //! `cargo test --release -p linkage-runtime --test sine -- --ignored --nocapture` measures what the
 //! documentation of the module says.
@@ -107,9 +107,12 @@ impl Largest {
                 *largest = (error, x);
             }
         }
-        // Odd and even, bit for bit.
+        // Odd and even, alone and together, bit for bit.
+        let expected = bits((sine, cosine));
         let (negative, same) = (-x).sine_cosine();
-        assert_eq!(((-negative).to_bits(), same.to_bits()), (sine.to_bits(), cosine.to_bits()), "{x:e}");
+        assert_eq!(bits((-negative, same)), expected, "{x:e}");
+        assert_eq!(bits((x.sine(), x.cosine())), expected, "{x:e}");
+        assert_eq!(bits((-(-x).sine(), (-x).cosine())), expected, "{x:e}");
     }
 
     fn check(&self, what: &str) {
@@ -225,6 +228,7 @@ fn other_scalars() {
     fn check<T: Real>(scalar: impl Fn(f64) -> T) {
         for x in random(6).take(200).chain([2.0]).map(|part| scalar(LIMIT * part)) {
             assert_eq!(x.sine_cosine(), x.sin_cos());
+            assert_eq!((x.sine(), x.cosine()), (x.sin(), x.cos()));
             assert_eq!(T::sines_cosines([x, -x]), [x.sin_cos(), (-x).sin_cos()]);
         }
     }
@@ -235,10 +239,13 @@ fn other_scalars() {
 
 #[test]
 fn small() {
-    assert_eq!((0.0f64).sine_cosine().0.to_bits(), 0.0f64.to_bits());
-    assert_eq!((-0.0f64).sine_cosine().0.to_bits(), (-0.0f64).to_bits());
+    for zero in [0.0f64, -0.0] {
+        assert_eq!(zero.sine_cosine().0.to_bits(), zero.to_bits());
+        assert_eq!(zero.sine().to_bits(), zero.to_bits());
+    }
     for x in [f64::from_bits(1), f64::MIN_POSITIVE / 3.0, f64::MIN_POSITIVE, 1e-300, 1e-160, 1e-20, 7e-9] {
         assert_eq!([x.sine_cosine(), (-x).sine_cosine()], [(x, 1.0), (-x, 1.0)]);
+        assert_eq!([x.sine(), (-x).sine(), x.cosine()], [x, -x, 1.0]);
     }
 }
 
@@ -248,10 +255,12 @@ fn large_and_none() {
     for x in random(7).take(1000).map(|part| LIMIT * (1.000_001 + part)).chain(beyond) {
         assert_eq!(bits(x.sine_cosine()), bits(x.sin_cos()));
         assert_eq!(bits((-x).sine_cosine()), bits((-x).sin_cos()));
+        assert_eq!(bits((x.sine(), x.cosine())), bits(x.sin_cos()));
     }
     for x in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
         let (sine, cosine) = x.sine_cosine();
         assert!(sine.is_nan() && cosine.is_nan());
+        assert!(x.sine().is_nan() && x.cosine().is_nan());
     }
     // On either side of the limit the two agree.
     for x in [LIMIT, LIMIT.next_down()] {

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`ClosedForm`] | `assemble`, group by group | the branch |
 //! | [`Newton<K>`](Newton) | the prediction of the velocity ratios, then `K` Newton steps | a position nearby |
-//! | [`Table<_, _, U, N>`](Table) | cubics between `N` positions | the table, one input |
+//! | [`Table<M, N>`](Table) | cubics between `N` positions | the table, one input |
 //!
 //! and each of them in the scalar that the mechanism is made of: `f32`, `f64`, or the `DoubleDouble` of 31 digits that
 //! the feature `double-double` brings.
@@ -47,27 +47,27 @@ use core::borrow::Borrow;
 pub use newton::Newton;
 pub use table::Table;
 
-use crate::{Assembly, Error, Mechanism, Real};
+use crate::{Assembly, Mechanism, PositionError};
 
 /// A road to the position of mechanisms `M`, asked for by its type: which one is known when the code is compiled, and the
 /// call is the direct call.
 ///
 /// ```
-/// use linkage_runtime::accuracy::{ClosedForm, Method};
-/// use linkage_runtime::{Assembly, Error, Real};
+/// use linkage_runtime::accuracy::{ClosedForm, PositionMethod};
+/// use linkage_runtime::{Assembly, D, PositionError};
 ///
 /// /// The velocity ratio of the first unknown, whatever the road to the position.
-/// fn ratio<T: Real, M, R, const U: usize>(m: &M, from: &R::From, input: M::Inputs) -> Result<T, Error>
+/// fn ratio<M, R>(m: &M, from: &R::From, input: M::Inputs) -> Result<M::Scalar, PositionError>
 /// where
-///     M: Assembly<T, U, 1>,
-///     R: Method<M, T, U, 1>,
+///     M: Assembly<V = D<1>>,
+///     R: PositionMethod<M>,
 /// {
 ///     let position = R::position(m, from, input)?;
 ///     let pose = std::borrow::Borrow::borrow(&position);
-///     Ok(-m.solve_jacobian(pose, &m.jacobian_inputs(pose).column(0).into_owned())?[0])
+///     Ok(-m.solve_jacobian(pose, &m.jacobian_inputs(pose).column(0))?[0])
 /// }
 /// ```
-pub trait Method<M: Mechanism<T, U, V>, T: Real, const U: usize, const V: usize> {
+pub trait PositionMethod<M: Mechanism> {
     /// What it starts from.
     type From;
     /// What it finds: a pose, or a pose with its coordinates.
@@ -77,23 +77,23 @@ pub trait Method<M: Mechanism<T, U, V>, T: Real, const U: usize, const V: usize>
     ///
     /// # Errors
     /// Those of the road; never a position of another branch than the one it starts from.
-    fn position(mechanism: &M, from: &Self::From, inputs: impl Into<M::Inputs>) -> Result<Self::Position, Error>;
+    fn position(
+        mechanism: &M,
+        from: &Self::From,
+        inputs: impl Into<M::Inputs>,
+    ) -> Result<Self::Position, PositionError>;
 }
 
 /// Position in closed form, group by group, from the branch: the `assemble` of a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ClosedForm;
 
-impl<M, T, const U: usize, const V: usize> Method<M, T, U, V> for ClosedForm
-where
-    M: Assembly<T, U, V>,
-    T: Real,
-{
+impl<M: Assembly> PositionMethod<M> for ClosedForm {
     type From = M::Branch;
     type Position = M::Pose;
 
     #[inline(always)]
-    fn position(mechanism: &M, branch: &M::Branch, inputs: impl Into<M::Inputs>) -> Result<M::Pose, Error> {
+    fn position(mechanism: &M, branch: &M::Branch, inputs: impl Into<M::Inputs>) -> Result<M::Pose, PositionError> {
         mechanism.assemble(inputs.into(), *branch)
     }
 }
@@ -109,11 +109,7 @@ pub struct Reached<Q, P> {
 
 impl<Q, P> Reached<Q, P> {
     /// The position at these coordinates; nothing is refused, as of [`Mechanism::pose_at`].
-    pub fn at<M, T, const U: usize, const V: usize>(mechanism: &M, coordinates: Q) -> Self
-    where
-        M: Mechanism<T, U, V, Coordinates = Q, Pose = P>,
-        T: Real,
-    {
+    pub fn at<M: Mechanism<Coordinates = Q, Pose = P>>(mechanism: &M, coordinates: Q) -> Self {
         Self { pose: mechanism.pose_at(&coordinates), coordinates }
     }
 }

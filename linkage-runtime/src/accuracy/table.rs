@@ -1,13 +1,14 @@
 //! Position from a table.
 
-use nalgebra::{ComplexField, SVector};
-
 use super::newton::predicted;
-use super::{Method, Reached};
-use crate::error::all_finite;
+use super::{PositionMethod, Reached};
+use crate::error::{all_finite, finite};
+use crate::jacobian::correction;
+use crate::jacobian::rounding::roundings;
 use crate::mechanism::{finite_position, other_group};
-use crate::scalar::{larger, largest, to_f64};
-use crate::{Error, Mechanism, Real, finite, newton, real};
+use crate::scalar::arithmetic::*;
+use crate::scalar::{larger, to_f64};
+use crate::{Column, D, InputError, Mechanism, PerInput, PerUnknown, PositionError, newton_any_branch, real};
 
 /// Positions of a mechanism with one input at `N` of its values, evenly spaced, and between them the cubics that have
 /// its velocity ratios as slopes (Hermite); no memory but its own 2 `U` `N` numbers.
@@ -18,41 +19,41 @@ use crate::{Error, Mechanism, Real, finite, newton, real};
 /// ```text
 /// u = u0 + t (s0 + t (3 d - 2 s0 - s1 + t (s0 + s1 - 2 d))),   d = u1 - u0, s = h W, t = (v - v0)/h
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Table<Q, T, const U: usize, const N: usize> {
-    first: Q,
-    input: T,
-    step: T,
-    inverse_step: T,
+pub struct Table<M: Mechanism, const N: usize> {
+    input: M::Scalar,
+    step: M::Scalar,
+    inverse_step: M::Scalar,
     /// u and h W.
-    entries: [[SVector<T, U>; 2]; N],
+    entries: [[PerUnknown<M>; 2]; N],
     /// What a turn adds to u, if the table is one.
-    advance: Option<SVector<T, U>>,
-    error: T,
+    advance: Option<PerUnknown<M>>,
+    error: M::Scalar,
 }
+
+crate::__by_fields!([M: Mechanism, const N: usize] Table<M, N> { input, step, inverse_step, entries, advance, error });
 
 /// Parts into which the way from entry to entry is divided when it is followed.
 const PARTS: u32 = 8;
 
 /// A turn adds whole turns to each angle and nothing to a length, to this many roundings of what is added.
-const ROUNDINGS: f64 = 1e4;
+const WHOLE: f64 = 1e4;
 
-impl<Q: Copy, T: Real, const U: usize, const N: usize> Table<Q, T, U, N> {
+impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
     /// Over a whole turn of the input, from these coordinates, which close the mechanism; outside it the turn repeats.
     ///
     /// # Errors
-    /// [`Error::NotPeriodic`] if a turn does not lead back; those of [`Table::between`].
-    pub fn turn<M: Mechanism<T, U, 1, Coordinates = Q>>(mechanism: &M, start: &Q) -> Result<Self, Error> {
-        let [input]: [T; 1] = M::inputs(start).into();
-        let mut table = Self::between(mechanism, start, input + T::two_pi())?;
+    /// [`InputError::NotPeriodic`] if a turn does not lead back; those of [`Table::between`].
+    pub fn turn(mechanism: &M, start: &M::Coordinates) -> Result<Self, PositionError> {
+        let [input] = M::inputs(start).into();
+        let mut table = Self::between(mechanism, start, input + M::Scalar::two_pi())?;
         let ends = [0, N - 1].map(|index| table.entries[index][0]);
-        let turns = (ends[1] - ends[0]).map(|way| (way / T::two_pi()).round() * T::two_pi());
-        let rest = largest((ends[1] - ends[0] - turns).iter().copied());
-        let size = T::one() + largest(ends[0].iter().chain(ends[1].iter()).copied());
+        let turns = (ends[1] - ends[0]).map(|way| (way / M::Scalar::two_pi()).round() * M::Scalar::two_pi());
+        let rest = (ends[1] - ends[0] - turns).largest();
+        let size = M::Scalar::one() + larger(ends[0].largest(), ends[1].largest());
         // What is not a number is no whole turn.
-        let is_whole = rest <= real::<T>(ROUNDINGS) * T::default_epsilon() * size;
+        let is_whole = rest <= roundings::<M::Scalar>(WHOLE) * size;
         if !is_whole {
-            return Err(Error::NotPeriodic { mechanism: M::NAME });
+            return Err(InputError::NotPeriodic { mechanism: M::NAME }.into());
         }
         table.advance = Some(turns);
         Ok(table)
@@ -61,28 +62,27 @@ impl<Q: Copy, T: Real, const U: usize, const N: usize> Table<Q, T, U, N> {
     /// From these coordinates, which close the mechanism, to another value of the input.
     ///
     /// # Errors
-    /// [`Error::OtherBranch`], [`Error::Singular`] or [`Error::NotConverged`] if there is a dead point on the way,
-    /// [`Error::NotFinite`] if a number is not finite.
-    pub fn between<M: Mechanism<T, U, 1, Coordinates = Q>>(mechanism: &M, start: &Q, end: T) -> Result<Self, Error> {
+    /// [`PositionError::OtherBranch`], [`PositionError::Singular`] or [`PositionError::NotConverged`] if there is a dead
+    /// point on the way, [`PositionError::NotFinite`] if a number is not finite.
+    pub fn between(mechanism: &M, start: &M::Coordinates, end: M::Scalar) -> Result<Self, PositionError> {
         const { assert!(N >= 2, "a table has two entries at least") };
-        let [input]: [T; 1] = M::inputs(start).into();
-        let intervals = real::<T>(count(N - 1));
+        let [input] = M::inputs(start).into();
+        let intervals = real::<M::Scalar>(count(N - 1));
         let step = (end - input) / intervals;
         let mut table = Self {
-            first: *start,
             input,
             step,
-            inverse_step: T::one() / step,
-            entries: [[SVector::zeros(); 2]; N],
+            inverse_step: M::Scalar::one() / step,
+            entries: [[Column::zeros(); 2]; N],
             advance: None,
-            error: T::zero(),
+            error: M::Scalar::zero(),
         };
         let mut here = closed(mechanism, Reached::at(mechanism, *start), input)?;
         for index in 0..N {
             if index > 0 {
                 here = table.follow(mechanism, here, index)?;
             }
-            let column = mechanism.jacobian_inputs(&here.pose).column(0).into_owned();
+            let column = mechanism.jacobian_inputs(&here.pose).column(0);
             let slope = -mechanism.solve_jacobian(&here.pose, &column)? * step;
             table.entries[index] = [M::unknowns(&here.coordinates), slope];
         }
@@ -94,46 +94,40 @@ impl<Q: Copy, T: Real, const U: usize, const N: usize> Table<Q, T, U, N> {
 
     /// The largest error of an unknown half way between two entries, where that of a cubic is largest.
     #[must_use]
-    pub fn error(&self) -> T {
+    pub fn error(&self) -> M::Scalar {
         self.error
     }
 
     /// From the entry before `index` to that one.
-    fn follow<M: Mechanism<T, U, 1, Coordinates = Q>>(
+    fn follow(
         &self,
         mechanism: &M,
-        mut here: Reached<Q, M::Pose>,
+        mut here: Reached<M::Coordinates, M::Pose>,
         index: usize,
-    ) -> Result<Reached<Q, M::Pose>, Error> {
+    ) -> Result<Reached<M::Coordinates, M::Pose>, PositionError> {
         for part in 1..=PARTS {
             let fraction = f64::from(part) / f64::from(PARTS);
-            let input = self.input + self.step * real::<T>(count(index - 1) + fraction);
+            let input = self.input + self.step * real::<M::Scalar>(count(index - 1) + fraction);
             here = closed(mechanism, here, input)?;
         }
         Ok(here)
     }
 
     /// As much as a Newton step corrects half way between entries.
-    fn measured<M: Mechanism<T, U, 1, Coordinates = Q>>(&self, mechanism: &M) -> Result<T, Error> {
-        (0..N - 1).try_fold(T::zero(), |most, index| {
+    fn measured(&self, mechanism: &M) -> Result<M::Scalar, PositionError> {
+        (0..N - 1).try_fold(M::Scalar::zero(), |most, index| {
             let unknowns = self.cubic(index, real(0.5));
-            let input = self.input + self.step * real::<T>(count(index) + 0.5);
-            let pose = mechanism.pose_at(&self.coordinates::<M>(unknowns, input));
-            let correction = mechanism.solve_jacobian(&pose, &mechanism.residual(&pose))?;
-            Ok(larger(most, largest(correction.iter().copied())))
+            let input = self.input + self.step * real::<M::Scalar>(count(index) + 0.5);
+            let pose = mechanism.pose_at(&M::coordinates(unknowns, [input].into()));
+            Ok(larger(most, correction(mechanism, &pose)?.largest()))
         })
-    }
-
-    #[inline]
-    fn coordinates<M: Mechanism<T, U, 1, Coordinates = Q>>(&self, unknowns: SVector<T, U>, input: T) -> Q {
-        M::with_inputs(&M::with_unknowns(&self.first, unknowns), SVector::<T, 1>::new(input))
     }
 
     /// u at the fraction `t` of the way from an entry to the next.
     #[inline]
-    fn cubic(&self, index: usize, t: T) -> SVector<T, U> {
+    fn cubic(&self, index: usize, t: M::Scalar) -> PerUnknown<M> {
         let ([u0, s0], [u1, s1]) = (&self.entries[index], &self.entries[index + 1]);
-        SVector::from_fn(|row, _| {
+        Column::from_fn(|row| {
             let (way, sum) = (u1[row] - u0[row], s0[row] + s1[row]);
             let cubic = sum - way - way;
             u0[row] + t * (s0[row] + t * ((way - s0[row] - cubic) + t * cubic))
@@ -141,54 +135,50 @@ impl<Q: Copy, T: Real, const U: usize, const N: usize> Table<Q, T, U, N> {
     }
 }
 
-impl<M, T, Q, const U: usize, const N: usize> Method<M, T, U, 1> for Table<Q, T, U, N>
-where
-    M: Mechanism<T, U, 1, Coordinates = Q>,
-    T: Real,
-    Q: Copy,
-{
+impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
     type From = Self;
-    type Position = Reached<Q, M::Pose>;
+    type Position = Reached<M::Coordinates, M::Pose>;
 
     /// # Errors
-    /// [`Error::OutsideTable`] if the table does not go as far as this input.
+    /// [`InputError::OutOfRange`] if the table does not go as far as this input.
     #[inline]
-    fn position(mechanism: &M, table: &Self, inputs: impl Into<M::Inputs>) -> Result<Self::Position, Error> {
-        let [input]: [T; 1] = inputs.into().into().into();
-        let intervals = real::<T>(count(N - 1));
+    fn position(mechanism: &M, table: &Self, inputs: impl Into<M::Inputs>) -> Result<Self::Position, PositionError> {
+        let [input]: [M::Scalar; 1] = Into::<PerInput<M>>::into(inputs.into()).into();
+        let intervals = real::<M::Scalar>(count(N - 1));
         let mut place = (input - table.input) * table.inverse_step;
         let mut advance = None;
         if let Some(of_a_turn) = &table.advance {
             let turns = (place / intervals).floor();
             if !turns.is_zero() {
                 place -= turns * intervals;
-                advance = Some(of_a_turn * turns);
+                advance = Some(*of_a_turn * turns);
             }
-        } else if place < T::zero() || place > intervals {
-            return Err(table.outside(M::NAME, input));
+        } else if place < M::Scalar::zero() || place > intervals {
+            return Err(table.outside(input).into());
         }
         // What is not a number is found before it is an index.
         let whole = to_f64(place);
-        if !ComplexField::is_finite(&whole) {
-            return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the input" });
+        if !whole.is_finite() {
+            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the input" });
         }
         let index = (whole as usize).min(N - 2);
-        let mut unknowns = table.cubic(index, place - real::<T>(count(index)));
+        let mut unknowns = table.cubic(index, place - real::<M::Scalar>(count(index)));
         if let Some(advance) = advance {
             unknowns += advance;
         }
-        let coordinates = table.coordinates::<M>(unknowns, input);
+        let coordinates = M::coordinates(unknowns, [input].into());
         let reached = Reached::at(mechanism, coordinates);
-        finite_position::<M, T, U, 1>(&reached.coordinates, &reached.pose)?;
+        finite_position::<M>(&reached.coordinates, &reached.pose)?;
         Ok(reached)
     }
 }
 
-impl<Q, T: Real, const U: usize, const N: usize> Table<Q, T, U, N> {
+impl<M: Mechanism, const N: usize> Table<M, N> {
     #[cold]
-    fn outside(&self, mechanism: &'static str, input: T) -> Error {
-        let ends = [self.input, self.input + self.step * real::<T>(count(N - 1))].map(to_f64);
-        Error::OutsideTable { mechanism, input: to_f64(input), range: [ends[0].min(ends[1]), ends[0].max(ends[1])] }
+    fn outside(&self, input: M::Scalar) -> InputError {
+        let [one, other] = [self.input, self.input + self.step * real::<M::Scalar>(count(N - 1))].map(to_f64);
+        let (value, least, most) = (to_f64(input), one.min(other), one.max(other));
+        InputError::OutOfRange { of: Some(M::NAME), quantity: "the input", value, least, most }
     }
 }
 
@@ -199,20 +189,16 @@ fn count(index: usize) -> f64 {
 }
 
 /// The closed position at another input, near one.
-fn closed<M, T, const U: usize>(
+fn closed<M: Mechanism<V = D<1>>>(
     mechanism: &M,
     from: Reached<M::Coordinates, M::Pose>,
-    input: T,
-) -> Result<Reached<M::Coordinates, M::Pose>, Error>
-where
-    M: Mechanism<T, U, 1>,
-    T: Real,
-{
-    let guess = predicted(mechanism, &from, SVector::<T, 1>::new(input).into())?;
-    let here = Reached::at(mechanism, newton(mechanism, &guess)?.coordinates);
+    input: M::Scalar,
+) -> Result<Reached<M::Coordinates, M::Pose>, PositionError> {
+    let guess = predicted(mechanism, &from, PerInput::<M>::from([input]).into())?;
+    let here = Reached::at(mechanism, newton_any_branch(mechanism, &guess)?.coordinates);
     if mechanism.same_branch(&from.pose, &here.pose) {
         Ok(here)
     } else {
-        Err(Error::OtherBranch { mechanism: M::NAME, group: other_group(mechanism, &from.pose, &here.pose) })
+        Err(PositionError::OtherBranch { mechanism: M::NAME, group: other_group(mechanism, &from.pose, &here.pose) })
     }
 }

@@ -1,13 +1,11 @@
 //! A mechanism with several inputs along a path of them.
 
-use nalgebra::{SMatrix, SVector};
-
-use crate::{Error, Group, Mechanism, Real};
+use crate::{Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real};
 
 /// A mechanism whose inputs v(s) are functions of one parameter, which is then its only input.
 ///
-/// The function gives v, dv/ds and d2v/ds2, each as a vector of the inputs in their order. The parameter counts as an
-/// angle does: one that changes by 1/4 is a step.
+/// The function gives v, dv/ds and d2v/ds2, each as the inputs by name, or as a vector or an array of them in their
+/// order. The parameter counts as an angle does: one that changes by 1/4 is a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Along<M, F> {
     /// The mechanism.
@@ -16,7 +14,7 @@ pub struct Along<M, F> {
     pub inputs: F,
 }
 
-/// Coordinates of a mechanism and the parameter of its inputs; their rates as well.
+/// Coordinates of a mechanism and the parameter of its inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AlongCoordinates<Q, T = f64> {
     /// The coordinates of the mechanism. Their inputs mean nothing: [`Along::position`] has those of the parameter.
@@ -25,110 +23,123 @@ pub struct AlongCoordinates<Q, T = f64> {
     pub parameter: T,
 }
 
+/// Rates of the coordinates of a mechanism and of the parameter of its inputs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AlongRates<R, T = f64> {
+    /// The rates of the coordinates. Those of the inputs mean nothing: they are dv/ds s'.
+    pub rates: R,
+    /// s'.
+    pub parameter: T,
+}
+
 /// A pose of the mechanism, and dv/ds and d2v/ds2 there.
 #[derive(Debug, Clone, Copy)]
-pub struct AlongPose<P, T, const V: usize> {
+pub struct AlongPose<P, T: Real, V: Dim> {
     pose: P,
-    slope: SVector<T, V>,
-    bend: SVector<T, V>,
+    slope: Column<T, V>,
+    bend: Column<T, V>,
 }
 
 impl<M, F> Along<M, F> {
     /// The coordinates of the mechanism with the inputs of the parameter.
-    pub fn position<T, const U: usize, const V: usize>(
-        &self,
-        at: &AlongCoordinates<M::Coordinates, T>,
-    ) -> M::Coordinates
+    pub fn position<I>(&self, at: &AlongCoordinates<M::Coordinates, M::Scalar>) -> M::Coordinates
     where
-        T: Real,
-        M: Mechanism<T, U, V>,
-        F: Fn(T) -> [SVector<T, V>; 3],
+        M: Mechanism,
+        F: Fn(M::Scalar) -> [I; 3],
+        I: Into<PerInput<M>>,
     {
         let [inputs, ..] = (self.inputs)(at.parameter);
-        M::with_inputs(&at.q, inputs)
+        M::with_inputs(&at.q, inputs.into())
     }
 }
 
-impl<T, M, F, const U: usize, const V: usize> Mechanism<T, U, 1> for Along<M, F>
+impl<M, F, I> Mechanism for Along<M, F>
 where
-    T: Real,
-    M: Mechanism<T, U, V>,
-    F: Fn(T) -> [SVector<T, V>; 3],
+    M: Mechanism,
+    F: Fn(M::Scalar) -> [I; 3],
+    I: Into<PerInput<M>>,
 {
+    type Scalar = M::Scalar;
+    type U = M::U;
+    type V = D<1>;
+    type G = M::G;
+    type Coordinates = AlongCoordinates<M::Coordinates, M::Scalar>;
+    type Rates = AlongRates<M::Rates, M::Scalar>;
+    type Inputs = Column<M::Scalar, D<1>>;
+    type Pose = AlongPose<M::Pose, M::Scalar, M::V>;
+
     const NAME: &'static str = M::NAME;
-    const UNKNOWNS: [&'static str; U] = M::UNKNOWNS;
-    const INPUTS: [&'static str; 1] = ["the parameter"];
+    const UNKNOWNS: &'static [&'static str] = M::UNKNOWNS;
+    const INPUTS: &'static [&'static str] = &["the parameter"];
+    const UNKNOWN_ANGLES: &'static [bool] = M::UNKNOWN_ANGLES;
+    const INPUT_ANGLES: &'static [bool] = &[true];
     const GROUPS: &'static [Group] = M::GROUPS;
-    const UNKNOWN_ANGLES: [bool; U] = M::UNKNOWN_ANGLES;
-    const INPUT_ANGLES: [bool; 1] = [true];
-    type Coordinates = AlongCoordinates<M::Coordinates, T>;
-    type Inputs = SVector<T, 1>;
-    type Unknowns = M::Unknowns;
-    type Pose = AlongPose<M::Pose, T, V>;
-    type BlockDeterminants = M::BlockDeterminants;
 
-    fn inputs(at: &Self::Coordinates) -> SVector<T, 1> {
-        SVector::from([[at.parameter]])
+    fn coordinates(unknowns: PerUnknown<M>, inputs: PerInput<Self>) -> Self::Coordinates {
+        AlongCoordinates { q: M::coordinates(unknowns, PerInput::<M>::zeros()), parameter: inputs[0] }
     }
 
-    fn with_inputs(at: &Self::Coordinates, inputs: SVector<T, 1>) -> Self::Coordinates {
-        AlongCoordinates { parameter: inputs[0], ..*at }
+    fn parts(at: &Self::Coordinates) -> (PerUnknown<M>, PerInput<Self>) {
+        (M::unknowns(&at.q), Column::from([at.parameter]))
     }
 
-    fn unknowns(at: &Self::Coordinates) -> SVector<T, U> {
-        M::unknowns(&at.q)
+    fn rates(unknowns: PerUnknown<M>, inputs: PerInput<Self>) -> Self::Rates {
+        AlongRates { rates: M::rates(unknowns, PerInput::<M>::zeros()), parameter: inputs[0] }
     }
 
-    fn with_unknowns(at: &Self::Coordinates, unknowns: SVector<T, U>) -> Self::Coordinates {
-        AlongCoordinates { q: M::with_unknowns(&at.q, unknowns), ..*at }
+    fn rate_parts(along: &Self::Rates) -> (PerUnknown<M>, PerInput<Self>) {
+        (M::rate_parts(&along.rates).0, Column::from([along.parameter]))
     }
 
     fn pose_at(&self, at: &Self::Coordinates) -> Self::Pose {
-        let [inputs, slope, bend] = (self.inputs)(at.parameter);
+        let [inputs, slope, bend] = (self.inputs)(at.parameter).map(Into::into);
         AlongPose { pose: self.mechanism.pose_at(&M::with_inputs(&at.q, inputs)), slope, bend }
     }
 
     fn is_finite(at: &Self::Pose) -> bool {
-        M::is_finite(&at.pose) && at.slope.iter().chain(at.bend.iter()).all(T::is_finite)
+        M::is_finite(&at.pose) && at.slope.is_finite() && at.bend.is_finite()
     }
 
-    fn residual(&self, at: &Self::Pose) -> SVector<T, U> {
+    fn residual(&self, at: &Self::Pose) -> PerUnknown<M> {
         self.mechanism.residual(&at.pose)
     }
 
-    fn closure_sizes(&self, at: &Self::Pose) -> SVector<T, U> {
+    fn closure_sizes(&self, at: &Self::Pose) -> PerUnknown<M> {
         self.mechanism.closure_sizes(&at.pose)
     }
 
-    fn jacobian_unknowns(&self, at: &Self::Pose) -> SMatrix<T, U, U> {
+    fn jacobian_unknowns(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, M::U> {
         self.mechanism.jacobian_unknowns(&at.pose)
     }
 
-    fn jacobian_inputs(&self, at: &Self::Pose) -> SMatrix<T, U, 1> {
-        self.mechanism.jacobian_inputs(&at.pose) * at.slope
+    fn jacobian_inputs(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, D<1>> {
+        Matrix::from_columns([self.mechanism.jacobian_inputs(&at.pose) * at.slope].into())
     }
 
-    fn jacobian_sizes(&self, at: &Self::Pose) -> (SMatrix<T, U, U>, SMatrix<T, U, 1>) {
-        let (unknowns, inputs) = self.mechanism.jacobian_sizes(&at.pose);
-        (unknowns, inputs * at.slope.abs())
+    fn jacobian_unknowns_sizes(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, M::U> {
+        self.mechanism.jacobian_unknowns_sizes(&at.pose)
     }
 
-    fn determinant(&self, at: &Self::Pose) -> T {
+    fn jacobian_inputs_sizes(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, D<1>> {
+        Matrix::from_columns([self.mechanism.jacobian_inputs_sizes(&at.pose) * at.slope.abs()].into())
+    }
+
+    fn determinant(&self, at: &Self::Pose) -> M::Scalar {
         self.mechanism.determinant(&at.pose)
     }
 
-    fn block_determinants(&self, at: &Self::Pose) -> Self::BlockDeterminants {
+    fn block_determinants(&self, at: &Self::Pose) -> Column<M::Scalar, M::G> {
         self.mechanism.block_determinants(&at.pose)
     }
 
     // v' = dv/ds s', and dv/ds turns by d2v/ds2 s'.
-    fn gamma(&self, at: &Self::Pose, rate: &Self::Coordinates) -> SVector<T, U> {
-        let rates = M::with_inputs(&rate.q, at.slope * rate.parameter);
-        let bend = at.bend * (rate.parameter * rate.parameter);
+    fn gamma(&self, at: &Self::Pose, along: &Self::Rates) -> PerUnknown<M> {
+        let rates = M::rates(M::rate_parts(&along.rates).0, at.slope * along.parameter);
+        let bend = at.bend * (along.parameter * along.parameter);
         self.mechanism.gamma(&at.pose, &rates) + self.mechanism.jacobian_inputs(&at.pose) * bend
     }
 
-    fn solve_jacobian(&self, at: &Self::Pose, right: &SVector<T, U>) -> Result<SVector<T, U>, Error> {
+    fn solve_jacobian(&self, at: &Self::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {
         self.mechanism.solve_jacobian(&at.pose, right)
     }
 }

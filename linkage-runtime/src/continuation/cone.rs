@@ -8,12 +8,10 @@
 
 use core::convert::Infallible;
 
-use nalgebra::{SMatrix, SVector};
-
-use super::place::weak;
-use super::root::root;
 use super::tangents::MOST_TANGENTS;
-use crate::{Real, real};
+use crate::jacobian::rounding::weak;
+use crate::jacobian::{Cholesky, root};
+use crate::{Column, D, Matrix, Real, real};
 
 /// The dimension of the largest null space whose tangents are sought: that of seven groups flat at once.
 pub(super) const DIMENSIONS: usize = 8;
@@ -28,11 +26,11 @@ const SCALINGS: usize = 5;
 const NEAR: f64 = 0.5;
 
 /// A quadratic form, in the leading coordinates.
-pub(super) type Form<T> = SMatrix<T, DIMENSIONS, DIMENSIONS>;
-type Coordinates<T> = SVector<T, DIMENSIONS>;
+pub(super) type Form<T> = Matrix<T, D<DIMENSIONS>, D<DIMENSIONS>>;
+type Coordinates<T> = Column<T, D<DIMENSIONS>>;
 
 /// The lines on which all forms vanish.
-pub(super) struct Cone<T> {
+pub(super) struct Cone<T: Real> {
     lines: [Coordinates<T>; MOST_TANGENTS],
     count: usize,
     is_complete: bool,
@@ -40,7 +38,7 @@ pub(super) struct Cone<T> {
 }
 
 /// A space in which zeros are sought, and the forms that are left there.
-struct Space<T> {
+struct Space<T: Real> {
     /// Its basis in the first columns.
     basis: Form<T>,
     size: usize,
@@ -49,7 +47,7 @@ struct Space<T> {
 }
 
 /// A form as a sum of squares of linear forms, each with its sign.
-struct Squares<T> {
+struct Squares<T: Real> {
     linear: [Coordinates<T>; DIMENSIONS],
     is_negative: [bool; DIMENSIONS],
     rank: usize,
@@ -61,9 +59,9 @@ impl<T: Real> Cone<T> {
         let mut cone = Self { lines: [Coordinates::zeros(); MOST_TANGENTS], count: 0, is_complete: true, spaces: 0 };
         let mut space = Space { basis: Form::identity(), size, forms: [Form::zeros(); DIMENSIONS], count: 0 };
         for form in forms {
-            let most = form.amax();
+            let most = form.largest();
             if most > T::zero() {
-                space.forms[space.count] = form / most;
+                space.forms[space.count] = *form * most.recip();
                 space.count += 1;
             }
         }
@@ -120,26 +118,26 @@ impl<T: Real> Cone<T> {
     /// The whole of a space.
     fn take(&mut self, space: &Space<T>, direction: &Coordinates<T>) {
         if space.size == 1 {
-            self.push(&space.basis.column(0).into_owned());
+            self.push(&space.basis.column(0));
             return;
         }
         self.is_complete = false;
         // The part of the direction in the space: that of least distance.
         let basis = &space.basis;
-        let mut normal = basis.tr_mul(basis);
+        let mut normal = basis.tr_mul_matrix(basis);
         for unused in space.size..DIMENSIONS {
             normal[(unused, unused)] = T::one();
         }
-        let Some(cholesky) = normal.cholesky() else { return };
-        let nearest = basis * cholesky.solve(&basis.tr_mul(direction));
+        let Some(cholesky) = Cholesky::new(&normal) else { return };
+        let nearest = *basis * cholesky.solve(&basis.tr_mul(direction));
         if nearest.norm() > direction.norm() * real(NEAR) {
             self.push(&nearest);
         }
     }
 
     fn push(&mut self, line: &Coordinates<T>) {
-        let line = line / line.norm();
-        let is_known = |known: &Coordinates<T>| (known * known.dot(&line) - line).norm() <= weak();
+        let line = *line * line.norm().recip();
+        let is_known = |known: &Coordinates<T>| (*known * known.dot(&line) - line).norm() <= weak();
         if self.lines().iter().any(is_known) {
             return;
         }
@@ -160,13 +158,13 @@ impl<T: Real> Space<T> {
         for _ in 0..SCALINGS {
             for place in 0..self.size {
                 let most =
-                    self.forms[..self.count].iter().fold(T::zero(), |most, form| most.max(form.row(place).amax()));
+                    self.forms[..self.count].iter().fold(T::zero(), |most, form| most.max(form.row(place).largest()));
                 if most > T::zero() {
                     let factor = most.sqrt().recip();
-                    self.basis.column_mut(place).scale_mut(factor);
+                    self.basis.scale_column(place, factor);
                     for form in &mut self.forms[..self.count] {
-                        form.row_mut(place).scale_mut(factor);
-                        form.column_mut(place).scale_mut(factor);
+                        form.scale_row(place, factor);
+                        form.scale_column(place, factor);
                     }
                 }
             }
@@ -176,7 +174,7 @@ impl<T: Real> Space<T> {
     fn drop_zeros(&mut self) {
         let mut kept = 0;
         for place in 0..self.count {
-            if self.forms[place].amax() > weak() {
+            if self.forms[place].largest() > weak() {
                 self.forms.swap(kept, place);
                 kept += 1;
             }
@@ -192,7 +190,7 @@ impl<T: Real> Space<T> {
         rest[..linear.len()].copy_from_slice(linear);
         for place in 0..linear.len() {
             let form = rest[place];
-            let pivot = form.iamax();
+            let pivot = form.leading();
             if form[pivot].is_zero() {
                 continue;
             }
@@ -205,9 +203,9 @@ impl<T: Real> Space<T> {
                 change[(pivot, column)] = -form[from] / form[pivot];
             }
             part.size = last;
-            part.basis *= change;
+            part.basis = part.basis * change;
             for form in &mut part.forms[..part.count] {
-                *form = change.tr_mul(form) * change;
+                *form = change.tr_mul_matrix(form) * change;
             }
             for later in &mut rest[place + 1..] {
                 *later = change.tr_mul(later);
@@ -220,7 +218,7 @@ impl<T: Real> Space<T> {
     fn degenerate(&mut self) -> bool {
         let [one, two] = [self.forms[0], self.forms[1]];
         let combination = |angle: T| one * angle.cos() + two * angle.sin();
-        let determinant = |angle: T| combination(angle).fixed_view::<3, 3>(0, 0).determinant();
+        let determinant = |angle: T| of_three(&combination(angle));
         // Half a turn changes the sign.
         let interval = [T::zero(), T::pi()];
         let ends = [determinant(T::zero()), -determinant(T::zero())];
@@ -250,7 +248,7 @@ impl<T: Real> Squares<T> {
                         let is_opposed = (rest[(i, i)] + rest[(j, j)]) * rest[(i, j)] < T::zero();
                         trial[j] = if is_opposed { -T::one() } else { T::one() };
                     }
-                    let value = trial.dot(&(rest * trial)) / trial.norm_squared();
+                    let value = trial.dot(&(rest * trial)) / trial.dot(&trial);
                     if value.abs() > most.abs() {
                         (along, most) = (trial, value);
                     }
@@ -261,11 +259,17 @@ impl<T: Real> Squares<T> {
             }
             let image = rest * along;
             let value = along.dot(&image);
-            rest -= image * image.transpose() / value;
-            squares.linear[squares.rank] = image / value.abs().sqrt();
+            rest = rest - Matrix::from_fn(|row, column| image[row] * image[column] / value);
+            squares.linear[squares.rank] = image * value.abs().sqrt().recip();
             squares.is_negative[squares.rank] = value < T::zero();
             squares.rank += 1;
         }
         squares
     }
+}
+
+/// The determinant of the leading three rows and columns.
+fn of_three<T: Real>(form: &Form<T>) -> T {
+    let minor = |i: usize, j: usize| form[(1, i)] * form[(2, j)] - form[(1, j)] * form[(2, i)];
+    form[(0, 0)] * minor(1, 2) - form[(0, 1)] * minor(0, 2) + form[(0, 2)] * minor(0, 1)
 }

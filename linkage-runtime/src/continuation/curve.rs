@@ -1,42 +1,36 @@
-//! The curve Psi(q) = 0 in pure numbers: angles in radians, other coordinates beside their size, closures beside the
-//! sum of the magnitudes of their terms.
+//! The curve Psi(q) = 0 in pure numbers: angles in radians, other coordinates and the closures beside their size.
 
-use nalgebra::{SMatrix, SVector};
-
-use super::tangent::Elimination;
-use super::vector::Vector;
+use crate::jacobian::rounding::{CLOSED, SAME};
+use crate::jacobian::{
+    Closing, EliminationOf as Elimination, JacobianOf as Jacobian, ScalesOf as Scales, VectorOf as Vector, contract,
+};
+use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{Error, Mechanism, Real, real};
-
-/// A residual of this many roundings of its terms is zero.
-const ROUNDINGS: f64 = 4.0;
+use crate::{D, Mechanism, PathError, PerInput, PerUnknown, PositionError, real};
 
 /// Newton steps of one correction: each at least halves the distance, from a fair prediction it squares it.
 const MOST_CORRECTIONS: usize = 12;
 
-/// A mechanism and the sizes of its coordinates.
-#[derive(Debug)]
-pub(super) struct Curve<'a, M, T, const U: usize> {
+/// A mechanism and the sizes of its coordinates and closures.
+pub(super) struct Curve<'a, M: Mechanism> {
     pub(super) mechanism: &'a M,
-    sizes: Vector<T, U>,
+    scales: Scales<M>,
 }
 
-impl<M, T: Copy, const U: usize> Clone for Curve<'_, M, T, U> {
+impl<M: Mechanism> Clone for Curve<'_, M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<M, T: Copy, const U: usize> Copy for Curve<'_, M, T, U> {}
+impl<M: Mechanism> Copy for Curve<'_, M> {}
 
 /// Psi and [J A] at a position.
-pub(super) struct Linear<T, const U: usize> {
-    pub(super) residual: SVector<T, U>,
+pub(super) struct Linear<M: Mechanism> {
+    pub(super) residual: PerUnknown<M>,
     /// What rounding alone makes of each residual.
-    pub(super) noise: SVector<T, U>,
-    pub(super) unknowns: SMatrix<T, U, U>,
-    pub(super) input: SVector<T, U>,
-    rows: SVector<T, U>,
+    pub(super) noise: PerUnknown<M>,
+    pub(super) jacobian: Jacobian<M>,
 }
 
 /// Why a step was not taken.
@@ -47,174 +41,117 @@ pub(super) struct Refusal {
 }
 
 /// What came of a trial; an error ends all of them.
-pub(super) type Tried<X> = Result<Result<X, Refusal>, Error>;
+pub(super) type Tried<X> = Result<Result<X, Refusal>, PathError>;
 
-impl<'a, M, T, const U: usize> Curve<'a, M, T, U>
-where
-    T: Real,
-    M: Mechanism<T, U, 1>,
-{
+impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
     pub(super) fn new(mechanism: &'a M, q: &M::Coordinates) -> Self {
-        let pose = mechanism.pose_at(q);
-        let (sums, here) = (mechanism.closure_sizes(&pose), coordinates::<M, T, U>(q));
-        // A length as long as the terms of the closures that it stands in.
-        let size = |column: &SVector<T, U>, value: T| {
-            let reach = column.iter().zip(sums.iter()).filter(|(slope, _)| !slope.is_zero());
-            let reach = reach.map(|(slope, sum)| *sum / slope.abs()).filter(|size| *size > T::zero());
-            let least = reach.fold(None, |least, size| Some(least.map_or(size, |least: T| least.min(size))));
-            match least.filter(T::is_finite) {
-                Some(size) => size,
-                None if value.is_zero() => T::one(),
-                None => value.abs(),
-            }
-        };
-        let (j, a) = (mechanism.jacobian_unknowns(&pose), mechanism.jacobian_inputs(&pose));
-        let mut sizes = Vector { unknowns: SVector::from_element(T::one()), input: T::one() };
-        for (place, is_angle) in M::UNKNOWN_ANGLES.into_iter().enumerate() {
-            if !is_angle {
-                sizes.unknowns[place] = size(&j.column(place).into_owned(), here.unknowns[place]);
-            }
-        }
-        if M::INPUT_ANGLES != [true] {
-            sizes.input = size(&a.column(0).into_owned(), here.input);
-        }
-        Self { mechanism, sizes }
+        Self { mechanism, scales: Scales::<M>::of(mechanism, &mechanism.pose_at(q)) }
     }
 
     /// q moved along a vector.
-    pub(super) fn moved(&self, q: &M::Coordinates, by: &Vector<T, U>) -> M::Coordinates {
-        of_vector::<M, T, U>(q, &(coordinates::<M, T, U>(q) + by.scaled(&self.sizes)))
+    pub(super) fn moved(&self, q: &M::Coordinates, by: &Vector<M>) -> M::Coordinates {
+        let Vector::<M> { unknowns, inputs } = coordinates::<M>(q) + by.scaled(&self.scales.coordinates);
+        M::coordinates(unknowns, inputs)
     }
 
-    pub(super) fn difference(&self, to: &M::Coordinates, from: &M::Coordinates) -> Vector<T, U> {
-        (coordinates::<M, T, U>(to) - coordinates::<M, T, U>(from)).beside(&self.sizes)
+    pub(super) fn difference(&self, to: &M::Coordinates, from: &M::Coordinates) -> Vector<M> {
+        (coordinates::<M>(to) - coordinates::<M>(from)).beside(&self.scales.coordinates)
     }
 
     /// A direction, as rates of the coordinates.
-    pub(super) fn rates(&self, q: &M::Coordinates, direction: &Vector<T, U>) -> M::Coordinates {
-        of_vector::<M, T, U>(q, &direction.scaled(&self.sizes))
+    pub(super) fn rates(&self, direction: &Vector<M>) -> M::Rates {
+        let Vector::<M> { unknowns, inputs } = direction.scaled(&self.scales.coordinates);
+        M::rates(unknowns, inputs)
     }
 
-    pub(super) fn direction(&self, rates: &M::Coordinates) -> Vector<T, U> {
-        coordinates::<M, T, U>(rates).beside(&self.sizes)
+    pub(super) fn direction(&self, rates: &M::Rates) -> Vector<M> {
+        let (unknowns, inputs) = M::rate_parts(rates);
+        Vector::<M> { unknowns, inputs }.beside(&self.scales.coordinates)
     }
 
-    pub(super) fn with_input(q: &M::Coordinates, input: T) -> M::Coordinates {
-        M::with_inputs(q, SVector::<T, 1>::from([input]))
+    pub(super) fn with_input(q: &M::Coordinates, input: M::Scalar) -> M::Coordinates {
+        M::with_inputs(q, PerInput::<M>::from([input]))
     }
 
-    pub(super) fn input(q: &M::Coordinates) -> T {
+    pub(super) fn input(q: &M::Coordinates) -> M::Scalar {
         M::inputs(q)[0]
     }
 
     /// A distance of the input beside its size.
-    pub(super) fn input_distance(&self, distance: T) -> T {
-        distance / self.sizes.input
+    pub(super) fn input_distance(&self, distance: M::Scalar) -> M::Scalar {
+        distance / self.scales.coordinates.inputs[0]
     }
 
     /// What rounding makes of the coordinates.
-    pub(super) fn rounding(&self, q: &M::Coordinates) -> T {
-        (T::one() + coordinates::<M, T, U>(q).beside(&self.sizes).largest()) * T::default_epsilon()
+    pub(super) fn rounding(&self, q: &M::Coordinates) -> M::Scalar {
+        (M::Scalar::one() + coordinates::<M>(q).beside(&self.scales.coordinates).largest())
+            * M::Scalar::default_epsilon()
     }
 
     /// # Errors
-    /// [`Error::NotFinite`] if a number is not finite.
-    pub(super) fn linear(&self, q: &M::Coordinates) -> Result<Linear<T, U>, Error> {
-        let pose = self.mechanism.pose_at(q);
-        let mut residual = self.mechanism.residual(&pose);
-        let sums = self.mechanism.closure_sizes(&pose);
-        let mut unknowns = self.mechanism.jacobian_unknowns(&pose);
-        let mut input = self.mechanism.jacobian_inputs(&pose).column(0).into_owned();
-        for (mut column, size) in unknowns.column_iter_mut().zip(self.sizes.unknowns.iter()) {
-            column *= *size;
-        }
-        input *= self.sizes.input;
-        let here = coordinates::<M, T, U>(q).beside(&self.sizes);
-        let (mut noise, mut rows) = (SVector::<T, U>::zeros(), SVector::<T, U>::zeros());
-        for place in 0..U {
-            let (mut slopes, mut rounded) = (input[place].abs(), (input[place] * here.input).abs());
-            for (slope, value) in unknowns.row(place).iter().zip(here.unknowns.iter()) {
-                slopes += slope.abs();
-                rounded += (*slope * *value).abs();
-            }
-            let row = sums[place] + slopes;
-            rows[place] = if row > T::zero() { row.recip() } else { T::one() };
-            unknowns.row_mut(place).scale_mut(rows[place]);
-            input[place] *= rows[place];
-            residual[place] *= rows[place];
-            noise[place] = (sums[place] + rounded) * rows[place] * T::default_epsilon();
-        }
-        let is_finite = here.is_finite()
-            && residual.iter().chain(noise.iter()).chain(input.iter()).chain(unknowns.iter()).all(T::is_finite);
-        if is_finite {
-            Ok(Linear { residual, noise, unknowns, input, rows })
+    /// [`PositionError::NotFinite`] if a number is not finite.
+    pub(super) fn linear(&self, q: &M::Coordinates) -> Result<Linear<M>, PositionError> {
+        let (mechanism, closures) = (self.mechanism, &self.scales.closures);
+        let pose = mechanism.pose_at(q);
+        let here = coordinates::<M>(q).beside(&self.scales.coordinates);
+        let jacobian = self.scales.jacobian(mechanism, &pose);
+        let residual = mechanism.residual(&pose).component_div(closures);
+        let terms = mechanism.closure_sizes(&pose).component_div(closures);
+        let noise = (terms + jacobian.abs().along(&here.abs())) * M::Scalar::default_epsilon();
+        if here.is_finite() && residual.is_finite() && noise.is_finite() && jacobian.is_finite() {
+            Ok(Linear { residual, noise, jacobian })
         } else {
-            Err(Error::NotFinite { mechanism: M::NAME, quantity: "the path" })
+            Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the path" })
         }
     }
 
     /// The second derivative of Psi along a direction, (Psi_q x)_q x.
-    pub(super) fn curvature(&self, q: &M::Coordinates, at: &Linear<T, U>, x: &Vector<T, U>) -> SVector<T, U> {
+    pub(super) fn curvature(&self, q: &M::Coordinates, x: &Vector<M>) -> PerUnknown<M> {
         let pose = self.mechanism.pose_at(q);
-        self.mechanism.gamma(&pose, &self.rates(q, x)).component_mul(&at.rows)
+        self.mechanism.gamma(&pose, &self.rates(x)).component_div(&self.scales.closures)
     }
 
     /// The point of the curve near `guess` in the plane through it across `normal`.
     ///
     /// # Errors
     /// Refused where Newton's method does not contract, or the curve runs along the plane.
-    pub(super) fn correct(
-        &self,
-        guess: M::Coordinates,
-        normal: &Vector<T, U>,
-    ) -> Tried<(M::Coordinates, Elimination<T, U>)> {
-        let (mut q, mut last) = (guess, None::<T>);
-        for _ in 0..MOST_CORRECTIONS {
-            let at = self.linear(&q)?;
-            let elimination = Elimination::new(at.unknowns, at.input);
+    pub(super) fn correct(&self, guess: M::Coordinates, normal: &Vector<M>) -> Tried<(M::Coordinates, Elimination<M>)> {
+        let mut refusal = Refusal { residual: f64::NAN, regularity: f64::NAN };
+        let found = contract(guess, MOST_CORRECTIONS, |q| -> Result<_, PathError> {
+            let at = self.linear(q)?;
+            let elimination = Elimination::<M>::new(at.jacobian);
             let (tangent, part) = (elimination.tangent(), elimination.solve(&-at.residual));
             // [J A; n'] x = -{Psi; n' (q - guess)}, with what has gathered along n by rounding taken off.
             let along = normal.dot(&tangent);
-            let drift = normal.dot(&(self.difference(&q, &guess) + part));
+            let drift = normal.dot(&(self.difference(q, &guess) + part));
             let step = part - tangent * (drift / along);
             let size = step.norm();
             if at.is_closed() {
                 // One more step removes what the last one left, if rounding has not made it long.
-                let is_short = size <= self.rounding(&q) * real(LAST_STEP);
-                return Ok(Ok((if is_short { self.moved(&q, &step) } else { q }, elimination)));
+                let is_short = size <= self.rounding(q) * real(SAME);
+                return Ok(Closing::Closed((if is_short { self.moved(q, &step) } else { *q }, elimination)));
             }
-            let contracts = last.is_none_or(|last| size <= last * real(0.5));
-            if !(step.is_finite() && contracts && along.abs() > real(LEAST_CROSSING)) {
-                let residual = to_f64(at.residual.amax());
-                return Ok(Err(Refusal { residual, regularity: to_f64(elimination.regularity()) }));
-            }
-            q = self.moved(&q, &step);
-            last = Some(size);
-        }
-        Ok(Err(Refusal { residual: f64::NAN, regularity: f64::NAN }))
+            let (residual, regularity) = (to_f64(at.residual.largest()), to_f64(elimination.regularity()));
+            refusal = Refusal { residual, regularity };
+            let cuts = along.abs() > real(LEAST_CROSSING);
+            Ok(if cuts { Closing::Step(self.moved(q, &step), size) } else { Closing::Stuck })
+        })?;
+        Ok(found.ok_or(refusal))
     }
 }
 
-/// The longest last step, in roundings of the coordinates.
-const LAST_STEP: f64 = 256.0;
-
-/// The sine of the least angle at which a plane may cut the curve.
+/// The sine of the least angle at which a plane may cut the curve; a quarter or four times as much changes no path of the
+/// tests.
 const LEAST_CROSSING: f64 = 1.0 / 64.0;
 
-impl<T: Real, const U: usize> Linear<T, U> {
+impl<M: Mechanism> Linear<M> {
     pub(super) fn is_closed(&self) -> bool {
-        let enough = real::<T>(ROUNDINGS);
-        self.residual.iter().zip(self.noise.iter()).all(|(residual, noise)| residual.abs() <= *noise * enough)
+        let enough = real::<M::Scalar>(CLOSED);
+        self.residual.iter().zip(&self.noise).all(|(residual, noise)| residual.abs() <= *noise * enough)
     }
 }
 
-fn coordinates<M: Mechanism<T, U, 1>, T: Real, const U: usize>(q: &M::Coordinates) -> Vector<T, U> {
-    Vector { unknowns: M::unknowns(q), input: M::inputs(q)[0] }
-}
-
-fn of_vector<M: Mechanism<T, U, 1>, T: Real, const U: usize>(
-    q: &M::Coordinates,
-    vector: &Vector<T, U>,
-) -> M::Coordinates {
-    M::with_unknowns(&M::with_inputs(q, SVector::<T, 1>::from([vector.input])), vector.unknowns)
+fn coordinates<M: Mechanism>(q: &M::Coordinates) -> Vector<M> {
+    let (unknowns, inputs) = M::parts(q);
+    Vector::<M> { unknowns, inputs }
 }

@@ -4,17 +4,16 @@ use super::change_point::Crossing;
 use super::curve::Curve;
 use super::groups::Groups;
 use super::options::Options;
-use super::place::{Place, weak};
+use super::place::Place;
 use super::tangents::Tangents;
-use super::vector::Vector;
-use crate::{Error, Mechanism, Real, real};
-
-/// A distance of this many roundings of the coordinates is none.
-const ROUNDINGS: f64 = 16.0;
+use crate::jacobian::VectorOf as Vector;
+use crate::jacobian::rounding::{SAME, weak};
+use crate::scalar::arithmetic::*;
+use crate::{D, Dim, Mechanism, PathError, PositionError, real};
 
 /// What a path meets. Each ends the step that meets it, so that the position is that of the event, to rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Event<Q> {
+pub enum Event<R> {
     /// The determinant of a group of unknowns changes its sign: the input turns back, and the path goes on.
     DeadPoint {
         /// The unknowns of the group.
@@ -25,7 +24,7 @@ pub enum Event<Q> {
         /// The groups that are singular there, all of them.
         groups: Groups,
         /// The rates of the coordinates along the motions.
-        tangents: Tangents<Q>,
+        tangents: Tangents<R>,
     },
     /// The input is at an end of its range.
     Limit,
@@ -34,50 +33,57 @@ pub enum Event<Q> {
 }
 
 /// Where a step ends, and why there.
-pub(super) struct End<M: Mechanism<T, U, 1>, T: Real, const U: usize> {
-    pub(super) place: Place<M, T, U>,
-    pub(super) event: Option<Event<M::Coordinates>>,
+pub(super) struct End<M: Mechanism> {
+    pub(super) place: Place<M>,
+    pub(super) event: Option<Event<M::Rates>>,
     pub(super) is_target: bool,
-    pub(super) stands: Stands<M::Coordinates, T, U>,
+    pub(super) stands: Stands<M>,
 }
 
 /// What is to be known of the end of a step for the next one.
-#[derive(Clone, Copy)]
-pub(super) enum Stands<Q, T, const U: usize> {
+pub(super) enum Stands<M: Mechanism> {
     OnTheWay,
     AtZero,
     AtChangePoint,
     /// At a change point where nothing has been chosen yet.
-    Undecided(Crossing<Q, T, U>),
+    Undecided(Crossing<M>),
 }
 
+impl<M: Mechanism> Clone for Stands<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M: Mechanism> Copy for Stands<M> {}
+
 /// A number that is watched, from the position and the rates of the coordinates along the path.
-pub(super) type Watch<'w, Q, T> = &'w dyn Fn(&Q, &Q) -> T;
+pub(super) type Watch<'w, M> =
+    &'w dyn Fn(&<M as Mechanism>::Coordinates, &<M as Mechanism>::Rates) -> <M as Mechanism>::Scalar;
 
 /// What a step looks for beside dead points.
-pub(super) struct Wanted<'w, Q, T> {
-    pub(super) target: Option<T>,
-    pub(super) watch: Option<Watch<'w, Q, T>>,
+pub(super) struct Wanted<'w, M: Mechanism> {
+    pub(super) target: Option<M::Scalar>,
+    pub(super) watch: Option<Watch<'w, M>>,
     /// Whether the watched number is zero where the step begins.
     pub(super) is_at_zero: bool,
 }
 
-impl<M, T, const U: usize> Curve<'_, M, T, U>
+impl<M> Curve<'_, M>
 where
-    T: Real,
-    M: Mechanism<T, U, 1>,
+    M: Mechanism<V = D<1>>,
 {
     /// The first event on the arc from a place to `end`, or `end` itself; `None` where a point between them is not
     /// found.
     pub(super) fn first_event(
         &self,
-        from: &Place<M, T, U>,
-        mut end: End<M, T, U>,
-        wanted: &Wanted<'_, M::Coordinates, T>,
-        options: &Options<T>,
-    ) -> Result<Option<End<M, T, U>>, Error> {
+        from: &Place<M>,
+        mut end: End<M>,
+        wanted: &Wanted<'_, M>,
+        options: &Options<M::Scalar>,
+    ) -> Result<Option<End<M>>, PathError> {
         for (index, group) in M::GROUPS.iter().map(|group| group.name).enumerate() {
-            let determinant = |place: &Place<M, T, U>| place.determinants.as_ref()[index];
+            let determinant = |place: &Place<M>| place.determinants[index];
             match self.cut(from, &end.place, determinant)? {
                 Cut::None => {}
                 Cut::Lost => return Ok(None),
@@ -95,10 +101,10 @@ where
         // Between dead points the input goes one way.
         let limits = options.range.into_iter().flatten().map(|limit| (limit, false));
         for (limit, is_target) in limits.chain(wanted.target.map(|input| (input, true))) {
-            let gap = |place: &Place<M, T, U>| Self::input(&place.q) - limit;
+            let gap = |place: &Place<M>| Self::input(&place.q) - limit;
             // At a change point the input is met where it is met to rounding.
             let is_crossing = matches!(end.event, Some(Event::ChangePoint { .. }));
-            let slack = if is_crossing { self.rounding(&end.place.q) * real(ROUNDINGS) } else { T::zero() };
+            let slack = if is_crossing { self.rounding(&end.place.q) * real(SAME) } else { M::Scalar::zero() };
             if self.input_distance(gap(&end.place)).abs() <= slack && !gap(from).is_zero() {
                 end.place.q = Self::with_input(&end.place.q, limit);
                 let event = end.event.or((!is_target).then_some(Event::Limit));
@@ -116,9 +122,10 @@ where
             }
         }
         if let Some(watch) = wanted.watch {
-            let value = |place: &Place<M, T, U>| watch(&place.q, &self.rates(&place.q, &place.tangent));
-            if ![value(from), value(&end.place)].iter().all(T::is_finite) {
-                return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the watched number" });
+            let value = |place: &Place<M>| watch(&place.q, &self.rates(&place.tangent));
+            if ![value(from), value(&end.place)].iter().all(M::Scalar::is_finite) {
+                let quantity = "the watched number";
+                return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
             }
             if !wanted.is_at_zero {
                 match self.cut(from, &end.place, value)? {
@@ -136,19 +143,23 @@ where
     /// The place between two at which a number changes its sign.
     fn cut(
         &self,
-        from: &Place<M, T, U>,
-        end: &Place<M, T, U>,
-        value: impl Fn(&Place<M, T, U>) -> T,
-    ) -> Result<Cut<M, T, U>, Error> {
+        from: &Place<M>,
+        end: &Place<M>,
+        value: impl Fn(&Place<M>) -> M::Scalar,
+    ) -> Result<Cut<M>, PathError> {
         let values = [value(from), value(end)];
-        let changes =
-            |[low, high]: [T; 2]| (low < T::zero() && high > T::zero()) || (low > T::zero() && high < T::zero());
+        let changes = |[low, high]: [M::Scalar; 2]| {
+            (low < M::Scalar::zero() && high > M::Scalar::zero())
+                || (low > M::Scalar::zero() && high < M::Scalar::zero())
+        };
         if !changes(values) {
             return Ok(Cut::None);
         }
         let distance = self.difference(&end.q, &from.q).dot(&from.tangent);
-        let Some(root) = self.sign_change(from, [T::zero(), distance], values, value)? else { return Ok(Cut::Lost) };
-        Ok(if root <= T::zero() {
+        let Some(root) = self.sign_change(from, [M::Scalar::zero(), distance], values, value)? else {
+            return Ok(Cut::Lost);
+        };
+        Ok(if root <= M::Scalar::zero() {
             Cut::At(from.clone())
         } else if root >= distance {
             Cut::At(end.clone())
@@ -158,18 +169,18 @@ where
     }
 
     /// A place with this input to the last digit, where the input moves it at all.
-    pub(super) fn with_exact_input(&self, place: Place<M, T, U>, input: T) -> Result<Place<M, T, U>, Error> {
+    pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathError> {
         let q = Self::with_input(&place.q, input);
-        let moves = place.tangent.input.abs() > weak() && place.regularity > weak();
-        if moves && let Ok((q, elimination)) = self.correct(q, &Vector::unit(U))? {
+        let moves = place.tangent.inputs[0].abs() > weak() && place.regularity > weak();
+        if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(M::U::COUNT))? {
             return Ok(self.place(q, &elimination, &place.tangent));
         }
         Ok(Place { q, ..place })
     }
 }
 
-enum Cut<M: Mechanism<T, U, 1>, T: Real, const U: usize> {
+enum Cut<M: Mechanism> {
     None,
     Lost,
-    At(Place<M, T, U>),
+    At(Place<M>),
 }

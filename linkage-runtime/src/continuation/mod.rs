@@ -16,7 +16,7 @@
 //!    that are singular there, one or several, and the way on as [`AtChangePoint`] says. Motions that only come near each
 //!    other are told from that by the residual, and followed round their bend however sharp.
 //!
-//! The motion never changes but by a policy: what cannot be followed is an [`Error`](crate::Error) that names the group.
+//! The motion never changes but by a policy: what cannot be followed is an [`PathError`](crate::PathError) that names the group.
 //!
 //! Steps, turns and verdicts are pure numbers: scaling all lengths by a power of two changes no digit of a path. A
 //! mechanism with several inputs is followed [`Along`] a path of its inputs that is given by one parameter.
@@ -30,14 +30,11 @@ mod groups;
 mod options;
 mod path;
 mod place;
-mod root;
-mod tangent;
 mod tangents;
-mod vector;
 
-pub use along::{Along, AlongCoordinates, AlongPose};
+pub use along::{Along, AlongCoordinates, AlongPose, AlongRates};
 pub use events::Event;
 pub use groups::Groups;
 pub use options::{AtChangePoint, Direction, Options};
-pub use path::{Path, Step};
+pub use path::{Path, PathStep};
 pub use tangents::Tangents;

@@ -1,6 +1,8 @@
 //! How a path is followed.
 
-use crate::{Error, Real, real};
+use crate::jacobian::rounding::{SAME, roundings};
+use crate::scalar::to_f64;
+use crate::{InputError, Real, real};
 
 /// The policy at a change point, where motions of the mechanism cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,14 +19,14 @@ pub enum AtChangePoint {
 
 /// Where the path goes from its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Direction<Q> {
+pub enum Direction<R> {
     /// The input grows.
     Increasing,
     /// The input falls.
     Decreasing,
     /// Along these rates of the coordinates, as far as the mechanism can follow: what is left to say at a dead point
     /// and at a change point.
-    Along(Q),
+    Along(R),
 }
 
 /// How a path is followed. Distances are pure numbers: those of angles are radians, and lengths count beside the
@@ -56,26 +58,31 @@ impl<T: Real> Default for Options<T> {
     }
 }
 
-/// A step of less than this many roundings is rounding itself.
-const ROUNDINGS: f64 = 1024.0;
+/// The shortest longest step and turn, in roundings: six halvings of it are still more than rounding.
+const LEAST: f64 = 64.0 * SAME;
 
 impl<T: Real> Options<T> {
     /// # Errors
-    /// [`Error::Invalid`] where an option makes no sense.
-    pub(super) fn check(&self, mechanism: &'static str, input: T) -> Result<(), Error> {
-        let least = real::<T>(ROUNDINGS) * T::default_epsilon();
-        let is_fraction = |value: T| value >= least && value <= T::one();
-        let quantity = if !is_fraction(self.longest_step) {
-            "the longest step, a number from rounding to 1"
-        } else if !is_fraction(self.largest_turn) {
-            "the largest turn, a number from rounding to 1"
-        } else if self.most_steps == 0 {
-            "the most steps, of which there must be one"
-        } else if self.range.is_some_and(|[low, high]| !(low < high && low <= input && input <= high)) {
-            "the range of the input, in which the start must lie"
-        } else {
-            return Ok(());
+    /// [`InputError::OutOfRange`] where an option makes no sense.
+    pub(super) fn check(&self, mechanism: &'static str, input: T) -> Result<(), InputError> {
+        let within = |quantity: &'static str, value: f64, least: f64, most: f64| {
+            let is_within = value >= least && value <= most;
+            is_within.then_some(()).ok_or(InputError::OutOfRange { of: Some(mechanism), quantity, value, least, most })
         };
-        Err(Error::Invalid { mechanism, quantity })
+        let least = to_f64(roundings::<T>(LEAST));
+        within("the longest step", to_f64(self.longest_step), least, 1.0)?;
+        within("the largest turn", to_f64(self.largest_turn), least, 1.0)?;
+        within("the number of steps", self.most_steps as f64, 1.0, f64::INFINITY)?;
+        if let Some([low, high]) = self.range {
+            let is_range = low < high;
+            let [least, most] = [low, high].map(to_f64);
+            if !is_range {
+                let (value, least) = (least, f64::NEG_INFINITY);
+                let of = Some(mechanism);
+                return Err(InputError::OutOfRange { of, quantity: "the least input", value, least, most });
+            }
+            within("the input at the start", to_f64(input), least, most)?;
+        }
+        Ok(())
     }
 }

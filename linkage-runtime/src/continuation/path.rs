@@ -4,41 +4,42 @@ use super::curve::{Curve, Refusal, Tried};
 use super::events::{End, Event, Stands, Wanted, Watch};
 use super::groups::Groups;
 use super::options::{AtChangePoint, Direction, Options};
-use super::place::{Place, weak};
-use super::tangent::Elimination;
+use super::place::Place;
 use super::tangents::Tangents;
-use super::vector::Vector;
-use crate::mechanism::other_group;
+use crate::jacobian::rounding::{SAME, weak};
+use crate::jacobian::{EliminationOf as Elimination, VectorOf as Vector};
+use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{Error, Mechanism, Real, position, real};
+use crate::{D, Dim, InputError, Mechanism, PathError, PositionError, position, real};
 
 /// Where a path has come to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step<Q, T = f64> {
+pub struct PathStep<M: Mechanism> {
     /// The position.
-    pub position: Q,
+    pub position: M::Coordinates,
     /// The rates of the coordinates along the path: the velocity ratios (W, 1), times the rate of the input, which is
     /// zero at a dead point.
-    pub rates: Q,
+    pub rates: M::Rates,
     /// The length of the path so far, angles in radians and lengths beside those of their loops.
-    pub length: T,
+    pub length: M::Scalar,
     /// What ended the step.
-    pub event: Option<Event<Q>>,
+    pub event: Option<Event<M::Rates>>,
 }
+
+crate::__by_fields!([M: Mechanism] PathStep<M> { position, rates, length, event });
 
 /// A mechanism with one input, followed along its motion.
 ///
 /// As an iterator it gives step after step, each a `Result`, and ends after a limit or an error.
-pub struct Path<'a, M: Mechanism<T, U, 1>, T: Real, const U: usize> {
-    curve: Curve<'a, M, T, U>,
-    place: Place<M, T, U>,
-    options: Options<T>,
+pub struct Path<'a, M: Mechanism> {
+    curve: Curve<'a, M>,
+    place: Place<M>,
+    options: Options<M::Scalar>,
     /// The length of the next trial.
-    step: T,
-    length: T,
+    step: M::Scalar,
+    length: M::Scalar,
     /// The change point that has been passed, until it is left.
     passed: Option<M::Coordinates>,
-    stands: Stands<M::Coordinates, T, U>,
+    stands: Stands<M>,
     is_ended: bool,
 }
 
@@ -52,48 +53,38 @@ const AHEAD: f64 = 1.25;
 /// zero without a change of side.
 const DOUBTFUL: f64 = 1e-3;
 
-/// A step of this many roundings of the coordinates is the shortest.
-const ROUNDINGS: f64 = 64.0;
-
-impl<'a, M, T, const U: usize> Path<'a, M, T, U>
+impl<'a, M> Path<'a, M>
 where
-    T: Real,
-    M: Mechanism<T, U, 1>,
+    M: Mechanism<V = D<1>>,
 {
     /// The path through the position near `guess` at its input, followed with the default options.
     ///
     /// # Errors
     /// Those of [`with`](Self::with).
-    pub fn new(mechanism: &'a M, guess: &M::Coordinates, direction: Direction<M::Coordinates>) -> Result<Self, Error> {
+    pub fn new(mechanism: &'a M, guess: &M::Coordinates, direction: Direction<M::Rates>) -> Result<Self, PathError> {
         Self::with(mechanism, guess, direction, Options::default())
     }
 
     /// The path through the position near `guess` at its input.
     ///
     /// # Errors
-    /// Those of [`position::newton`]; [`Error::OtherBranch`] if the position found is of another branch than the
-    /// guess; [`Error::NoDirection`] and [`Error::ChangePoint`] where `direction` does not say which way;
-    /// [`Error::Lost`] where the mechanism has no tangent; [`Error::Invalid`] for options that make no sense.
+    /// Those of [`position::newton`]; [`PathError::NoDirection`] and [`PathError::ChangePoint`] where `direction` does not
+    /// say which way; [`PathError::Lost`] where the mechanism has no tangent; [`InputError::OutOfRange`] for options that
+    /// make no sense.
     pub fn with(
         mechanism: &'a M,
         guess: &M::Coordinates,
-        direction: Direction<M::Coordinates>,
-        options: Options<T>,
-    ) -> Result<Self, Error> {
+        direction: Direction<M::Rates>,
+        options: Options<M::Scalar>,
+    ) -> Result<Self, PathError> {
         const { assert!(M::GROUPS.len() <= Groups::MOST, "more groups than a path can tell apart") };
-        options.check(M::NAME, Curve::<'_, M, T, U>::input(guess))?;
+        options.check(M::NAME, Curve::<'_, M>::input(guess))?;
         let solution = position::newton(mechanism, guess)?;
-        if !solution.same_branch {
-            return Err(Error::OtherBranch {
-                mechanism: M::NAME,
-                group: other_group(mechanism, &mechanism.pose_at(guess), &mechanism.pose_at(&solution.coordinates)),
-            });
-        }
         let q = solution.coordinates;
         let curve = Curve::new(mechanism, &q);
         let at = curve.linear(&q)?;
-        let elimination = Elimination::new(at.unknowns, at.input);
-        let (step, length) = (options.longest_step * real(0.25), T::zero());
+        let elimination = Elimination::<M>::new(at.jacobian);
+        let (step, length) = (options.longest_step * real(0.25), M::Scalar::zero());
         let path =
             |place, passed, stands| Self { curve, place, options, step, length, passed, stands, is_ended: false };
         if elimination.regularity() < weak() {
@@ -101,15 +92,15 @@ where
                 Direction::Along(rates) => Some(rates),
                 Direction::Increasing | Direction::Decreasing => None,
             };
-            let along = rates.map_or(Vector::zero(), |rates| curve.direction(&rates));
+            let along = rates.map_or(Vector::<M>::zero(), |rates| curve.direction(&rates));
             if let Some(crossing) = curve.crossing(&q, weak(), &along)? {
                 let group = crossing.groups.first();
-                let Some(rates) = rates else { return Err(Error::ChangePoint { mechanism: M::NAME, group }) };
+                let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: M::NAME, group }) };
                 let tangent = curve.choose(crossing.tangents(), &rates)?;
-                let place = curve.at_crossing(&crossing, tangent, T::zero());
+                let place = curve.at_crossing(&crossing, tangent, M::Scalar::zero());
                 return Ok(path(place, Some(crossing.q), Stands::AtChangePoint));
             }
-            if elimination.regularity() < T::default_epsilon().sqrt() {
+            if elimination.regularity() < M::Scalar::default_epsilon().sqrt() {
                 let refusal = Refusal { residual: solution.residual, regularity: to_f64(elimination.regularity()) };
                 return Err(curve.lost(&q, 0, refusal));
             }
@@ -117,9 +108,9 @@ where
         let tangent = elimination.tangent();
         let forward = match direction {
             Direction::Along(rates) => curve.choose(&[tangent], &rates)?,
-            _ if tangent.input.abs() < weak() => return Err(Error::NoDirection { mechanism: M::NAME }),
-            _ if (tangent.input > T::zero()) == matches!(direction, Direction::Increasing) => tangent,
-            _ => tangent * -T::one(),
+            _ if tangent.inputs[0].abs() < weak() => return Err(PathError::NoDirection { mechanism: M::NAME }),
+            _ if (tangent.inputs[0] > M::Scalar::zero()) == matches!(direction, Direction::Increasing) => tangent,
+            _ => -tangent,
         };
         Ok(path(curve.place(q, &elimination, &forward), None, Stands::OnTheWay))
     }
@@ -132,13 +123,13 @@ where
 
     /// The rates of the coordinates along the path.
     #[must_use]
-    pub fn rates(&self) -> M::Coordinates {
-        self.curve.rates(&self.place.q, &self.place.tangent)
+    pub fn rates(&self) -> M::Rates {
+        self.curve.rates(&self.place.tangent)
     }
 
     /// The path goes back from here.
     pub fn turn_back(&mut self) {
-        self.place.tangent = self.place.tangent * -T::one();
+        self.place.tangent = -self.place.tangent;
         // At a change point the closures change their side, and back they change it again.
         if !matches!(self.stands, Stands::AtChangePoint) {
             self.place.side = -self.place.side;
@@ -150,14 +141,14 @@ where
     /// At a change point where the path stopped, goes on along the motion nearest to these rates.
     ///
     /// # Errors
-    /// [`Error::NoDirection`] if they are across both motions, or the path does not stand at a change point.
-    pub fn choose(&mut self, rates: &M::Coordinates) -> Result<(), Error> {
+    /// [`PathError::NoDirection`] if they are across both motions, or the path does not stand at a change point.
+    pub fn choose(&mut self, rates: &M::Rates) -> Result<(), PathError> {
         let Stands::Undecided(crossing) = self.stands else {
-            return Err(Error::NoDirection { mechanism: M::NAME });
+            return Err(PathError::NoDirection { mechanism: M::NAME });
         };
         self.place.tangent = self.curve.choose(crossing.tangents(), rates)?;
         // On which side the closures go on depends on the way that is chosen.
-        self.place.side = T::zero();
+        self.place.side = M::Scalar::zero();
         self.stands = Stands::AtChangePoint;
         self.is_ended = false;
         Ok(())
@@ -166,9 +157,9 @@ where
     /// One step, or less where an event ends it.
     ///
     /// # Errors
-    /// [`Error::ChangePoint`] where the path stopped at one and nothing has been chosen, [`Error::Lost`] where the
-    /// path cannot be followed on, [`Error::NotFinite`] if a number is not finite.
-    pub fn advance(&mut self) -> Result<Step<M::Coordinates, T>, Error> {
+    /// [`PathError::ChangePoint`] where the path stopped at one and nothing has been chosen, [`PathError::Lost`] where the
+    /// path cannot be followed on, [`PositionError::NotFinite`] if a number is not finite.
+    pub fn advance(&mut self) -> Result<PathStep<M>, PathError> {
         self.advance_wanting(None, None).map(|(step, _)| step)
     }
 
@@ -180,8 +171,8 @@ where
     /// As [`advance`](Self::advance).
     pub fn advance_watching(
         &mut self,
-        watched: impl Fn(&M::Coordinates, &M::Coordinates) -> T,
-    ) -> Result<Step<M::Coordinates, T>, Error> {
+        watched: impl Fn(&M::Coordinates, &M::Rates) -> M::Scalar,
+    ) -> Result<PathStep<M>, PathError> {
         self.advance_wanting(None, Some(&watched)).map(|(step, _)| step)
     }
 
@@ -190,25 +181,28 @@ where
     /// The path turns back if the input is behind it. From a dead point it goes on the way it came.
     ///
     /// # Errors
-    /// [`Error::DeadPoint`] where the input turns back before that: the path then stands at the dead point;
-    /// [`Error::TooLong`] after the most steps, [`Error::Invalid`] if the range does not hold the input, and those
-    /// of [`advance`](Self::advance).
-    pub fn advance_to(&mut self, input: T) -> Result<Step<M::Coordinates, T>, Error> {
-        let is_outside = self.options.range.is_some_and(|[low, high]| input < low || input > high);
+    /// [`PathError::DeadPoint`] where the input turns back before that: the path then stands at the dead point;
+    /// [`PathError::TooManySteps`] after the most steps, [`InputError::OutOfRange`] if the range does not hold the input,
+    /// and those of [`advance`](Self::advance).
+    pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError> {
         if !input.is_finite() {
-            return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the input" });
+            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the input" }.into());
         }
-        if is_outside {
-            return Err(Error::Invalid { mechanism: M::NAME, quantity: "the input, which its range must hold" });
+        if let Some([least, most]) = self.options.range
+            && (input < least || input > most)
+        {
+            let [value, least, most] = [input, least, most].map(to_f64);
+            let of = Some(M::NAME);
+            return Err(InputError::OutOfRange { of, quantity: "the input", value, least, most }.into());
         }
         let (mut passed, mut turns, mut rests) = (None, 0, 0_usize);
         for _ in 0..self.options.most_steps {
             let gap = self.curve.input_distance(input - self.input());
             if gap.is_zero() {
-                return Ok(Step { event: passed, ..self.here(None) });
+                return Ok(PathStep { event: passed, ..self.here(None) });
             }
-            let mut heading = self.place.tangent.input * gap;
-            if heading < T::zero() && self.place.tangent.input.abs() > weak() {
+            let mut heading = self.place.tangent.inputs[0] * gap;
+            if heading < M::Scalar::zero() && self.place.tangent.inputs[0].abs() > weak() {
                 // Once because the input is behind, once because a dead point was left for the other side.
                 if turns == 2 {
                     let refusal = Refusal { residual: 0.0, regularity: to_f64(self.place.regularity) };
@@ -221,65 +215,67 @@ where
             let (step, is_target) = self.advance_wanting(Some(input), None)?;
             // A path that stands at a dead point may be told so once more; twice, and no way leads on.
             rests += usize::from(self.length - before <= weak());
-            let is_onward = heading > T::zero() || rests > 2;
+            let is_onward = heading > M::Scalar::zero() || rests > 2;
             match step.event {
                 Some(Event::DeadPoint { group }) => {
                     let left = self.curve.input_distance(input - self.input()).abs();
-                    if left <= self.curve.rounding(&self.place.q) * real(ROUNDINGS) {
-                        self.place.q = Curve::<'_, M, T, U>::with_input(&self.place.q, input);
+                    if left <= self.curve.rounding(&self.place.q) * real(SAME) {
+                        self.place.q = Curve::<'_, M>::with_input(&self.place.q, input);
                         return Ok(self.here(step.event));
                     }
                     if is_onward {
-                        return Err(Error::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
+                        return Err(PathError::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
                     }
                 }
                 Some(Event::ChangePoint { groups, .. }) => {
                     passed = step.event;
                     let group = groups.first();
                     if matches!(self.stands, Stands::Undecided(_)) && !is_target {
-                        return Err(Error::ChangePoint { mechanism: M::NAME, group });
+                        return Err(PathError::ChangePoint { mechanism: M::NAME, group });
                     }
                     // Where all groups are flat at once the motions cross at the end of the input's range.
-                    if !is_target && is_onward && self.place.tangent.input.abs() <= weak() {
+                    if !is_target && is_onward && self.place.tangent.inputs[0].abs() <= weak() {
                         let left = self.curve.input_distance(input - self.input()).abs();
-                        return Err(Error::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
+                        return Err(PathError::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
                     }
                 }
                 _ => {}
             }
             if is_target {
-                return Ok(Step { event: passed, ..step });
+                return Ok(PathStep { event: passed, ..step });
             }
         }
-        Err(Error::TooLong { mechanism: M::NAME, steps: self.options.most_steps })
+        Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
     }
 
-    fn input(&self) -> T {
-        Curve::<'_, M, T, U>::input(&self.place.q)
+    fn input(&self) -> M::Scalar {
+        Curve::<'_, M>::input(&self.place.q)
     }
 
-    fn here(&self, event: Option<Event<M::Coordinates>>) -> Step<M::Coordinates, T> {
-        Step { position: self.place.q, rates: self.rates(), length: self.length, event }
+    fn here(&self, event: Option<Event<M::Rates>>) -> PathStep<M> {
+        PathStep { position: self.place.q, rates: self.rates(), length: self.length, event }
     }
 
     fn advance_wanting(
         &mut self,
-        target: Option<T>,
-        watch: Option<Watch<'_, M::Coordinates, T>>,
-    ) -> Result<(Step<M::Coordinates, T>, bool), Error> {
+        target: Option<M::Scalar>,
+        watch: Option<Watch<'_, M>>,
+    ) -> Result<(PathStep<M>, bool), PathError> {
         if let Stands::Undecided(crossing) = self.stands {
             let group = crossing.groups.first();
-            return Err(Error::ChangePoint { mechanism: M::NAME, group });
+            return Err(PathError::ChangePoint { mechanism: M::NAME, group });
         }
         // At an end of its range the input goes no further.
-        let (input, way) = (self.input(), self.place.tangent.input);
-        let is_outward = |[low, high]: [T; 2]| (input <= low && way < T::zero()) || (input >= high && way > T::zero());
+        let (input, way) = (self.input(), self.place.tangent.inputs[0]);
+        let is_outward = |[low, high]: [M::Scalar; 2]| {
+            (input <= low && way < M::Scalar::zero()) || (input >= high && way > M::Scalar::zero())
+        };
         if self.options.range.is_some_and(is_outward) {
             self.is_ended = true;
             return Ok((self.here(Some(Event::Limit)), false));
         }
         let wanted = Wanted { target, watch, is_at_zero: matches!(self.stands, Stands::AtZero) };
-        let shortest = self.curve.rounding(&self.place.q) * real(ROUNDINGS);
+        let shortest = self.curve.rounding(&self.place.q) * real(SAME);
         let mut trial = self.step;
         let mut refusal = Refusal { residual: f64::NAN, regularity: f64::NAN };
         for number in 0..MOST_TRIALS {
@@ -287,7 +283,8 @@ where
                 Ok((end, tried)) => {
                     let way = self.curve.difference(&end.place.q, &self.place.q).norm();
                     if !(self.length + way).is_finite() {
-                        return Err(Error::NotFinite { mechanism: M::NAME, quantity: "the length of the path" });
+                        let quantity = "the length of the path";
+                        return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
                     }
                     return Ok(self.arrive(end, tried, way, number > 0));
                 }
@@ -303,19 +300,19 @@ where
     }
 
     /// A step of this length, up to its first event, and the length that was tried.
-    fn attempt(&self, trial: T, wanted: &Wanted<'_, M::Coordinates, T>) -> Tried<(End<M, T, U>, T)> {
+    fn attempt(&self, trial: M::Scalar, wanted: &Wanted<'_, M>) -> Tried<(End<M>, M::Scalar)> {
         let (curve, from) = (&self.curve, &self.place);
         // Within reach the target is aimed at: the velocity ratios predict its position.
         let aim = wanted.target.and_then(|target| {
-            let distance = curve.input_distance(target - self.input()) / from.tangent.input;
-            (distance > T::zero() && distance <= trial).then_some((target, distance))
+            let distance = curve.input_distance(target - self.input()) / from.tangent.inputs[0];
+            (distance > M::Scalar::zero() && distance <= trial).then_some((target, distance))
         });
         let tried = aim.map_or(trial, |(_, distance)| distance);
         let found = match aim {
             Some((target, distance)) => {
                 let guess = curve.moved(&from.q, &(from.tangent * distance));
-                let guess = Curve::<'_, M, T, U>::with_input(&guess, target);
-                let found = curve.correct(guess, &Vector::unit(U))?;
+                let guess = Curve::<'_, M>::with_input(&guess, target);
+                let found = curve.correct(guess, &Vector::<M>::unit(M::U::COUNT))?;
                 found.map(|(q, elimination)| curve.place(q, &elimination, &from.tangent))
             }
             None => curve.at(from, trial)?,
@@ -324,13 +321,13 @@ where
             Ok(place) => Refusal { residual: 0.0, regularity: to_f64(place.regularity) },
             Err(refusal) => *refusal,
         };
-        let flips = |place: &Place<M, T, U>| place.side * from.side < T::zero();
-        let is_weak = |place: &Place<M, T, U>| place.regularity < weak();
+        let flips = |place: &Place<M>| place.side * from.side < M::Scalar::zero();
+        let is_weak = |place: &Place<M>| place.regularity < weak();
         let arc = found
             .as_ref()
             .ok()
             .filter(|place| curve.is_arc(from, &place.q, &place.tangent, from.regularity, &self.options));
-        let turns = |place: &Place<M, T, U>| from.sign_changes(place).is_some();
+        let turns = |place: &Place<M>| from.sign_changes(place).is_some();
         let guess = match &found {
             Ok(place) if flips(place) => Some(tried * (from.side / (from.side - place.side))),
             Ok(place) if turns(place) => from.sign_changes(place).map(|share| tried * share),
@@ -348,15 +345,15 @@ where
         if place.side.is_zero() {
             place.side = from.side;
         }
-        if place.regularity <= curve.rounding(&place.q) * real(ROUNDINGS) {
-            place.forget_sign(curve.singular_group(&place.q));
+        if place.regularity <= curve.rounding(&place.q) * real(SAME) {
+            let (_, group) = curve.weakest_group(&place.q);
+            place.forget_sign(group);
         }
         let end = End { place, event: None, is_target: false, stands: Stands::OnTheWay };
         let mut found = curve.first_event(from, end, wanted, &self.options)?;
         // At a dead point [J A] has full rank.
-        let is_doubtful = |end: &End<M, T, U>| {
-            matches!(end.event, Some(Event::DeadPoint { .. })) && end.place.regularity < real(DOUBTFUL)
-        };
+        let is_doubtful =
+            |end: &End<M>| matches!(end.event, Some(Event::DeadPoint { .. })) && end.place.regularity < real(DOUBTFUL);
         if let Some(end) = found.as_ref().filter(|end| is_doubtful(end)) {
             let guess = curve.difference(&end.place.q, &from.q).dot(&from.tangent);
             if let Some(crossing) = self.crossing_ahead(guess, tried)? {
@@ -367,7 +364,7 @@ where
     }
 
     /// The change point on the next `tried` of the path.
-    fn crossing_ahead(&self, guess: T, tried: T) -> Result<Option<End<M, T, U>>, Error> {
+    fn crossing_ahead(&self, guess: M::Scalar, tried: M::Scalar) -> Result<Option<End<M>>, PathError> {
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
         let reach = tried * real(AHEAD) + weak();
@@ -381,7 +378,7 @@ where
         crossing.followed(&from.tangent);
         curve.add_fallen_groups(&mut crossing, from);
         let kept = crossing.tangents()[0];
-        let is_on_the_way = ahead > T::zero()
+        let is_on_the_way = ahead > M::Scalar::zero()
             && ahead <= tried * real(AHEAD)
             && curve.is_arc(from, &crossing.q, &kept, from.regularity, &self.options);
         if !(is_on_the_way || is_near(&from.q)) {
@@ -389,26 +386,26 @@ where
         }
         // The closures change their side once for each pivot that passes its zero.
         let behind = if crossing.defect % 2 == 1 { -from.side } else { from.side };
-        let beside = if crossing.defect == 1 { from.side } else { T::zero() };
+        let beside = if crossing.defect == 1 { from.side } else { M::Scalar::zero() };
         let (tangent, side, is_decided) = match (self.options.at_change_point, crossing.tangents()) {
             (AtChangePoint::Switch, &[_, other]) if crossing.is_complete => (other.like(&kept), beside, true),
             (policy, _) => (kept, behind, policy == AtChangePoint::Keep),
         };
         let place = curve.at_crossing(&crossing, tangent, side);
-        let tangents = crossing.tangents().iter().map(|tangent| curve.rates(&crossing.q, tangent));
+        let tangents = crossing.tangents().iter().map(|tangent| curve.rates(tangent));
         let tangents = Tangents::new(tangents, crossing.is_complete);
         let event = Event::ChangePoint { groups: crossing.groups, tangents };
         let stands = if is_decided { Stands::AtChangePoint } else { Stands::Undecided(crossing) };
         Ok(Some(End { place, event: Some(event), is_target: false, stands }))
     }
 
-    fn arrive(&mut self, end: End<M, T, U>, tried: T, way: T, was_refused: bool) -> (Step<M::Coordinates, T>, bool) {
+    fn arrive(&mut self, end: End<M>, tried: M::Scalar, way: M::Scalar, was_refused: bool) -> (PathStep<M>, bool) {
         let stands = end.stands;
         let turn = (end.place.tangent - self.place.tangent).norm();
         let is_whole = end.event.is_none() && !end.is_target;
         // Steps grow and shrink towards the turn that is allowed.
-        let factor = real::<T>(0.7) * self.options.largest_turn / turn;
-        let factor = if is_whole { factor.min(real(2.0)).max(real(0.5)) } else { T::one() };
+        let factor = real::<M::Scalar>(0.7) * self.options.largest_turn / turn;
+        let factor = if is_whole { factor.min(real(2.0)).max(real(0.5)) } else { M::Scalar::one() };
         let last = if is_whole || was_refused { tried } else { self.step };
         self.step = (last * factor).min(self.options.longest_step);
         self.length += way;
@@ -424,12 +421,11 @@ where
     }
 }
 
-impl<M, T, const U: usize> Iterator for Path<'_, M, T, U>
+impl<M> Iterator for Path<'_, M>
 where
-    T: Real,
-    M: Mechanism<T, U, 1>,
+    M: Mechanism<V = D<1>>,
 {
-    type Item = Result<Step<M::Coordinates, T>, Error>;
+    type Item = Result<PathStep<M>, PathError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         (!self.is_ended).then(|| {

@@ -9,19 +9,19 @@ pub(super) const MOST_TANGENTS: usize = 8;
 /// Rates of the coordinates along the motions that cross at a change point: first along the one that was followed, in
 /// its direction; then along the others, either way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tangents<Q> {
-    rates: [Option<Q>; MOST_TANGENTS],
+pub struct Tangents<R> {
+    rates: [Option<R>; MOST_TANGENTS],
     is_complete: bool,
 }
 
-impl<Q: Copy> Tangents<Q> {
-    pub(super) fn new(rates: impl Iterator<Item = Q>, is_complete: bool) -> Self {
+impl<R: Copy> Tangents<R> {
+    pub(super) fn new(rates: impl Iterator<Item = R>, is_complete: bool) -> Self {
         let mut rates = rates;
         Self { rates: core::array::from_fn(|_| rates.next()), is_complete }
     }
 
     /// The rates along each motion.
-    pub fn iter(&self) -> impl Iterator<Item = &Q> {
+    pub fn iter(&self) -> impl Iterator<Item = &R> {
         self.rates.iter().flatten()
     }
 
@@ -48,10 +48,10 @@ impl<Q: Copy> Tangents<Q> {
 }
 
 /// The tangent at a place below [`len`](Tangents::len): 0 is the motion that was followed.
-impl<Q> Index<usize> for Tangents<Q> {
-    type Output = Q;
+impl<R> Index<usize> for Tangents<R> {
+    type Output = R;
 
-    fn index(&self, place: usize) -> &Q {
+    fn index(&self, place: usize) -> &R {
         match &self.rates[place] {
             Some(rates) => rates,
             None => panic!("there is no tangent {place}"),

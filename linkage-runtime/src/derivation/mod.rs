@@ -6,7 +6,7 @@ mod scene;
 
 use core::fmt;
 
-pub use scene::{Effect, Scene};
+pub use scene::{Effect, SceneDerivation};
 
 /// A formula. Its [`Display`](fmt::Display) is the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub struct Equation {
     pub right: Formula,
 }
 
-/// An entry of a [`Matrix`].
+/// An entry of a [`FormulaMatrix`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Entry {
     /// The row, counted from 0.
@@ -50,7 +50,7 @@ pub struct Entry {
 
 /// A matrix of formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Matrix {
+pub struct FormulaMatrix {
     /// What it is called.
     pub name: Formula,
     /// What stands before the brackets and multiplies every entry.
@@ -66,7 +66,7 @@ pub struct Matrix {
 /// How the linear system of a [`Block`] is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Method {
+pub enum BlockMethod {
     /// By formula: the adjugate over the determinant.
     ClosedForm,
     /// By a factorisation with partial pivoting.
@@ -83,11 +83,11 @@ pub struct Block {
     /// The Assur group that the block is, or what else it is, in words.
     pub group: &'static str,
     /// How the linear system is solved.
-    pub method: Method,
+    pub method: BlockMethod,
     /// The determinant of the block of J, where there is a formula.
     pub determinant: Option<Equation>,
     /// The inverse of the block of J, where there is a formula.
-    pub inverse: Option<Matrix>,
+    pub inverse: Option<FormulaMatrix>,
 }
 
 /// A point or output.
@@ -110,7 +110,7 @@ pub struct Quantity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sensitivity {
     /// ∂Ψ/∂p, the columns in the order of the parameters.
-    pub jacobian: Matrix,
+    pub jacobian: FormulaMatrix,
     /// ∂u/∂p where there is a formula, but for those that are zero.
     pub formulas: &'static [Equation],
 }
@@ -152,9 +152,9 @@ pub struct Derivation {
     /// Ψ, which is zero where the mechanism closes.
     pub residual: &'static [Equation],
     /// J = ∂Ψ/∂u.
-    pub jacobian_unknowns: Matrix,
+    pub jacobian_unknowns: FormulaMatrix,
     /// A = ∂Ψ/∂v.
-    pub jacobian_inputs: Matrix,
+    pub jacobian_inputs: FormulaMatrix,
     /// The blocks, in the order in which they are solved.
     pub blocks: &'static [Block],
     /// det J, the product of the determinants of the blocks; none if a block has no formula.
@@ -180,7 +180,7 @@ pub struct Derivation {
     pub kernels: &'static [Kernel],
 }
 
-impl Matrix {
+impl FormulaMatrix {
     /// The entry there, unless it is zero; both indices count from 0.
     #[must_use]
     pub fn entry(&self, row: usize, column: usize) -> Option<Formula> {
@@ -188,7 +188,7 @@ impl Matrix {
     }
 }
 
-impl Method {
+impl BlockMethod {
     /// The method in words, to follow "solved".
     #[must_use]
     pub fn words(self) -> &'static str {

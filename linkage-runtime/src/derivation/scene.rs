@@ -4,7 +4,7 @@ use super::{Equation, Kernel, Symbol};
 
 /// How the motion of a scene follows from its bodies and effects: M(v)·v̈ = Q(v, v̇, t).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Scene {
+pub struct SceneDerivation {
     /// Its name.
     pub scene: &'static str,
     /// The mechanism, or the driver of one.

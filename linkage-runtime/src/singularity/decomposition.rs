@@ -1,8 +1,6 @@
 //! Singular values by one-sided rotations.
 
-use nalgebra::{SMatrix, SVector};
-
-use crate::{Real, real};
+use crate::{Column, Dim, Matrix, Real, real};
 
 /// Sweeps before the rotations end; six or seven are needed.
 const MOST_SWEEPS: usize = 40;
@@ -13,19 +11,19 @@ const MOST_SWEEPS: usize = 40;
 /// It finds small singular values to more digits than a bidiagonalisation (J. Demmel and K. Veselić, "Jacobi's method
 /// is more accurate than QR", SIAM Journal on Matrix Analysis and Applications 13, 1992), always ends, and asks
 /// nothing of the shape of the matrix.
-pub(super) struct Decomposition<T, const N: usize> {
-    pub(super) values: SVector<T, N>,
-    pub(super) vectors: SMatrix<T, N, N>,
+pub(super) struct Decomposition<T: Real, N: Dim> {
+    pub(super) values: Column<T, N>,
+    pub(super) vectors: Matrix<T, N, N>,
 }
 
-impl<T: Real, const N: usize> Decomposition<T, N> {
+impl<T: Real, N: Dim> Decomposition<T, N> {
     /// Of a matrix of finite numbers, none much larger than 1.
-    pub(super) fn of<const R: usize>(matrix: SMatrix<T, R, N>) -> Self {
-        let (mut columns, mut vectors) = (matrix, SMatrix::<T, N, N>::identity());
+    pub(super) fn of<R: Dim>(matrix: Matrix<T, R, N>) -> Self {
+        let (mut columns, mut vectors) = (matrix, Matrix::<T, N, N>::identity());
         for _ in 0..MOST_SWEEPS {
             let mut is_done = true;
-            for first in 0..N {
-                for second in first + 1..N {
+            for first in 0..N::COUNT {
+                for second in first + 1..N::COUNT {
                     let (a, b) = (columns.column(first).norm(), columns.column(second).norm());
                     let product = columns.column(first).dot(&columns.column(second));
                     if product.abs() <= T::default_epsilon() * a * b {
@@ -45,11 +43,12 @@ impl<T: Real, const N: usize> Decomposition<T, N> {
                 break;
             }
         }
-        let mut values = SVector::<T, N>::from_fn(|column, _| columns.column(column).norm());
-        for place in 0..N {
-            let largest = (place..N).fold(place, |best, other| if values[other] > values[best] { other } else { best });
-            values.swap_rows(place, largest);
-            vectors.swap_columns(place, largest);
+        let mut values = Column::<T, N>::from_fn(|column| columns.column(column).norm());
+        for place in 0..N::COUNT {
+            let largest =
+                (place..N::COUNT).fold(place, |best, other| if values[other] > values[best] { other } else { best });
+            values.as_mut_slice().swap(place, largest);
+            vectors.columns_mut().as_mut_slice().swap(place, largest);
         }
         Self { values, vectors }
     }
@@ -65,14 +64,8 @@ impl<T: Real, const N: usize> Decomposition<T, N> {
     }
 }
 
-fn rotate<T: Real, const R: usize, const N: usize>(
-    matrix: &mut SMatrix<T, R, N>,
-    first: usize,
-    second: usize,
-    cosine: T,
-    sine: T,
-) {
-    for row in 0..R {
+fn rotate<T: Real, R: Dim, N: Dim>(matrix: &mut Matrix<T, R, N>, first: usize, second: usize, cosine: T, sine: T) {
+    for row in 0..R::COUNT {
         let (x, y) = (matrix[(row, first)], matrix[(row, second)]);
         matrix[(row, first)] = cosine * x - sine * y;
         matrix[(row, second)] = sine * x + cosine * y;

@@ -1,0 +1,52 @@
+//! Normal equations.
+
+use crate::{Column, Dim, Matrix, Real};
+
+/// L of a symmetric matrix L L'.
+#[derive(Debug, Clone, Copy)]
+pub struct Cholesky<T: Real, N: Dim> {
+    lower: Matrix<T, N, N>,
+}
+
+impl<T: Real, N: Dim> Cholesky<T, N> {
+    /// `None` where the matrix is not positive definite.
+    #[must_use]
+    pub fn new(matrix: &Matrix<T, N, N>) -> Option<Self> {
+        let mut lower = Matrix::zeros();
+        for column in 0..N::COUNT {
+            for row in column..N::COUNT {
+                let known = (0..column).fold(T::zero(), |sum, k| sum + lower[(row, k)] * lower[(column, k)]);
+                let rest = matrix[(row, column)] - known;
+                lower[(row, column)] = if row > column {
+                    rest / lower[(column, column)]
+                } else if rest > T::zero() {
+                    rest.sqrt()
+                } else {
+                    return None;
+                };
+            }
+        }
+        Some(Self { lower })
+    }
+
+    /// The diagonal of L.
+    #[must_use]
+    pub fn diagonal(&self) -> Column<T, N> {
+        Column::from_fn(|place| self.lower[(place, place)])
+    }
+
+    /// The x of L L' x = `right`.
+    #[must_use]
+    pub fn solve(&self, right: &Column<T, N>) -> Column<T, N> {
+        let mut x = *right;
+        for row in 0..N::COUNT {
+            let known = (0..row).fold(T::zero(), |sum, k| sum + self.lower[(row, k)] * x[k]);
+            x[row] = (x[row] - known) / self.lower[(row, row)];
+        }
+        for row in (0..N::COUNT).rev() {
+            let known = (row + 1..N::COUNT).fold(T::zero(), |sum, k| sum + self.lower[(k, row)] * x[k]);
+            x[row] = (x[row] - known) / self.lower[(row, row)];
+        }
+        x
+    }
+}

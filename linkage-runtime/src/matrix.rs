@@ -1,0 +1,296 @@
+//! Matrices whose numbers of rows and columns are types.
+
+use core::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub};
+
+use nalgebra::SMatrix;
+
+use crate::column::Column;
+use crate::scalar::largest;
+use crate::{D, Dim, Real};
+
+/// A matrix of [`R::COUNT`](Dim::COUNT) rows and `C::COUNT` columns.
+///
+/// It is nalgebra's [`SMatrix`] where the numbers are types: each becomes the other by `into`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Matrix<T: Real, R: Dim, C: Dim>(Column<Column<T, R>, C>);
+
+impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
+    /// The matrix of these entries, by row and column.
+    #[inline]
+    #[must_use]
+    pub fn from_fn(mut entry: impl FnMut(usize, usize) -> T) -> Self {
+        Self(Column::from_fn(|column| Column::from_fn(|row| entry(row, column))))
+    }
+
+    /// The matrix of these columns.
+    #[inline]
+    #[must_use]
+    pub fn from_columns(columns: Column<Column<T, R>, C>) -> Self {
+        Self(columns)
+    }
+
+    /// The matrix of these columns, zero where there are no more.
+    ///
+    /// Where columns are mapped, this is several times as fast as a map of arrays.
+    #[inline]
+    fn from_iterator(columns: impl IntoIterator<Item = Column<T, R>>) -> Self {
+        let mut matrix = Self::zeros();
+        for (own, column) in matrix.0.iter_mut().zip(columns) {
+            *own = column;
+        }
+        matrix
+    }
+
+    /// Zero.
+    #[inline]
+    #[must_use]
+    pub fn zeros() -> Self {
+        Self(Column::repeat(Column::zeros()))
+    }
+
+    /// The columns.
+    #[inline]
+    #[must_use]
+    pub fn columns(&self) -> &Column<Column<T, R>, C> {
+        &self.0
+    }
+
+    /// The columns.
+    #[inline]
+    #[must_use]
+    pub fn columns_mut(&mut self) -> &mut Column<Column<T, R>, C> {
+        &mut self.0
+    }
+
+    /// An entry; zero where there is none. Unlike an index it cannot panic, whatever the compiler proves.
+    #[inline]
+    #[must_use]
+    pub fn part(&self, row: usize, column: usize) -> T {
+        self.0.as_slice().get(column).map_or_else(T::zero, |column| column.part(row))
+    }
+
+    /// An entry, if there is one.
+    #[inline]
+    #[must_use]
+    pub fn get_mut(&mut self, row: usize, column: usize) -> Option<&mut T> {
+        self.0.as_mut_slice().get_mut(column)?.as_mut_slice().get_mut(row)
+    }
+
+    /// A column.
+    #[inline]
+    #[must_use]
+    pub fn column(&self, column: usize) -> Column<T, R> {
+        self.0[column]
+    }
+
+    /// A row.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, row: usize) -> Column<T, C> {
+        self.0.map(|column| column[row])
+    }
+
+    /// Gives a column other entries.
+    #[inline]
+    pub fn set_column(&mut self, column: usize, entries: Column<T, R>) {
+        self.0[column] = entries;
+    }
+
+    /// The entries, column by column.
+    #[inline]
+    pub fn iter(&self) -> impl Iterator<Item = &T> + Clone {
+        self.0.iter().flat_map(Column::iter)
+    }
+
+    /// Multiplies a row by a factor.
+    #[inline]
+    pub fn scale_row(&mut self, row: usize, factor: T) {
+        for column in &mut self.0 {
+            column[row] *= factor;
+        }
+    }
+
+    /// Takes `factor` times another row from a row.
+    #[inline]
+    pub fn take_row(&mut self, row: usize, other: usize, factor: T) {
+        for column in &mut self.0 {
+            let taken = factor * column.part(other);
+            if let Some(entry) = column.as_mut_slice().get_mut(row) {
+                *entry -= taken;
+            }
+        }
+    }
+
+    /// Multiplies a column by a factor.
+    #[inline]
+    pub fn scale_column(&mut self, column: usize, factor: T) {
+        self.0[column] *= factor;
+    }
+
+    /// A function of each entry.
+    #[inline]
+    #[must_use]
+    pub fn map(&self, mut f: impl FnMut(T) -> T) -> Self {
+        Self::from_iterator(self.0.iter().map(|column| column.map(&mut f)))
+    }
+
+    /// The magnitudes.
+    #[inline]
+    #[must_use]
+    pub fn abs(&self) -> Self {
+        self.map(|entry| entry.abs())
+    }
+
+    /// The matrix with rows and columns exchanged.
+    #[inline]
+    #[must_use]
+    pub fn transpose(&self) -> Matrix<T, C, R> {
+        Matrix::from_fn(|row, column| self[(column, row)])
+    }
+
+    /// The transpose times a column.
+    #[inline]
+    #[must_use]
+    pub fn tr_mul(&self, column: &Column<T, R>) -> Column<T, C> {
+        Column::from_iterator(self.0.iter().map(|own| own.dot(column)))
+    }
+
+    /// The transpose times a matrix.
+    #[inline]
+    #[must_use]
+    pub fn tr_mul_matrix<K: Dim>(&self, other: &Matrix<T, R, K>) -> Matrix<T, C, K> {
+        Matrix::from_iterator(other.0.iter().map(|column| self.tr_mul(column)))
+    }
+
+    /// The largest magnitude; not a number if an entry is none.
+    #[inline]
+    #[must_use]
+    pub fn largest(&self) -> T {
+        largest(self.iter().copied())
+    }
+
+    /// Whether every entry is finite.
+    #[inline]
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.iter().all(T::is_finite)
+    }
+}
+
+impl<T: Real, N: Dim> Matrix<T, N, N> {
+    /// The matrix that changes nothing.
+    #[inline]
+    #[must_use]
+    pub fn identity() -> Self {
+        Self(Column::from_fn(Column::unit))
+    }
+
+    /// The entries whose row is their column.
+    #[inline]
+    #[must_use]
+    pub fn diagonal(&self) -> Column<T, N> {
+        Column::from_fn(|place| self[(place, place)])
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> Index<(usize, usize)> for Matrix<T, R, C> {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, (row, column): (usize, usize)) -> &T {
+        &self.0[column][row]
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> IndexMut<(usize, usize)> for Matrix<T, R, C> {
+    #[inline]
+    fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut T {
+        &mut self.0[column][row]
+    }
+}
+
+impl<T: Real, const R: usize, const C: usize> From<SMatrix<T, R, C>> for Matrix<T, D<R>, D<C>> {
+    #[inline]
+    fn from(matrix: SMatrix<T, R, C>) -> Self {
+        Self::from(matrix.data.0)
+    }
+}
+
+impl<T: Real, const R: usize, const C: usize> From<[[T; R]; C]> for Matrix<T, D<R>, D<C>> {
+    #[inline]
+    fn from(columns: [[T; R]; C]) -> Self {
+        Self::from_iterator(columns.iter().map(|&column| Column::from(column)))
+    }
+}
+
+impl<T: Real, const R: usize, const C: usize> From<Matrix<T, D<R>, D<C>>> for SMatrix<T, R, C> {
+    #[inline]
+    fn from(matrix: Matrix<T, D<R>, D<C>>) -> Self {
+        let mut columns = [[T::zero(); R]; C];
+        for (own, &column) in columns.iter_mut().zip(&matrix.0) {
+            *own = column.into();
+        }
+        Self::from(columns)
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> Mul<Column<T, C>> for Matrix<T, R, C> {
+    type Output = Column<T, R>;
+
+    #[inline]
+    fn mul(self, factors: Column<T, C>) -> Column<T, R> {
+        self.0.iter().zip(&factors).fold(Column::zeros(), |sum, (&column, &factor)| sum + column * factor)
+    }
+}
+
+impl<T: Real, R: Dim, K: Dim, C: Dim> Mul<Matrix<T, K, C>> for Matrix<T, R, K> {
+    type Output = Matrix<T, R, C>;
+
+    #[inline]
+    fn mul(self, other: Matrix<T, K, C>) -> Matrix<T, R, C> {
+        Matrix::from_iterator(other.0.iter().map(|&column| self * column))
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> Mul<T> for Matrix<T, R, C> {
+    type Output = Self;
+
+    #[inline]
+    fn mul(self, factor: T) -> Self {
+        self.map(|entry| entry * factor)
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> Add for Matrix<T, R, C> {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.zip_map(&other.0, |one, other| one + other))
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> AddAssign for Matrix<T, R, C> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> Sub for Matrix<T, R, C> {
+    type Output = Self;
+
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.zip_map(&other.0, |one, other| one - other))
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> Neg for Matrix<T, R, C> {
+    type Output = Self;
+
+    #[inline]
+    fn neg(self) -> Self {
+        self.map(|entry| -entry)
+    }
+}
