@@ -1,43 +1,43 @@
 //! The equations of motion as they stand before the accelerations are solved for.
 
-use nalgebra::{SMatrix, SVector};
-
+use crate::MotionError;
 use linkage_runtime::__shared::all_finite;
-use linkage_runtime::{Error, Mechanism, Real};
+use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
 
 /// The equations of motion in the inputs, without frictions and stops: M v'' = Q, u' = W v', u'' = W v'' + `bias`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Equations<T, const U: usize, const V: usize> {
+pub struct Equations<T: Real, U: Dim, V: Dim> {
     /// M.
-    pub mass: SMatrix<T, V, V>,
+    pub mass: Matrix<T, V, V>,
     /// Q.
-    pub forces: SVector<T, V>,
+    pub forces: Column<T, V>,
     /// W.
-    pub ratios: SMatrix<T, U, V>,
+    pub ratios: Matrix<T, U, V>,
     /// u'' at v'' = 0.
-    pub bias: SVector<T, U>,
+    pub bias: Column<T, U>,
 }
 
-impl<T: Real, const U: usize, const V: usize> Equations<T, U, V> {
+impl<T: Real, U: Dim, V: Dim> Equations<T, U, V> {
     /// From M and Q at a position and the rates v', with what the mechanism says of u.
     ///
     /// # Errors
-    /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] if a number is not finite.
-    pub fn at<M: Mechanism<T, U, V>>(
+    /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J has no inverse,
+    /// [`PositionError::NotFinite`](linkage_runtime::PositionError::NotFinite) if a number is not finite.
+    pub fn at<M: Mechanism<Scalar = T, U = U, V = V>>(
         mechanism: &M,
         q: &M::Coordinates,
-        rates: &SVector<T, V>,
-        mass: SMatrix<T, V, V>,
-        forces: SVector<T, V>,
-    ) -> Result<Self, Error> {
+        input_rates: impl Into<Column<T, V>>,
+        mass: impl Into<Matrix<T, V, V>>,
+        forces: impl Into<Column<T, V>>,
+    ) -> Result<Self, MotionError> {
+        let (input_rates, mass, forces) = (input_rates.into(), mass.into(), forces.into());
         let pose = mechanism.pose_at(q);
-        let by_inputs = mechanism.jacobian_inputs(&pose);
-        let mut ratios = SMatrix::<T, U, V>::zeros();
-        for (input, column) in by_inputs.column_iter().enumerate() {
-            ratios.set_column(input, &(-mechanism.solve_jacobian(&pose, &column.into_owned())?));
+        let mut ratios = mechanism.jacobian_inputs(&pose);
+        for column in ratios.columns_mut() {
+            *column = -mechanism.solve_jacobian(&pose, column)?;
         }
-        let velocity = M::with_unknowns(&M::with_inputs(q, *rates), ratios * rates);
-        let bias = -mechanism.solve_jacobian(&pose, &mechanism.gamma(&pose, &velocity))?;
+        let rates = M::rates(ratios * input_rates, input_rates);
+        let bias = -mechanism.solve_jacobian(&pose, &mechanism.gamma(&pose, &rates))?;
         let values = mass.iter().chain(forces.iter()).chain(ratios.iter()).chain(bias.iter());
         all_finite(M::NAME, "the equations of motion", values)?;
         Ok(Self { mass, forces, ratios, bias })

@@ -1,12 +1,10 @@
 //! Equilibrium by Newton's method on the forces of the inputs.
 
-use nalgebra::{Const, DimMin, SMatrix, SVector};
+use core::marker::PhantomData;
 
-use linkage_runtime::__shared::all_finite;
-use linkage_runtime::__shared::beside_columns;
-use linkage_runtime::__shared::{Closures, search};
-use linkage_runtime::__shared::{Factorization, product_of_pivots};
-use linkage_runtime::{Error, Real, Solution, real};
+use crate::MotionError;
+use linkage_runtime::__shared::{Closures, Factorization, all_finite, beside_columns, product_of_pivots, search};
+use linkage_runtime::{Column, D, Matrix, PositionError, Real, real};
 
 /// Positions close to rounding only, and forces are no better than positions: a sum of forces is zero beside this
 /// many times the sum of their magnitudes.
@@ -27,16 +25,15 @@ pub struct Balance<T, const N: usize> {
 /// values of these inputs. Stable or not is not asked.
 ///
 /// # Errors
-/// What `evaluate` says of the start, [`Error::NotConverged`] if no equilibrium is found, [`Error::NotFinite`] if a
-/// number is not finite.
+/// What `evaluate` says of the start, [`PositionError::NotConverged`] if no equilibrium is found,
+/// [`PositionError::NotFinite`] if a number is not finite.
 pub fn equilibrium<T, Q, const N: usize>(
     scene: &'static str,
     start: [T; N],
-    evaluate: impl Fn([T; N]) -> Result<(Q, Balance<T, N>), Error>,
-) -> Result<Q, Error>
+    evaluate: impl Fn([T; N]) -> Result<(Q, Balance<T, N>), MotionError>,
+) -> Result<Q, MotionError>
 where
     T: Real,
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let (_, Balance { mut sizes, slopes, .. }) = evaluate(start)?;
     // What the forces change by over the whole of an input is a size, too: a single spring is slack where it rests.
@@ -48,60 +45,53 @@ where
     // Relative to an infinite size every force would be zero.
     all_finite(scene, "the forces at rest", sizes.iter())?;
     // The measure stays as it is, so that smaller forces are better.
-    let sizes = SVector::from(sizes) * real::<T>(COARSER);
-    let (found, _) = search(&Forces { scene, sizes, evaluate: &evaluate }, SVector::from(start))?;
+    let sizes = Column::from(sizes) * real::<T>(COARSER);
+    let forces = Forces { scene, sizes, evaluate: &evaluate, position: PhantomData };
+    let (found, _) = search(&forces, Column::from(start))?;
     found.point.map(|(q, ..)| q)
 }
 
-/// The coordinates of a position that is on the branch of its guess.
-///
-/// # Errors
-/// [`Error::OtherBranch`] if it is not.
-pub fn on_branch<Q>(scene: &'static str, found: Solution<Q>) -> Result<Q, Error> {
-    if found.same_branch {
-        Ok(found.coordinates)
-    } else {
-        Err(Error::OtherBranch { mechanism: scene, group: "a loop" })
-    }
-}
-
-struct Forces<'a, T, F, const N: usize> {
+struct Forces<'a, T: Real, Q, F, const N: usize> {
     scene: &'static str,
-    sizes: SVector<T, N>,
+    sizes: Column<T, D<N>>,
     evaluate: &'a F,
+    position: PhantomData<Q>,
 }
 
-impl<T, Q, F, const N: usize> Closures<T, N> for Forces<'_, T, F, N>
+impl<T, Q, F, const N: usize> Closures for Forces<'_, T, Q, F, N>
 where
     T: Real,
-    F: Fn([T; N]) -> Result<(Q, Balance<T, N>), Error>,
-    Const<N>: DimMin<Const<N>, Output = Const<N>>,
+    F: Fn([T; N]) -> Result<(Q, Balance<T, N>), MotionError>,
 {
-    type Point = Result<(Q, Balance<T, N>), Error>;
+    type Scalar = T;
+    type N = D<N>;
+    type Point = Result<(Q, Balance<T, N>), MotionError>;
 
-    fn at(&self, inputs: &SVector<T, N>) -> Self::Point {
+    fn at(&self, inputs: &Column<T, D<N>>) -> Self::Point {
         (self.evaluate)((*inputs).into())
     }
 
-    fn residual(&self, point: &Self::Point) -> (SVector<T, N>, SVector<T, N>) {
+    fn residual(&self, point: &Self::Point) -> (Column<T, D<N>>, Column<T, D<N>>) {
         // Where the mechanism cannot be closed there is no force, and no step ends there.
-        let none = || SVector::repeat(T::zero() / T::zero());
-        (point.as_ref().map_or_else(|_| none(), |(_, balance)| SVector::from(balance.forces)), self.sizes)
+        let none = || Column::repeat(T::zero() / T::zero());
+        (point.as_ref().map_or_else(|_| none(), |(_, balance)| balance.forces.into()), self.sizes)
     }
 
-    fn solve(&self, point: &Self::Point, right: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
-        let (_, balance) = point.as_ref().map_err(|error| *error)?;
+    fn solve(&self, point: &Self::Point, right: &Column<T, D<N>>) -> Result<Column<T, D<N>>, PositionError> {
+        // No step starts there either.
+        let none = PositionError::NotFinite { mechanism: self.scene, quantity: "the forces at rest" };
+        let (_, balance) = point.as_ref().map_err(|_| none)?;
         let factors = Factorization::new(self.scene, "the stiffness", balance.slopes, self.sizes.into())?;
-        Ok(SVector::from(factors.solve((*right).into())))
+        Ok(factors.solve((*right).into()).into())
     }
 
-    fn jacobian(&self, point: &Self::Point) -> SMatrix<T, N, N> {
-        point.as_ref().map_or_else(|_| SMatrix::zeros(), |(_, balance)| SMatrix::from(balance.slopes))
+    fn jacobian(&self, point: &Self::Point) -> Matrix<T, D<N>, D<N>> {
+        point.as_ref().map_or_else(|_| Matrix::zeros(), |(_, balance)| balance.slopes.into())
     }
 
     fn regularity(&self, point: &Self::Point) -> f64 {
         point.as_ref().map_or(0.0, |(_, balance)| {
-            beside_columns(product_of_pivots(balance.slopes), &SMatrix::from(balance.slopes))
+            beside_columns(product_of_pivots(balance.slopes), &Matrix::from(balance.slopes))
         })
     }
 

@@ -1,58 +1,63 @@
 //! Accelerations from a mass matrix: symmetric elimination without exchange.
 
+use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real, real};
+use linkage_runtime::{Column, D, Dim, Matrix, PositionError, Real, real};
 
 /// A pivot below this many roundings of its own entry is no better than the rounding of the others.
-const ROUNDINGS: f64 = 4.0;
+const LEAST_PIVOT: f64 = 4.0;
 
-/// A mass matrix with the columns before each pivot taken out, good for a matrix whose every pivot is positive.
+/// A mass matrix with the columns before each pivot taken out, good for a matrix whose every pivot is positive. Nothing
+/// here can panic, whatever the compiler proves.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Inertia<T, const N: usize> {
-    columns: [[T; N]; N],
+pub(crate) struct Inertia<T: Real, N: Dim> {
+    matrix: Matrix<T, N, N>,
 }
 
-impl<T: Real, const N: usize> Inertia<T, N> {
+impl<T: Real, N: Dim> Inertia<T, N> {
     /// # Errors
     /// As [`reduced`].
     #[inline]
     pub(crate) fn new(
         scene: &'static str,
-        coordinates: [&'static str; N],
-        columns: [[T; N]; N],
-    ) -> Result<Self, Error> {
-        let mut matrix = columns;
-        for k in 0..N {
-            let pivot = matrix[k][k];
-            if !(pivot > real::<T>(ROUNDINGS) * T::default_epsilon() * columns[k][k] && pivot.is_finite()) {
-                return Err(without_inertia(scene, coordinates[k], pivot, columns[k][k]));
+        coordinates: &Column<&'static str, N>,
+        mass: &Matrix<T, N, N>,
+    ) -> Result<Self, MotionError> {
+        let mut matrix = *mass;
+        for (k, coordinate) in coordinates.iter().enumerate() {
+            let (pivot, entry) = (matrix.part(k, k), mass.part(k, k));
+            if !(pivot > real::<T>(LEAST_PIVOT) * T::default_epsilon() * entry && pivot.is_finite()) {
+                return Err(without_inertia(scene, coordinate, pivot, entry));
             }
-            for i in k + 1..N {
-                let factor = matrix[k][i] / pivot;
-                for column in &mut matrix[k + 1..] {
-                    column[i] -= factor * column[k];
+            for i in k + 1..N::COUNT {
+                let factor = matrix.part(i, k) / pivot;
+                for column in k + 1..N::COUNT {
+                    let above = matrix.part(k, column);
+                    if let Some(entry) = matrix.get_mut(i, column) {
+                        *entry -= factor * above;
+                    }
                 }
             }
         }
-        Ok(Self { columns: matrix })
+        Ok(Self { matrix })
     }
 
     /// The x of M x = `forces`.
     #[inline]
-    pub(crate) fn solve(&self, forces: [T; N]) -> [T; N] {
-        let (matrix, mut x) = (&self.columns, forces);
-        for k in 0..N {
-            for i in k + 1..N {
-                let factor = matrix[k][i] / matrix[k][k];
-                x[i] -= factor * x[k];
+    pub(crate) fn solve(&self, forces: &Column<T, N>) -> Column<T, N> {
+        let (matrix, mut x) = (&self.matrix, *forces);
+        for k in 0..N::COUNT {
+            let Some([value, below @ ..]) = x.as_mut_slice().get_mut(k..) else { continue };
+            for (i, entry) in (k + 1..).zip(below) {
+                *entry -= matrix.part(i, k) / matrix.part(k, k) * *value;
             }
         }
-        for k in (0..N).rev() {
-            let mut sum = x[k];
-            for i in k + 1..N {
-                sum -= matrix[i][k] * x[i];
+        for k in (0..N::COUNT).rev() {
+            let Some([entry, known @ ..]) = x.as_mut_slice().get_mut(k..) else { continue };
+            for (i, known) in (k + 1..).zip(known) {
+                *entry -= matrix.part(k, i) * *known;
             }
-            x[k] = sum / matrix[k][k];
+            *entry /= matrix.part(k, k);
         }
         x
     }
@@ -61,23 +66,24 @@ impl<T: Real, const N: usize> Inertia<T, N> {
 /// The accelerations of M x = `forces`, where M is symmetric and given by columns.
 ///
 /// # Errors
-/// [`Error::NoInertia`] with the name of the first coordinate whose pivot is not positive,
-/// [`Error::NotFinite`] if it is not a number.
+/// [`MotionError::NoInertia`] with the name of the first coordinate whose pivot is not positive,
+/// [`PositionError::NotFinite`] if it is not a number.
 #[inline]
 pub fn reduced<T: Real, const N: usize>(
     scene: &'static str,
     coordinates: [&'static str; N],
     columns: [[T; N]; N],
     forces: [T; N],
-) -> Result<[T; N], Error> {
-    Ok(Inertia::new(scene, coordinates, columns)?.solve(forces))
+) -> Result<[T; N], MotionError> {
+    let inertia = Inertia::<T, D<N>>::new(scene, &coordinates.into(), &columns.into())?;
+    Ok(inertia.solve(&forces.into()).into())
 }
 
 #[cold]
-fn without_inertia<T: Real>(scene: &'static str, coordinate: &'static str, pivot: T, entry: T) -> Error {
+fn without_inertia<T: Real>(scene: &'static str, coordinate: &'static str, pivot: T, entry: T) -> MotionError {
     if !pivot.is_finite() {
-        return Error::NotFinite { mechanism: scene, quantity: "the mass matrix" };
+        return PositionError::NotFinite { mechanism: scene, quantity: "the mass matrix" }.into();
     }
     let share = if entry > T::zero() { to_f64(pivot / entry) } else { 0.0 };
-    Error::NoInertia { scene, coordinate, share }
+    MotionError::NoInertia { scene, coordinate, share }
 }

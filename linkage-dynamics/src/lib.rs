@@ -3,7 +3,8 @@
 //! - [`Scene`]: a mechanism with forces, the trait that a simulation takes;
 //! - [`simulation`]: scenes in motion, through dead points and change points;
 //! - [`contact`]: dry friction and stops;
-//! - [`integrate`]: motions from differential equations, with events.
+//! - [`integrate`]: motions from differential equations, with events;
+//! - [`MotionError`]: why a motion cannot be computed.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 // Without elementary functions there is nothing; `linkage` says so.
@@ -15,12 +16,14 @@ pub mod __rt;
 pub mod contact;
 mod equations;
 mod equilibrium;
+mod error;
 mod inertia;
 pub mod integrate;
 mod scene;
 pub mod simulation;
 
-pub use contact::{Along, Contact, ContactLaw, Mode};
+pub use contact::{Contact, ContactCoordinate, ContactLaw, Mode};
 pub use equations::Equations;
 pub use equilibrium::Balance;
-pub use scene::{Coordinates, Energy, Inputs, Power, Scene, Unreduced};
+pub use error::MotionError;
+pub use scene::{Coordinates, Energy, Inputs, Power, Prescribed, Rates, Scene, StateColumn, Unreduced};

@@ -1,30 +1,27 @@
 //! Mechanisms with forces: the trait that integrators take, and what the code emitted for scenes calls.
 
-use nalgebra::{SMatrix, SVector};
-
 use crate::contact::within;
-use crate::simulation::scales::Scales;
-use crate::{Contact, ContactLaw, Equations};
-use linkage_runtime::__shared::all_finite;
-use linkage_runtime::__shared::finite;
-use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Mechanism, Real, newton};
+use crate::simulation::scales::resolution_by_inputs;
+use crate::{Contact, ContactLaw, Equations, MotionError};
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::__shared::{all_finite, finite, to_f64};
+use linkage_runtime::jacobian::Scales;
+use linkage_runtime::{Column, Dim, InputError, Matrix, Mechanism, PerInput, PositionError, Real, newton};
 
 /// Values that the functions of a scene share at a position and rates of the inputs.
 #[derive(Debug, Clone, Copy)]
-pub struct Kinematics<P, Q, T, const U: usize, const V: usize> {
+pub struct Kinematics<P, R, T, const U: usize, const V: usize> {
     /// The position.
     pub pose: P,
     /// W, column by column.
     pub ratios: [[T; U]; V],
     /// q' = (W v', v').
-    pub velocity: Q,
+    pub rates: R,
     /// u'' where the inputs do not accelerate.
     pub bias: [T; U],
 }
 
-/// A mechanism of `U` dependent and `V` independent coordinates with inertia and forces, as a differential
-/// equation of `N` = `U` + 2 `V` unknowns, with `C` frictions and stops.
+/// A mechanism with inertia and forces, as a differential equation, with frictions and stops.
 ///
 /// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then
 /// the rates of the inputs. Its derivative (W v', v'') needs no position to be solved for, follows angles beyond
@@ -33,112 +30,122 @@ pub struct Kinematics<P, Q, T, const U: usize, const V: usize> {
 /// integrator of plain functions takes
 ///
 /// ```text
-/// |t, y| scene.derivative(t, y)
+/// |t, y: &_| scene.derivative(t, y)
 /// ```
-pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C: usize> {
+pub trait Scene {
+    /// The number that a length or an angle is.
+    type Scalar: Real;
+    /// The number of dependent coordinates.
+    type U: Dim;
+    /// The number of independent coordinates.
+    type V: Dim;
+    /// The number of components of the state, [`U`](Self::U) + 2 [`V`](Self::V).
+    type State: Dim;
+    /// The number of frictions and stops.
+    type Contacts: Dim;
+    /// The kinematics.
+    type Mechanism: Mechanism<Scalar = Self::Scalar, U = Self::U, V = Self::V>;
+
     /// The name of the scene, as errors give it.
     const NAME: &'static str;
-    /// The kinematics.
-    type Mechanism: Mechanism<T, U, V>;
 
     /// The kinematics.
     fn mechanism(&self) -> &Self::Mechanism;
     /// y = (q, v').
-    fn state(q: &Coordinates<Self::Mechanism, T, U, V>, rates: &Inputs<Self::Mechanism, T, U, V>) -> SVector<T, N>;
+    fn state(q: &Coordinates<Self>, input_rates: &Inputs<Self>) -> StateColumn<Self>;
     /// q and v', taken out of y.
-    fn parts(state: &SVector<T, N>) -> (Coordinates<Self::Mechanism, T, U, V>, Inputs<Self::Mechanism, T, U, V>);
+    fn parts(state: &StateColumn<Self>) -> (Coordinates<Self>, Inputs<Self>);
     /// Refuses parameters that no mechanism has.
     ///
     /// # Errors
-    /// [`Error::Negative`] if a mass, an inertia or a friction is negative, with its name; [`Error::NoRange`] and
-    /// [`Error::Restitution`] with that of a stop.
-    fn check(&self) -> Result<(), Error>;
+    /// [`InputError::OutOfRange`] if a mass, an inertia or a friction is negative, with its name, or if the restitution of
+    /// a stop is not between 0 and 1; [`InputError::EmptyRange`] with the name of a stop.
+    fn check(&self) -> Result<(), MotionError>;
     /// y' = (W v', v''), without frictions and stops.
     ///
     /// # Errors
-    /// [`Error::Singular`] where J has no inverse, [`Error::NoInertia`] where an input could accelerate without
-    /// a force, [`Error::NotFinite`] with the name of the body or the effect that has no finite value.
-    fn derivative(&self, t: T, state: &SVector<T, N>) -> Result<SVector<T, N>, Error>;
+    /// [`PositionError::Singular`] where J has no inverse, [`MotionError::NoInertia`] where an input could accelerate
+    /// without a force, [`PositionError::NotFinite`] with the name of the body or the effect that has no finite value.
+    fn derivative(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError>;
     /// M, Q, W and u'' at v'' = 0, of which [`derivative`](Self::derivative) is made where no input is prescribed.
     ///
     /// # Errors
-    /// [`Error::Singular`] where J has no inverse, [`Error::NotFinite`] with the name of the body or the effect that
-    /// has no finite value.
-    fn equations(&self, t: T, state: &SVector<T, N>) -> Result<Equations<T, U, V>, Error>;
-    /// The frictions and stops as they were declared, in order, at a position and the velocity q'.
+    /// [`PositionError::Singular`] where J has no inverse, [`PositionError::NotFinite`] with the name of the body or the
+    /// effect that has no finite value.
+    fn equations(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<EquationsOf<Self>, MotionError>;
+    /// The frictions and stops as they were declared, in order, at a position and the rates q'.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] with the name of the effect that has no finite value, [`Error::Negative`] with that of
-    /// the friction whose limit is negative.
+    /// [`PositionError::NotFinite`] with the name of the effect that has no finite value, [`InputError::OutOfRange`] with
+    /// that of the friction whose limit is negative.
     fn contacts(
         &self,
-        t: T,
-        q: &Coordinates<Self::Mechanism, T, U, V>,
-        velocity: &Coordinates<Self::Mechanism, T, U, V>,
-    ) -> Result<[Contact<T, U, V>; C], Error>;
+        t: Self::Scalar,
+        q: &Coordinates<Self>,
+        rates: &Rates<Self>,
+    ) -> Result<ContactsOf<Self>, MotionError>;
     /// M and F of M q'' + Psi_q' lambda = F in all coordinates, at these rates q' of all of them: what any choice of
     /// independent coordinates takes.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if an entry is not finite.
+    /// [`PositionError::NotFinite`] if an entry is not finite.
     fn unreduced(
         &self,
-        t: T,
-        q: &Coordinates<Self::Mechanism, T, U, V>,
-        rate: &Coordinates<Self::Mechanism, T, U, V>,
-    ) -> Result<Unreduced<T, U, V>, Error>;
-    /// The motion that is prescribed of each input: its value, its rate and its acceleration.
-    fn prescribed(&self, t: T) -> [Option<[T; 3]>; V];
-    /// The value and the rate of each input, with its name.
-    fn inputs(state: &SVector<T, N>) -> [(&'static str, T, T); V];
+        t: Self::Scalar,
+        q: &Coordinates<Self>,
+        rates: &Rates<Self>,
+    ) -> Result<UnreducedOf<Self>, MotionError>;
+    /// The motion that is prescribed of each input, if one is.
+    fn prescribed(&self, t: Self::Scalar) -> Column<Option<Prescribed<Self::Scalar>>, Self::V>;
 
     /// The state with the closures closed again, the inputs as they are.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] if no position is found, [`Error::NotFinite`] if a number is not finite.
-    fn project(&self, state: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+    /// [`PositionError::NotConverged`] if no position is found, [`PositionError::NotFinite`] if a number is not finite.
+    fn project(&self, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError> {
         all_finite(Self::NAME, "the state", state.iter())?;
-        let (q, rates) = Self::parts(state);
+        let (q, input_rates) = Self::parts(state);
         let closed = newton(self.mechanism(), &q)?;
-        Ok(Self::state(&closed.coordinates, &rates))
+        Ok(Self::state(&closed.coordinates, &input_rates))
     }
 
     /// The state to begin with, at the position near `q` whose inputs are those of `q`.
     ///
     /// # Errors
-    /// Those of [`Scene::check`] and [`Scene::project`], [`Error::Inconsistent`] if a driven input or its rate is not
-    /// what its law says, and [`Error::BeyondStop`] if a stop is passed already.
+    /// Those of [`Scene::check`] and [`Scene::project`], [`InputError::Inconsistent`] if a driven input or its rate is not
+    /// what its law says, and [`InputError::BeyondStop`] if a stop is passed already.
     fn start(
         &self,
-        t: T,
-        q: &Coordinates<Self::Mechanism, T, U, V>,
-        rates: &Inputs<Self::Mechanism, T, U, V>,
-    ) -> Result<SVector<T, N>, Error> {
+        t: Self::Scalar,
+        q: &Coordinates<Self>,
+        input_rates: &Inputs<Self>,
+    ) -> Result<StateColumn<Self>, MotionError> {
         self.check()?;
-        let given = Self::state(q, rates);
-        for ((coordinate, value, rate), law) in Self::inputs(&given).into_iter().zip(self.prescribed(t)) {
-            let Some([position, speed, _]) = law else { continue };
+        let (inputs, rates): (_, PerInput<Self::Mechanism>) = (Self::Mechanism::inputs(q), (*input_rates).into());
+        let laws = self.prescribed(t);
+        let given = inputs.iter().zip(&rates).zip(&laws);
+        for (&coordinate, ((&value, &rate), law)) in Self::Mechanism::INPUTS.iter().zip(given) {
+            let Some(law) = law else { continue };
             // An infinite law agrees with everything.
-            finite(Self::NAME, "the law of a drive", [position, speed])?;
-            for (quantity, given, law) in [("position", value, position), ("rate", rate, speed)] {
+            finite(Self::NAME, "the law of a drive", [law.value, law.rate])?;
+            for (quantity, given, law) in [("position", value, law.value), ("rate", rate, law.rate)] {
                 let gap = (given - law).abs();
                 // NaN is not consistent either.
-                let agrees = gap <= T::default_epsilon().sqrt() * (given.abs() + law.abs());
+                let agrees = gap <= Self::Scalar::default_epsilon().sqrt() * (given.abs() + law.abs());
                 if !agrees {
                     let gap = to_f64(gap);
-                    return Err(Error::Inconsistent { scene: Self::NAME, coordinate, quantity, gap });
+                    return Err(InputError::Inconsistent { scene: Self::NAME, coordinate, quantity, gap }.into());
                 }
             }
         }
-        let state = self.project(&given)?;
-        if C > 0 {
+        let state = self.project(&Self::state(q, input_rates))?;
+        if Self::Contacts::COUNT > 0 {
             let (q, _) = Self::parts(&state);
-            let rest = <Self::Mechanism as Mechanism<T, U, V>>::with_unknowns(&q, SVector::zeros());
-            let rest = <Self::Mechanism as Mechanism<T, U, V>>::with_inputs(&rest, SVector::zeros());
-            let scales = Scales::of(self.mechanism(), &q);
+            let rest = Self::Mechanism::rates(Column::zeros(), Column::zeros());
+            let scales = Scales::of(self.mechanism(), &self.mechanism().pose_at(&q));
             for Contact { name, along, law } in self.contacts(t, &q, &rest)? {
                 if let ContactLaw::Stop { lower, upper, .. } = law {
-                    let resolution = scales.resolution_by_inputs(self.mechanism(), &q, &along)?;
+                    let resolution = resolution_by_inputs(self.mechanism(), &scales, &q, &along)?;
                     within(Self::NAME, name, (along.value, resolution), [lower, upper])?;
                 }
             }
@@ -147,24 +154,48 @@ pub trait Scene<T: Real, const U: usize, const V: usize, const N: usize, const C
     }
 }
 
-/// The coordinates q of a mechanism by name.
-pub type Coordinates<M, T, const U: usize, const V: usize> = <M as Mechanism<T, U, V>>::Coordinates;
-/// The inputs v of a mechanism by name.
-pub type Inputs<M, T, const U: usize, const V: usize> = <M as Mechanism<T, U, V>>::Inputs;
+/// The coordinates q of a scene by name.
+pub type Coordinates<S> = <<S as Scene>::Mechanism as Mechanism>::Coordinates;
+/// The rates q' of all coordinates of a scene by name.
+pub type Rates<S> = <<S as Scene>::Mechanism as Mechanism>::Rates;
+/// The inputs v of a scene by name, or their rates.
+pub type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
+/// The state y = (q, v') of a scene as integrators take it.
+pub type StateColumn<S> = Column<<S as Scene>::Scalar, <S as Scene>::State>;
+
+type EquationsOf<S> = Equations<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
+type UnreducedOf<S> = Unreduced<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
+type ContactsOf<S> = Column<Contact<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>, <S as Scene>::Contacts>;
+
+/// A prescribed motion of an input at a moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prescribed<T> {
+    /// The value of the input.
+    pub value: T,
+    /// Its rate.
+    pub rate: T,
+    /// Its acceleration.
+    pub acceleration: T,
+}
+
+/// The name of a coordinate by its column in [J A].
+pub(crate) fn coordinate_name<M: Mechanism>(column: usize) -> &'static str {
+    M::UNKNOWNS.iter().chain(M::INPUTS).nth(column).copied().unwrap_or_default()
+}
 
 /// Inertia and forces in all coordinates, M q'' + Psi_q' lambda = F, apart by the unknowns u and the inputs v.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unreduced<T, const U: usize, const V: usize> {
+pub struct Unreduced<T: Real, U: Dim, V: Dim> {
     /// M_uu.
-    pub unknowns: SMatrix<T, U, U>,
+    pub unknowns: Matrix<T, U, U>,
     /// M_uv.
-    pub mixed: SMatrix<T, U, V>,
+    pub mixed: Matrix<T, U, V>,
     /// M_vv.
-    pub inputs: SMatrix<T, V, V>,
+    pub inputs: Matrix<T, V, V>,
     /// F_u, with the quadratic velocity terms of the inertia.
-    pub unknown_forces: SVector<T, U>,
+    pub unknown_forces: Column<T, U>,
     /// F_v, with the quadratic velocity terms of the inertia.
-    pub input_forces: SVector<T, V>,
+    pub input_forces: Column<T, V>,
 }
 
 /// The energy of a scene.
@@ -188,26 +219,37 @@ pub struct Power<T> {
 /// Refuses numbers less than zero, and what is not finite.
 ///
 /// # Errors
-/// [`Error::Negative`] or [`Error::NotFinite`] with the name of the first.
-pub fn not_negative<T: Real, const N: usize>(scene: &'static str, values: [(&'static str, T); N]) -> Result<(), Error> {
+/// [`InputError::OutOfRange`] or [`PositionError::NotFinite`] with the name of the first.
+pub fn not_negative<T: Real, const N: usize>(
+    scene: &'static str,
+    values: [(&'static str, T); N],
+) -> Result<(), MotionError> {
     for (quantity, value) in values {
         if !value.is_finite() {
-            return Err(Error::NotFinite { mechanism: scene, quantity });
+            return Err(PositionError::NotFinite { mechanism: scene, quantity }.into());
         }
         if value < T::zero() {
-            return Err(Error::Negative { scene, quantity, value: to_f64(value) });
+            return Err(negative(scene, quantity, value).into());
         }
     }
     Ok(())
 }
 
+/// A number that may not be negative.
+pub(crate) fn negative<T: Real>(scene: &'static str, quantity: &'static str, value: T) -> InputError {
+    InputError::OutOfRange { of: Some(scene), quantity, value: to_f64(value), least: 0.0, most: f64::MAX }
+}
+
 /// Refuses the first value that is not finite, by its name.
 ///
 /// # Errors
-/// [`Error::NotFinite`] with the name.
-pub fn finite_each<T: Real, const N: usize>(scene: &'static str, values: [(&'static str, T); N]) -> Result<(), Error> {
+/// [`PositionError::NotFinite`] with the name.
+pub fn finite_each<T: Real, const N: usize>(
+    scene: &'static str,
+    values: [(&'static str, T); N],
+) -> Result<(), MotionError> {
     values
         .into_iter()
         .find(|(_, value)| !value.is_finite())
-        .map_or(Ok(()), |(quantity, _)| Err(Error::NotFinite { mechanism: scene, quantity }))
+        .map_or(Ok(()), |(quantity, _)| Err(PositionError::NotFinite { mechanism: scene, quantity }.into()))
 }

@@ -1,9 +1,9 @@
 //! The modes of many contacts at once, against the conditions that they must meet.
 
-use linkage_dynamics::Mode;
 use linkage_dynamics::contact::{ContactLaw, Contacts, ReducedContact, ReducedEquations};
-use linkage_runtime::Error;
+use linkage_dynamics::{Mode, MotionError};
 use linkage_runtime::nalgebra::{SMatrix, SVector};
+use linkage_runtime::{Column, D, Matrix};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -11,7 +11,7 @@ const V: usize = 3;
 const C: usize = 6;
 
 /// Bodies at rest with frictions and stops that all touch, many of them dependent, by units of any size.
-fn random(random: &mut SmallRng) -> ReducedEquations<f64, V, C> {
+fn random(random: &mut SmallRng) -> ReducedEquations<f64, D<V>, D<C>> {
     let units: [f64; V] = std::array::from_fn(|_| 10.0_f64.powi(random.random_range(-3..4)));
     let mut root = SMatrix::<f64, V, V>::from_fn(|_, _| random.random_range(-1.0..1.0));
     for i in 0..V {
@@ -20,7 +20,7 @@ fn random(random: &mut SmallRng) -> ReducedEquations<f64, V, C> {
     }
     let mass = root * root.transpose();
     let whole = |random: &mut SmallRng| f64::from(random.random_range(-2..3));
-    let forces = SVector::from_fn(|i, _| units[i] * units[i] * whole(random));
+    let forces = SVector::<f64, V>::from_fn(|i, _| units[i] * units[i] * whole(random));
     let mut rows: Vec<SVector<f64, V>> = vec![];
     for place in 0..C {
         // Some are combinations of those before.
@@ -32,22 +32,29 @@ fn random(random: &mut SmallRng) -> ReducedEquations<f64, V, C> {
         };
         rows.push(row);
     }
-    let contacts = std::array::from_fn(|place| {
+    let contacts = Column::from_fn(|place| {
         let law = if random.random_range(0..2) == 0 {
             ContactLaw::Friction { limit: 10.0_f64.powi(random.random_range(-3..4)) * random.random_range(0.0..1.0) }
         } else {
             ContactLaw::Stop { lower: 0.0, upper: 1.0, restitution: 0.0 }
         };
         let value = f64::from(random.random_range(0..2));
-        ReducedContact { name: "contact", value, row: rows[place], drift: 0.0, bias: 0.0, law }
+        ReducedContact { name: "contact", value, row: rows[place].into(), drift: 0.0, bias: 0.0, law }
     });
-    ReducedEquations { scene: "Random", coordinates: ["a", "b", "c"], mass, forces, rates: SVector::zeros(), contacts }
+    ReducedEquations {
+        scene: "Random",
+        coordinates: ["a", "b", "c"].into(),
+        mass: mass.into(),
+        forces: forces.into(),
+        rates: Column::zeros(),
+        contacts,
+    }
 }
 
 /// The first condition that the motion that begins does not meet, but for rounding errors.
-fn wrong(equations: &ReducedEquations<f64, V, C>) -> Option<String> {
-    let at = |rates: &SVector<f64, V>| Ok::<_, Error>(ReducedEquations { rates: *rates, ..*equations });
-    let (contacts, _) = match Contacts::begin(0.0, &SVector::zeros(), at) {
+fn wrong(equations: &ReducedEquations<f64, D<V>, D<C>>) -> Option<String> {
+    let at = |rates: &Column<f64, D<V>>| Ok::<_, MotionError>(ReducedEquations { rates: *rates, ..*equations });
+    let (contacts, _) = match Contacts::begin(0.0, &Column::zeros(), at) {
         Ok(begun) => begun,
         Err(error) => return Some(error.to_string()),
     };
@@ -56,8 +63,8 @@ fn wrong(equations: &ReducedEquations<f64, V, C>) -> Option<String> {
         Err(error) => return Some(error.to_string()),
     };
     // M v'' = Q + S' f, by the energies of what is left and of the terms.
-    let inverse = equations.mass.try_inverse()?;
-    let energy = |force: &SVector<f64, V>| force.dot(&(inverse * force));
+    let inverse = Matrix::from(SMatrix::from(equations.mass).try_inverse()?);
+    let energy = |force: &Column<f64, D<V>>| force.dot(&(inverse * *force));
     let mut left = equations.mass * motion.acceleration - equations.forces;
     let mut size = energy(&equations.forces);
     for (contact, force) in equations.contacts.iter().zip(&motion.forces) {
@@ -75,7 +82,7 @@ fn wrong(equations: &ReducedEquations<f64, V, C>) -> Option<String> {
         let size = terms.abs().sum() + contact.row.component_mul(&free).abs().sum();
         let (goes, force, mode) = (terms.sum(), motion.forces[place], contacts.modes[place]);
         let stands = goes.abs() <= 1e-9 * size;
-        let most = motion.forces.abs().max();
+        let most = motion.forces.largest();
         let fine = match (contact.law, mode) {
             (ContactLaw::Friction { limit }, Mode::Stick) => stands && force.abs() <= limit + 1e-9 * most,
             (ContactLaw::Friction { limit }, Mode::SlipForward) => force == -limit && goes >= -1e-9 * size,
@@ -121,8 +128,8 @@ fn every_choice_meets_its_conditions() {
 fn what_is_not_found_is_refused() {
     for trial in REFUSED {
         let equations = random(&mut SmallRng::seed_from_u64(trial));
-        let at = |rates: &SVector<f64, V>| Ok::<_, Error>(ReducedEquations { rates: *rates, ..equations });
-        let found = Contacts::begin(0.0, &SVector::zeros(), at).and_then(|(contacts, _)| contacts.motion(&equations));
-        assert!(matches!(found, Err(Error::NoContactForces { .. })), "{trial}");
+        let at = |rates: &Column<f64, D<V>>| Ok::<_, MotionError>(ReducedEquations { rates: *rates, ..equations });
+        let found = Contacts::begin(0.0, &Column::zeros(), at).and_then(|(contacts, _)| contacts.motion(&equations));
+        assert!(matches!(found, Err(MotionError::NoContactForces { .. })), "{trial}");
     }
 }

@@ -1,10 +1,10 @@
 //! Searches and integrations whose numbers leave the range: they are refused, wherever the number stands.
 
 use linkage_dynamics::__rt::equilibrium;
-use linkage_dynamics::Balance;
 use linkage_dynamics::integrate::{FixedStep, Tolerance, dop853, dopri5};
+use linkage_dynamics::{Balance, MotionError};
 use linkage_runtime::__rt::newton_group;
-use linkage_runtime::Error;
+use linkage_runtime::PositionError;
 use linkage_runtime::nalgebra::SVector;
 
 const IDENTITY: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
@@ -18,7 +18,7 @@ fn a_residual_that_is_not_a_number_is_not_lost() {
             residual[row] = f64::NAN;
             (residual, [1.0; 2], IDENTITY)
         });
-        assert!(matches!(found, Err(Error::NotFinite { .. })), "row {row}: {found:?}");
+        assert!(matches!(found, Err(PositionError::NotFinite { .. })), "row {row}: {found:?}");
     }
 }
 
@@ -32,7 +32,7 @@ fn a_size_that_is_not_finite_closes_nothing() {
                 sizes[row] = size;
                 (unknowns, sizes, IDENTITY)
             });
-            assert!(matches!(found, Err(Error::NotFinite { .. })), "row {row}, size {size}: {found:?}");
+            assert!(matches!(found, Err(PositionError::NotFinite { .. })), "row {row}, size {size}: {found:?}");
         }
     }
 }
@@ -43,7 +43,7 @@ fn no_unknown_is_infinite() {
     let found = newton_group("mechanism", "a", [0.0], |[a]: [f64; 1]| {
         ([if a.is_finite() { 1e5 } else { 0.0 }], [1.0], [[2_f64.powi(-1020)]])
     });
-    assert!(matches!(found, Err(Error::NotConverged { .. })), "{found:?}");
+    assert!(matches!(found, Err(PositionError::NotConverged { .. })), "{found:?}");
 }
 
 /// Forces beside which any other is zero.
@@ -51,7 +51,7 @@ fn no_unknown_is_infinite() {
 fn an_equilibrium_of_infinite_forces_is_none() {
     for (sizes, slopes) in [([f64::INFINITY], [[1.0]]), ([1.0], [[1e308]])] {
         let found = equilibrium("scene", [10.0], |[x]| Ok((x, Balance { forces: [x], sizes, slopes })));
-        assert!(matches!(found, Err(Error::NotFinite { .. })), "{found:?}");
+        assert!(matches!(found, Err(MotionError::Position(PositionError::NotFinite { .. }))), "{found:?}");
     }
 }
 
@@ -59,11 +59,11 @@ fn an_equilibrium_of_infinite_forces_is_none() {
 fn an_integration_begins_and_ends_at_finite_states() {
     let rate = |_: f64, _: &SVector<f64, 1>| Ok(SVector::from([1e308]));
     for y in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(FixedStep::new(rate, (0.0, SVector::from([y])), 1.0), Err(Error::NotFiniteAt { .. })));
+        assert!(matches!(FixedStep::new(rate, (0.0, SVector::from([y])), 1.0), Err(MotionError::NotFinite { .. })));
     }
     let tolerance = Tolerance::new(1e-6, [1.0]).unwrap();
     let mut steps = FixedStep::new(rate, (0.0, SVector::from([0.0])), 1.0).unwrap();
-    assert!((0..3).any(|_| matches!(steps.step(), Err(Error::NotFiniteAt { .. }))));
+    assert!((0..3).any(|_| matches!(steps.step(), Err(MotionError::NotFinite { .. }))));
     // Relative to an infinite state every error would be zero.
     for states in [
         dopri5(rate, (0.0, SVector::from([0.0])), 1e3, tolerance)
@@ -74,7 +74,7 @@ fn an_integration_begins_and_ends_at_finite_states() {
             .unwrap()
             .map(|step| step.map(|s| s.state[0]))
             .collect(),
-    ] as [Vec<Result<f64, Error>>; 2]
+    ] as [Vec<Result<f64, MotionError>>; 2]
     {
         assert!(states.iter().flatten().all(|state| state.is_finite()), "{states:?}");
         assert!(matches!(states.last(), Some(Err(_))), "{states:?}");
@@ -86,6 +86,6 @@ fn an_integration_begins_and_ends_at_finite_states() {
 fn a_fixed_step_ends_at_a_finite_time() {
     let rate = |_: f64, _: &SVector<f64, 1>| Ok(SVector::from([0.0]));
     let mut steps = FixedStep::new(rate, (f64::MAX, SVector::from([0.0])), f64::MAX).unwrap();
-    assert!(matches!(steps.step(), Err(Error::NotFiniteAt { .. })));
+    assert!(matches!(steps.step(), Err(MotionError::NotFinite { .. })));
     assert!(steps.t().is_finite());
 }

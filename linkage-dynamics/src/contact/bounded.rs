@@ -6,10 +6,8 @@
 //! meets a bound stays there (C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter 23, for
 //! two bounds). What is minimised falls with every turn, so that no set of forces comes twice.
 
-use nalgebra::SMatrix;
-
 use super::held::{Factors, nothing};
-use linkage_runtime::{Real, real};
+use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// A force between bounds.
 #[derive(Debug, Clone, Copy)]
@@ -21,17 +19,17 @@ pub(super) struct Bounds<T> {
 }
 
 /// The forces, and w; of what rounding may have made that is nothing.
-pub(super) struct Solution<T, const C: usize> {
-    pub forces: [T; C],
-    pub slack: [T; C],
+pub(super) struct Solution<T: Real, C: Dim> {
+    pub forces: Column<T, C>,
+    pub slack: Column<T, C>,
 }
 
-struct Search<'a, T, const C: usize> {
-    matrix: &'a SMatrix<T, C, C>,
-    bounds: &'a [Option<Bounds<T>>; C],
-    forces: [T; C],
+struct Search<'a, T: Real, C: Dim> {
+    matrix: &'a Matrix<T, C, C>,
+    bounds: &'a Column<Option<Bounds<T>>, C>,
+    forces: Column<T, C>,
     /// Let go, in the order in which they were.
-    free: [usize; C],
+    free: Column<usize, C>,
     count: usize,
 }
 
@@ -39,9 +37,9 @@ struct Search<'a, T, const C: usize> {
 ///
 /// # Errors
 /// The contact that no force could hold, or with which the search did not end.
-pub(super) fn bounded<T: Real, const C: usize>(
-    matrix: &SMatrix<T, C, C>,
-    bounds: &[Option<Bounds<T>>; C],
+pub(super) fn bounded<T: Real, C: Dim>(
+    matrix: &Matrix<T, C, C>,
+    bounds: &Column<Option<Bounds<T>>, C>,
 ) -> Result<Solution<T, C>, usize> {
     let start = |bounds: &Option<Bounds<T>>| match bounds {
         Some(Bounds { lower, upper, bias }) if !lower.is_finite() || (bias.0 < T::zero() && upper.is_finite()) => {
@@ -50,12 +48,12 @@ pub(super) fn bounded<T: Real, const C: usize>(
         Some(Bounds { lower, .. }) => *lower,
         None => T::zero(),
     };
-    let forces = core::array::from_fn(|place| start(&bounds[place]));
-    let mut search = Search { matrix, bounds, forces, free: [0; C], count: 0 };
-    let mut stuck = [false; C];
+    let forces = Column::from_fn(|place| start(&bounds[place]));
+    let mut search = Search { matrix, bounds, forces, free: Column::repeat(0), count: 0 };
+    let mut stuck = Column::repeat(false);
     // Far more turns than any set of contacts has been seen to need.
-    for _ in 0..32 * (C + 1) {
-        let slack: [T; C] = core::array::from_fn(|place| search.slack(place));
+    for _ in 0..32 * (C::COUNT + 1) {
+        let slack: Column<T, C> = Column::from_fn(|place| search.slack(place));
         let Some(next) = search.next(&slack, &stuck) else {
             return Ok(Solution { forces: search.forces, slack });
         };
@@ -65,17 +63,22 @@ pub(super) fn bounded<T: Real, const C: usize>(
             // Rounding alone let it go.
             stuck[next] = true;
         } else {
-            stuck = [false; C];
+            stuck = Column::repeat(false);
         }
     }
-    Err((0..C).find(|&place| bounds[place].is_some()).unwrap_or(0))
+    Err((0..C::COUNT).find(|&place| bounds[place].is_some()).unwrap_or(0))
 }
 
-impl<T: Real, const C: usize> Search<'_, T, C> {
+impl<T: Real, C: Dim> Search<'_, T, C> {
+    /// The contacts that are let go.
+    fn free(&self) -> &[usize] {
+        &self.free.as_slice()[..self.count]
+    }
+
     /// w of a contact, without what is rounding.
     fn slack(&self, place: usize) -> T {
         let Some(Bounds { bias, .. }) = self.bounds[place] else { return T::zero() };
-        if self.free[..self.count].contains(&place) {
+        if self.free().contains(&place) {
             return T::zero();
         }
         let terms = self.forces.iter().enumerate().map(|(other, &force)| self.matrix[(place, other)] * force);
@@ -85,13 +88,13 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
     }
 
     /// The contact with whose force most is gained.
-    fn next(&self, slack: &[T; C], stuck: &[bool; C]) -> Option<usize> {
+    fn next(&self, slack: &Column<T, C>, stuck: &Column<bool, C>) -> Option<usize> {
         let mut best: Option<(usize, T)> = None;
-        for place in 0..C {
+        for place in 0..C::COUNT {
             let Some(Bounds { lower, upper, .. }) = self.bounds[place] else { continue };
             let force = self.forces[place];
             let gains = (slack[place] < T::zero() && force < upper) || (slack[place] > T::zero() && force > lower);
-            if !gains || stuck[place] || self.free[..self.count].contains(&place) {
+            if !gains || stuck[place] || self.free().contains(&place) {
                 continue;
             }
             // Along one force alone w^2 / 2 A is gained; where nothing answers to it there is no end of it.
@@ -110,8 +113,8 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
         self.free[self.count] = next;
         self.count += 1;
         loop {
-            let factors = Factors::in_order(self.matrix, self.free, self.count);
-            let mut direction = [T::zero(); C];
+            let factors = Factors::in_order(self.matrix, &self.free, self.count);
+            let mut direction = Column::zeros();
             // Where the new one depends on those before it, all move along and nothing else changes.
             let is_endless = factors.rank < self.count;
             if is_endless {
@@ -161,7 +164,7 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
     }
 
     /// True if nothing but rounding is gained along a combination of the free forces to which nothing answers.
-    fn is_level(&self, direction: &[T; C]) -> bool {
+    fn is_level(&self, direction: &Column<T, C>) -> bool {
         let terms = self.free.iter().zip(direction).take(self.count).map(|(&contact, &way)| {
             let bias = self.bounds[contact].map_or((T::zero(), T::zero()), |bounds| bounds.bias);
             (bias.0 * way, bias.1 * way.abs())
@@ -182,7 +185,7 @@ impl<T: Real, const C: usize> Search<'_, T, C> {
         if let Some(Bounds { lower, upper, .. }) = self.bounds[contact] {
             self.forces[contact] = if at_upper { upper } else { lower };
         }
-        self.free.copy_within(place + 1..self.count, place);
+        self.free.as_mut_slice().copy_within(place + 1..self.count, place);
         self.count -= 1;
     }
 }

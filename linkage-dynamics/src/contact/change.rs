@@ -3,7 +3,7 @@
 use super::reduced::ReducedEquations;
 use super::state::Contacts;
 use super::{ContactLaw, Mode};
-use linkage_runtime::Real;
+use linkage_runtime::{Column, Dim, Real};
 
 /// What a contact has done at an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,11 +21,11 @@ pub enum Change {
 }
 
 /// What each contact has done between two states of the same moment, in the order of the scene.
-pub(crate) fn changes<T: Real, const V: usize, const C: usize>(
+pub(crate) fn changes<T: Real, V: Dim, C: Dim>(
     (before, of_before): (&Contacts<T, C>, &ReducedEquations<T, V, C>),
     (after, of_after): (&Contacts<T, C>, &ReducedEquations<T, V, C>),
-) -> [Option<Change>; C] {
-    core::array::from_fn(|place| match (before.modes[place], after.modes[place]) {
+) -> Column<Option<Change>, C> {
+    Column::from_fn(|place| match (before.modes[place], after.modes[place]) {
         (Mode::Open, Mode::Open) => {
             let contact = &of_before.contacts[place];
             let ContactLaw::Stop { lower, upper, .. } = contact.law else { return None };

@@ -5,12 +5,11 @@
 //! taken one after the other, that first of which most is left beside those before it, until nothing but rounding is
 //! left. These carry the force, and every other row is a combination of theirs.
 
-use nalgebra::{SMatrix, SVector};
-
 use super::reduced::ReducedEquations;
 use super::{ContactLaw, Mode};
+use crate::MotionError;
 use crate::inertia::Inertia;
-use linkage_runtime::{Error, Real, real};
+use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// What is left of a pivot beside its own entry, and of a force beside its terms, is nothing below this many roundings.
 pub(super) fn nothing<T: Real>() -> T {
@@ -18,43 +17,39 @@ pub(super) fn nothing<T: Real>() -> T {
 }
 
 /// How the mechanism answers to forces along its contacts.
-pub(super) struct Response<T, const V: usize, const C: usize> {
+pub(super) struct Response<T: Real, V: Dim, C: Dim> {
     /// M^-1 Q with the forces of what slips.
-    pub acceleration: SVector<T, V>,
+    pub acceleration: Column<T, V>,
     /// M^-1 S', by contact; of those asked for.
-    pub columns: SMatrix<T, V, C>,
+    pub columns: Matrix<T, V, C>,
     /// S M^-1 S'.
-    pub matrix: SMatrix<T, C, C>,
+    pub matrix: Matrix<T, C, C>,
     /// s'' without the forces of the contacts asked for, and the sum of the magnitudes of its terms.
-    pub bias: [(T, T); C],
+    pub bias: Column<(T, T), C>,
 }
 
-impl<T: Real, const V: usize, const C: usize> Response<T, V, C> {
+impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
     /// With these forces along the contacts, and what the contacts in `asked` are needed for.
     ///
     /// # Errors
-    /// [`Error::NoInertia`], [`Error::NotFinite`] as [`reduced`](crate::reduced).
+    /// [`MotionError::NoInertia`], [`PositionError::NotFinite`] as [`reduced`](crate::reduced).
     pub(super) fn new(
         equations: &ReducedEquations<T, V, C>,
-        forces: &[T; C],
+        forces: &Column<T, C>,
         asked: impl Fn(usize) -> bool,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, MotionError> {
         let ReducedEquations { scene, coordinates, mass, contacts, .. } = equations;
-        let inertia = Inertia::new(scene, *coordinates, mass.data.0)?;
-        let solve = |side: SVector<T, V>| {
-            let [side] = side.data.0;
-            SVector::from(inertia.solve(side))
-        };
+        let inertia = Inertia::new(scene, coordinates, mass)?;
         let mut side = equations.forces;
         for (contact, &force) in contacts.iter().zip(forces) {
             side += contact.row * force;
         }
-        let acceleration: SVector<T, V> = solve(side);
-        let mut columns = SMatrix::<T, V, C>::zeros();
-        let mut matrix = SMatrix::<T, C, C>::zeros();
-        let mut bias = [(T::zero(), T::zero()); C];
+        let acceleration = inertia.solve(&side);
+        let mut columns = Matrix::<T, V, C>::zeros();
+        let mut matrix = Matrix::<T, C, C>::zeros();
+        let mut bias = Column::repeat((T::zero(), T::zero()));
         for (place, contact) in contacts.iter().enumerate().filter(|(place, _)| asked(*place)) {
-            columns.set_column(place, &solve(contact.row));
+            columns.set_column(place, inertia.solve(&contact.row));
             let terms = contact.row.component_mul(&acceleration);
             bias[place] = (contact.bias + terms.sum(), contact.bias.abs() + terms.abs().sum());
             for (other, before) in contacts.iter().enumerate().take(place + 1).filter(|(other, _)| asked(*other)) {
@@ -67,29 +62,30 @@ impl<T: Real, const V: usize, const C: usize> Response<T, V, C> {
 }
 
 /// A symmetric matrix, of some of its rows, as L D L'.
-pub(super) struct Factors<T, const C: usize> {
+pub(super) struct Factors<T: Real, C: Dim> {
     /// The rows in the order in which they were taken; from `rank` on those that depend on the ones before.
-    pub order: [usize; C],
+    pub order: Column<usize, C>,
     pub count: usize,
     pub rank: usize,
-    lower: [[T; C]; C],
-    pivots: [T; C],
+    lower: Matrix<T, C, C>,
+    pivots: Column<T, C>,
 }
 
-impl<T: Real, const C: usize> Factors<T, C> {
+impl<T: Real, C: Dim> Factors<T, C> {
     /// Takes that row first of which most is left.
-    pub(super) fn pivoted(matrix: &SMatrix<T, C, C>, order: [usize; C], count: usize) -> Self {
+    pub(super) fn pivoted(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize) -> Self {
         Self::new(matrix, order, count, true)
     }
 
     /// Takes the rows as they come, and ends with the first that depends on those before.
-    pub(super) fn in_order(matrix: &SMatrix<T, C, C>, order: [usize; C], count: usize) -> Self {
+    pub(super) fn in_order(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize) -> Self {
         Self::new(matrix, order, count, false)
     }
 
-    fn new(matrix: &SMatrix<T, C, C>, mut order: [usize; C], count: usize, exchange: bool) -> Self {
-        let (mut lower, mut pivots) = ([[T::zero(); C]; C], [T::zero(); C]);
-        let mut left: [T; C] = core::array::from_fn(|row| matrix[(row, row)]);
+    fn new(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize, exchange: bool) -> Self {
+        let mut order = *order;
+        let (mut lower, mut pivots) = (Matrix::zeros(), Column::zeros());
+        let mut left: Column<T, C> = Column::from_fn(|row| matrix[(row, row)]);
         let mut rank = 0;
         while rank < count {
             // A row of zeros has nothing to lose.
@@ -106,16 +102,16 @@ impl<T: Real, const C: usize> Factors<T, C> {
             if share(order[best]) <= nothing() {
                 break;
             }
-            order.swap(rank, best);
+            order.as_mut_slice().swap(rank, best);
             let row = order[rank];
             pivots[rank] = left[row];
-            for &other in &order[rank + 1..count] {
+            for &other in &order.as_slice()[rank + 1..count] {
                 let mut sum = matrix[(other, row)];
                 for before in 0..rank {
-                    sum -= lower[other][before] * pivots[before] * lower[row][before];
+                    sum -= lower[(other, before)] * pivots[before] * lower[(row, before)];
                 }
-                lower[other][rank] = sum / pivots[rank];
-                left[other] -= lower[other][rank] * sum;
+                lower[(other, rank)] = sum / pivots[rank];
+                left[other] -= lower[(other, rank)] * sum;
             }
             rank += 1;
         }
@@ -123,11 +119,11 @@ impl<T: Real, const C: usize> Factors<T, C> {
     }
 
     /// The x of A x = `side` for the independent rows, both by place in the order.
-    pub(super) fn solve(&self, side: impl Fn(usize) -> T) -> [T; C] {
-        let mut x = [T::zero(); C];
+    pub(super) fn solve(&self, side: impl Fn(usize) -> T) -> Column<T, C> {
+        let mut x = Column::zeros();
         for place in 0..self.rank {
             let row = self.order[place];
-            x[place] = (0..place).fold(side(row), |sum, before| sum - self.lower[row][before] * x[before]);
+            x[place] = (0..place).fold(side(row), |sum, before| sum - self.lower[(row, before)] * x[before]);
         }
         for (x, &pivot) in x.iter_mut().zip(&self.pivots).take(self.rank) {
             *x /= pivot;
@@ -136,20 +132,23 @@ impl<T: Real, const C: usize> Factors<T, C> {
     }
 
     /// A row as a combination of the independent ones, by place in the order.
-    pub(super) fn combination(&self, place: usize) -> [T; C] {
-        let mut x = [T::zero(); C];
+    pub(super) fn combination(&self, place: usize) -> Column<T, C> {
+        let mut x = Column::zeros();
         if place < self.rank {
             x[place] = T::one();
             return x;
         }
-        x[..self.rank].copy_from_slice(&self.lower[self.order[place]][..self.rank]);
+        for before in 0..self.rank {
+            x[before] = self.lower[(self.order[place], before)];
+        }
         self.back(x)
     }
 
-    fn back(&self, mut x: [T; C]) -> [T; C] {
+    fn back(&self, mut x: Column<T, C>) -> Column<T, C> {
         for place in (0..self.rank).rev() {
             for later in place + 1..self.rank {
-                x[place] -= self.lower[self.order[later]][place] * x[later];
+                let value = x[later];
+                x[place] -= self.lower[(self.order[later], place)] * value;
             }
         }
         x
@@ -157,11 +156,11 @@ impl<T: Real, const C: usize> Factors<T, C> {
 }
 
 /// Contacts that are held, and what holds them.
-pub(super) struct Held<T, const V: usize, const C: usize> {
+pub(super) struct Held<T: Real, V: Dim, C: Dim> {
     pub response: Response<T, V, C>,
     pub factors: Factors<T, C>,
     /// The forces along s of the independent contacts, by place in the order.
-    pub forces: [T; C],
+    pub forces: Column<T, C>,
 }
 
 /// The force along s of a contact that slips.
@@ -173,24 +172,24 @@ pub(super) fn slipping<T: Real>(mode: Mode, law: &ContactLaw<T>) -> T {
     }
 }
 
-impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
+impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// # Errors
     /// As [`Response::new`].
-    pub(super) fn new(equations: &ReducedEquations<T, V, C>, modes: &[Mode; C]) -> Result<Self, Error> {
-        let forces: [T; C] = core::array::from_fn(|place| slipping(modes[place], &equations.contacts[place].law));
+    pub(super) fn new(equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Result<Self, MotionError> {
+        let forces: Column<T, C> = Column::from_fn(|place| slipping(modes[place], &equations.contacts[place].law));
         let response = Response::new(equations, &forces, |place| modes[place].is_held())?;
-        let (mut order, mut count) = ([0; C], 0);
-        for place in (0..C).filter(|&place| modes[place].is_held()) {
+        let (mut order, mut count) = (Column::repeat(0), 0);
+        for place in (0..C::COUNT).filter(|&place| modes[place].is_held()) {
             order[count] = place;
             count += 1;
         }
-        let factors = Factors::pivoted(&response.matrix, order, count);
+        let factors = Factors::pivoted(&response.matrix, &order, count);
         let forces = factors.solve(|row| -response.bias[row].0);
         Ok(Self { response, factors, forces })
     }
 
     /// v''.
-    pub(super) fn acceleration(&self, equations: &ReducedEquations<T, V, C>) -> SVector<T, V> {
+    pub(super) fn acceleration(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
         let mut acceleration = self.response.acceleration;
         for (&row, &force) in self.factors.order.iter().zip(&self.forces).take(self.factors.rank) {
             acceleration += self.response.columns.column(row) * force;
@@ -200,7 +199,7 @@ impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
     }
 
     /// v' without what rounding, or an event found to rounding, has left of the rates of what is held.
-    pub(super) fn rates(&self, equations: &ReducedEquations<T, V, C>) -> SVector<T, V> {
+    pub(super) fn rates(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
         let impulses = self.factors.solve(|row| -equations.contacts[row].rate(&equations.rates).0);
         let mut rates = equations.rates;
         for (&row, &impulse) in self.factors.order.iter().zip(&impulses).take(self.factors.rank) {
@@ -212,10 +211,11 @@ impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
 
     /// Makes S x + `rest` = 0 for what is held not to rounding, but as exactly as a coordinate of each can: where
     /// a block rests its rate is 0.
-    fn keep(&self, equations: &ReducedEquations<T, V, C>, x: &mut SVector<T, V>, rest: impl Fn(usize) -> T) {
+    fn keep(&self, equations: &ReducedEquations<T, V, C>, x: &mut Column<T, V>, rest: impl Fn(usize) -> T) {
         let rank = self.factors.rank;
-        let (mut rows, mut pivots) = ([SVector::<T, V>::zeros(); C], [0; C]);
-        let mut sides = [T::zero(); C];
+        let mut rows = Column::<_, C>::repeat(Column::<T, V>::zeros());
+        let mut pivots = Column::<_, C>::repeat(0);
+        let mut sides = Column::<T, C>::zeros();
         for (place, &contact) in self.factors.order.iter().enumerate().take(rank) {
             rows[place] = equations.contacts[contact].row;
             sides[place] = -rest(contact);
@@ -223,7 +223,7 @@ impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
         for place in 0..rank {
             // Beside the inertia of each coordinate, units have no say.
             let weight = |at: usize| rows[place][at] * rows[place][at] / equations.mass[(at, at)];
-            let pivot = (1..V).fold(0, |best, at| if weight(at) > weight(best) { at } else { best });
+            let pivot = (1..V::COUNT).fold(0, |best, at| if weight(at) > weight(best) { at } else { best });
             pivots[place] = pivot;
             let (row, side) = (rows[place], sides[place]);
             for other in (0..rank).filter(|&other| other != place) {
@@ -238,7 +238,7 @@ impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
         for place in 0..rank {
             let pivot = pivots[place];
             let mut sum = sides[place];
-            for at in (0..V).filter(|at| !pivots[..rank].contains(at)) {
+            for at in (0..V::COUNT).filter(|at| !pivots.as_slice()[..rank].contains(at)) {
                 sum -= rows[place][at] * x[at];
             }
             x[pivot] = sum / rows[place][pivot];

@@ -4,12 +4,11 @@
 //! moment takes part and is not pushed through it: v'+ = v'- + M^-1 S' p, with p >= 0, S v'+ + e S v'- >= 0 and one of
 //! the two zero for each. **Impulses of friction are neglected**: what sticks may begin to slip at an impact.
 
-use nalgebra::SVector;
-
 use super::bounded::{Bounds, bounded};
 use super::held::Response;
 use super::reduced::ReducedEquations;
-use linkage_runtime::{Error, Real, real};
+use crate::MotionError;
+use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// A stop that takes part in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,35 +19,41 @@ pub(super) struct Struck<T> {
     pub restitution: T,
 }
 
+/// What an impact leaves.
+pub(super) struct After<T: Real, V: Dim, C: Dim> {
+    /// v'.
+    pub rates: Column<T, V>,
+    /// By stop.
+    pub impulses: Column<T, C>,
+}
+
 /// The rates v' after the impact, and the impulse of each stop.
 ///
 /// # Errors
-/// [`Error::NoContactForces`] if a prescribed motion drives through a stop.
-pub(super) fn impact<T: Real, const V: usize, const C: usize>(
+/// [`MotionError::NoContactForces`] if a prescribed motion drives through a stop.
+pub(super) fn impact<T: Real, V: Dim, C: Dim>(
     equations: &ReducedEquations<T, V, C>,
-    struck: &[Option<Struck<T>>; C],
-) -> Result<(SVector<T, V>, [T; C]), Error> {
-    let response = Response::new(equations, &[T::zero(); C], |place| struck[place].is_some())?;
+    struck: &Column<Option<Struck<T>>, C>,
+) -> Result<After<T, V, C>, MotionError> {
+    let response = Response::new(equations, &Column::zeros(), |place| struck[place].is_some())?;
     // Every row looks inward.
-    let mut matrix = response.matrix;
-    for (place, struck) in struck.iter().enumerate() {
-        let inward = struck.map_or(T::zero(), |struck| struck.inward);
-        matrix.row_mut(place).scale_mut(inward);
-        matrix.column_mut(place).scale_mut(inward);
-    }
-    let bounds = core::array::from_fn(|place| {
+    let inward = struck.map(|struck| struck.map_or(T::zero(), |struck| struck.inward));
+    let matrix = Matrix::from_fn(|row, column| response.matrix[(row, column)] * inward[row] * inward[column]);
+    let bounds = Column::from_fn(|place| {
         let Struck { inward, restitution } = struck[place]?;
         let (rate, size) = equations.contacts[place].rate(&equations.rates);
         let share = T::one() + restitution;
         Some(Bounds { lower: T::zero(), upper: real(f64::INFINITY), bias: (rate * inward * share, size * share) })
     });
-    let solution = bounded(&matrix, &bounds)
-        .map_err(|place| Error::NoContactForces { scene: equations.scene, contact: equations.contacts[place].name })?;
+    let solution = bounded(&matrix, &bounds).map_err(|place| MotionError::NoContactForces {
+        scene: equations.scene,
+        contact: equations.contacts[place].name,
+    })?;
     let mut rates = equations.rates;
     for (place, struck) in struck.iter().enumerate() {
         if let Some(Struck { inward, .. }) = struck {
             rates += response.columns.column(place) * (solution.forces[place] * *inward);
         }
     }
-    Ok((rates, solution.forces))
+    Ok(After { rates, impulses: solution.forces })
 }

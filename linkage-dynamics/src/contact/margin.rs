@@ -10,28 +10,28 @@
 use super::held::{Held, nothing};
 use super::reduced::ReducedEquations;
 use super::{ContactLaw, Mode};
-use linkage_runtime::Real;
+use linkage_runtime::{Column, Dim, Real};
 
-impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
+impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// By contact, the least that is left of the motions that it takes part in: it gives way where this falls through
     /// zero. A little more than nothing is left where the load is just what the limit can hold, so that rounding
     /// does not set free what stands.
-    pub(super) fn margins(&self, equations: &ReducedEquations<T, V, C>, modes: &[Mode; C]) -> [T; C] {
+    pub(super) fn margins(&self, equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Column<T, C> {
         let (rank, count) = (self.factors.rank, self.factors.count);
-        let mut margins = [T::one(); C];
-        let mut found = [false; C];
-        let combinations: [[T; C]; C] =
-            core::array::from_fn(|place| if place < count { self.factors.combination(place) } else { [T::zero(); C] });
+        let mut margins = Column::repeat(T::one());
+        let mut found = Column::<_, C>::repeat(false);
+        let combinations: Column<Column<T, C>, C> =
+            Column::from_fn(|place| if place < count { self.factors.combination(place) } else { Column::zeros() });
         // Along each contact in the order; what of it is rounding is nothing.
-        let motion = |z: &[T; C]| -> [T; C] {
-            core::array::from_fn(|place| {
+        let motion = |z: &Column<T, C>| -> Column<T, C> {
+            Column::from_fn(|place| {
                 let terms = combinations[place].iter().zip(z).map(|(&c, &z)| c * z);
                 let (sum, size) =
                     terms.fold((T::zero(), T::zero()), |(sum, size), term| (sum + term, size + term.abs()));
                 if sum.abs() <= nothing::<T>() * size { T::zero() } else { sum }
             })
         };
-        let mut weigh = |z: &[T; C]| {
+        let mut weigh = |z: &Column<T, C>| {
             let moved = motion(z);
             let opens = |place: usize| match modes[self.factors.order[place]] {
                 Mode::AtLower => moved[place] >= T::zero(),
@@ -57,24 +57,24 @@ impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
                 }
             }
         };
-        let mut both = |z: [T; C]| {
-            weigh(&z);
-            weigh(&z.map(|z| -z));
+        let mut both = |z: &Column<T, C>| {
+            weigh(z);
+            weigh(&-*z);
         };
         if rank == count || rank == 1 {
             for place in 0..rank {
-                let mut z = [T::zero(); C];
+                let mut z = Column::zeros();
                 z[place] = T::one();
-                both(z);
+                both(&z);
             }
         } else if rank > 1 {
             each_choice::<C>(count, rank - 1, |still| {
                 if let Some(z) = across(&combinations, still, rank) {
-                    both(z);
+                    both(&z);
                 }
             });
         }
-        for &contact in &self.factors.order[rank..count] {
+        for &contact in &self.factors.order.as_slice()[rank..count] {
             let (bias, size) = self.response.bias[contact];
             let (mut left, mut size) = (bias, size);
             for (&row, &force) in self.factors.order.iter().zip(&self.forces).take(rank) {
@@ -97,10 +97,10 @@ impl<T: Real, const V: usize, const C: usize> Held<T, V, C> {
 }
 
 /// Every choice of `many` of the numbers below `count`.
-fn each_choice<const C: usize>(count: usize, many: usize, mut visit: impl FnMut(&[usize])) {
-    let mut chosen: [usize; C] = core::array::from_fn(|place| place);
+fn each_choice<C: Dim>(count: usize, many: usize, mut visit: impl FnMut(&[usize])) {
+    let mut chosen: Column<usize, C> = Column::from_fn(|place| place);
     loop {
-        visit(&chosen[..many]);
+        visit(&chosen.as_slice()[..many]);
         let Some(place) = (0..many).rev().find(|&place| chosen[place] + many < count + place) else { return };
         chosen[place] += 1;
         for later in place + 1..many {
@@ -110,12 +110,16 @@ fn each_choice<const C: usize>(count: usize, many: usize, mut visit: impl FnMut(
 }
 
 /// The motion in which these contacts stand still, if they leave one only.
-fn across<T: Real, const C: usize>(combinations: &[[T; C]; C], still: &[usize], rank: usize) -> Option<[T; C]> {
-    let (mut rows, mut pivots) = ([[T::zero(); C]; C], [0; C]);
+fn across<T: Real, C: Dim>(
+    combinations: &Column<Column<T, C>, C>,
+    still: &[usize],
+    rank: usize,
+) -> Option<Column<T, C>> {
+    let (mut rows, mut pivots) = (Column::<Column<T, C>, C>::repeat(Column::zeros()), Column::<_, C>::repeat(0));
     for (row, &place) in rows.iter_mut().zip(still) {
         *row = combinations[place];
     }
-    let size = |row: &[T; C]| row.iter().fold(T::zero(), |size, entry| size.max(entry.abs()));
+    let size = |row: &Column<T, C>| row.iter().fold(T::zero(), |size, entry| size.max(entry.abs()));
     let sizes = rows.map(|row| size(&row));
     for step in 0..still.len() {
         let pivot = (0..rank).fold(0, |best, at| if rows[step][at].abs() > rows[step][best].abs() { at } else { best });
@@ -132,8 +136,8 @@ fn across<T: Real, const C: usize>(combinations: &[[T; C]; C], still: &[usize], 
             other[pivot] = T::zero();
         }
     }
-    let free = (0..rank).find(|at| !pivots[..still.len()].contains(at))?;
-    let mut z = [T::zero(); C];
+    let free = (0..rank).find(|at| !pivots.as_slice()[..still.len()].contains(at))?;
+    let mut z = Column::zeros();
     z[free] = T::one();
     for (row, &pivot) in rows.iter().zip(&pivots).take(still.len()) {
         z[pivot] = -row[free] / row[pivot];

@@ -23,7 +23,7 @@ mod settle;
 mod state;
 mod verdict;
 
-use nalgebra::SVector;
+use linkage_runtime::{Column, Dim, Real};
 
 pub use change::Change;
 pub(crate) use change::changes;
@@ -34,24 +34,24 @@ pub use verdict::{sound, stops};
 
 /// Where a friction or a stop acts: along a scalar s(q), a coordinate or an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Along<T, const U: usize, const V: usize> {
+pub struct ContactCoordinate<T: Real, U: Dim, V: Dim> {
     /// s.
     pub value: T,
     /// `ds/du`, by dependent coordinate.
-    pub unknowns: SVector<T, U>,
+    pub unknowns: Column<T, U>,
     /// `ds/dv`, by input.
-    pub inputs: SVector<T, V>,
+    pub inputs: Column<T, V>,
     /// s'' at q'' = 0: the quadratic terms in q'.
     pub bias: T,
 }
 
 /// A friction or a stop at a moment of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact<T, const U: usize, const V: usize> {
+pub struct Contact<T: Real, U: Dim, V: Dim> {
     /// What errors call it: `friction on theta3`.
     pub name: &'static str,
     /// Where it acts.
-    pub along: Along<T, U, V>,
+    pub along: ContactCoordinate<T, U, V>,
     /// What it does there.
     pub law: ContactLaw<T>,
 }

@@ -1,33 +1,32 @@
 //! What happens at an event: impacts, and which modes follow.
 
-use nalgebra::SVector;
-
 use super::bounded::bounded;
 use super::held::{Held, Response, nothing, slipping};
-use super::impact::{Struck, impact};
+use super::impact::{After, Struck, impact};
 use super::reduced::ReducedEquations;
-use super::state::{Contacts, ROUNDINGS, is_nothing, slip_or_stick};
+use super::state::{Contacts, NOTHING, is_nothing, slip_or_stick};
 use super::{ContactLaw, Mode};
-use linkage_runtime::{Error, Real, real};
+use crate::MotionError;
+use linkage_runtime::{Column, Dim, Real, real};
 
 /// A flight of fewer roundings of the time than these is none.
-const SHORTEST: f64 = 64.0;
+const SHORTEST_FLIGHT: f64 = 64.0;
 
-impl<T: Real, const C: usize> Contacts<T, C> {
+impl<T: Real, C: Dim> Contacts<T, C> {
     /// What happens at the state where an event function has just fallen through zero: impacts, and the modes that
     /// follow. Gives the rates v' from here on. `evaluate` gives the equations at other rates.
     ///
     /// # Errors
-    /// [`Error::NoContactForces`] if no forces hold what a prescribed motion takes along, and what `evaluate` returns.
-    pub fn settle<const V: usize>(
+    /// [`MotionError::NoContactForces`] if no forces hold what a prescribed motion takes along, and what `evaluate` returns.
+    pub fn settle<V: Dim>(
         &mut self,
         t: T,
-        rates: &SVector<T, V>,
-        mut evaluate: impl FnMut(&SVector<T, V>) -> Result<ReducedEquations<T, V, C>, Error>,
-    ) -> Result<SVector<T, V>, Error> {
+        rates: &Column<T, V>,
+        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<Column<T, V>, MotionError> {
         let mut equations = evaluate(rates)?;
         // What has no rate, and may be held: on which side if it is a stop.
-        let mut at_rest: [Option<Mode>; C] = core::array::from_fn(|place| self.at_rest(place, &equations));
+        let mut at_rest: Column<Option<Mode>, C> = Column::from_fn(|place| self.at_rest(place, &equations));
         if let Some(struck) = self.struck(&equations, &at_rest) {
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
         }
@@ -40,7 +39,7 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     }
 
     /// The mode in which a contact would be held, if it has no rate.
-    fn at_rest<const V: usize>(&self, place: usize, equations: &ReducedEquations<T, V, C>) -> Option<Mode> {
+    fn at_rest<V: Dim>(&self, place: usize, equations: &ReducedEquations<T, V, C>) -> Option<Mode> {
         let contact = &equations.contacts[place];
         let (rate, size) = contact.rate(&equations.rates);
         match (self.modes[place], contact.law) {
@@ -56,13 +55,13 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     }
 
     /// The stops that take part in an impact, if there is one.
-    fn struck<const V: usize>(
+    fn struck<V: Dim>(
         &self,
         equations: &ReducedEquations<T, V, C>,
-        at_rest: &[Option<Mode>; C],
-    ) -> Option<[Option<Struck<T>>; C]> {
+        at_rest: &Column<Option<Mode>, C>,
+    ) -> Option<Column<Option<Struck<T>>, C>> {
         let mut hit = false;
-        let struck = core::array::from_fn(|place| {
+        let struck = Column::from_fn(|place| {
             let contact = &equations.contacts[place];
             let ContactLaw::Stop { lower, upper, restitution } = contact.law else { return None };
             if let Some(side) = at_rest[place] {
@@ -79,16 +78,16 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     }
 
     /// An impact: the equations at the rates after it, and what is at rest then.
-    fn strike<const V: usize>(
+    fn strike<V: Dim>(
         &mut self,
         t: T,
-        mut struck: [Option<Struck<T>>; C],
+        mut struck: Column<Option<Struck<T>>, C>,
         equations: &ReducedEquations<T, V, C>,
-        at_rest: &mut [Option<Mode>; C],
-        evaluate: &mut impl FnMut(&SVector<T, V>) -> Result<ReducedEquations<T, V, C>, Error>,
-    ) -> Result<ReducedEquations<T, V, C>, Error> {
+        at_rest: &mut Column<Option<Mode>, C>,
+        evaluate: &mut impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<ReducedEquations<T, V, C>, MotionError> {
         let least = T::default_epsilon().sqrt();
-        for place in (0..C).filter(|&place| at_rest[place].is_none()) {
+        for place in (0..C::COUNT).filter(|&place| at_rest[place].is_none()) {
             let Some(of) = &mut struck[place] else { continue };
             let rate = equations.contacts[place].rate(&equations.rates).0.abs();
             self.hardest[place] = self.hardest[place].max(rate);
@@ -96,26 +95,26 @@ impl<T: Real, const C: usize> Contacts<T, C> {
                 of.restitution = T::zero();
             }
         }
-        let (rates, _) = impact(equations, &struck)?;
+        let After { rates, .. } = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
         // A rebound that is over within the rounding of the time is none, nor one that is no higher than one rounding of
         // the place.
-        let free = Response::new(&after, &[T::zero(); C], |place| struck[place].is_some())?;
-        let shortest = real::<T>(SHORTEST) * T::default_epsilon() * t.abs();
+        let free = Response::new(&after, &Column::zeros(), |place| struck[place].is_some())?;
+        let shortest = real::<T>(SHORTEST_FLIGHT) * T::default_epsilon() * t.abs();
         let mut again = false;
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
-            let lost = self.resolution[place] / real(ROUNDINGS);
+            let lost = self.resolution[place] / real(NOTHING);
             let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lost * back;
             if !restitution.is_zero() && back > T::zero() && is_over {
                 *restitution = T::zero();
                 again = true;
             }
         }
-        let mut pushed = [T::zero(); C];
+        let mut pushed = Column::zeros();
         if again || struck.iter().flatten().any(|of| of.restitution.is_zero()) {
-            let (rates, impulses) = impact(equations, &struck)?;
+            let After { rates, impulses } = impact(equations, &struck)?;
             after = evaluate(&rates)?;
             pushed = impulses;
         }
@@ -138,26 +137,26 @@ impl<T: Real, const C: usize> Contacts<T, C> {
             }
         }
         if at_rest.iter().any(Option::is_some) {
-            let resting = core::array::from_fn(|place| at_rest[place].unwrap_or(Mode::Open));
+            let resting = Column::from_fn(|place| at_rest[place].unwrap_or(Mode::Open));
             after.rates = Held::new(&after, &resting)?.rates(&after);
         }
         Ok(after)
     }
 
     /// The modes of what has no rate: those in which forces within their bounds hold it or let it go.
-    fn choose<const V: usize>(
+    fn choose<V: Dim>(
         &mut self,
         equations: &ReducedEquations<T, V, C>,
-        at_rest: &[Option<Mode>; C],
-    ) -> Result<(), Error> {
+        at_rest: &Column<Option<Mode>, C>,
+    ) -> Result<(), MotionError> {
         let slips = |place: usize| at_rest[place].is_none();
-        let forces = core::array::from_fn(|place| {
+        let forces = Column::from_fn(|place| {
             if slips(place) { slipping(self.modes[place], &equations.contacts[place].law) } else { T::zero() }
         });
         let response = Response::new(equations, &forces, |place| !slips(place))?;
-        let supposed = Self { modes: core::array::from_fn(|place| at_rest[place].unwrap_or(Mode::Open)), ..*self };
+        let supposed = Self { modes: Column::from_fn(|place| at_rest[place].unwrap_or(Mode::Open)), ..*self };
         let solution = bounded(&response.matrix, &supposed.bounds(&response, equations)).map_err(|place| {
-            Error::NoContactForces { scene: equations.scene, contact: equations.contacts[place].name }
+            MotionError::NoContactForces { scene: equations.scene, contact: equations.contacts[place].name }
         })?;
         for (place, side) in at_rest.iter().enumerate() {
             let Some(side) = *side else { continue };

@@ -1,17 +1,16 @@
 //! What the contacts of a scene are doing, and how that changes.
 
-use nalgebra::SVector;
-
 use super::bounded::{Bounds, bounded};
 use super::held::{Held, Response, slipping};
 use super::reduced::{ReducedContact, ReducedEquations};
 use super::{ContactLaw, Mode};
+use crate::MotionError;
 use crate::integrate::{Crossing, Guard};
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real, real};
+use linkage_runtime::{Column, Dim, InputError, Real, real};
 
 /// A rate or a gap below this many roundings of its terms is zero.
-pub(super) const ROUNDINGS: f64 = 16.0;
+pub(super) const NOTHING: f64 = 16.0;
 
 /// The modes of the contacts of a scene, with what is remembered from one event to the next.
 ///
@@ -24,23 +23,23 @@ pub(super) const ROUNDINGS: f64 = 16.0;
 /// be over within the rounding of the time, or no higher than one rounding of the place
 /// ([`with_resolution`](Self::with_resolution); simulations do it).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contacts<T, const C: usize> {
+pub struct Contacts<T: Real, C: Dim> {
     /// By contact, in the order of the scene.
-    pub modes: [Mode; C],
+    pub modes: Column<Mode, C>,
     /// The greatest rate that a stop was hit with since it last rested.
-    pub(super) hardest: [T; C],
+    pub(super) hardest: Column<T, C>,
     /// How exactly the places of stops are known, beside roundings of their values.
-    pub(super) resolution: [T; C],
+    pub(super) resolution: Column<T, C>,
 }
 
 /// Accelerations, and the forces of the contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactMotion<T, const V: usize, const C: usize> {
+pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
     /// v''.
-    pub acceleration: SVector<T, V>,
+    pub acceleration: Column<T, V>,
     /// By contact, along its s: the work of a contact is its force times the change of s. Where more contacts are
     /// held than the motion needs, their forces are not unique, and these are some that hold them.
-    pub forces: SVector<T, C>,
+    pub forces: Column<T, C>,
 }
 
 impl Mode {
@@ -57,7 +56,7 @@ impl Mode {
 }
 
 /// The stop that is nearer, and how far it is.
-pub(super) fn nearer<T: Real, const V: usize>(contact: &ReducedContact<T, V>, lower: T, upper: T) -> (Mode, T) {
+pub(super) fn nearer<T: Real, V: Dim>(contact: &ReducedContact<T, V>, lower: T, upper: T) -> (Mode, T) {
     let (below, above) = (contact.value - lower, upper - contact.value);
     if below <= above { (Mode::AtLower, below) } else { (Mode::AtUpper, above) }
 }
@@ -69,36 +68,36 @@ fn rounding<T: Real>(value: T, bound: T) -> T {
 
 /// What rounding may leave of terms of this size.
 pub(crate) fn rounding_of<T: Real>(size: T) -> T {
-    real::<T>(ROUNDINGS) * T::default_epsilon() * size
+    real::<T>(NOTHING) * T::default_epsilon() * size
 }
 
 pub(super) fn is_nothing<T: Real>((sum, size): (T, T)) -> bool {
     sum.abs() <= rounding_of(size)
 }
 
-impl<T: Real, const C: usize> Contacts<T, C> {
+impl<T: Real, C: Dim> Contacts<T, C> {
     /// The modes at the start of a motion, and the rates v' there: those given, but what touches a stop and moves
     /// towards it is thrown back at once. `evaluate` gives the equations at other rates.
     ///
     /// # Errors
-    /// [`Error::BeyondStop`] if a stop is passed already; else as [`settle`](Self::settle).
-    pub fn begin<const V: usize>(
+    /// [`InputError::BeyondStop`] if a stop is passed already; else as [`settle`](Self::settle).
+    pub fn begin<V: Dim>(
         t: T,
-        rates: &SVector<T, V>,
-        evaluate: impl FnMut(&SVector<T, V>) -> Result<ReducedEquations<T, V, C>, Error>,
-    ) -> Result<(Self, SVector<T, V>), Error> {
+        rates: &Column<T, V>,
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<(Self, Column<T, V>), MotionError> {
         let mut contacts = Self::open();
         let rates = contacts.start(t, rates, evaluate)?;
         Ok((contacts, rates))
     }
 
     /// The same with the resolution that these have; the rates.
-    pub(crate) fn start<const V: usize>(
+    pub(crate) fn start<V: Dim>(
         &mut self,
         t: T,
-        rates: &SVector<T, V>,
-        evaluate: impl FnMut(&SVector<T, V>) -> Result<ReducedEquations<T, V, C>, Error>,
-    ) -> Result<SVector<T, V>, Error> {
+        rates: &Column<T, V>,
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<Column<T, V>, MotionError> {
         let mut evaluate = evaluate;
         let equations = evaluate(rates)?;
         for (contact, &resolution) in equations.contacts.iter().zip(&self.resolution) {
@@ -111,19 +110,19 @@ impl<T: Real, const C: usize> Contacts<T, C> {
 
     /// Nothing acts.
     pub(crate) fn open() -> Self {
-        Self { modes: [Mode::Open; C], hardest: [T::zero(); C], resolution: [T::zero(); C] }
+        Self { modes: Column::repeat(Mode::Open), hardest: Column::zeros(), resolution: Column::zeros() }
     }
 
     /// With what rounding may leave of each s where that is more than its value tells: a coordinate that is solved for
     /// is as near to a stop at zero as the closures are to zero. Nearer than this it touches, and a rebound that is no
     /// higher than a sixteenth of it is none.
     #[must_use]
-    pub fn with_resolution(self, resolution: [T; C]) -> Self {
+    pub fn with_resolution(self, resolution: Column<T, C>) -> Self {
         Self { resolution, ..self }
     }
 
     /// On which side a stop is nearer, and what rounding may leave of the gap.
-    pub(super) fn nearest<const V: usize>(
+    pub(super) fn nearest<V: Dim>(
         &self,
         place: usize,
         contact: &ReducedContact<T, V>,
@@ -139,12 +138,12 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     ///
     /// # Errors
     /// As [`settle`](Self::settle).
-    pub fn resume<const V: usize>(
+    pub fn resume<V: Dim>(
         &mut self,
         t: T,
-        rates: &SVector<T, V>,
-        evaluate: impl FnMut(&SVector<T, V>) -> Result<ReducedEquations<T, V, C>, Error>,
-    ) -> Result<SVector<T, V>, Error> {
+        rates: &Column<T, V>,
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<Column<T, V>, MotionError> {
         let mut evaluate = evaluate;
         let equations = evaluate(rates)?;
         for (mode, contact) in self.modes.iter_mut().zip(&equations.contacts) {
@@ -161,20 +160,18 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     /// The accelerations in these modes.
     ///
     /// # Errors
-    /// [`Error::NoInertia`], [`Error::NotFinite`] as for the accelerations of free inputs.
-    pub fn motion<const V: usize>(
-        &self,
-        equations: &ReducedEquations<T, V, C>,
-    ) -> Result<ContactMotion<T, V, C>, Error> {
+    /// [`MotionError::NoInertia`], [`PositionError::NotFinite`](linkage_runtime::PositionError::NotFinite) as for the
+    /// accelerations of free inputs.
+    pub fn motion<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<ContactMotion<T, V, C>, MotionError> {
         let held = Held::new(equations, &self.modes)?;
-        let mut forces = SVector::<T, C>::zeros();
+        let mut forces = Column::<T, C>::zeros();
         for (place, contact) in equations.contacts.iter().enumerate() {
             forces[place] = slipping(self.modes[place], &contact.law);
         }
         if held.factors.rank < held.factors.count {
             // Some forces within their limits; what no force could hold the event functions tell.
             if let Ok(solution) = bounded(&held.response.matrix, &self.bounds(&held.response, equations)) {
-                for place in (0..C).filter(|&place| self.modes[place].is_held()) {
+                for place in (0..C::COUNT).filter(|&place| self.modes[place].is_held()) {
                     forces[place] = solution.forces[place];
                 }
             }
@@ -190,7 +187,7 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     ///
     /// # Errors
     /// As [`motion`](Self::motion).
-    pub fn acceleration<const V: usize>(&self, equations: &ReducedEquations<T, V, C>) -> Result<SVector<T, V>, Error> {
+    pub fn acceleration<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, V>, MotionError> {
         Ok(Held::new(equations, &self.modes)?.acceleration(equations))
     }
 
@@ -199,8 +196,8 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     ///
     /// # Errors
     /// As [`motion`](Self::motion).
-    pub fn events<const V: usize>(&self, equations: &ReducedEquations<T, V, C>) -> Result<[T; C], Error> {
-        let mut values = [T::one(); C];
+    pub fn events<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, C>, MotionError> {
+        let mut values = Column::repeat(T::one());
         if self.modes.iter().any(|mode| mode.is_held()) {
             values = Held::new(equations, &self.modes)?.margins(equations, &self.modes);
         }
@@ -216,9 +213,12 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     }
 
     /// The guards with what is known of their change: of an open stop its rate.
-    pub(crate) fn guards<const V: usize>(&self, equations: &ReducedEquations<T, V, C>) -> Result<[Guard<T>; C], Error> {
+    pub(crate) fn guards<V: Dim>(
+        &self,
+        equations: &ReducedEquations<T, V, C>,
+    ) -> Result<Column<Guard<T>, C>, MotionError> {
         let values = self.events(equations)?;
-        Ok(core::array::from_fn(|place| {
+        Ok(Column::from_fn(|place| {
             let contact = &equations.contacts[place];
             let rate = match (self.modes[place], contact.law) {
                 (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
@@ -233,8 +233,8 @@ impl<T: Real, const C: usize> Contacts<T, C> {
 
     /// Which way the event functions pass through zero.
     #[must_use]
-    pub fn crossings() -> [Crossing; C] {
-        [Crossing::Falling; C]
+    pub fn crossings() -> Column<Crossing, C> {
+        Column::repeat(Crossing::Falling)
     }
 
     /// The rates v' with those of what is held made zero, if they are not, and whether the modes are still those of
@@ -244,10 +244,7 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     ///
     /// # Errors
     /// As [`motion`](Self::motion).
-    pub fn review<const V: usize>(
-        &self,
-        equations: &ReducedEquations<T, V, C>,
-    ) -> Result<(SVector<T, V>, bool), Error> {
+    pub fn review<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<(Column<T, V>, bool), MotionError> {
         let values = self.events(equations)?;
         let mut holds = true;
         for (place, (&value, contact)) in values.iter().zip(&equations.contacts).enumerate() {
@@ -274,13 +271,13 @@ impl<T: Real, const C: usize> Contacts<T, C> {
     }
 
     /// What the forces of the contacts that are held may be.
-    pub(super) fn bounds<const V: usize>(
+    pub(super) fn bounds<V: Dim>(
         &self,
         response: &Response<T, V, C>,
         equations: &ReducedEquations<T, V, C>,
-    ) -> [Option<Bounds<T>>; C] {
+    ) -> Column<Option<Bounds<T>>, C> {
         let endless = real::<T>(f64::INFINITY);
-        core::array::from_fn(|place| {
+        Column::from_fn(|place| {
             let [lower, upper] = match (self.modes[place], equations.contacts[place].law) {
                 (Mode::Stick, ContactLaw::Friction { limit }) => [-limit, limit],
                 (Mode::AtLower, _) => [T::zero(), endless],
@@ -308,10 +305,10 @@ pub(crate) fn within<T: Real>(
     stop: &'static str,
     (value, resolution): (T, T),
     [lower, upper]: [T; 2],
-) -> Result<(), Error> {
+) -> Result<(), InputError> {
     for (gap, bound) in [(lower - value, lower), (value - upper, upper)] {
         if gap > resolution.max(rounding(value, bound)) {
-            return Err(Error::BeyondStop { scene, stop, gap: to_f64(gap) });
+            return Err(InputError::BeyondStop { scene, stop, gap: to_f64(gap) });
         }
     }
     Ok(())

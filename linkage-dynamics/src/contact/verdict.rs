@@ -1,19 +1,21 @@
 //! What no friction and no stop can be.
 
-use super::{Along, Contact, ContactLaw};
+use super::{Contact, ContactCoordinate, ContactLaw};
+use crate::MotionError;
+use crate::scene::negative;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real};
+use linkage_runtime::{Dim, InputError, PositionError, Real};
 
 /// The contacts, if their numbers are finite and no limit is negative.
 ///
 /// # Errors
-/// [`Error::NotFinite`] or [`Error::Negative`] with the name of the first that is not sound.
-pub fn sound<T: Real, const U: usize, const V: usize, const C: usize>(
+/// [`PositionError::NotFinite`] or [`InputError::OutOfRange`] with the name of the first that is not sound.
+pub fn sound<T: Real, U: Dim, V: Dim, const C: usize>(
     scene: &'static str,
     contacts: [Contact<T, U, V>; C],
-) -> Result<[Contact<T, U, V>; C], Error> {
+) -> Result<[Contact<T, U, V>; C], MotionError> {
     for Contact { name, along, law } in &contacts {
-        let Along { value, unknowns, inputs, bias } = along;
+        let ContactCoordinate { value, unknowns, inputs, bias } = along;
         let [a, b, c] = match *law {
             ContactLaw::Friction { limit } => [limit, T::zero(), T::zero()],
             ContactLaw::Stop { lower, upper, restitution } => [lower, upper, restitution],
@@ -21,12 +23,12 @@ pub fn sound<T: Real, const U: usize, const V: usize, const C: usize>(
         let mut all =
             [*value, *bias, a, b, c].into_iter().chain(unknowns.iter().copied()).chain(inputs.iter().copied());
         if !all.all(|number| number.is_finite()) {
-            return Err(Error::NotFinite { mechanism: scene, quantity: name });
+            return Err(PositionError::NotFinite { mechanism: scene, quantity: name }.into());
         }
         if let ContactLaw::Friction { limit } = *law
             && limit < T::zero()
         {
-            return Err(Error::Negative { scene, quantity: name, value: to_f64(limit) });
+            return Err(negative(scene, name, limit).into());
         }
     }
     Ok(contacts)
@@ -35,17 +37,21 @@ pub fn sound<T: Real, const U: usize, const V: usize, const C: usize>(
 /// Refuses stops between which nothing is left, and a restitution that is not between 0 and 1.
 ///
 /// # Errors
-/// [`Error::NoRange`], [`Error::Restitution`] or [`Error::NotFinite`] with the name of the first.
-pub fn stops<T: Real, const N: usize>(scene: &'static str, stops: [(&'static str, T, T, T); N]) -> Result<(), Error> {
+/// [`InputError::EmptyRange`], [`InputError::OutOfRange`] or [`PositionError::NotFinite`] with the name of the first.
+pub fn stops<T: Real, const N: usize>(
+    scene: &'static str,
+    stops: [(&'static str, T, T, T); N],
+) -> Result<(), MotionError> {
     for (stop, lower, upper, restitution) in stops {
         if ![lower, upper, restitution].iter().all(T::is_finite) {
-            return Err(Error::NotFinite { mechanism: scene, quantity: stop });
+            return Err(PositionError::NotFinite { mechanism: scene, quantity: stop }.into());
         }
         if lower >= upper {
-            return Err(Error::NoRange { scene, stop, lower: to_f64(lower), upper: to_f64(upper) });
+            return Err(InputError::EmptyRange { scene, stop, lower: to_f64(lower), upper: to_f64(upper) }.into());
         }
         if restitution < T::zero() || restitution > T::one() {
-            return Err(Error::Restitution { scene, stop, value: to_f64(restitution) });
+            let (quantity, value) = ("the restitution", to_f64(restitution));
+            return Err(InputError::OutOfRange { of: Some(stop), quantity, value, least: 0.0, most: 1.0 }.into());
         }
     }
     Ok(())

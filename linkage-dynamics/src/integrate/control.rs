@@ -3,11 +3,12 @@
 //! Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993), section II.4, as in their
 //! codes DOP853 and DOPRI5. Lengths are plain numbers: derivatives that a dual scalar carries have no part in them.
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::tableau::{self, Control, Slopes, Tableau};
+use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real};
+use linkage_runtime::{Column, Dim, InputError, Real};
 
 /// What of the change that the last error asks for is dared.
 const SAFETY: f64 = 0.9;
@@ -17,20 +18,20 @@ const LEAST_ROUNDINGS: f64 = 10.0;
 
 /// The local error that is allowed: of component i `relative` (`scale_i` + |`y_i`|).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerance<T, const N: usize> {
+pub struct Tolerance<T: Real, N: Dim> {
     relative: f64,
-    scale: SVector<T, N>,
+    scale: Column<T, N>,
 }
 
-impl<T: Real, const N: usize> Tolerance<T, N> {
+impl<T: Real, N: Dim> Tolerance<T, N> {
     /// `relative` is a pure number, such as 1e-9. `scale` tells of each component, in its own unit, what size of it
     /// matters: what is small beside it is allowed the error `relative * scale`. A code with absolute and relative
     /// tolerances has `scale` = absolute / relative.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a relative tolerance below ten roundings or above 1, and for a scale
+    /// [`InputError::OutOfRange`] for a relative tolerance below ten roundings or above 1, and for a scale
     /// that is not positive and finite.
-    pub fn new(relative: f64, scale: impl Into<SVector<T, N>>) -> Result<Self, Error> {
+    pub fn new(relative: f64, scale: impl Into<Column<T, N>>) -> Result<Self, InputError> {
         let least = LEAST_ROUNDINGS * to_f64(T::default_epsilon());
         within("the relative tolerance", relative, least, 1.0)?;
         let scale = scale.into();
@@ -46,42 +47,46 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
     }
 
     /// The root of the mean square of a change at `y` beside what is allowed.
-    pub(super) fn share(&self, change: &SVector<T, N>, y: &SVector<T, N>) -> f64 {
-        self.norm(change, |i| to_f64(y[i]).abs()) / ComplexField::sqrt(N as f64)
+    pub(super) fn share(&self, change: &Column<T, N>, y: &Column<T, N>) -> f64 {
+        self.norm(change, |i| to_f64(y[i]).abs()) / ComplexField::sqrt(N::COUNT as f64)
     }
 
     /// The root of sum (`v_i` / allowed)^2, also where the squares are too large for the scalar.
-    fn norm(&self, v: &SVector<T, N>, size: impl Fn(usize) -> f64) -> f64 {
+    fn norm(&self, v: &Column<T, N>, size: impl Fn(usize) -> f64) -> f64 {
         let part = |i: usize| to_f64(v[i]) / self.allowed(i, size(i));
-        let sum = (0..N).fold(0.0, |sum, i| sum + part(i) * part(i));
+        let sum = (0..N::COUNT).fold(0.0, |sum, i| sum + part(i) * part(i));
         if sum < f64::INFINITY {
             return ComplexField::sqrt(sum);
         }
-        let most = (0..N).fold(0.0, |most: f64, i| most.max(part(i).abs()));
+        let most = (0..N::COUNT).fold(0.0, |most: f64, i| most.max(part(i).abs()));
         if most == f64::INFINITY {
             return most;
         }
-        let sum = (0..N).fold(0.0, |sum, i| sum + (part(i) / most) * (part(i) / most));
+        let sum = (0..N::COUNT).fold(0.0, |sum, i| sum + (part(i) / most) * (part(i) / most));
         most * ComplexField::sqrt(sum)
     }
 }
 
 /// Refuses a setting outside of what it may be.
-pub(super) fn within(quantity: &'static str, value: f64, least: f64, most: f64) -> Result<(), Error> {
-    if (least..=most).contains(&value) { Ok(()) } else { Err(Error::OutOfRange { quantity, value, least, most }) }
+pub(super) fn within(quantity: &'static str, value: f64, least: f64, most: f64) -> Result<(), InputError> {
+    if (least..=most).contains(&value) {
+        Ok(())
+    } else {
+        Err(InputError::OutOfRange { of: None, quantity, value, least, most })
+    }
 }
 
 /// Refuses what is not positive and finite.
-pub(super) fn positive(quantity: &'static str, value: f64) -> Result<(), Error> {
+pub(super) fn positive(quantity: &'static str, value: f64) -> Result<(), InputError> {
     within(quantity, value, f64::MIN_POSITIVE, f64::MAX)
 }
 
 /// The error of a step beside what is allowed: up to 1 it is accepted.
 #[inline]
-pub(super) fn error<T: Real, const N: usize>(
+pub(super) fn error<T: Real, N: Dim>(
     tableau: &Tableau,
     tolerance: &Tolerance<T, N>,
-    (y, next): (&SVector<T, N>, &SVector<T, N>),
+    (y, next): (&Column<T, N>, &Column<T, N>),
     slopes: &Slopes<T, N>,
     h: f64,
 ) -> f64 {
@@ -97,19 +102,19 @@ pub(super) fn error<T: Real, const N: usize>(
     }
     // |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N, where no square of a small error is lost.
     let share = second / first;
-    h.abs() * first / ComplexField::sqrt(N as f64 * (1.0 + 0.01 * share * share))
+    h.abs() * first / ComplexField::sqrt(N::COUNT as f64 * (1.0 + 0.01 * share * share))
 }
 
 /// A step to be tried: h = 0.01 |y| / |f|, and with the second derivative that a step of Euler's of that length shows,
 /// h^p max(|f|, |y''|) = 0.01, both in the time that the solution takes to change by its size.
 /// Where nothing moves or the state is zero, a millionth of `span`, or less if the state moves by its scale sooner.
 #[inline]
-pub(super) fn first_length<T: Real, const N: usize>(
+pub(super) fn first_length<T: Real, N: Dim>(
     order: u32,
     tolerance: &Tolerance<T, N>,
-    (y, slope): (&SVector<T, N>, &SVector<T, N>),
+    (y, slope): (&Column<T, N>, &Column<T, N>),
     span: f64,
-    euler: impl FnOnce(f64) -> Result<SVector<T, N>, Error>,
+    euler: impl FnOnce(f64) -> Result<Column<T, N>, MotionError>,
 ) -> f64 {
     let size = |i: usize| to_f64(y[i]).abs();
     let (moving, there) = (tolerance.norm(slope, size), tolerance.norm(y, size));
@@ -126,7 +131,7 @@ pub(super) fn first_length<T: Real, const N: usize>(
     let guess = if known || time < span { 0.01 * time } else { 1e-6 * span }.min(span);
     // Where there is no rate so far ahead, shorter steps are tried.
     let Ok(ahead) = euler(guess) else { return guess };
-    let bend = tolerance.norm(&(ahead - slope), size) / guess;
+    let bend = tolerance.norm(&(ahead - *slope), size) / guess;
     let steepest = (bend * time * time).max(moving * time);
     let (most, root) = (0.01, 1.0 / f64::from(order));
     let length = if steepest <= 1e-15 {

@@ -1,23 +1,17 @@
 //! The events of an integration under way, one after the other.
 
-use nalgebra::SVector;
-
-use super::System;
 use super::event::{Action, Found};
-use super::run::{Instant, Integration, Place, Step, finite};
+use super::run::{Instant, Integration, Place, Step, StepOf, finite};
+use super::system::{StateOf, System};
 use super::tableau::Method;
+use crate::MotionError;
+use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real};
 
-impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
-where
-    M: Method,
-    S: System<T, N, K, C>,
-    T: Real,
-{
+impl<S: System, M: Method> Integration<S, M> {
     /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
     /// rate, and if there may be one on the dense output.
-    pub(super) fn search(&mut self, from: f64) -> Result<Found<T, N>, Error> {
+    pub(super) fn search(&mut self, from: f64) -> Result<Found<S>, MotionError> {
         let roundings = self.roundings();
         let sides = self.sides;
         if self.interpolant.is_none() {
@@ -35,11 +29,11 @@ where
     /// What rounding leaves of the time, as a part of the last step.
     fn roundings(&self) -> f64 {
         let [start, end] = [self.from.0, self.to.0].map(to_f64);
-        to_f64(T::default_epsilon()) * (start.abs().max(end.abs()) / (end - start).abs()).max(1.0)
+        to_f64(S::Scalar::default_epsilon()) * (start.abs().max(end.abs()) / (end - start).abs()).max(1.0)
     }
 
     /// The next of the events that have happened here.
-    pub(super) fn deliver(&mut self) -> Result<Step<T, N>, Error> {
+    pub(super) fn deliver(&mut self) -> Result<StepOf<S>, MotionError> {
         let (t, state) = (self.t, self.state);
         let resolution = 4.0 * self.roundings() * to_f64(self.to.0 - self.from.0).abs();
         if to_f64(t - self.instant.t).abs() > resolution {
@@ -48,7 +42,7 @@ where
         }
         let (event, again) = self.sides.deliver();
         if again && self.instant.anew {
-            return Err(Error::EventsWithoutEnd { t: to_f64(t), event });
+            return Err(MotionError::EventsWithoutEnd { t: to_f64(t), event });
         }
         match self.system.at_event(event, t, &state)? {
             Action::Record => {}
@@ -64,7 +58,7 @@ where
     }
 
     /// The motion starts anew here, from this state.
-    pub(crate) fn restart(&mut self, state: SVector<T, N>) -> Result<(), Error> {
+    pub(crate) fn restart(&mut self, state: StateOf<S>) -> Result<(), MotionError> {
         finite("the state after an event", self.t, &state)?;
         self.state = state;
         self.continues = false;

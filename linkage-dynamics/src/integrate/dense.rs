@@ -1,9 +1,9 @@
 //! Dense output: the state between the ends of a step.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SMatrix;
 
 use super::tableau::{self, Slopes, Tableau};
-use linkage_runtime::{Real, real};
+use linkage_runtime::{Column, Dim, Real, real};
 
 /// The largest number of coefficients.
 const COEFFICIENTS: usize = 9;
@@ -15,18 +15,18 @@ const COEFFICIENTS: usize = 9;
 ///
 /// (Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993), section II.6.)
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interpolant<T: Real, const N: usize> {
+pub struct Interpolant<T: Real, N: Dim> {
     start: T,
     length: T,
-    coefficients: [SVector<T, N>; COEFFICIENTS],
+    coefficients: [Column<T, N>; COEFFICIENTS],
     /// The number of coefficients that are used.
     used: usize,
 }
 
-impl<T: Real, const N: usize> Interpolant<T, N> {
+impl<T: Real, N: Dim> Interpolant<T, N> {
     /// One state and no step.
-    pub(super) fn constant(t: T, state: SVector<T, N>) -> Self {
-        let mut coefficients = [SVector::zeros(); COEFFICIENTS];
+    pub(super) fn constant(t: T, state: Column<T, N>) -> Self {
+        let mut coefficients = [Column::zeros(); COEFFICIENTS];
         coefficients[0] = state;
         Self { start: t, length: T::zero(), coefficients, used: 1 }
     }
@@ -38,14 +38,14 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
 
     /// Hermite's cubic, of order 3: it takes no evaluation.
     #[inline]
-    pub(super) fn cubic(start: T, length: T, states: [&SVector<T, N>; 2], slopes: [&SVector<T, N>; 2]) -> Self {
-        let difference = states[1] - states[0];
-        let first = slopes[0] * length - difference;
-        let mut coefficients = [SVector::zeros(); COEFFICIENTS];
+    pub(super) fn cubic(start: T, length: T, states: [&Column<T, N>; 2], slopes: [&Column<T, N>; 2]) -> Self {
+        let difference = *states[1] - *states[0];
+        let first = *slopes[0] * length - difference;
+        let mut coefficients = [Column::zeros(); COEFFICIENTS];
         coefficients[0] = *states[0];
         coefficients[1] = difference;
         coefficients[2] = first;
-        coefficients[3] = difference - slopes[1] * length - first;
+        coefficients[3] = difference - *slopes[1] * length - first;
         Self { start, length, coefficients, used: 4 }
     }
 
@@ -60,10 +60,10 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
 
     /// The polynomial that starts at `state` and has the slopes y' at these parts of the step, one for each.
     pub(crate) fn of_slopes<const P: usize>(
-        (start, state): (T, SVector<T, N>),
+        (start, state): (T, Column<T, N>),
         length: T,
         parts: &[f64; P],
-        slopes: &[SVector<T, N>; P],
+        slopes: &[Column<T, N>; P],
     ) -> Option<Self> {
         let mut by_coefficient = SMatrix::<f64, P, P>::zeros();
         for (row, &s) in parts.iter().enumerate() {
@@ -76,11 +76,11 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
             }
         }
         let inverse = by_coefficient.try_inverse()?;
-        let mut coefficients = [SVector::zeros(); COEFFICIENTS];
+        let mut coefficients = [Column::zeros(); COEFFICIENTS];
         coefficients[0] = state;
         for (row, coefficient) in coefficients[1..].iter_mut().take(P).enumerate() {
             for (column, slope) in slopes.iter().enumerate() {
-                *coefficient += slope * (real::<T>(inverse[(row, column)]) * length);
+                *coefficient += *slope * (real::<T>(inverse[(row, column)]) * length);
             }
         }
         Some(Self { start, length, coefficients, used: P + 1 })
@@ -98,19 +98,19 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
     }
 
     /// The last coefficient, which tells how far the polynomial is from the motion.
-    pub(crate) fn last(&self) -> SVector<T, N> {
+    pub(crate) fn last(&self) -> Column<T, N> {
         self.coefficients[self.used - 1]
     }
 
     /// y' at t.
-    pub(crate) fn slope_at(&self, t: T) -> SVector<T, N> {
+    pub(crate) fn slope_at(&self, t: T) -> Column<T, N> {
         let s = (t - self.start) / self.length;
         let rest = T::one() - s;
         let (inner, last) = self.coefficients[..self.used].split_at(self.used - 1);
-        let start = (last[0], SVector::zeros());
+        let start = (last[0], Column::zeros());
         let (_, slope) = inner.iter().enumerate().rev().fold(start, |(value, slope), (i, coefficient)| {
             let (factor, rate) = if i % 2 == 0 { (s, T::one()) } else { (rest, -T::one()) };
-            (coefficient + value * factor, slope * factor + value * rate)
+            (*coefficient + value * factor, slope * factor + value * rate)
         });
         slope / self.length
     }
@@ -123,20 +123,20 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
 
     /// The state at t. Outside of the step it is extrapolated, and need not be finite.
     #[must_use]
-    pub fn at(&self, t: T) -> SVector<T, N> {
+    pub fn at(&self, t: T) -> Column<T, N> {
         if self.length.is_zero() { self.coefficients[0] } else { self.at_fraction((t - self.start) / self.length) }
     }
 
     /// The state at this part of the step.
     #[inline]
-    pub(crate) fn at_fraction(&self, s: T) -> SVector<T, N> {
+    pub(crate) fn at_fraction(&self, s: T) -> Column<T, N> {
         let rest = T::one() - s;
         let (inner, last) = self.coefficients[..self.used].split_at(self.used - 1);
         inner
             .iter()
             .enumerate()
             .rev()
-            .fold(last[0], |sum, (i, coefficient)| coefficient + sum * if i % 2 == 0 { s } else { rest })
+            .fold(last[0], |sum, (i, coefficient)| *coefficient + sum * if i % 2 == 0 { s } else { rest })
     }
 
     /// The length of the step, negative where it goes back in time.

@@ -1,12 +1,13 @@
 //! Events: zeros of functions of the state, and what happens there.
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::dense::Interpolant;
 use super::samples::Samples;
-use super::{Guard, System};
+use super::system::{Guard, StateOf, System};
+use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real, real};
+use linkage_runtime::{Column, Dim, real};
 
 /// How often a guard may be zero at one time: where several are within rounding, each may move the others.
 const MOST_TURNS: u32 = 8;
@@ -29,23 +30,23 @@ pub enum Crossing {
     Either,
 }
 
-/// What happens at an event.
+/// What happens at an event, to a state `Y`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Action<T, const N: usize> {
+pub enum Action<Y> {
     /// The event is recorded and the motion goes on.
     Record,
     /// The integration ends here.
     Stop,
     /// The motion starts anew from this state: after an impact, or where from here on another law holds. The length
     /// of the steps is kept.
-    Restart(SVector<T, N>),
+    Restart(Y),
 }
 
 /// On which side of zero the functions are, as far as the integration has gone: the user's, then the guards.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sides<const K: usize, const C: usize> {
-    events: [Side; K],
-    guards: [Side; C],
+pub(super) struct Sides<K: Dim, C: Dim> {
+    events: Column<Side, K>,
+    guards: Column<Side, C>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -74,37 +75,37 @@ struct Seen {
 
 /// The events and the guards at one place of a step.
 #[derive(Debug, Clone, Copy)]
-struct Look<const K: usize, const C: usize> {
+struct Look<K: Dim, C: Dim> {
     /// Part of the step.
     at: f64,
-    events: [Seen; K],
-    guards: [Seen; C],
+    events: Column<Seen, K>,
+    guards: Column<Seen, C>,
 }
 
 /// What is found in a step.
-pub(super) enum Found<T: Real, const N: usize> {
+pub(super) enum Found<S: System> {
     /// No event.
     Nothing,
     /// Perhaps an event, which a cubic does not tell.
     Perhaps,
     /// The first events.
-    Hit(Hit<T, N>),
+    Hit(Hit<S>),
     /// The guards change too much in it to be followed.
     Unclear,
 }
 
 /// The first events in the step after some part of it.
-pub(super) struct Hit<T: Real, const N: usize> {
+pub(super) struct Hit<S: System> {
     /// Part of the step.
     pub(super) at: f64,
-    pub(super) t: T,
-    pub(super) state: SVector<T, N>,
+    pub(super) t: S::Scalar,
+    pub(super) state: StateOf<S>,
 }
 
 /// A system along a step.
-struct Course<'a, S, T: Real, const N: usize> {
+struct Course<'a, S: System> {
     system: &'a mut S,
-    step: &'a Interpolant<T, N>,
+    step: &'a Interpolant<S::Scalar, S::N>,
     /// The resolution of the time, as a part of the step.
     roundings: f64,
 }
@@ -120,17 +121,20 @@ fn sign(value: f64) -> i8 {
     }
 }
 
-fn seen<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
+/// What a look at the functions of a system shows.
+type LookAt<S> = Look<<S as System>::Events, <S as System>::Guards>;
+
+fn seen<S: System>(
     system: &mut S,
-    (at, length): (f64, T),
-    (t, state): (T, &SVector<T, N>),
-) -> Result<Look<K, C>, Error> {
+    (at, length): (f64, S::Scalar),
+    (t, state): (S::Scalar, &StateOf<S>),
+) -> Result<LookAt<S>, MotionError> {
     let unknown = Seen { value: 0.0, rate: 0.0, is_known: false };
-    let (mut events, mut guards) = ([unknown; K], [unknown; C]);
-    if K > 0 {
+    let (mut events, mut guards) = (Column::repeat(unknown), Column::repeat(unknown));
+    if S::Events::COUNT > 0 {
         events = system.events(t, state)?.map(|value| Seen { value: to_f64(value), ..unknown });
     }
-    if C > 0 {
+    if S::Guards::COUNT > 0 {
         guards = system.guards(t, state)?.map(|Guard { value, rate }| Seen {
             value: to_f64(value),
             rate: rate.map_or(0.0, |rate| to_f64(rate * length)),
@@ -141,13 +145,13 @@ fn seen<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C:
     if look.each().all(|seen| seen.value.is_finite()) {
         Ok(look)
     } else {
-        Err(Error::NotFiniteAt { quantity: "an event function", t: to_f64(t) })
+        Err(MotionError::NotFinite { quantity: "an event function", t: to_f64(t) })
     }
 }
 
-impl<const K: usize, const C: usize> Look<K, C> {
+impl<K: Dim, C: Dim> Look<K, C> {
     /// The guards whose rates the system does not know.
-    fn unknown(&self) -> [Option<f64>; C] {
+    fn unknown(&self) -> Column<Option<f64>, C> {
         self.guards.map(|guard| if guard.is_known { None } else { Some(guard.value) })
     }
 
@@ -160,30 +164,21 @@ impl<const K: usize, const C: usize> Look<K, C> {
     }
 }
 
-impl<S, T: Real, const N: usize> Course<'_, S, T, N> {
+impl<S: System> Course<'_, S> {
     /// The functions at a part of the step, with the rates that the system knows.
-    fn look<const K: usize, const C: usize>(&mut self, at: f64) -> Result<Look<K, C>, Error>
-    where
-        S: System<T, N, K, C>,
-    {
+    fn look(&mut self, at: f64) -> Result<LookAt<S>, MotionError> {
         let Self { system, step, .. } = self;
         seen(*system, (at, step.length()), (step.time(at), &step.at_fraction(real(at))))
     }
 
     /// The functions a little nearer to the middle of the step, where a difference tells their rates best.
-    fn aside<const K: usize, const C: usize>(&mut self, at: f64) -> Result<Look<K, C>, Error>
-    where
-        S: System<T, N, K, C>,
-    {
+    fn aside(&mut self, at: f64) -> Result<LookAt<S>, MotionError> {
         let little = ComplexField::sqrt(self.roundings);
         self.look(if at < 0.5 { at + little } else { at - little })
     }
 
     /// The functions with all rates, those that the system does not know by differences.
-    fn whole<const K: usize, const C: usize>(&mut self, at: f64) -> Result<Look<K, C>, Error>
-    where
-        S: System<T, N, K, C>,
-    {
+    fn whole(&mut self, at: f64) -> Result<LookAt<S>, MotionError> {
         let mut look = self.look(at)?;
         if look.each().any(|seen| !seen.is_known) {
             let aside = self.aside(at)?;
@@ -262,9 +257,9 @@ impl Side {
     }
 }
 
-impl<const K: usize, const C: usize> Sides<K, C> {
-    pub(super) fn new(crossings: [Crossing; K]) -> Self {
-        Self { events: crossings.map(|crossing| Side::new(Some(crossing))), guards: [Side::new(None); C] }
+impl<K: Dim, C: Dim> Sides<K, C> {
+    pub(super) fn new(crossings: Column<Crossing, K>) -> Self {
+        Self { events: crossings.map(|crossing| Side::new(Some(crossing))), guards: Column::repeat(Side::new(None)) }
     }
 
     fn each(&self) -> impl Iterator<Item = &Side> {
@@ -296,7 +291,7 @@ impl<const K: usize, const C: usize> Sides<K, C> {
         next.map_or((0, false), |(event, side)| {
             side.waits = false;
             side.happened += 1;
-            (event, side.happened > if event < K { 1 } else { MOST_TURNS })
+            (event, side.happened > if event < K::COUNT { 1 } else { MOST_TURNS })
         })
     }
 
@@ -304,21 +299,21 @@ impl<const K: usize, const C: usize> Sides<K, C> {
     /// zero, is on the side that it leaves for: `after` is a little later. A guard is above zero, whatever rounding
     /// says, for the law begins where it holds; if it does not become so its event happens once more, unless it is
     /// known to grow.
-    pub(super) fn begin<T: Real, S: System<T, N, K, C>, const N: usize>(
+    pub(super) fn begin<S: System<Events = K, Guards = C>>(
         &mut self,
         system: &mut S,
-        (t, state): (T, &SVector<T, N>),
-        (later, after): (T, &SVector<T, N>),
-    ) -> Result<(), Error> {
+        (t, state): (S::Scalar, &StateOf<S>),
+        (later, after): (S::Scalar, &StateOf<S>),
+    ) -> Result<(), MotionError> {
         let length = later - t;
-        let now: Look<K, C> = seen(system, (0.0, length), (t, state))?;
+        let now = seen(system, (0.0, length), (t, state))?;
         for (side, guard) in self.guards.iter_mut().zip(&now.guards) {
             side.sign = if guard.value > 0.0 || !guard.is_known { 1 } else { 0 };
         }
-        if K > 0 {
+        if K::COUNT > 0 {
             let next = system.events(later, after)?.map(to_f64);
             if !next.iter().all(|value| value.is_finite()) {
-                return Err(Error::NotFiniteAt { quantity: "an event function", t: to_f64(later) });
+                return Err(MotionError::NotFinite { quantity: "an event function", t: to_f64(later) });
             }
             for ((side, Seen { value, .. }), next) in self.events.iter_mut().zip(now.events).zip(next) {
                 let on_zero = value == 0.0 || value.abs() <= side.residue;
@@ -350,13 +345,13 @@ impl<const K: usize, const C: usize> Sides<K, C> {
     /// An event function that comes near zero and turns once between two parts is followed to where it turns. On a cubic,
     /// which has the states and the rates of the ends alone, it is only told whether something may happen
     /// ([`Found::Perhaps`]): a function that turns at most once in the step shows that at the ends.
-    pub(super) fn search<T: Real, S: System<T, N, K, C>, const N: usize>(
+    pub(super) fn search<S: System<Events = K, Guards = C>>(
         &mut self,
         system: &mut S,
-        (step, is_cubic): (&Interpolant<T, N>, bool),
+        (step, is_cubic): (&Interpolant<S::Scalar, S::N>, bool),
         (from, parts): (f64, usize),
         roundings: f64,
-    ) -> Result<Found<T, N>, Error> {
+    ) -> Result<Found<S>, MotionError> {
         let mut course = Course { system, step, roundings };
         let (sides, mut parts) = (*self, parts);
         loop {
@@ -373,17 +368,17 @@ impl<const K: usize, const C: usize> Sides<K, C> {
     }
 
     /// True if something may happen in the step: something passes zero, or comes nearer and turns.
-    fn glance<T: Real, S: System<T, N, K, C>, const N: usize>(
+    fn glance<S: System<Events = K, Guards = C>>(
         &mut self,
-        course: &mut Course<'_, S, T, N>,
+        course: &mut Course<'_, S>,
         parts: usize,
-    ) -> Result<Found<T, N>, Error> {
+    ) -> Result<Found<S>, MotionError> {
         let mut samples = Samples::new();
-        let mut before: Look<K, C> = course.look(0.0)?;
+        let mut before = course.look(0.0)?;
         samples.push(before.unknown());
         let mut older = None;
         for part in 1..=parts {
-            let here: Look<K, C> = course.look(part as f64 / parts as f64)?;
+            let here = course.look(part as f64 / parts as f64)?;
             samples.push(here.unknown());
             if samples.are_unclear() {
                 return Ok(Found::Unclear);
@@ -425,20 +420,20 @@ impl<const K: usize, const C: usize> Sides<K, C> {
 
     /// True if this is so of a function whose rate the system does not know.
     fn any_unknown<const P: usize>(&self, looks: [&Look<K, C>; P], is_so: impl Fn(&Side, [&Seen; P]) -> bool) -> bool {
-        let events =
-            (0..K).any(|i| self.events[i].sign != 0 && is_so(&self.events[i], looks.map(|look| &look.events[i])));
+        let events = (0..K::COUNT)
+            .any(|i| self.events[i].sign != 0 && is_so(&self.events[i], looks.map(|look| &look.events[i])));
         let unknown = |i: usize| looks.iter().all(|look| !look.guards[i].is_known);
         let guards = |i: usize| is_so(&self.guards[i], looks.map(|look| &look.guards[i]));
-        events || (0..C).any(|i| self.guards[i].sign != 0 && unknown(i) && guards(i))
+        events || (0..C::COUNT).any(|i| self.guards[i].sign != 0 && unknown(i) && guards(i))
     }
 
-    fn scan<T: Real, S: System<T, N, K, C>, const N: usize>(
+    fn scan<S: System<Events = K, Guards = C>>(
         &mut self,
-        course: &mut Course<'_, S, T, N>,
+        course: &mut Course<'_, S>,
         (from, parts): (f64, usize),
-    ) -> Result<Found<T, N>, Error> {
+    ) -> Result<Found<S>, MotionError> {
         let mut samples = Samples::new();
-        let mut before: Look<K, C> = course.whole(from)?;
+        let mut before = course.whole(from)?;
         if from == 0.0 {
             samples.push(before.unknown());
         }
@@ -457,7 +452,7 @@ impl<const K: usize, const C: usize> Sides<K, C> {
             if happened.is_none() {
                 happened = self.between(course, before, &here)?;
             }
-            if happened.is_some() && (C == 0 || samples.are_enough()) {
+            if happened.is_some() && (C::COUNT == 0 || samples.are_enough()) {
                 break;
             }
             before = here;
@@ -466,15 +461,15 @@ impl<const K: usize, const C: usize> Sides<K, C> {
     }
 
     /// Two places around the first event between these.
-    fn between<T: Real, S: System<T, N, K, C>, const N: usize>(
+    fn between<S: System<Events = K, Guards = C>>(
         &mut self,
-        course: &mut Course<'_, S, T, N>,
+        course: &mut Course<'_, S>,
         before: Look<K, C>,
         here: &Look<K, C>,
-    ) -> Result<Option<(f64, f64)>, Error> {
+    ) -> Result<Option<(f64, f64)>, MotionError> {
         let mut before = before;
         // Each function turns once.
-        for _ in 0..K + C {
+        for _ in 0..K::COUNT + C::COUNT {
             let Some(turn) = self.passed_before(course, &before, here)? else { break };
             if self.any(&turn) {
                 return Ok(Some((before.at, turn.at)));
@@ -490,12 +485,12 @@ impl<const K: usize, const C: usize> Sides<K, C> {
     }
 
     /// Where a function that turns between two places is beyond zero, the first such place if there is one.
-    fn passed_before<T: Real, S: System<T, N, K, C>, const N: usize>(
+    fn passed_before<S: System<Events = K, Guards = C>>(
         &self,
-        course: &mut Course<'_, S, T, N>,
+        course: &mut Course<'_, S>,
         before: &Look<K, C>,
         here: &Look<K, C>,
-    ) -> Result<Option<Look<K, C>>, Error> {
+    ) -> Result<Option<Look<K, C>>, MotionError> {
         let mut first: Option<Look<K, C>> = None;
         for (place, (side, (start, end))) in self.each().zip(before.each().zip(here.each())).enumerate() {
             if !side.turns(start, end) {
@@ -525,15 +520,15 @@ impl<const K: usize, const C: usize> Sides<K, C> {
     }
 
     /// The first events between two parts of the step.
-    fn hit<T: Real, S: System<T, N, K, C>, const N: usize>(
+    fn hit<S: System<Events = K, Guards = C>>(
         &mut self,
-        course: &mut Course<'_, S, T, N>,
+        course: &mut Course<'_, S>,
         (start, end): (f64, f64),
-    ) -> Result<Hit<T, N>, Error> {
+    ) -> Result<Hit<S>, MotionError> {
         let ends = [self.least(&course.look(start)?), self.least(&course.look(end)?)];
         let roundings = course.roundings;
         let at = fall((start, end), ends, roundings, |at| Ok(Some(self.least(&course.look(at)?))))?;
-        let there: Look<K, C> = course.look(at)?;
+        let there = course.look(at)?;
         for (side, seen) in self.each_mut().zip(there.each()) {
             side.waits = side.passed(seen) && side.counts();
             side.residue = if side.waits { seen.value.abs() } else { -1.0 };
@@ -560,8 +555,8 @@ fn fall(
     (mut a, mut b): (f64, f64),
     [mut above, mut below]: [f64; 2],
     enough: f64,
-    mut value: impl FnMut(f64) -> Result<Option<f64>, Error>,
-) -> Result<f64, Error> {
+    mut value: impl FnMut(f64) -> Result<Option<f64>, MotionError>,
+) -> Result<f64, MotionError> {
     let (width, half) = (b - a, 0.5 * enough);
     // half 2^(iterations allowed)
     let mut radius = half;

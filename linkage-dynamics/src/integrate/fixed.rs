@@ -1,13 +1,13 @@
 //! Steps of fixed length, for real time.
 
-use nalgebra::SVector;
-
-use super::System;
 use super::control::{positive, within};
 use super::run::finite;
+use super::system::{IntoSystem, StateOf, System};
 use super::tableau::{self, SLOPES, Stage, Weights};
+use crate::MotionError;
+use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real, real};
+use linkage_runtime::{Column, D, real};
 
 /// Kutta's method of order 4 (Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993),
 /// table 1.2 of section II.1).
@@ -28,35 +28,40 @@ pub const SOLUTION: Weights = &[(0, 1.0 / 6.0), (1, 1.0 / 3.0), (2, 1.0 / 3.0), 
 /// methods of order 1 and 2 it does not blow up oscillations without damping: it is stable up to a step of 2.8 /
 /// angular frequency.
 #[derive(Debug, Clone)]
-pub struct FixedStep<S, T: Real, const N: usize> {
+pub struct FixedStep<S: System> {
     system: S,
-    start: T,
-    length: T,
+    start: S::Scalar,
+    length: S::Scalar,
     steps: u64,
-    state: SVector<T, N>,
+    state: StateOf<S>,
 }
 
-impl<S: System<T, N, 0>, T: Real, const N: usize> FixedStep<S, T, N> {
+impl<S: System<Events = D<0>, Guards = D<0>>> FixedStep<S> {
     /// From state `y` at `start`, by steps of this length, which is negative to go back in time.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the length is zero or not finite, or `start` is not, [`Error::NotFiniteAt`] if the state is not.
-    pub fn new(system: S, (start, y): (T, SVector<T, N>), length: T) -> Result<Self, Error> {
+    /// [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length is zero or not finite, or `start` is not, [`MotionError::NotFinite`] if the state is not.
+    pub fn new<B>(
+        system: impl IntoSystem<B, System = S>,
+        (start, y): (S::Scalar, impl Into<StateOf<S>>),
+        length: S::Scalar,
+    ) -> Result<Self, MotionError> {
+        let y = y.into();
         within("the time", to_f64(start), f64::MIN, f64::MAX)?;
         positive("the step", to_f64(length.abs()))?;
         finite("the initial state", start, &y)?;
-        Ok(Self { system, start, length, steps: 0, state: y })
+        Ok(Self { system: system.into_system(), start, length, steps: 0, state: y })
     }
 
     /// The time: of n steps start + n h, in which no rounding adds up.
     #[must_use]
-    pub fn t(&self) -> T {
-        self.start + real::<T>(self.steps as f64) * self.length
+    pub fn t(&self) -> S::Scalar {
+        self.start + real::<S::Scalar>(self.steps as f64) * self.length
     }
 
     /// The state.
     #[must_use]
-    pub fn state(&self) -> &SVector<T, N> {
+    pub fn state(&self) -> &StateOf<S> {
         &self.state
     }
 
@@ -67,7 +72,7 @@ impl<S: System<T, N, 0>, T: Real, const N: usize> FixedStep<S, T, N> {
     }
 
     /// Takes the last step back, to the state before it.
-    pub(crate) fn undo(&mut self, state: SVector<T, N>) {
+    pub(crate) fn undo(&mut self, state: StateOf<S>) {
         self.steps -= 1;
         self.state = state;
     }
@@ -75,16 +80,16 @@ impl<S: System<T, N, 0>, T: Real, const N: usize> FixedStep<S, T, N> {
     /// Takes a step.
     ///
     /// # Errors
-    /// What the system returns, and [`Error::NotFiniteAt`]; time and state stay what they were.
-    pub fn step(&mut self) -> Result<(), Error> {
+    /// What the system returns, and [`MotionError::NotFinite`]; time and state stay what they were.
+    pub fn step(&mut self) -> Result<(), MotionError> {
         let (t, h) = (self.t(), self.length);
         let y = self.system.before_step(t, &self.state)?.unwrap_or(self.state);
-        let mut slopes = [SVector::zeros(); SLOPES];
+        let mut slopes = [Column::zeros(); SLOPES];
         slopes[0] = self.system.rate(t, &y)?;
         tableau::evaluate(|t, y| self.system.rate(t, y), STAGES, 1, (t, &y), h, &mut slopes)?;
         let next = y + tableau::combination(&slopes, SOLUTION) * h;
         finite("the rate or the state", t, &next)?;
-        finite("the time", t, &SVector::from([t + h]))?;
+        finite("the time", t, &Column::from([t + h]))?;
         self.state = next;
         self.steps += 1;
         Ok(())

@@ -20,7 +20,7 @@
 //!     println!("{t:4} {:9.6}", y[0].sin());
 //! }
 //! assert!((motion.state()[0].sin() - 0.275_087_462_576_1).abs() < 1e-9);
-//! # Ok::<(), linkage_runtime::Error>(())
+//! # Ok::<(), linkage_dynamics::MotionError>(())
 //! ```
 //!
 //! **Failure.** Every function that may fail says so, and what was computed until then stays: an iterator has given
@@ -72,8 +72,6 @@ mod step;
 mod system;
 mod tableau;
 
-use nalgebra::SVector;
-
 pub use control::Tolerance;
 pub use dense::Interpolant;
 pub use dop853::Dop853;
@@ -82,24 +80,24 @@ pub use event::{Action, Crossing};
 pub use fixed::FixedStep;
 pub use outputs::Outputs;
 pub use run::{Counts, Integration, Step};
-pub use system::{Guard, System, Watched, watched};
+pub use system::{Guard, IntoSystem, Rate, StateOf, StateVector, System, Watched, watched};
 pub use tableau::{Control, Method, Stage, Tableau, Weights};
 
-use linkage_runtime::{Error, Real};
+use crate::MotionError;
 
 /// An integration by the method of Dormand and Prince of order 8(5,3): the choice where accuracy counts.
 ///
-/// The system is a closure `FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error>` or a [`System`]; `start` is the
-/// time and the state there.
+/// The system is a closure `FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, MotionError>` or a [`System`]; `start` is
+/// the time and the state there.
 ///
 /// # Errors
 /// As [`Integration::new`].
-pub fn dop853<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
-    system: S,
-    start: (T, SVector<T, N>),
-    end: T,
-    tolerance: Tolerance<T, N>,
-) -> Result<Integration<Dop853, S, T, N, K, C>, Error> {
+pub fn dop853<S: System, B>(
+    system: impl IntoSystem<B, System = S>,
+    start: (S::Scalar, impl Into<StateOf<S>>),
+    end: S::Scalar,
+    tolerance: Tolerance<S::Scalar, S::N>,
+) -> Result<Integration<S, Dop853>, MotionError> {
     Integration::new(system, start, end, tolerance)
 }
 
@@ -108,11 +106,11 @@ pub fn dop853<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, co
 ///
 /// # Errors
 /// As [`Integration::new`].
-pub fn dopri5<S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
-    system: S,
-    start: (T, SVector<T, N>),
-    end: T,
-    tolerance: Tolerance<T, N>,
-) -> Result<Integration<Dopri5, S, T, N, K, C>, Error> {
+pub fn dopri5<S: System, B>(
+    system: impl IntoSystem<B, System = S>,
+    start: (S::Scalar, impl Into<StateOf<S>>),
+    end: S::Scalar,
+    tolerance: Tolerance<S::Scalar, S::N>,
+) -> Result<Integration<S, Dopri5>, MotionError> {
     Integration::new(system, start, end, tolerance)
 }

@@ -1,40 +1,34 @@
 //! The states of an integration at given times.
 
-use nalgebra::SVector;
-
-use super::System;
 use super::control::within;
 use super::run::Integration;
+use super::system::{StateOf, System};
 use super::tableau::Method;
+use crate::MotionError;
+use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real};
 
 /// The states at given times, by dense output: the steps are those that the integration takes without them. Made by
 /// [`Integration::at`].
 ///
 /// It ends after the last time, where an event stops the integration, or with an error; what came before stands. A
-/// time that is not in the part of the interval that lies ahead is an [`Error::OutOfRange`].
+/// time that is not in the part of the interval that lies ahead is an
+/// [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange).
 #[derive(Debug)]
-pub struct Outputs<'a, M, S, T: Real, I, const N: usize, const K: usize, const C: usize = 0> {
-    integration: &'a mut Integration<M, S, T, N, K, C>,
+pub struct Outputs<'a, S: System, M, I> {
+    integration: &'a mut Integration<S, M>,
     times: I,
     failed: bool,
 }
 
-impl<'a, M, S, T: Real, I, const N: usize, const K: usize, const C: usize> Outputs<'a, M, S, T, I, N, K, C> {
-    pub(super) fn new(integration: &'a mut Integration<M, S, T, N, K, C>, times: I) -> Self {
+impl<'a, S: System, M, I> Outputs<'a, S, M, I> {
+    pub(super) fn new(integration: &'a mut Integration<S, M>, times: I) -> Self {
         Self { integration, times, failed: false }
     }
 }
 
-impl<M, S, T, I, const N: usize, const K: usize, const C: usize> Outputs<'_, M, S, T, I, N, K, C>
-where
-    M: Method,
-    S: System<T, N, K, C>,
-    T: Real,
-    I: Iterator<Item = T>,
-{
-    fn state_at(&mut self, t: T) -> Result<Option<SVector<T, N>>, Error> {
+impl<S: System, M: Method, I> Outputs<'_, S, M, I> {
+    fn state_at(&mut self, t: S::Scalar) -> Result<Option<StateOf<S>>, MotionError> {
         let ([earliest, latest], end) = (self.integration.reached(), self.integration.end());
         let forward = end >= earliest;
         within("the output time", to_f64(t), to_f64(earliest.min(end)), to_f64(earliest.max(end)))?;
@@ -49,14 +43,8 @@ where
     }
 }
 
-impl<M, S, T, I, const N: usize, const K: usize, const C: usize> Iterator for Outputs<'_, M, S, T, I, N, K, C>
-where
-    M: Method,
-    S: System<T, N, K, C>,
-    T: Real,
-    I: Iterator<Item = T>,
-{
-    type Item = Result<(T, SVector<T, N>), Error>;
+impl<S: System, M: Method, I: Iterator<Item = S::Scalar>> Iterator for Outputs<'_, S, M, I> {
+    type Item = Result<(S::Scalar, StateOf<S>), MotionError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed {

@@ -2,15 +2,15 @@
 
 use core::marker::PhantomData;
 
-use nalgebra::SVector;
-
 use super::control::{Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
 use super::event::{Found, Sides};
+use super::system::{IntoSystem, StateOf, System};
 use super::tableau::{self, Method, SLOPES, Slopes};
-use super::{Outputs, System, step};
+use super::{Dop853, Outputs, step};
+use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real};
+use linkage_runtime::{Column, Dim, InputError, Real};
 
 /// The part of the tolerance by which a state may be corrected without another evaluation of the rate.
 const NEGLIGIBLE: f64 = 0.01;
@@ -32,14 +32,17 @@ pub struct Counts {
 
 /// Where the integration has arrived: at the end of a step or, within one, at an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step<T, const N: usize> {
+pub struct Step<T: Real, N: Dim> {
     /// The time.
     pub t: T,
     /// The state; at an event before what it does.
-    pub state: SVector<T, N>,
+    pub state: Column<T, N>,
     /// The number of the event, if there is one.
     pub event: Option<usize>,
 }
+
+/// Where an integration of a system has arrived.
+pub(super) type StepOf<S> = Step<<S as System>::Scalar, <S as System>::N>;
 
 /// The last time of an event, and whether the motion started anew with one.
 #[derive(Debug, Clone, Copy)]
@@ -61,48 +64,49 @@ pub(super) enum Place {
 /// An integration under way: an iterator over its steps and events, which ends with an error or at the end of the
 /// interval. What was reached stays readable after an error.
 #[derive(Debug, Clone)]
-pub struct Integration<M, S, T: Real, const N: usize, const K: usize = 0, const C: usize = 0> {
+pub struct Integration<S: System, M = Dop853> {
     pub(super) method: PhantomData<M>,
     pub(super) system: S,
-    pub(super) tolerance: Tolerance<T, N>,
+    pub(super) tolerance: Tolerance<S::Scalar, S::N>,
     pub(super) largest: f64,
     pub(super) most_steps: usize,
     pub(super) stiffness_every: usize,
     pub(super) parts: usize,
-    pub(super) start: T,
-    pub(super) end: T,
+    pub(super) start: S::Scalar,
+    pub(super) end: S::Scalar,
     /// How far the integration is.
-    pub(super) t: T,
-    pub(super) state: SVector<T, N>,
+    pub(super) t: S::Scalar,
+    pub(super) state: StateOf<S>,
     pub(super) place: Place,
     /// The last step: its start, its end, its slopes, and its dense output once that was asked for.
-    pub(super) from: (T, SVector<T, N>),
-    pub(super) to: (T, SVector<T, N>),
-    pub(super) slopes: Slopes<T, N>,
-    pub(super) interpolant: Option<Interpolant<T, N>>,
+    pub(super) from: (S::Scalar, StateOf<S>),
+    pub(super) to: (S::Scalar, StateOf<S>),
+    pub(super) slopes: Slopes<S::Scalar, S::N>,
+    pub(super) interpolant: Option<Interpolant<S::Scalar, S::N>>,
     /// The last slope is that of the state.
     pub(super) continues: bool,
     pub(super) controller: Controller,
     pub(super) counts: Counts,
     pub(super) stiff: u32,
     pub(super) not_stiff: u32,
-    pub(super) sides: Sides<K, C>,
-    pub(super) instant: Instant<T>,
+    pub(super) sides: Sides<S::Events, S::Guards>,
+    pub(super) instant: Instant<S::Scalar>,
     /// How often the step has been made shorter for the sake of its guards.
     pub(super) shortened: u32,
 }
 
-impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
-where
-    M: Method,
-    S: System<T, N, K, C>,
-    T: Real,
-{
+impl<S: System, M: Method> Integration<S, M> {
     /// Of this system from state `y` at `start` to `end`, which may be the earlier.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if a time is not finite, [`Error::NotFiniteAt`] if the state is not.
-    pub fn new(system: S, (start, y): (T, SVector<T, N>), end: T, tolerance: Tolerance<T, N>) -> Result<Self, Error> {
+    /// [`InputError::OutOfRange`] if a time is not finite, [`MotionError::NotFinite`] if the state is not.
+    pub fn new<B>(
+        system: impl IntoSystem<B, System = S>,
+        (start, y): (S::Scalar, impl Into<StateOf<S>>),
+        end: S::Scalar,
+        tolerance: Tolerance<S::Scalar, S::N>,
+    ) -> Result<Self, MotionError> {
+        let (system, y) = (system.into_system(), y.into());
         for t in [start, end] {
             within("the time", to_f64(t), f64::MIN, f64::MAX)?;
         }
@@ -123,7 +127,7 @@ where
             place: Place::Boundary,
             from: (start, y),
             to: (start, y),
-            slopes: [SVector::zeros(); SLOPES],
+            slopes: [Column::zeros(); SLOPES],
             interpolant: Some(Interpolant::constant(start, y)),
             continues: false,
             controller: Controller::new(),
@@ -139,8 +143,8 @@ where
     /// The length of the first step, in place of an estimate that takes one evaluation.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if it is not positive and finite.
-    pub fn first_step(mut self, length: T) -> Result<Self, Error> {
+    /// [`InputError::OutOfRange`] if it is not positive and finite.
+    pub fn first_step(mut self, length: S::Scalar) -> Result<Self, InputError> {
         positive("the first step", to_f64(length))?;
         self.controller.length = Some(to_f64(length));
         Ok(self)
@@ -149,8 +153,8 @@ where
     /// The largest length of a step; without it the whole interval.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if it is not positive and finite.
-    pub fn largest_step(mut self, length: T) -> Result<Self, Error> {
+    /// [`InputError::OutOfRange`] if it is not positive and finite.
+    pub fn largest_step(mut self, length: S::Scalar) -> Result<Self, InputError> {
         positive("the largest step", to_f64(length))?;
         self.largest = to_f64(length);
         Ok(self)
@@ -183,13 +187,13 @@ where
 
     /// How far the integration is.
     #[must_use]
-    pub fn t(&self) -> T {
+    pub fn t(&self) -> S::Scalar {
         self.t
     }
 
     /// The state there; after an event what it made of it.
     #[must_use]
-    pub fn state(&self) -> &SVector<T, N> {
+    pub fn state(&self) -> &StateOf<S> {
         &self.state
     }
 
@@ -226,8 +230,8 @@ where
     /// in one step at most once.
     ///
     /// # Errors
-    /// What the rate returns where the method evaluates it for dense output, and [`Error::NotFiniteAt`].
-    pub fn interpolant(&mut self) -> Result<Interpolant<T, N>, Error> {
+    /// What the rate returns where the method evaluates it for dense output, and [`MotionError::NotFinite`].
+    pub fn interpolant(&mut self) -> Result<Interpolant<S::Scalar, S::N>, MotionError> {
         if let Some(interpolant) = self.interpolant {
             return Ok(interpolant);
         }
@@ -238,14 +242,14 @@ where
         tableau::evaluate(rate, table.dense_stages, table.end + 1, (t, &y), h, &mut self.slopes)?;
         let interpolant = self.cubic().complete(table, &self.slopes);
         if !interpolant.is_finite() {
-            return Err(Error::NotFiniteAt { quantity: "the dense output", t: to_f64(t) });
+            return Err(MotionError::NotFinite { quantity: "the dense output", t: to_f64(t) });
         }
         self.interpolant = Some(interpolant);
         Ok(interpolant)
     }
 
     /// The states at these times, which follow one another in the direction of the integration.
-    pub fn at<I: IntoIterator<Item = T>>(&mut self, times: I) -> Outputs<'_, M, S, T, I::IntoIter, N, K, C> {
+    pub fn at<I: IntoIterator<Item = S::Scalar>>(&mut self, times: I) -> Outputs<'_, S, M, I::IntoIter> {
         Outputs::new(self, times.into_iter())
     }
 
@@ -254,7 +258,7 @@ where
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
-    pub fn finish(&mut self, mut watch: impl FnMut(&Step<T, N>, f64) -> bool) -> Result<(), Error> {
+    pub fn finish(&mut self, mut watch: impl FnMut(&StepOf<S>, f64) -> bool) -> Result<(), MotionError> {
         while let Some(step) = self.advance()? {
             if !watch(&step, self.progress()) {
                 break;
@@ -266,10 +270,10 @@ where
     /// To the next event or, if there is none, to the end of the step; None where nothing follows.
     ///
     /// # Errors
-    /// What the system returns, if no shorter step avoids it; [`Error::NotFiniteAt`], [`Error::StepTooSmall`],
-    /// [`Error::TooManySteps`], [`Error::Stiff`], [`Error::EventsWithoutEnd`]. Nothing follows after an error, and time and
+    /// What the system returns, if no shorter step avoids it; [`MotionError::NotFinite`], [`MotionError::StepTooSmall`],
+    /// [`MotionError::TooManySteps`], [`MotionError::Stiff`], [`MotionError::EventsWithoutEnd`]. Nothing follows after an error, and time and
     /// state stay what they were before it.
-    pub fn advance(&mut self) -> Result<Option<Step<T, N>>, Error> {
+    pub fn advance(&mut self) -> Result<Option<StepOf<S>>, MotionError> {
         if self.is_over() {
             return Ok(None);
         }
@@ -283,7 +287,7 @@ where
         result.map(Some)
     }
 
-    fn proceed(&mut self) -> Result<Step<T, N>, Error> {
+    fn proceed(&mut self) -> Result<StepOf<S>, MotionError> {
         if self.sides.waits() {
             return self.deliver();
         }
@@ -295,7 +299,7 @@ where
                     (0.0, true)
                 }
             };
-            let found = if K + C > 0 { self.search(from)? } else { Found::Nothing };
+            let found = if S::Events::COUNT + S::Guards::COUNT > 0 { self.search(from)? } else { Found::Nothing };
             let length = to_f64(self.to.0 - self.from.0).abs();
             match found {
                 Found::Hit(hit) => {
@@ -325,10 +329,10 @@ where
     }
 
     /// The same start, end and settings by another method or with another system.
-    pub(crate) fn with<M2: Method, S2: System<T, N, K2, C>, const K2: usize>(
+    pub(crate) fn with<S2: System<Scalar = S::Scalar, N = S::N>, M2: Method>(
         self,
         system: impl FnOnce(S) -> S2,
-    ) -> Result<Integration<M2, S2, T, N, K2, C>, Error> {
+    ) -> Result<Integration<S2, M2>, MotionError> {
         let (largest, most_steps, stiffness_every, parts) =
             (self.largest, self.most_steps, self.stiffness_every, self.parts);
         let (length, safety) = (self.controller.length, self.controller.safety);
@@ -364,25 +368,25 @@ where
         self.controller.safety = safety;
     }
 
-    pub(crate) fn set_tolerance(&mut self, tolerance: Tolerance<T, N>) {
+    pub(crate) fn set_tolerance(&mut self, tolerance: Tolerance<S::Scalar, S::N>) {
         self.tolerance = tolerance;
     }
 
     /// Goes on from another state than the one reached: a projected one, or one in other coordinates.
-    pub(crate) fn exchange(&mut self, state: SVector<T, N>) {
+    pub(crate) fn exchange(&mut self, state: StateOf<S>) {
         self.state = state;
         self.continues = false;
     }
 
     /// Goes on from a state that differs from the one reached by what is left of the closures. Beside the tolerance that
     /// is mostly nothing, and the last slope stands for the next one.
-    pub(crate) fn correct(&mut self, state: SVector<T, N>) {
+    pub(crate) fn correct(&mut self, state: StateOf<S>) {
         self.continues = self.continues && self.tolerance.share(&(state - self.state), &state) <= NEGLIGIBLE;
         self.state = state;
     }
 
     /// Goes on from a place before the one reached; the length of the steps is kept.
-    pub(crate) fn go_back(&mut self, t: T, state: SVector<T, N>) {
+    pub(crate) fn go_back(&mut self, t: S::Scalar, state: StateOf<S>) {
         (self.from, self.to) = ((t, state), (t, state));
         self.interpolant = Some(Interpolant::constant(t, state));
         self.t = t;
@@ -392,7 +396,7 @@ where
     }
 
     /// Takes a step that was made by other means, up to the end of the interpolant.
-    pub(crate) fn pass(&mut self, step: Interpolant<T, N>) {
+    pub(crate) fn pass(&mut self, step: Interpolant<S::Scalar, S::N>) {
         let end = step.interval().1;
         self.from = (self.t, self.state);
         self.to = (end, step.at(end));
@@ -402,16 +406,16 @@ where
     }
 
     /// The interval of which the states are at hand: from the start of the last step to where the integration is.
-    pub(crate) fn reached(&self) -> [T; 2] {
+    pub(crate) fn reached(&self) -> [S::Scalar; 2] {
         [self.from.0, self.t]
     }
 
-    pub(crate) fn end(&self) -> T {
+    pub(crate) fn end(&self) -> S::Scalar {
         self.end
     }
 
     /// The state at a time that was reached in the last step; its ends as they are.
-    pub(crate) fn state_within(&mut self, t: T) -> Result<SVector<T, N>, Error> {
+    pub(crate) fn state_within(&mut self, t: S::Scalar) -> Result<StateOf<S>, MotionError> {
         if t == self.from.0 {
             return Ok(self.from.1);
         }
@@ -423,29 +427,20 @@ where
         Ok(state)
     }
 
-    pub(super) fn cubic(&self) -> Interpolant<T, N> {
+    pub(super) fn cubic(&self) -> Interpolant<S::Scalar, S::N> {
         let ((t, y), (end, next)) = (&self.from, &self.to);
         Interpolant::cubic(*t, *end - *t, [y, next], [&self.slopes[0], &self.slopes[M::TABLEAU.end]])
     }
 }
 
-impl<M, S, T, const N: usize, const K: usize, const C: usize> Iterator for Integration<M, S, T, N, K, C>
-where
-    M: Method,
-    S: System<T, N, K, C>,
-    T: Real,
-{
-    type Item = Result<Step<T, N>, Error>;
+impl<S: System, M: Method> Iterator for Integration<S, M> {
+    type Item = Result<StepOf<S>, MotionError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()
     }
 }
 
-pub(super) fn finite<T: Real, const N: usize>(
-    quantity: &'static str,
-    t: T,
-    values: &SVector<T, N>,
-) -> Result<(), Error> {
-    if values.iter().all(T::is_finite) { Ok(()) } else { Err(Error::NotFiniteAt { quantity, t: to_f64(t) }) }
+pub(super) fn finite<T: Real, N: Dim>(quantity: &'static str, t: T, values: &Column<T, N>) -> Result<(), MotionError> {
+    if values.is_finite() { Ok(()) } else { Err(MotionError::NotFinite { quantity, t: to_f64(t) }) }
 }

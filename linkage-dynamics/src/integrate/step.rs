@@ -1,21 +1,19 @@
 //! One step: its stages, its error, its length, and whether the equations have become stiff.
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
+use super::control;
 use super::run::{Counts, Integration, finite};
+use super::system::{StateOf, System};
 use super::tableau::{self, Method, Weights};
-use super::{System, control};
+use crate::MotionError;
+use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real, real};
+use linkage_runtime::{Dim, real};
 
-impl<M, S, T, const N: usize, const K: usize, const C: usize> Integration<M, S, T, N, K, C>
-where
-    M: Method,
-    S: System<T, N, K, C>,
-    T: Real,
-{
+impl<S: System, M: Method> Integration<S, M> {
     /// Takes a step.
-    pub(super) fn step(&mut self) -> Result<(), Error> {
+    pub(super) fn step(&mut self) -> Result<(), MotionError> {
         let rule = const { &M::TABLEAU.control };
         let mut anew = !self.continues;
         if let Some(state) = self.system.before_step(self.t, &self.state)? {
@@ -30,9 +28,9 @@ where
         if self.controller.length.is_none() {
             self.controller.length = Some(self.first_length(span));
         }
-        let epsilon = to_f64(T::default_epsilon());
-        if K + C > 0 && anew {
-            let little = real::<T>(ComplexField::sqrt(epsilon) * direction * self.length());
+        let epsilon = to_f64(S::Scalar::default_epsilon());
+        if S::Events::COUNT + S::Guards::COUNT > 0 && anew {
+            let little = real::<S::Scalar>(ComplexField::sqrt(epsilon) * direction * self.length());
             let after = y + self.slopes[0] * little;
             self.sides.begin(&mut self.system, (t, &y), (t + little, &after))?;
         }
@@ -40,13 +38,13 @@ where
         loop {
             let length = self.length();
             if self.counts.accepted + self.counts.rejected >= self.most_steps {
-                return Err(Error::TooManySteps { t: to_f64(t), steps: self.most_steps });
+                return Err(MotionError::TooManySteps { t: to_f64(t), steps: self.most_steps });
             }
             let last = 1.01 * length > span.abs();
-            let end = if last { self.end } else { t + real::<T>(direction * length) };
+            let end = if last { self.end } else { t + real::<S::Scalar>(direction * length) };
             // At time zero any length tells, however short beside the interval.
             if 0.1 * length <= epsilon * to_f64(t).abs() || length < f64::MIN_POSITIVE || end == t {
-                return Err(failure.unwrap_or(Error::StepTooSmall { t: to_f64(t), step: direction * length }));
+                return Err(failure.unwrap_or(MotionError::StepTooSmall { t: to_f64(t), step: direction * length }));
             }
             let taken = to_f64(end - t).abs();
             match self.attempt((t, &y), end) {
@@ -72,11 +70,11 @@ where
 
     /// A step to `end`: its error beside what is allowed, and its end, whose slope is evaluated if it may be accepted.
     #[inline]
-    fn attempt(&mut self, (t, y): (T, &SVector<T, N>), end: T) -> Result<(f64, SVector<T, N>), Error> {
+    fn attempt(&mut self, (t, y): (S::Scalar, &StateOf<S>), end: S::Scalar) -> Result<(f64, StateOf<S>), MotionError> {
         let table = const { &M::TABLEAU };
         let h = end - t;
         tableau::evaluate(counted(&mut self.system, &mut self.counts), table.stages, 1, (t, y), h, &mut self.slopes)?;
-        let next = y + tableau::combination(&self.slopes, table.solution) * h;
+        let next = *y + tableau::combination(&self.slopes, table.solution) * h;
         // Relative to an infinite state every error would be zero.
         finite("the rate or the state", end, &next)?;
         let of_end = const { uses(M::TABLEAU.errors[0], M::TABLEAU.end) };
@@ -84,8 +82,8 @@ where
             self.slopes[table.end] = self.slope(end, &next)?;
         }
         let error = control::error(table, &self.tolerance, (y, &next), &self.slopes, to_f64(h));
-        if error.is_nan() || !next.iter().all(T::is_finite) {
-            return Err(Error::NotFiniteAt { quantity: "the rate or the state", t: to_f64(end) });
+        if error.is_nan() || !next.is_finite() {
+            return Err(MotionError::NotFinite { quantity: "the rate or the state", t: to_f64(end) });
         }
         if !of_end && error <= 1.0 {
             self.slopes[table.end] = self.slope(end, &next)?;
@@ -93,7 +91,7 @@ where
         Ok((error, next))
     }
 
-    fn slope(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+    fn slope(&mut self, t: S::Scalar, y: &StateOf<S>) -> Result<StateOf<S>, MotionError> {
         self.counts.evaluations += 1;
         let slope = self.system.rate(t, y)?;
         finite("the rate", t, &slope)?;
@@ -104,7 +102,7 @@ where
         let (t, y, slope) = (self.t, self.state, self.slopes[0]);
         let tolerance = self.tolerance;
         control::first_length(M::TABLEAU.order, &tolerance, (&y, &slope), span.abs().min(self.largest), |h| {
-            let h = real::<T>(h * span.signum());
+            let h = real::<S::Scalar>(h * span.signum());
             self.slope(t + h, &(y + slope * h))
         })
     }
@@ -118,7 +116,7 @@ where
     /// h |lambda| from the last stage and the end of the step, which are at the same time (Hairer and Wanner,
     /// *Solving Ordinary Differential Equations II*, section IV.2): the equations are taken to be stiff if stability
     /// sets the length of 15 tested steps without 6 others in a row among them.
-    fn test_stiffness(&mut self) -> Result<(), Error> {
+    fn test_stiffness(&mut self) -> Result<(), MotionError> {
         let every = self.stiffness_every;
         if every == 0 || (self.stiff == 0 && !self.counts.accepted.is_multiple_of(every)) {
             return Ok(());
@@ -133,7 +131,7 @@ where
             (self.stiff, self.not_stiff) = (self.stiff + 1, 0);
             if self.stiff == 15 {
                 let product = to_f64(h).abs() * slopes / states;
-                return Err(Error::Stiff { t: to_f64(self.from.0), product });
+                return Err(MotionError::Stiff { t: to_f64(self.from.0), product });
             }
         } else {
             self.not_stiff += 1;
@@ -159,10 +157,10 @@ const fn uses(weights: Weights, slope: usize) -> bool {
 
 /// The rate, counting.
 #[inline(always)]
-pub(super) fn counted<'a, S: System<T, N, K, C>, T: Real, const N: usize, const K: usize, const C: usize>(
+pub(super) fn counted<'a, S: System>(
     system: &'a mut S,
     counts: &'a mut Counts,
-) -> impl FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error> + 'a {
+) -> impl FnMut(S::Scalar, &StateOf<S>) -> Result<StateOf<S>, MotionError> + 'a {
     move |t, y| {
         counts.evaluations += 1;
         system.rate(t, y)

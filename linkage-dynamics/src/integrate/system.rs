@@ -1,9 +1,13 @@
 //! What is integrated.
 
+use core::marker::PhantomData;
+
 use nalgebra::SVector;
 
 use super::{Action, Crossing};
-use linkage_runtime::{Error, Real};
+use crate::MotionError;
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::{Column, D, Dim, Real};
 
 /// A function that ends the law of the rate where it falls below zero, at one state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,43 +18,66 @@ pub struct Guard<T> {
     pub rate: Option<T>,
 }
 
-/// A system of N differential equations y' = f(t, y) with K events and C guards. A closure is one without any.
+/// The state of a system, or its rate.
+pub type StateOf<S> = Column<<S as System>::Scalar, <S as System>::N>;
+
+/// A system of differential equations y' = f(t, y) with events and guards. A closure of the rate becomes one without any
+/// ([`IntoSystem`]).
 ///
 /// One object has it all, so that its parts may share what they know: the last position as a guess, which coordinates
 /// are the independent ones, whether a block sticks or slips.
-pub trait System<T: Real, const N: usize, const K: usize, const C: usize = 0> {
+pub trait System {
+    /// The number that a time and a component of the state is.
+    type Scalar: Real;
+    /// The number of components of the state.
+    type N: Dim;
+    /// The number of events.
+    type Events: Dim;
+    /// The number of guards.
+    type Guards: Dim;
+
     /// y' = f(t, y).
     ///
     /// # Errors
     /// If there is no rate at this state; the step is then tried shorter.
-    fn rate(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error>;
+    fn rate(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<StateOf<Self>, MotionError>;
 
     /// The functions whose zeros are the events.
     ///
     /// # Errors
     /// If they cannot be computed, which ends the integration.
-    fn events(&mut self, t: T, y: &SVector<T, N>) -> Result<[T; K], Error>;
+    fn events(&mut self, t: Self::Scalar, y: &StateOf<Self>)
+    -> Result<Column<Self::Scalar, Self::Events>, MotionError>;
 
     /// Which way they must pass through zero.
-    fn crossings(&self) -> [Crossing; K] {
-        [Crossing::Either; K]
+    fn crossings(&self) -> Column<Crossing, Self::Events> {
+        Column::repeat(Crossing::Either)
     }
 
     /// The functions that end the law of the rate where they fall below zero, beside the user's events: of what
-    /// sticks how much more it holds, of what is apart how far. Guard i is event K + i.
+    /// sticks how much more it holds, of what is apart how far. They are numbered as events after the user's.
     ///
     /// # Errors
     /// If they cannot be computed, which ends the integration.
-    fn guards(&mut self, t: T, y: &SVector<T, N>) -> Result<[Guard<T>; C], Error> {
+    fn guards(
+        &mut self,
+        t: Self::Scalar,
+        y: &StateOf<Self>,
+    ) -> Result<Column<Guard<Self::Scalar>, Self::Guards>, MotionError> {
         let _ = (t, y);
-        Ok([Guard { value: T::one(), rate: Some(T::zero()) }; C])
+        Ok(Column::repeat(Guard { value: Self::Scalar::one(), rate: Some(Self::Scalar::zero()) }))
     }
 
     /// What happens at event `event`; of events at the same time the first comes first.
     ///
     /// # Errors
     /// To end the integration with an error.
-    fn at_event(&mut self, event: usize, t: T, y: &SVector<T, N>) -> Result<Action<T, N>, Error> {
+    fn at_event(
+        &mut self,
+        event: usize,
+        t: Self::Scalar,
+        y: &StateOf<Self>,
+    ) -> Result<Action<StateOf<Self>>, MotionError> {
         let _ = (event, t, y);
         Ok(Action::Record)
     }
@@ -61,37 +88,104 @@ pub trait System<T: Real, const N: usize, const K: usize, const C: usize = 0> {
     ///
     /// # Errors
     /// To end the integration with an error.
-    fn before_step(&mut self, t: T, y: &SVector<T, N>) -> Result<Option<SVector<T, N>>, Error> {
+    fn before_step(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<Option<StateOf<Self>>, MotionError> {
         let _ = (t, y);
         Ok(None)
     }
 }
 
-impl<F, T: Real, const N: usize> System<T, N, 0> for F
+/// A state as closures take and give it: nalgebra's [`SVector`] or a [`Column`].
+pub trait StateVector: Copy + From<Column<Self::Scalar, Self::N>> + Into<Column<Self::Scalar, Self::N>> {
+    /// The number that a component is.
+    type Scalar: Real;
+    /// The number of components.
+    type N: Dim;
+}
+
+impl<T: Real, const N: usize> StateVector for SVector<T, N> {
+    type Scalar = T;
+    type N = D<N>;
+}
+
+impl<T: Real, N: Dim> StateVector for Column<T, N> {
+    type Scalar = T;
+    type N = N;
+}
+
+/// What is given to an integration: a [`System`], or the rate of one as a closure of the time and a [`StateVector`].
+///
+/// `By` tells the two apart; it is always inferred.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the rate of a motion",
+    note = "a rate is a closure `|t, y: &SVector<_, N>| -> Result<SVector<_, N>, MotionError>`: `Ok(f(..)?)` makes the error that of motions"
+)]
+pub trait IntoSystem<By> {
+    /// The system.
+    type System: System;
+
+    /// The system.
+    fn into_system(self) -> Self::System;
+}
+
+impl<S: System> IntoSystem<()> for S {
+    type System = S;
+
+    #[inline]
+    fn into_system(self) -> S {
+        self
+    }
+}
+
+impl<F, Y: StateVector> IntoSystem<Y> for F
 where
-    F: FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error>,
+    F: FnMut(Y::Scalar, &Y) -> Result<Y, MotionError>,
 {
+    type System = Rate<F, Y>;
+
+    #[inline]
+    fn into_system(self) -> Rate<F, Y> {
+        Rate { rate: self, state: PhantomData }
+    }
+}
+
+/// A closure of the rate as a system without events. Made by [`IntoSystem`].
+#[derive(Debug, Clone)]
+pub struct Rate<F, Y> {
+    rate: F,
+    state: PhantomData<Y>,
+}
+
+impl<F, Y: StateVector> System for Rate<F, Y>
+where
+    F: FnMut(Y::Scalar, &Y) -> Result<Y, MotionError>,
+{
+    type Scalar = Y::Scalar;
+    type N = Y::N;
+    type Events = D<0>;
+    type Guards = D<0>;
+
     #[inline(always)]
-    fn rate(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
-        self(t, y)
+    fn rate(&mut self, t: Y::Scalar, y: &StateOf<Self>) -> Result<StateOf<Self>, MotionError> {
+        (self.rate)(t, &Y::from(*y)).map(Y::into)
     }
 
-    fn events(&mut self, _: T, _: &SVector<T, N>) -> Result<[T; 0], Error> {
-        Ok([])
+    fn events(&mut self, _: Y::Scalar, _: &StateOf<Self>) -> Result<Column<Y::Scalar, D<0>>, MotionError> {
+        Ok(Column::from([]))
     }
 }
 
 /// A rate with events, each a closure. Made by [`watched`].
 #[derive(Debug, Clone)]
-pub struct Watched<F, G, A, const K: usize> {
+pub struct Watched<F, G, A, Y, const K: usize> {
     rate: F,
     crossings: [Crossing; K],
     events: G,
     action: A,
+    state: PhantomData<Y>,
 }
 
 /// A system of closures: its rate, the K event functions with the way that each must pass through zero, and what
-/// happens at an event.
+/// happens at an event. They take the state as nalgebra's `SVector` or as a [`Column`].
 ///
 /// ```
 /// use linkage_dynamics::integrate::{Action, Crossing, Tolerance, dop853, watched};
@@ -111,42 +205,56 @@ pub struct Watched<F, G, A, const K: usize> {
 ///         println!("bounces at {:.6} s", step.t);
 ///     }
 /// }
-/// # Ok::<(), linkage_runtime::Error>(())
+/// # Ok::<(), linkage_dynamics::MotionError>(())
 /// ```
-pub fn watched<F, G, A, T: Real, const N: usize, const K: usize>(
+pub fn watched<F, G, A, Y: StateVector, const K: usize>(
     rate: F,
     crossings: [Crossing; K],
     events: G,
     action: A,
-) -> Watched<F, G, A, K>
+) -> Watched<F, G, A, Y, K>
 where
-    F: FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error>,
-    G: FnMut(T, &SVector<T, N>) -> Result<[T; K], Error>,
-    A: FnMut(usize, T, &SVector<T, N>) -> Result<Action<T, N>, Error>,
+    F: FnMut(Y::Scalar, &Y) -> Result<Y, MotionError>,
+    G: FnMut(Y::Scalar, &Y) -> Result<[Y::Scalar; K], MotionError>,
+    A: FnMut(usize, Y::Scalar, &Y) -> Result<Action<Y>, MotionError>,
 {
-    Watched { rate, crossings, events, action }
+    Watched { rate, crossings, events, action, state: PhantomData }
 }
 
-impl<F, G, A, T: Real, const N: usize, const K: usize> System<T, N, K> for Watched<F, G, A, K>
+impl<F, G, A, Y: StateVector, const K: usize> System for Watched<F, G, A, Y, K>
 where
-    F: FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error>,
-    G: FnMut(T, &SVector<T, N>) -> Result<[T; K], Error>,
-    A: FnMut(usize, T, &SVector<T, N>) -> Result<Action<T, N>, Error>,
+    F: FnMut(Y::Scalar, &Y) -> Result<Y, MotionError>,
+    G: FnMut(Y::Scalar, &Y) -> Result<[Y::Scalar; K], MotionError>,
+    A: FnMut(usize, Y::Scalar, &Y) -> Result<Action<Y>, MotionError>,
 {
+    type Scalar = Y::Scalar;
+    type N = Y::N;
+    type Events = D<K>;
+    type Guards = D<0>;
+
     #[inline(always)]
-    fn rate(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
-        (self.rate)(t, y)
+    fn rate(&mut self, t: Y::Scalar, y: &StateOf<Self>) -> Result<StateOf<Self>, MotionError> {
+        (self.rate)(t, &Y::from(*y)).map(Y::into)
     }
 
-    fn events(&mut self, t: T, y: &SVector<T, N>) -> Result<[T; K], Error> {
-        (self.events)(t, y)
+    fn events(&mut self, t: Y::Scalar, y: &StateOf<Self>) -> Result<Column<Y::Scalar, D<K>>, MotionError> {
+        (self.events)(t, &Y::from(*y)).map(Column::from)
     }
 
-    fn crossings(&self) -> [Crossing; K] {
-        self.crossings
+    fn crossings(&self) -> Column<Crossing, D<K>> {
+        Column::from(self.crossings)
     }
 
-    fn at_event(&mut self, event: usize, t: T, y: &SVector<T, N>) -> Result<Action<T, N>, Error> {
-        (self.action)(event, t, y)
+    fn at_event(
+        &mut self,
+        event: usize,
+        t: Y::Scalar,
+        y: &StateOf<Self>,
+    ) -> Result<Action<StateOf<Self>>, MotionError> {
+        Ok(match (self.action)(event, t, &Y::from(*y))? {
+            Action::Record => Action::Record,
+            Action::Stop => Action::Stop,
+            Action::Restart(state) => Action::Restart(state.into()),
+        })
     }
 }

@@ -1,8 +1,7 @@
 //! Embedded Runge-Kutta pairs as data, and the stages of a step.
 
-use nalgebra::SVector;
-
-use linkage_runtime::{Error, Real, real};
+use crate::MotionError;
+use linkage_runtime::{Column, Dim, Real, real};
 
 /// A linear combination of slopes: the number of each slope, from 0, and its coefficient.
 pub type Weights = &'static [(usize, f64)];
@@ -58,7 +57,7 @@ pub struct Tableau {
 pub(super) const SLOPES: usize = 16;
 
 /// The slopes of a step.
-pub(super) type Slopes<T, const N: usize> = [SVector<T, N>; SLOPES];
+pub(super) type Slopes<T, N> = [Column<T, N>; SLOPES];
 
 /// An adaptive method.
 pub trait Method {
@@ -68,22 +67,22 @@ pub trait Method {
 
 /// sum w_j k_j.
 #[inline(always)]
-pub(super) fn combination<T: Real, const N: usize>(slopes: &Slopes<T, N>, weights: Weights) -> SVector<T, N> {
-    weights.iter().fold(SVector::zeros(), |sum, &(j, weight)| sum + slopes[j] * real::<T>(weight))
+pub(super) fn combination<T: Real, N: Dim>(slopes: &Slopes<T, N>, weights: Weights) -> Column<T, N> {
+    weights.iter().fold(Column::zeros(), |sum, &(j, weight)| sum + slopes[j] * real::<T>(weight))
 }
 
 /// The slopes `from`, `from` + 1, ... of these stages.
 #[inline(always)]
-pub(super) fn evaluate<T: Real, const N: usize>(
-    mut rate: impl FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, Error>,
+pub(super) fn evaluate<T: Real, N: Dim>(
+    mut rate: impl FnMut(T, &Column<T, N>) -> Result<Column<T, N>, MotionError>,
     stages: &[Stage],
     from: usize,
-    (t, y): (T, &SVector<T, N>),
+    (t, y): (T, &Column<T, N>),
     h: T,
     slopes: &mut Slopes<T, N>,
-) -> Result<(), Error> {
+) -> Result<(), MotionError> {
     for (number, stage) in (from..).zip(stages) {
-        let inner = y + combination(slopes, stage.weights) * h;
+        let inner = *y + combination(slopes, stage.weights) * h;
         slopes[number] = rate(t + real::<T>(stage.node) * h, &inner)?;
     }
     Ok(())

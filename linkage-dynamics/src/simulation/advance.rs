@@ -1,28 +1,18 @@
 //! A simulation from state to state: steps, and what happens at events.
 
-use nalgebra::SVector;
-
-use super::motion::{Position, Road};
+use super::motion::Road;
 use super::road::{AtSingularity, WARNED};
-use super::run::{Moment, Rates, Simulation};
+use super::run::Simulation;
 use super::state::{State, Touch};
 use super::watch::{Then, Watch};
-use crate::Scene;
 use crate::contact::Change;
 use crate::integrate::Method;
-use linkage_runtime::__shared::same_signs;
-use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Mechanism, Real};
+use crate::{MotionError, Scene, StateColumn};
+use linkage_runtime::__shared::{same_signs, to_f64};
+use linkage_runtime::{Column, Dim, Mechanism};
 
-impl<S, T, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize>
-    Simulation<'_, S, T, U, V, N, C, M, W, K>
-where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-    M: Method,
-    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
-{
-    pub(super) fn proceed(&mut self) -> Result<Option<Moment<S, T, U, V, N, C>>, Error> {
+impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
+    pub(super) fn proceed(&mut self) -> Result<Option<State<S>>, MotionError> {
         loop {
             let is_prepared = core::mem::take(&mut self.is_prepared);
             if self.integration.is_at_boundary() && !is_prepared {
@@ -44,7 +34,7 @@ where
             let mechanism = motion.scene.mechanism();
             if matches!(motion.road, Road::Inputs) {
                 let signs = mechanism.block_determinants(&mechanism.pose_at(&q));
-                if !same_signs(self.signs.as_ref(), signs.as_ref()) {
+                if !same_signs(self.signs.as_slice(), signs.as_slice()) {
                     if self.at_singularity == AtSingularity::Stop {
                         return Err(motion.singular(&q));
                     }
@@ -56,9 +46,10 @@ where
             let contacts = motion.contacts;
             let closed = motion.closed(step.t, &step.state)?;
             let (kept, holds) = motion.reviewed(&contacts, step.t, &closed)?;
-            let mut state = State { event: step.event.filter(|&event| event < K), ..motion.state(step.t, &kept)? };
+            let mut state =
+                State { event: step.event.filter(|&event| event < W::Events::COUNT), ..motion.state(step.t, &kept)? };
             let result = match step.event {
-                Some(event) if event < K => self.happens(event, &mut state, &kept),
+                Some(event) if event < W::Events::COUNT => self.happens(event, &mut state, &kept),
                 None if holds => {
                     if kept != step.state {
                         self.integration.correct(kept);
@@ -82,7 +73,7 @@ where
     }
 
     /// Takes the step again, in other coordinates than the inputs.
-    fn go_back(&mut self) -> Result<(), Error> {
+    fn go_back(&mut self) -> Result<(), MotionError> {
         let (t, y) = self.from;
         self.integration.go_back(t, y);
         self.warned = WARNED;
@@ -92,18 +83,13 @@ where
     }
 
     /// What the user wishes to happen at an event.
-    fn happens(
-        &mut self,
-        event: usize,
-        state: &mut Moment<S, T, U, V, N, C>,
-        closed: &SVector<T, N>,
-    ) -> Result<(), Error> {
+    fn happens(&mut self, event: usize, state: &mut State<S>, closed: &StateColumn<S>) -> Result<(), MotionError> {
         let motion = self.integration.system_mut();
         match motion.watch.at_event(event, state)? {
             Then::GoOn => {}
             Then::Stop => self.integration.stop(),
-            Then::Restart(rates) => {
-                let y = motion.with_rates(&state.q, &rates.into())?;
+            Then::Restart(input_rates) => {
+                let y = motion.with_input_rates(&state.q, &input_rates.into())?;
                 let (after, changes) = motion.resumed(state.t, closed, &y)?;
                 self.integration.restart(after)?;
                 self.note(state, changes);
@@ -113,7 +99,7 @@ where
     }
 
     /// What happens to the contacts.
-    fn settle(&mut self, state: &mut Moment<S, T, U, V, N, C>, closed: &SVector<T, N>) -> Result<(), Error> {
+    fn settle(&mut self, state: &mut State<S>, closed: &StateColumn<S>) -> Result<(), MotionError> {
         let (after, changes) = self.integration.system_mut().settled(state.t, closed)?;
         self.integration.restart(after)?;
         self.note(state, changes);
@@ -121,7 +107,7 @@ where
     }
 
     /// What the contacts have done, and do from here on.
-    fn note(&self, state: &mut Moment<S, T, U, V, N, C>, changes: [Option<Change>; C]) {
+    fn note(&self, state: &mut State<S>, changes: Column<Option<Change>, S::Contacts>) {
         let modes = self.integration.system().contacts.modes;
         for ((touch, mode), change) in state.contacts.iter_mut().zip(modes).zip(changes) {
             *touch = Touch { mode, change, ..*touch };

@@ -17,9 +17,9 @@
 //!
 //! Contacts begin and end where their guards say ([which are found](crate::integrate)): of a stop, on a coordinate or an
 //! output, the rate of the gap is known, so that it is not missed however briefly it is touched within a step. Frictions
-//! and stops are followed forward in time only: [`Error::Irreversible`](linkage_runtime::Error::Irreversible).
+//! and stops are followed forward in time only: [`MotionError::Irreversible`](crate::MotionError::Irreversible).
 //!
-//! The branch never changes but like this: what cannot be followed ends with an [`Error`](linkage_runtime::Error), and what was
+//! The branch never changes but like this: what cannot be followed ends with a [`MotionError`](crate::MotionError), and what was
 //! computed until then stays.
 //!
 //! Prescribed inputs keep to their laws. Reproducible: the same calls give the same bits. Nothing is allocated.
@@ -40,9 +40,9 @@ mod verdict;
 mod watch;
 
 pub use motion::Motion;
-pub use outputs::Outputs;
+pub use outputs::States;
 pub use real_time::RealTime;
 pub use road::{AtSingularity, Passages};
 pub use run::{Simulation, simulate};
 pub use state::{Loads, State, Touch};
-pub use watch::{Then, Unwatched, Watch, Watched};
+pub use watch::{EventFunctions, Then, Unwatched, Watch};

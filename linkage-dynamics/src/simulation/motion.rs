@@ -1,22 +1,34 @@
 //! A scene in motion: by which coordinates, its velocities and states, and its closures closed.
 
-use nalgebra::SVector;
-
 use super::independent::{Factors, Independent};
-use super::scales::Scales;
 use super::state::{State, Touch};
 use super::watch::Unwatched;
-use crate::Scene;
-use crate::contact::Contacts;
+use crate::contact::{Contacts, ReducedEquations};
 use crate::integrate::Interpolant;
-use crate::{Coordinates, Inputs};
-use linkage_runtime::__shared::all_finite;
-use linkage_runtime::__shared::smallest;
-use linkage_runtime::{Error, Mechanism, Real, newton, real};
+use crate::{Coordinates, MotionError, Scene, StateColumn};
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::__shared::{all_finite, smallest};
+use linkage_runtime::jacobian::{Closing, ScalesOf, VectorOf, contract, correction};
+use linkage_runtime::{Column, Dim, Mechanism, PerInput, Real, newton, real};
+
+/// A choice of independent coordinates of a scene.
+pub(super) type Choice<S> = Independent<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
+/// [J A] of a scene by a choice.
+pub(super) type FactorsOf<S> = Factors<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
+/// The coordinates by which a scene is followed.
+pub(super) type RoadOf<S> = Road<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V, <S as Scene>::State>;
+/// The states of a scene within a step.
+pub(super) type Polynomial<S> = Interpolant<<S as Scene>::Scalar, <S as Scene>::State>;
+/// The equations of motion of a scene in independent coordinates.
+pub(super) type Reduced<S> = ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>;
+/// What is known of a scene's mechanism at a position.
+type PoseOf<S> = <<S as Scene>::Mechanism as Mechanism>::Pose;
+/// Changes, rates or accelerations of u and v.
+pub(super) type Change<S> = VectorOf<<S as Scene>::Mechanism>;
 
 /// By which coordinates the motion is followed.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Road<T: Real, const U: usize, const V: usize, const N: usize> {
+pub(super) enum Road<T: Real, U: Dim, V: Dim, N: Dim> {
     /// The inputs, by the emitted equations.
     Inputs,
     /// Others.
@@ -25,156 +37,148 @@ pub(super) enum Road<T: Real, const U: usize, const V: usize, const N: usize> {
     Over(Independent<T, U, V>, Interpolant<T, N>),
 }
 
-/// A pivot may fall to this part of the smallest one within a step.
+/// A pivot may fall to this part of the smallest one within a step. At half of it or twice as much every test of
+/// simulations holds.
 pub(super) const LEAST_PART: f64 = 0.2;
 
-/// Newton steps that close the closures again from where an integrator has left them.
-const MOST_ITERATIONS: usize = 8;
+/// Newton steps that close the closures again from where an integrator has left them: mostly one, near a change point, where
+/// they only halve at first, a dozen.
+const MOST_CORRECTIONS: usize = 16;
 
 /// A step of Newton's method of this many roots of roundings leaves less than a rounding.
-const ENOUGH: f64 = 1e-3;
+const LAST_CORRECTION: f64 = 1e-3;
 
 /// A scene in motion, as an integrator takes it.
 #[derive(Debug, Clone)]
-pub struct Motion<'a, S, W, T: Real, const U: usize, const V: usize, const N: usize, const C: usize> {
+pub struct Motion<'a, S: Scene, W> {
     pub(super) scene: &'a S,
     pub(super) watch: W,
-    pub(super) scales: Scales<T, U, V>,
-    pub(super) road: Road<T, U, V, N>,
-    pub(super) contacts: Contacts<T, C>,
-    pub(super) names: [&'static str; C],
+    pub(super) scales: ScalesOf<S::Mechanism>,
+    pub(super) road: RoadOf<S>,
+    pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
+    pub(super) names: Column<&'static str, S::Contacts>,
 }
 
-pub(super) type Position<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
-    Coordinates<<S as Scene<T, U, V, N, C>>::Mechanism, T, U, V>;
-
-impl<'a, S, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'a, S, Unwatched, T, U, V, N, C>
-where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-{
+impl<'a, S: Scene> Motion<'a, S, Unwatched> {
     /// In the inputs, with no contact acting.
-    pub(super) fn new(scene: &'a S, scales: Scales<T, U, V>) -> Self {
-        Self { scene, watch: Unwatched, scales, road: Road::Inputs, contacts: Contacts::open(), names: [""; C] }
+    pub(super) fn new(scene: &'a S, scales: ScalesOf<S::Mechanism>) -> Self {
+        let (contacts, names) = (Contacts::open(), Column::repeat(""));
+        Self { scene, watch: Unwatched, scales, road: Road::Inputs, contacts, names }
     }
 }
 
-impl<'a, S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'a, S, W, T, U, V, N, C>
-where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-{
+impl<'a, S: Scene, W> Motion<'a, S, W> {
     /// The same with other events.
-    pub(super) fn watched<W2>(self, watch: W2) -> Motion<'a, S, W2, T, U, V, N, C> {
+    pub(super) fn watched<W2>(self, watch: W2) -> Motion<'a, S, W2> {
         let Self { scene, scales, road, contacts, names, .. } = self;
         Motion { scene, watch, scales, road, contacts, names }
     }
 
     /// y of a position and the rates of the independent coordinates.
-    pub(super) fn pack(q: &Position<S, T, U, V, N, C>, rates: &SVector<T, V>) -> SVector<T, N> {
-        S::state(q, &Inputs::<S::Mechanism, T, U, V>::from(*rates))
+    pub(super) fn pack(q: &Coordinates<S>, rates: &PerInput<S::Mechanism>) -> StateColumn<S> {
+        S::state(q, &(*rates).into())
     }
 
-    pub(super) fn unpack(y: &SVector<T, N>) -> (Position<S, T, U, V, N, C>, SVector<T, V>) {
+    pub(super) fn unpack(y: &StateColumn<S>) -> (Coordinates<S>, PerInput<S::Mechanism>) {
         let (q, rates) = S::parts(y);
         (q, rates.into())
     }
 
-    pub(super) fn joined(
-        q: &Position<S, T, U, V, N, C>,
-        (unknowns, inputs): (SVector<T, U>, SVector<T, V>),
-    ) -> Position<S, T, U, V, N, C> {
-        S::Mechanism::with_unknowns(&S::Mechanism::with_inputs(q, inputs), unknowns)
-    }
-
     /// Which inputs are prescribed.
-    pub(super) fn held(&self, t: T) -> [bool; V] {
+    pub(super) fn held(&self, t: S::Scalar) -> Column<bool, S::V> {
         self.scene.prescribed(t).map(|law| law.is_some())
     }
 
-    pub(super) fn factors(
-        &self,
-        independent: &Independent<T, U, V>,
-        q: &Position<S, T, U, V, N, C>,
-    ) -> Factors<T, U, V> {
+    pub(super) fn factors(&self, independent: &Choice<S>, q: &Coordinates<S>) -> FactorsOf<S> {
         let mechanism = self.scene.mechanism();
         independent.factors(mechanism, &mechanism.pose_at(q), &self.scales)
     }
 
     /// The factors if the position is apart from a change point that is passed.
-    pub(super) fn regular(
-        &self,
-        independent: &Independent<T, U, V>,
-        q: &Position<S, T, U, V, N, C>,
-    ) -> Option<Factors<T, U, V>> {
+    pub(super) fn regular(&self, independent: &Choice<S>, q: &Coordinates<S>) -> Option<FactorsOf<S>> {
         let factors = self.factors(independent, q);
         (smallest(factors.pivots().iter().copied()) > independent.regularity() * real(LEAST_PART)).then_some(factors)
     }
 
+    /// A position without its names.
+    pub(super) fn column(q: &Coordinates<S>) -> Change<S> {
+        let (unknowns, inputs) = S::Mechanism::parts(q);
+        Change::<S> { unknowns, inputs }
+    }
+
+    pub(super) fn moved(q: &Coordinates<S>, change: &Change<S>) -> Coordinates<S> {
+        let there = Self::column(q) + *change;
+        S::Mechanism::coordinates(there.unknowns, there.inputs)
+    }
+
+    /// The largest of changes beside the sizes of their coordinates; of rates it is an angular frequency.
+    pub(super) fn size_of(&self, change: &Change<S>) -> S::Scalar {
+        change.beside(&self.scales.coordinates).largest()
+    }
+
     /// u' and v'.
-    pub(super) fn velocity(&self, t: T, y: &SVector<T, N>) -> Result<(SVector<T, U>, SVector<T, V>), Error> {
+    pub(super) fn velocity(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Change<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let mechanism = self.scene.mechanism();
         match &self.road {
             Road::Inputs => {
                 let pose = mechanism.pose_at(&q);
                 let right = mechanism.jacobian_inputs(&pose) * -rates;
-                Ok((mechanism.solve_jacobian(&pose, &right)?, rates))
+                Ok(Change::<S> { unknowns: mechanism.solve_jacobian(&pose, &right)?, inputs: rates })
             }
-            Road::Others(independent) => {
-                Ok(independent.apart(&(self.factors(independent, &q).basis() * rates), &rates))
-            }
+            Road::Others(independent) => Ok(self.factors(independent, &q).rates(&rates)),
             Road::Over(independent, step) => {
                 if let Some(factors) = self.regular(independent, &q) {
-                    return Ok(independent.apart(&(factors.basis() * rates), &rates));
+                    return Ok(factors.rates(&rates));
                 }
                 // Near the change point [J A] does not tell.
-                let (rate, _) = Self::unpack(&step.slope_at(t));
-                Ok((S::Mechanism::unknowns(&rate), S::Mechanism::inputs(&rate)))
+                let (rates, _) = S::parts(&step.slope_at(t));
+                Ok(Self::column(&rates))
             }
         }
     }
 
     /// y of a position and the rates of the inputs.
-    pub(super) fn with_rates(
+    pub(super) fn with_input_rates(
         &self,
-        q: &Position<S, T, U, V, N, C>,
-        rates: &SVector<T, V>,
-    ) -> Result<SVector<T, N>, Error> {
+        q: &Coordinates<S>,
+        rates: &PerInput<S::Mechanism>,
+    ) -> Result<StateColumn<S>, MotionError> {
         let (Road::Others(independent) | Road::Over(independent, _)) = &self.road else {
             return Ok(Self::pack(q, rates));
         };
         let mechanism = self.scene.mechanism();
         let pose = mechanism.pose_at(q);
-        let right = mechanism.jacobian_inputs(&pose) * -rates;
-        Ok(Self::pack(q, &independent.of(&mechanism.solve_jacobian(&pose, &right)?, rates)))
+        let right = mechanism.jacobian_inputs(&pose) * -*rates;
+        let rates = Change::<S> { unknowns: mechanism.solve_jacobian(&pose, &right)?, inputs: *rates };
+        Ok(Self::pack(q, &independent.of(&rates)))
     }
 
-    pub(super) fn state(&self, t: T, y: &SVector<T, N>) -> Result<State<T, Position<S, T, U, V, N, C>, C>, Error> {
+    pub(super) fn state(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<State<S>, MotionError> {
         let (q, _) = Self::unpack(y);
-        let rates = self.velocity(t, y)?;
-        all_finite(S::NAME, "the state", [t].iter().chain(y.iter()).chain(rates.0.iter()).chain(rates.1.iter()))?;
-        let rate = Self::joined(&q, rates);
+        let Change::<S> { unknowns, inputs } = self.velocity(t, y)?;
+        all_finite(S::NAME, "the state", [t].iter().chain(y.iter()).chain(unknowns.iter()).chain(inputs.iter()))?;
+        let rates = S::Mechanism::rates(unknowns, inputs);
         let touch = |place: usize| Touch { name: self.names[place], mode: self.contacts.modes[place], change: None };
-        Ok(State { t, q, rate, event: None, contacts: core::array::from_fn(touch) })
+        Ok(State { t, q, rates, event: None, contacts: Column::from_fn(touch) })
     }
 
     /// y with the closures closed again and prescribed inputs where their laws say.
-    pub(super) fn closed(&self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+    pub(super) fn closed(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let (mut q, mut rates) = Self::unpack(y);
         let laws = self.scene.prescribed(t);
         let mut inputs = S::Mechanism::inputs(&q);
         for (input, law) in laws.iter().enumerate() {
-            if let Some([position, speed, _]) = *law {
-                inputs[input] = position;
+            if let Some(law) = law {
+                inputs[input] = law.value;
                 let at = match &self.road {
                     Road::Inputs => Some(input),
                     Road::Others(independent) | Road::Over(independent, _) => {
-                        independent.free.iter().position(|&free| free == U + input)
+                        independent.free.iter().position(|&free| free == S::U::COUNT + input)
                     }
                 };
                 if let Some(at) = at {
-                    rates[at] = speed;
+                    rates[at] = law.rate;
                 }
             }
         }
@@ -190,63 +194,49 @@ where
         Ok(Self::pack(&q, &rates))
     }
 
-    /// The position near `q` with the same inputs. Where an integrator has left it, one step of Newton's method is
-    /// mostly so small that the next would be less than rounding.
-    fn closed_in_inputs(&self, q: &Position<S, T, U, V, N, C>) -> Result<Position<S, T, U, V, N, C>, Error> {
+    /// The position near `q` with the same inputs. One step is mostly so small that the next would be less than rounding.
+    fn closed_in_inputs(&self, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionError> {
         let mechanism = self.scene.mechanism();
-        let mut q = *q;
-        let mut last = None;
-        let enough = T::default_epsilon().sqrt() * real(ENOUGH);
-        for _ in 0..MOST_ITERATIONS {
-            let pose = mechanism.pose_at(&q);
-            let step = mechanism.solve_jacobian(&pose, &mechanism.residual(&pose))?;
-            let size = self.scales.speed(&step, &SVector::zeros());
-            if !size.is_finite() {
-                return Err(Error::NotFinite { mechanism: S::Mechanism::NAME, quantity: "the position" });
-            }
-            if size.is_zero() || last.is_some_and(|last| size >= last) {
-                break;
-            }
-            q = S::Mechanism::with_unknowns(&q, S::Mechanism::unknowns(&q) - step);
-            last = Some(size);
-            if size <= enough {
-                break;
-            }
-        }
-        if last.is_none_or(|last| last < T::default_epsilon().sqrt()) {
-            return Ok(q);
-        }
+        let enough = S::Scalar::default_epsilon().sqrt() * real(LAST_CORRECTION);
+        let closed = self.closed_near(q, enough, |pose| {
+            Ok(Some(Change::<S> { unknowns: correction(mechanism, pose)?, inputs: Column::zeros() }))
+        })?;
         // No position near: the search says why.
-        Ok(newton(mechanism, &q)?.coordinates)
+        closed.map_or_else(|| Ok(newton(mechanism, q)?.coordinates), Ok)
     }
 
-    /// The position near `q` with the same independent coordinates.
-    pub(super) fn closed_by(
-        &self,
-        independent: &Independent<T, U, V>,
-        q: &Position<S, T, U, V, N, C>,
-    ) -> Result<Position<S, T, U, V, N, C>, Error> {
+    /// The position near `q` with the same independent coordinates. Near a change point rounding is so enlarged that all is
+    /// taken that steps can give.
+    pub(super) fn closed_by(&self, independent: &Choice<S>, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionError> {
         let mechanism = self.scene.mechanism();
-        let mut q = *q;
+        let closed = self.closed_near(q, S::Scalar::zero(), |pose| {
+            let factors = independent.factors(mechanism, pose, &self.scales);
+            let is_singular = factors.pivots().iter().any(|pivot| pivot.is_zero());
+            Ok((!is_singular).then(|| factors.solve(&mechanism.residual(pose))))
+        })?;
+        closed.ok_or_else(|| self.change_point(q))
+    }
+
+    /// The position to which these steps of Newton's method lead from where an integrator has left it: by a step that is
+    /// no longer than `enough`, or until they are rounding and fall no more.
+    fn closed_near(
+        &self,
+        q: &Coordinates<S>,
+        enough: S::Scalar,
+        step: impl Fn(&PoseOf<S>) -> Result<Option<Change<S>>, MotionError>,
+    ) -> Result<Option<Coordinates<S>>, MotionError> {
+        let mechanism = self.scene.mechanism();
+        let small = S::Scalar::default_epsilon().sqrt();
         let mut last = None;
-        for _ in 0..MOST_ITERATIONS {
-            let pose = mechanism.pose_at(&q);
-            let step = independent.factors(mechanism, &pose, &self.scales).solve(&mechanism.residual(&pose));
-            let (unknowns, inputs) = independent.apart(&-step, &SVector::zeros());
-            let size = self.scales.speed(&unknowns, &inputs);
-            if !size.is_finite() {
-                return Err(Error::NotFinite { mechanism: S::Mechanism::NAME, quantity: "the position" });
+        contract(*q, MOST_CORRECTIONS, |q| {
+            let Some(step) = step(&mechanism.pose_at(q))? else { return Ok(Closing::Stuck) };
+            let (next, size) = (Self::moved(q, &-step), self.size_of(&step));
+            if size <= enough {
+                return Ok(Closing::Closed(next));
             }
-            // Steps of Newton's method fall until they are rounding.
-            if size.is_zero() || last.is_some_and(|last| size >= last) {
-                break;
-            }
-            q = Self::joined(&q, (S::Mechanism::unknowns(&q) + unknowns, S::Mechanism::inputs(&q) + inputs));
+            let is_rounding = last.is_some_and(|last| last < small && size > last * real(0.5));
             last = Some(size);
-        }
-        if last.is_none_or(|last| last < T::default_epsilon().sqrt()) {
-            return Ok(q);
-        }
-        Err(self.change_point(&q))
+            Ok(if is_rounding { Closing::Closed(*q) } else { Closing::Step(next, size) })
+        })
     }
 }

@@ -1,22 +1,15 @@
 //! The states of a simulation at given times.
 
-use super::motion::Position;
-use super::run::{Moment, Rates, Simulation};
+use super::run::Simulation;
+use super::state::State;
 use super::watch::Watch;
-use crate::Scene;
 use crate::integrate::Method;
+use crate::{MotionError, Scene};
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Error, Real};
+use linkage_runtime::InputError;
 
-impl<S, T, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize>
-    Simulation<'_, S, T, U, V, N, C, M, W, K>
-where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-    M: Method,
-    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
-{
-    pub(super) fn output(&mut self, t: T) -> Result<Option<Moment<S, T, U, V, N, C>>, Error> {
+impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
+    pub(super) fn output(&mut self, t: S::Scalar) -> Result<Option<State<S>>, MotionError> {
         let end = self.integration.end();
         let [earliest, _] = self.integration.reached();
         let is_forward = end >= earliest;
@@ -25,7 +18,8 @@ where
         if !(ahead >= 0.0 && behind >= 0.0) {
             let [a, b] = [earliest, end].map(to_f64);
             let (least, most) = if a < b { (a, b) } else { (b, a) };
-            return Err(Error::OutOfRange { quantity: "the output time", value: to_f64(t), least, most });
+            let (quantity, value) = ("the output time", to_f64(t));
+            return Err(InputError::OutOfRange { of: None, quantity, value, least, most }.into());
         }
         while if is_forward { t > self.state.t } else { t < self.state.t } {
             if self.advance()?.is_none() {
@@ -50,39 +44,21 @@ where
 /// The states of a simulation at given times. Made by [`Simulation::at`].
 ///
 /// It ends after the last time, where an event stops the simulation, or with an error; what came before stands. A time
-/// that is not in the part of the interval that lies ahead is an [`Error::OutOfRange`].
-pub struct Outputs<
-    's,
-    'a,
-    S,
-    T,
-    I,
-    const U: usize,
-    const V: usize,
-    const N: usize,
-    const C: usize,
-    M,
-    W,
-    const K: usize,
-> where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-{
-    pub(super) simulation: &'s mut Simulation<'a, S, T, U, V, N, C, M, W, K>,
+/// that is not in the part of the interval that lies ahead is an [`InputError::OutOfRange`].
+pub struct States<'s, 'a, S: Scene, M, W: Watch<S>, I> {
+    pub(super) simulation: &'s mut Simulation<'a, S, M, W>,
     pub(super) times: I,
     pub(super) failed: bool,
 }
 
-impl<S, T, I, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize> Iterator
-    for Outputs<'_, '_, S, T, I, U, V, N, C, M, W, K>
+impl<S, M, W, I> Iterator for States<'_, '_, S, M, W, I>
 where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-    I: Iterator<Item = T>,
+    S: Scene,
     M: Method,
-    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
+    W: Watch<S>,
+    I: Iterator<Item = S::Scalar>,
 {
-    type Item = Result<Moment<S, T, U, V, N, C>, Error>;
+    type Item = Result<State<S>, MotionError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed {

@@ -9,15 +9,16 @@
 //! that the branch beyond is the one whose tangent continues, and if they hold in the gap to rounding, so that there
 //! is a crossing and not two branches that only come near each other.
 
-use nalgebra::{SMatrix, SVector};
+use core::convert::Infallible;
 
-use super::independent::Independent;
-use super::motion::Motion;
-use crate::Scene;
-use crate::contact::ReducedEquations;
+use super::motion::{Choice, Motion, Polynomial, Reduced};
 use crate::integrate::Interpolant;
-use linkage_runtime::__shared::{larger, largest};
-use linkage_runtime::{Error, Mechanism, Real, real};
+use crate::{MotionError, Scene, StateColumn};
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::__shared::larger;
+use linkage_runtime::jacobian::rounding::weak;
+use linkage_runtime::jacobian::{EliminationOf as Elimination, root};
+use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real, real};
 
 /// Gauss's nodes on [0, 1]: the zeros of Legendre's polynomial of degree 8.
 const NODES: [f64; 8] = [
@@ -38,16 +39,20 @@ const MOST_ITERATIONS: usize = 40;
 /// near a change point rounding is enlarged by the square of the distance to it.
 const SMALL: f64 = 0.01;
 
-/// How far from the middle the change point may lie, as a part of the step.
+/// How far from the middle the change point may lie, as a part of the step. At twice this value every test of simulations
+/// holds; at half of it that of a stop beside a change point fails.
 const OFF_MIDDLE: f64 = 0.03;
 
-/// Of what is left of the closures at the change point, in roundings.
-const ROUNDINGS: f64 = 256.0;
+/// What may be left of the closures at the change point, in roundings of their sizes. At a quarter of it or four times as
+/// much every test of simulations holds.
+const CROSSING: f64 = 256.0;
 
-/// How far the closures at the nodes may be from where the polynomial says, beside the length of the step.
+/// How far the closures at the nodes may be from where the polynomial says, beside the length of the step. At a
+/// tenth of it or ten times as much every test of simulations holds.
 const GAP: f64 = 1e-3;
 
-/// The longest step, in radians or as a part of the sizes of lengths.
+/// The longest step, in radians or as a part of the sizes of lengths. At a quarter more every
+/// test of simulations holds; at a quarter less three fail, crossed cranks among them.
 const LONGEST: f64 = 1.2;
 
 /// The step that is wanted: shorter ones suffer more from rounding, whose part grows as their inverse square.
@@ -57,10 +62,10 @@ const WANTED: f64 = 0.9;
 const SEEN: f64 = 3.0;
 
 /// Below this length a step is not made shorter for the sake of its dense output.
-const SHORTEST: f64 = 0.04;
+const SHORTEST_OVER: f64 = 0.04;
 
 /// What lies ahead.
-pub(super) enum Ahead<T: Real, const N: usize> {
+pub(super) enum Ahead<T: Real, N: Dim> {
     /// No change point.
     Clear,
     /// It may be one: the next step is to be no longer than this.
@@ -69,43 +74,42 @@ pub(super) enum Ahead<T: Real, const N: usize> {
     ChangePoint(Interpolant<T, N>),
 }
 
-impl<S, W, T, const U: usize, const V: usize, const N: usize, const C: usize> Motion<'_, S, W, T, U, V, N, C>
-where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-{
+impl<S: Scene, W> Motion<'_, S, W> {
     /// The step over the change point ahead, if one is near; `way` is 1 or -1 in time, `tolerance` that of the
     /// steps.
     pub(super) fn over(
         &self,
-        independent: &Independent<T, U, V>,
-        (t, y): (T, &SVector<T, N>),
-        way: T,
-        tolerance: T,
-    ) -> Result<Ahead<T, N>, Error> {
+        independent: &Choice<S>,
+        (t, y): (S::Scalar, &StateColumn<S>),
+        way: S::Scalar,
+        tolerance: S::Scalar,
+    ) -> Result<Ahead<S::Scalar, S::State>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let factors = self.factors(independent, &q);
-        let (unknowns, inputs) = independent.apart(&(factors.basis() * rates), &rates);
-        let speed = self.scales.speed(&unknowns, &inputs);
-        let moves = speed > T::zero();
+        let velocity = factors.rates(&rates);
+        let speed = self.size_of(&velocity);
+        let moves = speed > S::Scalar::zero();
         if !moves {
             return Ok(Ahead::Clear);
         }
-        let smallest = independent.pivots.iamin();
+        let pivots = &independent.pivots;
+        let smaller = |least, at| if pivots[at].abs() < pivots[least].abs() { at } else { least };
+        let smallest = (1..S::U::COUNT).fold(0, smaller);
         // The time to its zero along the tangent.
-        let little = way * T::default_epsilon().sqrt() / speed;
-        let (at_unknowns, at_inputs) = (S::Mechanism::unknowns(&q), S::Mechanism::inputs(&q));
-        let later = Self::joined(&q, (at_unknowns + unknowns * little, at_inputs + inputs * little));
+        let little = way * S::Scalar::default_epsilon().sqrt() / speed;
+        let later = Self::moved(&q, &(velocity * little));
         let change = self.factors(independent, &later).pivots()[smallest] - independent.pivots[smallest];
         let mut length = -independent.pivots[smallest] * little / change * real(2.0);
         let slope = self.rate_by(independent, &factors, (t, y))?;
         for _ in 0..3 {
             let turn = length * way * speed;
-            if !(turn > T::zero() && turn <= real(SEEN)) {
+            if !(turn > S::Scalar::zero() && turn <= real(SEEN)) {
                 return Ok(Ahead::Clear);
             }
             if turn > real(LONGEST) {
-                return Ok(Ahead::Near((length * real(0.5)).abs() * (T::one() - real::<T>(WANTED) / turn)));
+                return Ok(Ahead::Near(
+                    (length * real(0.5)).abs() * (S::Scalar::one() - real::<S::Scalar>(WANTED) / turn),
+                ));
             }
             let nearer = Ahead::Near((length * real(0.25)).abs());
             let Some((step, gap)) = self.collocation(independent, (t, y), &slope, length) else { return Ok(nearer) };
@@ -117,16 +121,17 @@ where
             }
             let last = step.last();
             let (of_q, of_rates) = Self::unpack(&last);
-            let size = self.scales.speed(&S::Mechanism::unknowns(&of_q), &S::Mechanism::inputs(&of_q));
-            let of_rates = largest((0..V).map(|k| of_rates[k] / self.scales.coordinate(independent.free[k])));
+            let size = self.size_of(&Self::column(&of_q));
+            let of_rates = of_rates.component_div(&independent.of(&self.scales.coordinates)).largest();
             // Dense output is more exact than its last term by the next ratio of terms and the nodes' polynomial.
             let inexact = larger(size, of_rates / speed) * real(1e-5);
             let is_exact = inexact <= tolerance.max(real(1e-9));
-            if !is_exact && turn > real(SHORTEST) {
+            if !is_exact && turn > real(SHORTEST_OVER) {
                 return Ok(nearer);
             }
             let is_smooth = gap <= turn * real(GAP);
-            let is_crossing = self.left_over(independent, &step, middle) <= T::default_epsilon() * real(ROUNDINGS);
+            let is_crossing =
+                self.left_over(independent, &step, middle) <= S::Scalar::default_epsilon() * real(CROSSING);
             return Ok(if is_smooth && is_crossing { Ahead::ChangePoint(step) } else { nearer });
         }
         Ok(Ahead::Clear)
@@ -135,11 +140,11 @@ where
     /// The collocation, and how far the closures are from it.
     fn collocation(
         &self,
-        independent: &Independent<T, U, V>,
-        (t, y): (T, &SVector<T, N>),
-        slope: &SVector<T, N>,
-        length: T,
-    ) -> Option<(Interpolant<T, N>, T)> {
+        independent: &Choice<S>,
+        (t, y): (S::Scalar, &StateColumn<S>),
+        slope: &StateColumn<S>,
+        length: S::Scalar,
+    ) -> Option<(Polynomial<S>, S::Scalar)> {
         let near = [NODES[0], NODES[1], NODES[2], NODES[3]];
         let guess = Interpolant::of_slopes((t, *y), length, &near, &[*slope; 4])?;
         let (guess, _) = self.iterated(independent, (t, y), length, &near, guess)?;
@@ -148,35 +153,33 @@ where
 
     fn iterated<const P: usize>(
         &self,
-        independent: &Independent<T, U, V>,
-        (t, y): (T, &SVector<T, N>),
-        length: T,
+        independent: &Choice<S>,
+        (t, y): (S::Scalar, &StateColumn<S>),
+        length: S::Scalar,
         nodes: &[f64; P],
-        mut step: Interpolant<T, N>,
-    ) -> Option<(Interpolant<T, N>, T)> {
-        let mut last: Option<T> = None;
+        mut step: Polynomial<S>,
+    ) -> Option<(Polynomial<S>, S::Scalar)> {
+        let mut last: Option<S::Scalar> = None;
         for _ in 0..MOST_ITERATIONS {
-            let mut slopes = [SVector::zeros(); P];
-            let mut gap = T::zero();
+            let mut slopes = [Column::zeros(); P];
+            let mut gap = S::Scalar::zero();
             for (slope, &node) in slopes.iter_mut().zip(nodes) {
                 let there = step.at_fraction(real(node));
                 let (guess, rates) = Self::unpack(&there);
                 let q = self.closed_by(independent, &guess).ok()?;
-                let unknowns = S::Mechanism::unknowns(&q) - S::Mechanism::unknowns(&guess);
-                let inputs = S::Mechanism::inputs(&q) - S::Mechanism::inputs(&guess);
-                gap = larger(gap, self.scales.speed(&unknowns, &inputs));
+                gap = larger(gap, self.size_of(&(Self::column(&q) - Self::column(&guess))));
                 let (at, factors) = (t + length * real(node), self.factors(independent, &q));
                 *slope = self.rate_by(independent, &factors, (at, &Self::pack(&q, &rates))).ok()?;
             }
             let next = Interpolant::of_slopes((t, *y), length, nodes, &slopes)?;
-            let end = next.at_fraction(T::one());
-            let [change, size] = [end - step.at_fraction(T::one()), end].map(|v| largest(v.iter().copied()));
+            let end = next.at_fraction(S::Scalar::one());
+            let [change, size] = [end - step.at_fraction(S::Scalar::one()), end].map(|state| state.largest());
             let change = change / size;
             step = next;
             if !change.is_finite() {
                 return None;
             }
-            let small = change <= T::default_epsilon().sqrt() * real(SMALL);
+            let small = change <= S::Scalar::default_epsilon().sqrt() * real(SMALL);
             if change.is_zero() || (small && last.is_some_and(|last| change >= last * real(0.5))) {
                 return Some((step, gap));
             }
@@ -189,22 +192,23 @@ where
     /// their polynomial through the nodes is taken, with time and rates as they are.
     pub(super) fn equations_over(
         &self,
-        independent: &Independent<T, U, V>,
-        step: &Interpolant<T, N>,
-        (t, y): (T, &SVector<T, N>),
-    ) -> Result<ReducedEquations<T, V, C>, Error> {
+        independent: &Choice<S>,
+        step: &Polynomial<S>,
+        (t, y): (S::Scalar, &StateColumn<S>),
+    ) -> Result<Reduced<S>, MotionError> {
         let (_, rates) = Self::unpack(y);
         let (start, end) = step.interval();
         let at = (t - start) / (end - start);
         let mut equations = self.contacts_alone(t, y)?;
-        equations.mass = SMatrix::zeros();
+        equations.mass = Matrix::zeros();
         for contact in &mut equations.contacts {
-            contact.drift = T::zero();
+            contact.drift = S::Scalar::zero();
         }
         for node in NODES {
             let others = NODES.iter().filter(|&&other| other != node);
             // Lagrange's polynomial that is 1 at this node.
-            let weight = others.fold(T::one(), |weight, &other| weight * (at - real(other)) / real(node - other));
+            let weight =
+                others.fold(S::Scalar::one(), |weight, &other| weight * (at - real(other)) / real(node - other));
             let (guess, _) = Self::unpack(&step.at_fraction(real(node)));
             let q = self.closed_by(independent, &guess)?;
             let factors = self.factors(independent, &q);
@@ -220,35 +224,23 @@ where
         Ok(equations)
     }
 
-    /// The part of the step at which a pivot is zero, by the secant method.
-    fn zero_of_pivot(&self, independent: &Independent<T, U, V>, step: &Interpolant<T, N>, pivot: usize) -> Option<T> {
-        let value = |s: T| self.factors(independent, &Self::unpack(&step.at_fraction(s)).0).pivots()[pivot];
-        let (mut a, mut b) = (T::zero(), T::one());
-        let (mut of_a, mut of_b) = (value(a), value(b));
-        for _ in 0..12 {
-            if of_a == of_b {
-                break;
-            }
-            let s = b - of_b * (b - a) / (of_b - of_a);
-            (a, of_a) = (b, of_b);
-            (b, of_b) = (s, value(s));
-            if !(b >= T::zero() && b <= T::one() && of_b.is_finite()) {
-                return None;
-            }
-        }
-        Some(b)
+    /// The part of the step at which a pivot is zero.
+    fn zero_of_pivot(&self, independent: &Choice<S>, step: &Polynomial<S>, pivot: usize) -> Option<S::Scalar> {
+        let value = |s: S::Scalar| self.factors(independent, &Self::unpack(&step.at_fraction(s)).0).pivots()[pivot];
+        let ends = [S::Scalar::zero(), S::Scalar::one()];
+        let [at_start, at_end] = ends.map(value);
+        let changes = at_start * at_end < S::Scalar::zero();
+        let look = |s| Ok::<_, Infallible>(Some(value(s)).filter(S::Scalar::is_finite));
+        let Ok(zero) = root(ends, [at_start, at_end], S::Scalar::default_epsilon(), look);
+        zero.filter(|_| changes)
     }
 
     /// What is left of the closures at the change point where small pivots cannot remove it.
-    fn left_over(&self, independent: &Independent<T, U, V>, step: &Interpolant<T, N>, middle: T) -> T {
+    fn left_over(&self, independent: &Choice<S>, step: &Polynomial<S>, middle: S::Scalar) -> S::Scalar {
         let mechanism = self.scene.mechanism();
-        let (q, _) = Self::unpack(&step.at_fraction(middle));
-        let pose = mechanism.pose_at(&q);
-        let weak = T::default_epsilon().sqrt() * real(64.0);
-        let factors = independent.factors_above(mechanism, &pose, &self.scales, weak);
-        let rest = factors.reduce(&mechanism.residual(&pose));
-        let pivots = factors.pivots();
-        let open = rest.iter().zip(pivots.iter()).filter(|(_, pivot)| pivot.abs() <= weak);
-        largest(open.map(|(rest, _)| *rest))
+        let pose = mechanism.pose_at(&Self::unpack(&step.at_fraction(middle)).0);
+        let jacobian = self.scales.jacobian(mechanism, &pose);
+        let residual = mechanism.residual(&pose).component_div(&self.scales.closures);
+        Elimination::<S::Mechanism>::in_order_above(weak(), &independent.order, jacobian).left(&residual).largest()
     }
 }

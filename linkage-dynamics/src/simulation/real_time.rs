@@ -1,75 +1,69 @@
 //! Simulation in step with a clock.
 
-use nalgebra::SVector;
-
 use super::motion::Motion;
-use super::scales::Scales;
 use super::state::State;
 use super::watch::Unwatched;
-use crate::Scene;
 use crate::integrate::{FixedStep, System};
-use crate::{Coordinates, Inputs};
+use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::same_signs;
-use linkage_runtime::{Error, Mechanism, Real};
+use linkage_runtime::jacobian::Scales;
+use linkage_runtime::{Column, D, Mechanism};
 
 /// A scene by steps of one length, each of four evaluations of its equations in the inputs and one closing of the
 /// closures: [`FixedStep`]. Nothing is tried twice, and no step goes over a singularity of the inputs.
-pub struct RealTime<'a, S, T: Real, const U: usize, const V: usize, const N: usize> {
-    steps: FixedStep<Closing<'a, S, T, U, V, N>, T, N>,
+pub struct RealTime<'a, S: Scene<Contacts = D<0>>> {
+    steps: FixedStep<Closing<'a, S>>,
 }
 
 /// A motion whose closures are closed before each step.
-struct Closing<'a, S, T: Real, const U: usize, const V: usize, const N: usize>(Motion<'a, S, Unwatched, T, U, V, N, 0>);
+struct Closing<'a, S: Scene<Contacts = D<0>>>(Motion<'a, S, Unwatched>);
 
-impl<S, T, const U: usize, const V: usize, const N: usize> System<T, N, 0> for Closing<'_, S, T, U, V, N>
-where
-    S: Scene<T, U, V, N, 0>,
-    T: Real,
-{
-    fn rate(&mut self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Error> {
+impl<S: Scene<Contacts = D<0>>> System for Closing<'_, S> {
+    type Scalar = S::Scalar;
+    type N = S::State;
+    type Events = D<0>;
+    type Guards = D<0>;
+
+    fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         self.0.scene.derivative(t, y)
     }
 
-    fn events(&mut self, _: T, _: &SVector<T, N>) -> Result<[T; 0], Error> {
-        Ok([])
+    fn events(&mut self, _: S::Scalar, _: &StateColumn<S>) -> Result<Column<S::Scalar, D<0>>, MotionError> {
+        Ok(Column::from([]))
     }
 
-    fn before_step(&mut self, t: T, y: &SVector<T, N>) -> Result<Option<SVector<T, N>>, Error> {
+    fn before_step(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionError> {
         self.0.closed(t, y).map(Some)
     }
 }
 
-impl<'a, S, T, const U: usize, const V: usize, const N: usize> RealTime<'a, S, T, U, V, N>
-where
-    S: Scene<T, U, V, N, 0>,
-    T: Real,
-{
+impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
     /// From a time, a position and the rates of the inputs there, by steps of this length.
     ///
     /// # Errors
-    /// Those of [`Scene::start`], and [`Error::OutOfRange`] if the length is zero or not finite.
+    /// Those of [`Scene::start`], and [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length is zero or not finite.
     pub fn new(
         scene: &'a S,
-        (t, q, rates): (T, Coordinates<S::Mechanism, T, U, V>, impl Into<Inputs<S::Mechanism, T, U, V>>),
-        length: T,
-    ) -> Result<Self, Error> {
-        let y = scene.start(t, &q, &rates.into())?;
-        let scales = Scales::of(scene.mechanism(), &q);
+        (t, q, input_rates): (S::Scalar, Coordinates<S>, impl Into<Inputs<S>>),
+        length: S::Scalar,
+    ) -> Result<Self, MotionError> {
+        let y = scene.start(t, &q, &input_rates.into())?;
+        let scales = Scales::of(scene.mechanism(), &scene.mechanism().pose_at(&q));
         let motion = Motion::new(scene, scales);
         Ok(Self { steps: FixedStep::new(Closing(motion), (t, y), length)? })
     }
 
     /// The time.
     #[must_use]
-    pub fn t(&self) -> T {
+    pub fn t(&self) -> S::Scalar {
         self.steps.t()
     }
 
     /// The state that was reached, closed.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] if the closures cannot be closed, [`Error::Singular`] where J has no inverse.
-    pub fn state(&self) -> Result<State<T, Coordinates<S::Mechanism, T, U, V>>, Error> {
+    /// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged) if the closures cannot be closed, [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J has no inverse.
+    pub fn state(&self) -> Result<State<S>, MotionError> {
         let (t, motion) = (self.t(), &self.steps.system().0);
         motion.state(t, &motion.closed(t, self.steps.state())?)
     }
@@ -77,16 +71,16 @@ where
     /// Takes a step.
     ///
     /// # Errors
-    /// What the scene returns, and [`Error::Singular`] if the step goes over a singularity; time and state stay what
+    /// What the scene returns, and [`PositionError::Singular`](linkage_runtime::PositionError::Singular) if the step goes over a singularity; time and state stay what
     /// they were.
-    pub fn step(&mut self) -> Result<(), Error> {
+    pub fn step(&mut self) -> Result<(), MotionError> {
         let before = *self.steps.state();
         self.steps.step()?;
         let motion = &self.steps.system().0;
         let mechanism = motion.scene.mechanism();
-        let signs = |y: &SVector<T, N>| mechanism.block_determinants(&mechanism.pose_at(&S::parts(y).0));
+        let signs = |y: &StateColumn<S>| mechanism.block_determinants(&mechanism.pose_at(&S::parts(y).0));
         let (q, _) = S::parts(self.steps.state());
-        if same_signs(signs(&before).as_ref(), signs(self.steps.state()).as_ref()) {
+        if same_signs(signs(&before).as_slice(), signs(self.steps.state()).as_slice()) {
             return Ok(());
         }
         let error = motion.singular(&q);

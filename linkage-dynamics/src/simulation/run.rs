@@ -1,65 +1,45 @@
 //! A simulation: its start, its settings, and what it tells.
 
-use nalgebra::SVector;
-
-use super::motion::{Motion, Position};
-use super::outputs::Outputs;
+use super::motion::Motion;
+use super::outputs::States;
 use super::road::{AtSingularity, Passages, scale_of};
-use super::scales::Scales;
 use super::state::{Loads, State};
-use super::watch::{Then, Unwatched, Watch, Watched};
-use crate::Inputs;
-use crate::Scene;
+use super::watch::{EventFunctions, Then, Unwatched, Watch};
 use crate::contact::Contacts;
 use crate::integrate::{Counts, Crossing, Dop853, Integration, Method, Tolerance};
-use linkage_runtime::__shared::{largest, to_f64};
-use linkage_runtime::{Error, Mechanism, Real, real};
+use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::jacobian::Scales;
+use linkage_runtime::{Column, Dim, InputError, Mechanism, real};
 
 /// What of the change of a step's length is dared. A mechanism is now slow and now fast within one turn, and the usual
 /// 0.9 has every third step rejected.
-const SAFETY: f64 = 0.8;
+const SAFETY_IN_TURNS: f64 = 0.8;
 
-pub(super) type Moment<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
-    State<T, Position<S, T, U, V, N, C>, C>;
-pub(super) type Rates<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
-    Inputs<<S as Scene<T, U, V, N, C>>::Mechanism, T, U, V>;
-pub(super) type Signs<S, T, const U: usize, const V: usize, const N: usize, const C: usize> =
-    <<S as Scene<T, U, V, N, C>>::Mechanism as Mechanism<T, U, V>>::BlockDeterminants;
+/// The determinants of the groups of a scene, whose signs tell branches apart.
+pub(super) type Signs<S> = Column<<S as Scene>::Scalar, <<S as Scene>::Mechanism as Mechanism>::G>;
 
 /// A simulation under way: an iterator over the [states](State) at the ends of its steps and at its events, which ends
 /// with an error or at the end of the interval. What was reached stays readable after an error.
-pub struct Simulation<
-    'a,
-    S,
-    T,
-    const U: usize,
-    const V: usize,
-    const N: usize,
-    const C: usize,
-    M = Dop853,
-    W = Unwatched,
-    const K: usize = 0,
-> where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-{
-    pub(super) integration: Integration<M, Motion<'a, S, W, T, U, V, N, C>, T, N, K, C>,
+pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
+    pub(super) integration: Integration<Motion<'a, S, W>, M>,
     pub(super) relative: f64,
     /// The size of rates beside those of coordinates.
-    pub(super) frequency: T,
+    pub(super) frequency: S::Scalar,
     pub(super) at_singularity: AtSingularity,
-    pub(super) state: Moment<S, T, U, V, N, C>,
+    pub(super) state: State<S>,
     /// The contacts in the step that led to the state.
-    pub(super) contacts: Contacts<T, C>,
+    pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
     /// Where the step begins, closed, with the signs of the determinants there.
-    pub(super) from: (T, SVector<T, N>),
-    pub(super) signs: Signs<S, T, U, V, N, C>,
+    pub(super) from: (S::Scalar, StateColumn<S>),
+    pub(super) signs: Signs<S>,
     pub(super) passages: Passages,
     /// Steps in other coordinates that are left since one in the inputs went over a singularity.
     pub(super) warned: u32,
     pub(super) is_over: bool,
     /// Why nothing follows the state.
-    pub(super) failure: Option<Error>,
+    pub(super) failure: Option<MotionError>,
     /// The next step is prepared.
     pub(super) is_prepared: bool,
 }
@@ -72,43 +52,40 @@ pub struct Simulation<
 /// The position need only be near: it is closed with its inputs as they are.
 ///
 /// # Errors
-/// Those of [`Scene::start`]: [`Error::Negative`], [`Error::Inconsistent`], [`Error::NotConverged`]; those of the
-/// equations of motion there; [`Error::Irreversible`] if `end` is the earlier and the scene has frictions or stops;
-/// [`Error::OutOfRange`] for a tolerance below ten roundings or above 1 and for times
-/// that are not finite.
-pub fn simulate<S, T, const U: usize, const V: usize, const N: usize, const C: usize>(
+/// Those of [`Scene::start`]: [`InputError::OutOfRange`], [`InputError::Inconsistent`],
+/// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged); those of the equations of motion there;
+/// [`MotionError::Irreversible`] if `end` is the earlier and the scene has frictions or stops;
+/// [`InputError::OutOfRange`] for a tolerance below ten roundings or above 1 and for times that are not finite.
+pub fn simulate<S: Scene>(
     scene: &S,
-    (t, q, rates): (T, Position<S, T, U, V, N, C>, impl Into<Rates<S, T, U, V, N, C>>),
-    end: T,
+    (t, q, input_rates): (S::Scalar, Coordinates<S>, impl Into<Inputs<S>>),
+    end: S::Scalar,
     tolerance: f64,
-) -> Result<Simulation<'_, S, T, U, V, N, C>, Error>
-where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-{
+) -> Result<Simulation<'_, S>, MotionError> {
     let mechanism = scene.mechanism();
-    let y = scene.start(t, &q, &rates.into())?;
+    let y = scene.start(t, &q, &input_rates.into())?;
     let (q, _) = S::parts(&y);
-    let scales = Scales::of(mechanism, &q);
+    let scales = Scales::of(mechanism, &mechanism.pose_at(&q));
     let mut motion = Motion::new(scene, scales);
-    if C > 0 && end < t {
-        let contact = motion.contacts_alone(t, &y)?.contacts[0].name;
-        return Err(Error::Irreversible { scene: S::NAME, contact });
+    if S::Contacts::COUNT > 0 && end < t {
+        let contacts = motion.contacts_alone(t, &y)?.contacts;
+        let contact = contacts.iter().next().map(|contact| contact.name).unwrap_or_default();
+        return Err(MotionError::Irreversible { scene: S::NAME, contact });
     }
-    let y = if C > 0 { motion.begin(t, &y)? } else { y };
+    let y = if S::Contacts::COUNT > 0 { motion.begin(t, &y)? } else { y };
     let contacts = motion.contacts;
-    let (unknowns, inputs) = motion.velocity(t, &y)?;
-    let (_, accelerations) = Motion::<S, Unwatched, T, U, V, N, C>::unpack(&scene.derivative(t, &y)?);
-    let speed = scales.speed(&unknowns, &inputs);
-    let urge = largest(accelerations.component_div(&scales.inputs).iter().copied()).sqrt();
+    let velocity = motion.velocity(t, &y)?;
+    let (_, accelerations) = Motion::<S, Unwatched>::unpack(&scene.derivative(t, &y)?);
+    let speed = motion.size_of(&velocity);
+    let urge = accelerations.component_div(&scales.coordinates.inputs).largest().sqrt();
     let span = to_f64(end - t).abs();
     let frequency = speed.max(urge);
-    let slow = if span > 0.0 { real::<T>(span.recip()) } else { T::one() };
-    let frequency = if frequency > T::zero() { frequency } else { slow };
+    let slow = if span > 0.0 { real(span.recip()) } else { S::Scalar::one() };
+    let frequency = if frequency > S::Scalar::zero() { frequency } else { slow };
     let state = motion.state(t, &y)?;
-    let scale = scale_of(&motion, &q, frequency);
+    let scale = scale_of(&motion, frequency);
     let mut integration = Integration::new(motion, (t, y), end, Tolerance::new(tolerance, scale)?)?;
-    integration.set_safety(SAFETY);
+    integration.set_safety(SAFETY_IN_TURNS);
     Ok(Simulation {
         integration,
         relative: tolerance,
@@ -126,19 +103,12 @@ where
     })
 }
 
-impl<'a, S, T, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize>
-    Simulation<'a, S, T, U, V, N, C, M, W, K>
-where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-    M: Method,
-    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
-{
+impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// The same by another method: [`Dopri5`](crate::integrate::Dopri5) for pictures.
     ///
     /// # Errors
     /// None that [`simulate`] has not found.
-    pub fn method<M2: Method>(self) -> Result<Simulation<'a, S, T, U, V, N, C, M2, W, K>, Error> {
+    pub fn method<M2: Method>(self) -> Result<Simulation<'a, S, M2, W>, MotionError> {
         self.with(|motion| motion)
     }
 
@@ -147,27 +117,23 @@ where
     ///
     /// # Errors
     /// None that [`simulate`] has not found.
-    pub fn events<F, A, const K2: usize>(
+    pub fn events<F, A, const K: usize>(
         self,
-        crossings: [Crossing; K2],
+        crossings: [Crossing; K],
         values: F,
         action: A,
-    ) -> Result<Simulation<'a, S, T, U, V, N, C, M, Watched<F, A, K2>, K2>, Error>
+    ) -> Result<Simulation<'a, S, M, EventFunctions<F, A, K>>, MotionError>
     where
-        F: FnMut(&Moment<S, T, U, V, N, C>) -> Result<[T; K2], Error>,
-        A: FnMut(usize, &Moment<S, T, U, V, N, C>) -> Result<Then<Rates<S, T, U, V, N, C>>, Error>,
+        F: FnMut(&State<S>) -> Result<[S::Scalar; K], MotionError>,
+        A: FnMut(usize, &State<S>) -> Result<Then<Inputs<S>>, MotionError>,
     {
-        self.with(|motion| motion.watched(Watched { crossings, values, action }))
+        self.with(|motion| motion.watched(EventFunctions { crossings, values, action }))
     }
 
-    fn with<M2, W2, const K2: usize>(
+    fn with<M2: Method, W2: Watch<S>>(
         self,
-        motion: impl FnOnce(Motion<'a, S, W, T, U, V, N, C>) -> Motion<'a, S, W2, T, U, V, N, C>,
-    ) -> Result<Simulation<'a, S, T, U, V, N, C, M2, W2, K2>, Error>
-    where
-        M2: Method,
-        W2: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K2, C>,
-    {
+        motion: impl FnOnce(Motion<'a, S, W>) -> Motion<'a, S, W2>,
+    ) -> Result<Simulation<'a, S, M2, W2>, MotionError> {
         Ok(Simulation {
             integration: self.integration.with(motion)?,
             relative: self.relative,
@@ -195,8 +161,8 @@ where
     /// The largest length of a step; without it the whole interval.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if it is not positive and finite.
-    pub fn largest_step(mut self, length: T) -> Result<Self, Error> {
+    /// [`InputError::OutOfRange`] if it is not positive and finite.
+    pub fn largest_step(mut self, length: S::Scalar) -> Result<Self, InputError> {
         self.integration = self.integration.largest_step(length)?;
         Ok(self)
     }
@@ -204,8 +170,8 @@ where
     /// The length of the first step, in place of an estimate.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if it is not positive and finite.
-    pub fn first_step(mut self, length: T) -> Result<Self, Error> {
+    /// [`InputError::OutOfRange`] if it is not positive and finite.
+    pub fn first_step(mut self, length: S::Scalar) -> Result<Self, InputError> {
         self.integration = self.integration.first_step(length)?;
         Ok(self)
     }
@@ -219,28 +185,27 @@ where
 
     /// How far the simulation is.
     #[must_use]
-    pub fn t(&self) -> T {
+    pub fn t(&self) -> S::Scalar {
         self.state.t
     }
 
     /// The last state that was reached.
     #[must_use]
-    pub fn state(&self) -> &Moment<S, T, U, V, N, C> {
+    pub fn state(&self) -> &State<S> {
         &self.state
     }
 
     /// The forces of frictions, stops and drives at the last state that was reached, at an event those after it.
     ///
     /// # Errors
-    /// Those of the equations of motion, and [`Error::ChangePoint`] very near to one.
-    pub fn loads(&self) -> Result<Loads<T, Rates<S, T, U, V, N, C>, C>, Error> {
+    /// Those of the equations of motion, and [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) very near to one.
+    pub fn loads(&self) -> Result<Loads<S>, MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.closed(t, self.integration.state())?;
         let (contacts, drives) = motion.loads(t, &y)?;
-        let (_, rates) = motion.velocity(t, &y)?;
-        let drive_power = drives.dot(&rates);
-        if !contacts.iter().chain(drives.iter()).chain([&drive_power]).all(T::is_finite) {
-            return Err(Error::NotFiniteAt { quantity: "the loads", t: to_f64(t) });
+        let drive_power = drives.dot(&motion.velocity(t, &y)?.inputs);
+        if !contacts.iter().chain(drives.iter()).chain([&drive_power]).all(S::Scalar::is_finite) {
+            return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
         }
         Ok(Loads { contacts, drives: drives.into(), drive_power })
     }
@@ -265,11 +230,8 @@ where
 
     /// The states at these times, which follow one another in the direction of the simulation, by dense output and
     /// with the closures closed: the steps are those that are taken without them.
-    pub fn at<I: IntoIterator<Item = T>>(
-        &mut self,
-        times: I,
-    ) -> Outputs<'_, 'a, S, T, I::IntoIter, U, V, N, C, M, W, K> {
-        Outputs { simulation: self, times: times.into_iter(), failed: false }
+    pub fn at<I: IntoIterator<Item = S::Scalar>>(&mut self, times: I) -> States<'_, 'a, S, M, W, I::IntoIter> {
+        States { simulation: self, times: times.into_iter(), failed: false }
     }
 
     /// Simulates to the end. `watch` sees every state and how much of the interval is done; where it returns false the
@@ -277,7 +239,7 @@ where
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
-    pub fn finish(&mut self, mut watch: impl FnMut(&Moment<S, T, U, V, N, C>, f64) -> bool) -> Result<(), Error> {
+    pub fn finish(&mut self, mut watch: impl FnMut(&State<S>, f64) -> bool) -> Result<(), MotionError> {
         while let Some(state) = self.advance()? {
             if !watch(&state, self.progress()) {
                 break;
@@ -289,9 +251,11 @@ where
     /// To the end of the next step or to the next event; None where nothing follows.
     ///
     /// # Errors
-    /// What the scene returns where no shorter step avoids it, [`Error::Singular`] and [`Error::ChangePoint`] where the
-    /// motion cannot be followed, and those of [`Integration::advance`]. Nothing follows after an error.
-    pub fn advance(&mut self) -> Result<Option<Moment<S, T, U, V, N, C>>, Error> {
+    /// What the scene returns where no shorter step avoids it,
+    /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) and
+    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) where the motion cannot be followed, and those of
+    /// [`Integration::advance`]. Nothing follows after an error.
+    pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
         if self.is_over || (self.failure.is_none() && self.integration.is_over()) {
             return Ok(None);
         }
@@ -301,15 +265,8 @@ where
     }
 }
 
-impl<S, T, const U: usize, const V: usize, const N: usize, const C: usize, M, W, const K: usize> Iterator
-    for Simulation<'_, S, T, U, V, N, C, M, W, K>
-where
-    S: Scene<T, U, V, N, C>,
-    T: Real,
-    M: Method,
-    W: Watch<T, Position<S, T, U, V, N, C>, Rates<S, T, U, V, N, C>, K, C>,
-{
-    type Item = Result<Moment<S, T, U, V, N, C>, Error>;
+impl<S: Scene, M: Method, W: Watch<S>> Iterator for Simulation<'_, S, M, W> {
+    type Item = Result<State<S>, MotionError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()

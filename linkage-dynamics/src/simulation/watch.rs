@@ -2,7 +2,8 @@
 
 use super::state::State;
 use crate::integrate::Crossing;
-use linkage_runtime::{Error, Real};
+use crate::{Inputs, MotionError, Scene};
+use linkage_runtime::{Column, D, Dim};
 
 /// What happens at an event of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,62 +16,70 @@ pub enum Then<I> {
     Restart(I),
 }
 
-/// K functions of the state whose zeros are events, and what happens there. `I` is the type of the inputs by name.
-pub trait Watch<T, Q, I, const K: usize, const C: usize = 0> {
+/// Functions of the state of a scene whose zeros are events, and what happens there.
+pub trait Watch<S: Scene> {
+    /// The number of functions.
+    type Events: Dim;
+
     /// The functions.
     ///
     /// # Errors
     /// If they cannot be computed, which ends the simulation.
-    fn values(&mut self, state: &State<T, Q, C>) -> Result<[T; K], Error>;
+    fn values(&mut self, state: &State<S>) -> Result<Column<S::Scalar, Self::Events>, MotionError>;
     /// Which way they must pass through zero.
-    fn crossings(&self) -> [Crossing; K];
+    fn crossings(&self) -> Column<Crossing, Self::Events>;
     /// What happens at an event.
     ///
     /// # Errors
     /// To end the simulation with an error.
-    fn at_event(&mut self, event: usize, state: &State<T, Q, C>) -> Result<Then<I>, Error>;
+    fn at_event(&mut self, event: usize, state: &State<S>) -> Result<Then<Inputs<S>>, MotionError>;
 }
 
 /// No events.
 #[derive(Debug, Clone, Copy)]
 pub struct Unwatched;
 
-impl<T: Real, Q, I, const C: usize> Watch<T, Q, I, 0, C> for Unwatched {
-    fn values(&mut self, _: &State<T, Q, C>) -> Result<[T; 0], Error> {
-        Ok([])
+impl<S: Scene> Watch<S> for Unwatched {
+    type Events = D<0>;
+
+    fn values(&mut self, _: &State<S>) -> Result<Column<S::Scalar, D<0>>, MotionError> {
+        Ok(Column::from([]))
     }
 
-    fn crossings(&self) -> [Crossing; 0] {
-        []
+    fn crossings(&self) -> Column<Crossing, D<0>> {
+        Column::from([])
     }
 
-    fn at_event(&mut self, _: usize, _: &State<T, Q, C>) -> Result<Then<I>, Error> {
+    fn at_event(&mut self, _: usize, _: &State<S>) -> Result<Then<Inputs<S>>, MotionError> {
         Ok(Then::GoOn)
     }
 }
 
-/// Events by closures.
+/// Events by closures. Made by [`Simulation::events`](super::Simulation::events).
 #[derive(Debug, Clone)]
-pub struct Watched<F, A, const K: usize> {
+pub struct EventFunctions<F, A, const K: usize> {
     pub(super) crossings: [Crossing; K],
     pub(super) values: F,
     pub(super) action: A,
 }
 
-impl<F, A, T, Q, I, const K: usize, const C: usize> Watch<T, Q, I, K, C> for Watched<F, A, K>
+impl<S, F, A, const K: usize> Watch<S> for EventFunctions<F, A, K>
 where
-    F: FnMut(&State<T, Q, C>) -> Result<[T; K], Error>,
-    A: FnMut(usize, &State<T, Q, C>) -> Result<Then<I>, Error>,
+    S: Scene,
+    F: FnMut(&State<S>) -> Result<[S::Scalar; K], MotionError>,
+    A: FnMut(usize, &State<S>) -> Result<Then<Inputs<S>>, MotionError>,
 {
-    fn values(&mut self, state: &State<T, Q, C>) -> Result<[T; K], Error> {
-        (self.values)(state)
+    type Events = D<K>;
+
+    fn values(&mut self, state: &State<S>) -> Result<Column<S::Scalar, D<K>>, MotionError> {
+        (self.values)(state).map(Column::from)
     }
 
-    fn crossings(&self) -> [Crossing; K] {
-        self.crossings
+    fn crossings(&self) -> Column<Crossing, D<K>> {
+        Column::from(self.crossings)
     }
 
-    fn at_event(&mut self, event: usize, state: &State<T, Q, C>) -> Result<Then<I>, Error> {
+    fn at_event(&mut self, event: usize, state: &State<S>) -> Result<Then<Inputs<S>>, MotionError> {
         (self.action)(event, state)
     }
 }

@@ -1,6 +1,7 @@
 //! Published motions, and that equal runs are equal.
 
 use linkage_dynamics::integrate::{Counts, FixedStep, Integration, Method, System, Tolerance, dop853, dopri5};
+use linkage_runtime::D;
 use linkage_runtime::nalgebra::vector;
 use num_dual::Dual64;
 
@@ -23,9 +24,11 @@ fn the_bob_of_the_pendulum_is_where_the_exact_law_has_it() {
     }
 }
 
-fn cost<M: Method, S: System<f64, N, 0>, const N: usize>(mut motion: Integration<M, S, f64, N>) -> (Counts, State<N>) {
+fn cost<S: System<Scalar = f64, N = D<N>>, M: Method, const N: usize>(
+    mut motion: Integration<S, M>,
+) -> (Counts, State<N>) {
     motion.finish(|_, _| true).unwrap();
-    (motion.counts(), *motion.state())
+    (motion.counts(), (*motion.state()).into())
 }
 
 /// The Fortran codes DOP853 and DOPRI5 of Hairer and Wanner on Arenstorf's orbit, with first step 1e-4 and relative
@@ -105,7 +108,7 @@ fn units_change_nothing() {
         let start = vector![length, 0.0, 0.0, 1.25 * length / time];
         let motion = dop853(rate, (0.0, start), 20.0 * time, Tolerance::new(1e-10, sizes).unwrap()).unwrap();
         let steps: Vec<_> = motion.map(Result::unwrap).collect();
-        steps.into_iter().map(|step| (step.t / time, step.state.component_div(&sizes))).collect::<Vec<_>>()
+        steps.into_iter().map(|step| (step.t / time, step.state.component_div(&sizes.into()))).collect::<Vec<_>>()
     };
     assert_eq!(free(1.0, 1.0), free(length, time));
     assert!(free(1.0, 1.0).len() > 20);
@@ -116,7 +119,10 @@ fn units_change_nothing() {
             let sizes = vector![length, length / time];
             let start = vector![0.0, speed * length / time];
             let motion = dop853(rate, (0.0, start), 20.0 * time, Tolerance::new(1e-3, sizes).unwrap()).unwrap();
-            motion.map(Result::unwrap).map(|step| (step.t / time, step.state.component_div(&sizes))).collect::<Vec<_>>()
+            motion
+                .map(Result::unwrap)
+                .map(|step| (step.t / time, step.state.component_div(&sizes.into())))
+                .collect::<Vec<_>>()
         };
         assert_eq!(pulled(1.0, 1.0), pulled(length, time));
     }
@@ -160,7 +166,7 @@ fn single_precision_is_integrated_as_well() {
     let rate = |_: f32, y: &linkage_runtime::nalgebra::SVector<f32, 2>| Ok(vector![y[1], -y[0]]);
     let mut motion = dopri5(rate, (0.0, vector![1.0, 0.0]), 6.0, Tolerance::new(1e-5, [1.0; 2]).unwrap()).unwrap();
     let (_, y) = motion.at([3.0, 6.0]).last().unwrap().unwrap();
-    assert!((y[0] - 6f32.cos()).abs() < 1e-4, "{y}");
+    assert!((y[0] - 6f32.cos()).abs() < 1e-4, "{y:?}");
 }
 
 #[test]

@@ -2,18 +2,19 @@
 
 use std::cell::RefCell;
 
+use linkage_dynamics::MotionError;
 use linkage_dynamics::integrate::{Action, Crossing, Step, System, dop853, dopri5, watched};
-use linkage_runtime::Error;
 use linkage_runtime::nalgebra::vector;
+use linkage_runtime::{Column, D};
 
 use super::systems::{GRAVITY, HORIZONTAL, PERIOD, pendulum};
-use super::{Rate, State, tolerance};
+use super::{Entries, Rate, State, tolerance};
 
 fn falling(_: f64, y: &State<2>) -> Rate<2> {
     Ok(vector![y[1], -GRAVITY])
 }
 
-fn ball(restitution: f64) -> impl System<f64, 2, 1> {
+fn ball(restitution: f64) -> impl System<Scalar = f64, N = D<2>> {
     watched(
         falling,
         [Crossing::Falling],
@@ -22,7 +23,7 @@ fn ball(restitution: f64) -> impl System<f64, 2, 1> {
     )
 }
 
-fn events<const N: usize>(steps: impl Iterator<Item = Result<Step<f64, N>, Error>>) -> Vec<Step<f64, N>> {
+fn events<const N: usize>(steps: impl Iterator<Item = Result<Step<f64, D<N>>, MotionError>>) -> Vec<Step<f64, D<N>>> {
     steps.map(Result::unwrap).filter(|step| step.event.is_some()).collect()
 }
 
@@ -48,7 +49,7 @@ fn a_bouncing_ball_hits_the_ground_when_the_law_says() {
         for (step, t) in found.iter().zip(exact) {
             println!("{largest}: {:.1e} {:.1e}", step.t - t, step.state[0]);
             assert!((step.t - t).abs() < bound, "{:e} at {t}", step.t - t);
-            assert!(step.state[0].abs() < 1e-14, "{}", step.state);
+            assert!(step.state[0].abs() < 1e-14, "{:?}", step.state);
         }
     }
 }
@@ -60,7 +61,7 @@ fn a_ball_that_bounces_without_end_is_an_error() {
         let mut motion = dop853(ball(restitution), (0.0, vector![1.0, 0.0]), 10.0, tolerance(1e-9)).unwrap();
         let error = motion.find_map(Result::err).unwrap();
         let rest = flights * (2.0 / GRAVITY).sqrt();
-        let Error::EventsWithoutEnd { t, event: 0 } = error else { panic!("{error}") };
+        let MotionError::EventsWithoutEnd { t, event: 0 } = error else { panic!("{error}") };
         assert!((t - rest).abs() < bound && (motion.t() - rest).abs() < bound, "{t}");
         assert!(motion.next().is_none());
     }
@@ -150,23 +151,28 @@ struct Block {
     slips: bool,
 }
 
-impl System<f64, 2, 2> for Block {
-    fn rate(&mut self, t: f64, y: &State<2>) -> Rate<2> {
-        Ok(if self.slips { vector![y[1], t - y[0] - 1.0] } else { vector![0.0, 0.0] })
+impl System for Block {
+    type Scalar = f64;
+    type N = D<2>;
+    type Events = D<2>;
+    type Guards = D<0>;
+
+    fn rate(&mut self, t: f64, y: &Entries<2>) -> Result<Entries<2>, MotionError> {
+        Ok(if self.slips { [y[1], t - y[0] - 1.0] } else { [0.0, 0.0] }.into())
     }
 
     /// The spring pulls it loose; it comes to rest.
-    fn events(&mut self, t: f64, y: &State<2>) -> Result<[f64; 2], Error> {
-        Ok(if self.slips { [-1.0, y[1]] } else { [t - y[0] - 2.0, 1.0] })
+    fn events(&mut self, t: f64, y: &Entries<2>) -> Result<Entries<2>, MotionError> {
+        Ok(if self.slips { [-1.0, y[1]] } else { [t - y[0] - 2.0, 1.0] }.into())
     }
 
-    fn crossings(&self) -> [Crossing; 2] {
-        [Crossing::Rising, Crossing::Falling]
+    fn crossings(&self) -> Column<Crossing, D<2>> {
+        [Crossing::Rising, Crossing::Falling].into()
     }
 
-    fn at_event(&mut self, event: usize, _: f64, y: &State<2>) -> Result<Action<f64, 2>, Error> {
+    fn at_event(&mut self, event: usize, _: f64, y: &Entries<2>) -> Result<Action<Entries<2>>, MotionError> {
         self.slips = event == 0;
-        Ok(Action::Restart(vector![y[0], 0.0]))
+        Ok(Action::Restart([y[0], 0.0].into()))
     }
 }
 
@@ -184,7 +190,7 @@ fn a_block_sticks_and_slips_when_the_law_says() {
         assert_eq!(step.event, Some(n % 2));
         assert!((step.t - exact).abs() < 1e-10, "{n}: {:e}", step.t - exact);
         let place = exact - if n % 2 == 0 { 2.0 } else { 0.0 };
-        assert!((step.state[0] - place).abs() < 1e-10, "{n}: {}", step.state);
+        assert!((step.state[0] - place).abs() < 1e-10, "{n}: {:?}", step.state);
     }
 }
 

@@ -2,35 +2,36 @@
 
 use std::cell::Cell;
 
+use linkage_dynamics::MotionError;
 use linkage_dynamics::integrate::{Action, Crossing, FixedStep, System, Tolerance, dop853, dopri5, watched};
-use linkage_runtime::Error;
 use linkage_runtime::nalgebra::vector;
+use linkage_runtime::{Column, D, InputError, PositionError};
 
 use super::systems::{HORIZONTAL, pendulum};
-use super::{Rate, State, tolerance};
+use super::{Entries, State, tolerance};
 
 #[test]
 fn tolerances_that_cannot_be_met_are_refused() {
     for relative in [0.0, -1e-9, 2e-15, 1.5, f64::NAN, f64::INFINITY] {
-        let refused = Tolerance::<f64, 1>::new(relative, [1.0]).unwrap_err();
-        assert!(matches!(refused, Error::OutOfRange { quantity: "the relative tolerance", .. }), "{refused}");
+        let refused = Tolerance::<f64, D<1>>::new(relative, [1.0]).unwrap_err();
+        assert!(matches!(refused, InputError::OutOfRange { quantity: "the relative tolerance", .. }), "{refused}");
     }
-    assert!(Tolerance::<f64, 1>::new(2.5e-15, [1.0]).is_ok());
-    assert!(Tolerance::<f32, 1>::new(1e-7, [1.0]).is_err());
+    assert!(Tolerance::<f64, D<1>>::new(2.5e-15, [1.0]).is_ok());
+    assert!(Tolerance::<f32, D<1>>::new(1e-7, [1.0]).is_err());
     for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(Tolerance::<f64, 2>::new(1e-9, [1.0, scale]).is_err(), "{scale}");
+        assert!(Tolerance::<f64, D<2>>::new(1e-9, [1.0, scale]).is_err(), "{scale}");
     }
-    let text = Tolerance::<f64, 1>::new(0.0, [1.0]).unwrap_err().to_string();
-    assert_eq!(text, "the relative tolerance is 0e0: it must be between 2.220446049250313e-15 and 1e0");
+    let text = Tolerance::<f64, D<1>>::new(0.0, [1.0]).unwrap_err().to_string();
+    assert_eq!(text, "the relative tolerance is 0.0: it must be between 2.220446049250313e-15 and 1.0");
 }
 
 #[test]
 fn settings_that_make_no_sense_are_refused() {
     let new = |start: f64, y: State<2>, end: f64| dop853(pendulum, (start, y), end, tolerance(1e-9));
     for (start, end) in [(f64::NAN, 1.0), (0.0, f64::INFINITY)] {
-        assert!(matches!(new(start, HORIZONTAL, end), Err(Error::OutOfRange { .. })));
+        assert!(matches!(new(start, HORIZONTAL, end), Err(MotionError::Input(InputError::OutOfRange { .. }))));
     }
-    assert!(matches!(new(0.0, vector![0.0, f64::NAN], 1.0), Err(Error::NotFiniteAt { .. })));
+    assert!(matches!(new(0.0, vector![0.0, f64::NAN], 1.0), Err(MotionError::NotFinite { .. })));
     for length in [0.0, -1.0, f64::NAN] {
         assert!(new(0.0, HORIZONTAL, 1.0).unwrap().first_step(length).is_err());
         assert!(new(0.0, HORIZONTAL, 1.0).unwrap().largest_step(length).is_err());
@@ -46,7 +47,7 @@ fn an_empty_interval_has_its_state_and_no_steps() {
         pendulum(t, y)
     };
     let mut motion = dop853(rate, (3.0, HORIZONTAL), 3.0, tolerance(1e-9)).unwrap();
-    assert_eq!(motion.at([3.0, 3.0]).map(Result::unwrap).collect::<Vec<_>>(), [(3.0, HORIZONTAL); 2]);
+    assert_eq!(motion.at([3.0, 3.0]).map(Result::unwrap).collect::<Vec<_>>(), [(3.0, HORIZONTAL.into()); 2]);
     assert!(motion.is_over() && motion.next().is_none());
     assert_eq!((asked.get(), motion.progress()), (0, 1.0));
 }
@@ -57,14 +58,17 @@ fn output_times_must_lie_ahead() {
         let mut motion = dop853(pendulum, (0.0, HORIZONTAL), 1.0, tolerance(1e-9)).unwrap().largest_step(0.2).unwrap();
         let found: Vec<_> = motion.at(times).collect();
         assert_eq!(found.len(), 2, "nothing follows an error");
-        assert!(found[0].is_ok() && matches!(found[1], Err(Error::OutOfRange { .. })), "{found:?}");
+        assert!(
+            found[0].is_ok() && matches!(found[1], Err(MotionError::Input(InputError::OutOfRange { .. }))),
+            "{found:?}"
+        );
     }
 }
 
 /// y' = 1 / sqrt(1 - t), which ends at t = 1 with y = 2; the rate is then not a number or an error.
 #[test]
 fn a_motion_that_ends_is_followed_to_its_end() {
-    let own = Error::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 };
+    let own = MotionError::from(PositionError::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 });
     for (fails, expected) in [(false, None), (true, Some(own))] {
         let rate = move |t: f64, _: &State<1>| match expected {
             Some(error) if t > 1.0 => Err(error),
@@ -76,7 +80,8 @@ fn a_motion_that_ends_is_followed_to_its_end() {
             let error = states.pop().unwrap().unwrap_err();
             // The root itself ends in steps too small for either.
             assert!(
-                expected == Some(error) || matches!(error, Error::NotFiniteAt { .. } | Error::StepTooSmall { .. }),
+                expected == Some(error)
+                    || matches!(error, MotionError::NotFinite { .. } | MotionError::StepTooSmall { .. }),
                 "{fails}: {error}"
             );
             for (state, exact) in states.into_iter().zip([1.0 - 0.75f64.sqrt(), 1.0 - 0.25f64.sqrt()]) {
@@ -90,11 +95,12 @@ fn a_motion_that_ends_is_followed_to_its_end() {
 
 #[test]
 fn the_own_error_of_a_rate_comes_back_at_its_place() {
-    let own = Error::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 };
+    let own = MotionError::from(PositionError::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 });
     for wrong in [Err(own), Ok(vector![f64::NAN, 0.0]), Ok(vector![0.0, f64::INFINITY])] {
         let rate = move |t: f64, y: &State<2>| if t > 1.0 { wrong } else { pendulum(t, y) };
-        let fails =
-            |error: Error| wrong.map_or_else(|own| error == own, |_| matches!(error, Error::NotFiniteAt { .. }));
+        let fails = |error: MotionError| {
+            wrong.map_or_else(|own| error == own, |_| matches!(error, MotionError::NotFinite { .. }))
+        };
         let mut motion = dopri5(rate, (0.0, HORIZONTAL), 3.0, tolerance(1e-9)).unwrap();
         let error = motion.find_map(Result::err).unwrap();
         assert!(fails(error), "{error}");
@@ -107,7 +113,7 @@ fn the_own_error_of_a_rate_comes_back_at_its_place() {
         let start = (2.0, HORIZONTAL);
         let mut motion = dop853(rate, start, 3.0, tolerance(1e-9)).unwrap();
         assert!(fails(motion.next().unwrap().unwrap_err()) && motion.next().is_none());
-        assert_eq!((motion.t(), *motion.state()), start);
+        assert_eq!((motion.t(), State::from(*motion.state())), start);
 
         let mut motion = FixedStep::new(rate, (0.0, HORIZONTAL), 0.3).unwrap();
         (0..3).for_each(|_| motion.step().unwrap());
@@ -124,7 +130,7 @@ fn a_pole_needs_steps_too_small() {
     for relative in [1e-6, 1e-12] {
         let mut motion = dop853(rate, (0.0, vector![1.0]), 2.0, tolerance(relative)).unwrap();
         let error = motion.find_map(Result::err).unwrap();
-        let Error::StepTooSmall { t, step } = error else { panic!("{error}") };
+        let MotionError::StepTooSmall { t, step } = error else { panic!("{error}") };
         assert!((t - 1.0).abs() < 1e-4 && step > 0.0 && step < 1e-14, "{t} {step}");
     }
 }
@@ -135,13 +141,13 @@ fn stiff_equations_are_told_from_others() {
     let rate = |t: f64, y: &State<1>| Ok(vector![-1e4 * (y[0] - t.cos())]);
     let new = || dop853(rate, (0.0, vector![0.0]), 10.0, tolerance(1e-4)).unwrap();
     let error = new().find_map(Result::err).unwrap();
-    let Error::Stiff { t, product } = error else { panic!("{error}") };
+    let MotionError::Stiff { t, product } = error else { panic!("{error}") };
     assert!(t < 5.0 && product > 6.1 && product < 20.0, "{t} {product}");
     let mut motion = new().stiffness_test(0);
     motion.finish(|_, _| true).unwrap();
     assert!((motion.state()[0] - 10f64.cos()).abs() < 1e-3);
     let error = dopri5(rate, (0.0, vector![0.0]), 10.0, tolerance(1e-4)).unwrap().find_map(Result::err).unwrap();
-    assert!(matches!(error, Error::Stiff { .. }), "{error}");
+    assert!(matches!(error, MotionError::Stiff { .. }), "{error}");
     // A long motion that is not stiff.
     let mut motion = dopri5(pendulum, (0.0, HORIZONTAL), 200.0, tolerance(1e-10)).unwrap().stiffness_test(1);
     motion.finish(|_, _| true).unwrap();
@@ -156,7 +162,7 @@ fn steps_have_an_end() {
     assert_eq!((counts.accepted, counts.accepted + counts.rejected), (steps, 50));
     assert!(motion.t() > 1.0);
     let error = dop853(pendulum, (0.0, HORIZONTAL), 1e6, tolerance(1e-9)).unwrap().most_steps(50).find_map(Result::err);
-    assert!(matches!(error, Some(Error::TooManySteps { steps: 50, .. })));
+    assert!(matches!(error, Some(MotionError::TooManySteps { steps: 50, .. })));
 }
 
 #[test]
@@ -164,7 +170,7 @@ fn an_event_function_that_is_not_a_number_ends_the_motion() {
     let values = |t: f64, _: &State<2>| Ok([(1.0 - t).sqrt() + 1.0]);
     let system = watched(pendulum, [Crossing::Either], values, |_, _, _| Ok(Action::Stop));
     let error = dop853(system, (0.0, HORIZONTAL), 3.0, tolerance(1e-9)).unwrap().find_map(Result::err).unwrap();
-    assert!(matches!(error, Error::NotFiniteAt { quantity: "an event function", .. }), "{error}");
+    assert!(matches!(error, MotionError::NotFinite { quantity: "an event function", .. }), "{error}");
 }
 
 /// A pendulum of 1 m by an angle from a direction that follows it in quarters of a turn: its other coordinates are
@@ -177,23 +183,28 @@ struct Quarters {
 
 const QUARTER: f64 = std::f64::consts::FRAC_PI_2;
 
-impl System<f64, 2, 0> for Quarters {
-    fn rate(&mut self, t: f64, y: &State<2>) -> Rate<2> {
-        pendulum(t, &vector![y[0] + self.quarter * QUARTER, y[1]])
+impl System for Quarters {
+    type Scalar = f64;
+    type N = D<2>;
+    type Events = D<0>;
+    type Guards = D<0>;
+
+    fn rate(&mut self, t: f64, y: &Entries<2>) -> Result<Entries<2>, MotionError> {
+        pendulum(t, &vector![y[0] + self.quarter * QUARTER, y[1]]).map(Column::from)
     }
 
-    fn events(&mut self, _: f64, _: &State<2>) -> Result<[f64; 0], Error> {
-        Ok([])
+    fn events(&mut self, _: f64, _: &Entries<2>) -> Result<Entries<0>, MotionError> {
+        Ok([].into())
     }
 
-    fn before_step(&mut self, _: f64, y: &State<2>) -> Result<Option<State<2>>, Error> {
+    fn before_step(&mut self, _: f64, y: &Entries<2>) -> Result<Option<Entries<2>>, MotionError> {
         let turned = (y[0] / QUARTER).round();
         if turned == 0.0 {
             return Ok(None);
         }
         self.quarter += turned;
         self.switches += 1;
-        Ok(Some(vector![y[0] - turned * QUARTER, y[1]]))
+        Ok(Some([y[0] - turned * QUARTER, y[1]].into()))
     }
 }
 
@@ -221,19 +232,24 @@ fn coordinates_may_be_switched_between_steps() {
 #[derive(Default)]
 struct Rescaled(i32);
 
-impl System<f64, 1, 0> for Rescaled {
-    fn rate(&mut self, _: f64, z: &State<1>) -> Rate<1> {
+impl System for Rescaled {
+    type Scalar = f64;
+    type N = D<1>;
+    type Events = D<0>;
+    type Guards = D<0>;
+
+    fn rate(&mut self, _: f64, z: &Entries<1>) -> Result<Entries<1>, MotionError> {
         Ok(*z)
     }
 
-    fn events(&mut self, _: f64, _: &State<1>) -> Result<[f64; 0], Error> {
-        Ok([])
+    fn events(&mut self, _: f64, _: &Entries<1>) -> Result<Entries<0>, MotionError> {
+        Ok([].into())
     }
 
-    fn before_step(&mut self, _: f64, z: &State<1>) -> Result<Option<State<1>>, Error> {
+    fn before_step(&mut self, _: f64, z: &Entries<1>) -> Result<Option<Entries<1>>, MotionError> {
         if z[0] > 2.0 {
             self.0 += 1;
-            return Ok(Some(z / 4.0));
+            return Ok(Some(*z / 4.0));
         }
         Ok(None)
     }

@@ -1,6 +1,6 @@
 //! Measured orders: by how much errors fall when steps are halved.
 
-use linkage_dynamics::integrate::{Dop853, Dopri5, FixedStep, Integration, Method};
+use linkage_dynamics::integrate::{Dop853, Dopri5, FixedStep, Integration, Method, Rate};
 
 use super::systems::{circle, kepler};
 use super::{State, tolerance};
@@ -16,27 +16,29 @@ fn assert_slopes(name: &str, errors: &[f64], order: f64) {
     assert!(slopes.iter().all(|slope| (slope - order).abs() < 0.4), "{name}: {slopes:?} and not {order}");
 }
 
+/// The rate of the circle.
+type Kepler = fn(f64, &State<4>) -> super::Rate<4>;
+
 /// Steps of one length from a state on the circle, as no error is too large.
-fn steps<M: Method>(end: f64, h: f64) -> Integration<M, fn(f64, &State<4>) -> super::Rate<4>, f64, 4> {
-    let rate: fn(f64, &State<4>) -> super::Rate<4> = kepler;
-    let all = Integration::new(rate, (0.0, circle(0.0)), end, tolerance(1.0)).unwrap();
+fn steps<M: Method>(end: f64, h: f64) -> Integration<Rate<Kepler, State<4>>, M> {
+    let all = Integration::new(kepler as Kepler, (0.0, circle(0.0)), end, tolerance(1.0)).unwrap();
     all.first_step(h).unwrap().largest_step(h).unwrap()
 }
 
 /// The error after two units of time in `n` steps. (After a whole turn errors cancel.)
 fn after<M: Method>(n: u32) -> f64 {
-    let mut integration: Integration<M, _, _, 4> = steps(2.0, 2.0 / f64::from(n));
+    let mut integration: Integration<_, M> = steps(2.0, 2.0 / f64::from(n));
     assert_eq!(integration.by_ref().filter(|step| step.is_ok()).count(), n as usize);
-    (integration.state() - circle(2.0)).amax()
+    (State::from(*integration.state()) - circle(2.0)).amax()
 }
 
 /// Within one step from the exact state: the largest error of dense output.
 fn within_a_step<M: Method>(h: f64) -> f64 {
-    let mut integration: Integration<M, _, _, 4> = steps(h, h);
+    let mut integration: Integration<_, M> = steps(h, h);
     let times: Vec<f64> = (1..20).map(|i| h * f64::from(i) / 20.0).collect();
     let states: Vec<_> = integration.at(times).map(Result::unwrap).collect();
     assert_eq!((states.len(), integration.counts().accepted), (19, 1));
-    states.iter().fold(0.0, |most: f64, (t, y)| most.max((y - circle(*t)).amax()))
+    states.iter().fold(0.0, |most: f64, (t, y)| most.max((State::from(*y) - circle(*t)).amax()))
 }
 
 #[test]
@@ -59,7 +61,7 @@ fn fixed_steps_are_of_order_4() {
         let mut motion = FixedStep::new(kepler, (0.0, circle(0.0)), turn / f64::from(n)).unwrap();
         (0..n).for_each(|_| motion.step().unwrap());
         assert!((motion.t() - turn).abs() <= 4.0 * f64::EPSILON);
-        (motion.state() - circle(turn)).amax()
+        (State::from(*motion.state()) - circle(turn)).amax()
     });
     assert_slopes("RK4", &errors, 4.0);
 }

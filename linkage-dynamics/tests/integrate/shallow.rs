@@ -2,13 +2,14 @@
 
 use std::cell::Cell;
 
+use linkage_dynamics::MotionError;
 use linkage_dynamics::integrate::{Action, Counts, Crossing, Guard, System, dop853, dopri5, watched};
-use linkage_runtime::Error;
 use linkage_runtime::nalgebra::vector;
+use linkage_runtime::{Column, D};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use super::{Rate, State, tolerance};
+use super::{Entries, State, tolerance};
 
 /// A function of the time that has one minimum, at `place`, where it is less than zero by `depth`.
 #[derive(Debug, Clone, Copy)]
@@ -54,22 +55,27 @@ struct Guarded<'a> {
     looks: usize,
 }
 
-impl System<f64, 1, 0, 1> for Guarded<'_> {
-    fn rate(&mut self, _: f64, _: &State<1>) -> Rate<1> {
-        Ok(vector![1.0])
+impl System for Guarded<'_> {
+    type Scalar = f64;
+    type N = D<1>;
+    type Events = D<0>;
+    type Guards = D<1>;
+
+    fn rate(&mut self, _: f64, _: &Entries<1>) -> Result<Entries<1>, MotionError> {
+        Ok([1.0].into())
     }
 
-    fn events(&mut self, _: f64, _: &State<1>) -> Result<[f64; 0], Error> {
-        Ok([])
+    fn events(&mut self, _: f64, _: &Entries<1>) -> Result<Entries<0>, MotionError> {
+        Ok([].into())
     }
 
-    fn guards(&mut self, _: f64, y: &State<1>) -> Result<[Guard<f64>; 1], Error> {
+    fn guards(&mut self, _: f64, y: &Entries<1>) -> Result<Column<Guard<f64>, D<1>>, MotionError> {
         self.looks += 1;
         let [value, rate] = (self.guard)(y[0]);
-        Ok([Guard { value, rate: self.knows.then_some(rate) }])
+        Ok([Guard { value, rate: self.knows.then_some(rate) }].into())
     }
 
-    fn at_event(&mut self, _: usize, t: f64, _: &State<1>) -> Result<Action<f64, 1>, Error> {
+    fn at_event(&mut self, _: usize, t: f64, _: &Entries<1>) -> Result<Action<Entries<1>>, MotionError> {
         self.hit = Some(t);
         Ok(Action::Stop)
     }
@@ -188,20 +194,25 @@ struct Wall {
     hit: Option<f64>,
 }
 
-impl System<f64, 2, 0, 1> for Wall {
-    fn rate(&mut self, _: f64, y: &State<2>) -> Rate<2> {
-        Ok(vector![y[1], -self.frequency * self.frequency * y[0]])
+impl System for Wall {
+    type Scalar = f64;
+    type N = D<2>;
+    type Events = D<0>;
+    type Guards = D<1>;
+
+    fn rate(&mut self, _: f64, y: &Entries<2>) -> Result<Entries<2>, MotionError> {
+        Ok([y[1], -self.frequency * self.frequency * y[0]].into())
     }
 
-    fn events(&mut self, _: f64, _: &State<2>) -> Result<[f64; 0], Error> {
-        Ok([])
+    fn events(&mut self, _: f64, _: &Entries<2>) -> Result<Entries<0>, MotionError> {
+        Ok([].into())
     }
 
-    fn guards(&mut self, _: f64, y: &State<2>) -> Result<[Guard<f64>; 1], Error> {
-        Ok([Guard { value: self.place - y[0], rate: self.knows.then_some(-y[1]) }])
+    fn guards(&mut self, _: f64, y: &Entries<2>) -> Result<Column<Guard<f64>, D<1>>, MotionError> {
+        Ok([Guard { value: self.place - y[0], rate: self.knows.then_some(-y[1]) }].into())
     }
 
-    fn at_event(&mut self, _: usize, t: f64, _: &State<2>) -> Result<Action<f64, 2>, Error> {
+    fn at_event(&mut self, _: usize, t: f64, _: &Entries<2>) -> Result<Action<Entries<2>>, MotionError> {
         self.hit = Some(t);
         Ok(Action::Stop)
     }
@@ -302,16 +313,21 @@ struct Counted {
     looks: usize,
 }
 
-impl System<f64, 2, 0, 1> for Counted {
-    fn rate(&mut self, t: f64, y: &State<2>) -> Rate<2> {
+impl System for Counted {
+    type Scalar = f64;
+    type N = D<2>;
+    type Events = D<0>;
+    type Guards = D<1>;
+
+    fn rate(&mut self, t: f64, y: &Entries<2>) -> Result<Entries<2>, MotionError> {
         self.wall.rate(t, y)
     }
 
-    fn events(&mut self, t: f64, y: &State<2>) -> Result<[f64; 0], Error> {
+    fn events(&mut self, t: f64, y: &Entries<2>) -> Result<Entries<0>, MotionError> {
         self.wall.events(t, y)
     }
 
-    fn guards(&mut self, t: f64, y: &State<2>) -> Result<[Guard<f64>; 1], Error> {
+    fn guards(&mut self, t: f64, y: &Entries<2>) -> Result<Column<Guard<f64>, D<1>>, MotionError> {
         self.looks += 1;
         self.wall.guards(t, y)
     }
