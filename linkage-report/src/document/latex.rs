@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use super::outline::{Law, Pen};
-use linkage_runtime::derivation::{Block, Equation, Formula, Kernel, Matrix};
+use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel};
 
 /// A matrix with more rows or columns than this is a list of its entries.
 const LARGEST_MATRIX: usize = 6;
@@ -54,7 +54,7 @@ impl Pen for Latex<'_> {
         writeln!(self.out, "\\begin{{equation*}} {} = {} \\tag{{{number}}} \\end{{equation*}}", left.latex, right.latex)
     }
 
-    fn matrix(&mut self, matrix: &Matrix) -> fmt::Result {
+    fn matrix(&mut self, matrix: &FormulaMatrix) -> fmt::Result {
         let name = matrix.name.latex;
         let factor = matrix.factor.map_or_else(String::new, |factor| format!("{} ", factor.latex));
         if matrix.rows.max(matrix.columns) > LARGEST_MATRIX {

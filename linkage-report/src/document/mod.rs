@@ -4,7 +4,7 @@ mod latex;
 pub(crate) mod outline;
 mod text;
 
-use linkage_runtime::derivation::{Derivation, Scene};
+use linkage_runtime::derivation::{Derivation, SceneDerivation};
 
 /// What can be written down as a document.
 ///
@@ -20,7 +20,7 @@ use linkage_runtime::derivation::{Derivation, Scene};
 ///         loop r@phi = x@0 + y@(pi/2);
 ///     }
 /// }
-/// assert!(Crank::<f64>::DERIVATION.to_text().contains("x = r·cos φ"));
+/// assert!(Crank::<f64>::DERIVATION.to_text().contains("J = ∂Ψ/∂u"));
 /// ```
 pub trait Document {
     /// The whole of it in plain text.
@@ -39,7 +39,7 @@ impl Document for Derivation {
     }
 }
 
-impl Document for Scene {
+impl Document for SceneDerivation {
     fn to_text(&self) -> String {
         written(|text| outline::write_scene(self, &mut text::Text::new(text)))
     }

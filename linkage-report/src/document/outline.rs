@@ -2,7 +2,9 @@
 
 use core::fmt;
 
-use linkage_runtime::derivation::{Block, Derivation, Equation, Formula, Kernel, Matrix, Quantity, Scene};
+use linkage_runtime::derivation::{
+    Block, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, SceneDerivation,
+};
 
 /// An equation between whole matrices, in every notation.
 pub(crate) struct Law {
@@ -135,7 +137,7 @@ pub(super) trait Pen {
     fn law(&mut self, law: &Law) -> fmt::Result;
     fn display(&mut self, formula: &Formula) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result;
-    fn matrix(&mut self, matrix: &Matrix) -> fmt::Result;
+    fn matrix(&mut self, matrix: &FormulaMatrix) -> fmt::Result;
     /// The n-th block, counted from 1.
     fn block(&mut self, n: usize, block: &Block) -> fmt::Result;
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result;
@@ -242,7 +244,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
 }
 
 /// Writes the equations of motion with this pen.
-pub(super) fn write_scene(scene: &Scene, pen: &mut dyn Pen) -> fmt::Result {
+pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Result {
     let mut number = 0;
     pen.title(scene.scene)?;
     if !scene.parameters.is_empty() {

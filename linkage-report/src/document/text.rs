@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use super::outline::{Law, Pen};
-use linkage_runtime::derivation::{Block, Equation, Formula, Kernel, Matrix};
+use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel};
 
 pub(super) struct Text<'a> {
     out: &'a mut String,
@@ -59,7 +59,7 @@ impl Pen for Text<'_> {
         writeln!(self.out, "  ({number}){:width$}{equation}", "")
     }
 
-    fn matrix(&mut self, matrix: &Matrix) -> fmt::Result {
+    fn matrix(&mut self, matrix: &FormulaMatrix) -> fmt::Result {
         if let Some(factor) = matrix.factor {
             writeln!(self.out, "        {} = {factor} times the matrix with", matrix.name)?;
         }

@@ -1,7 +1,7 @@
 //! A linkage in motion: its links, pivots and slides as engineers draw them, in one SVG that moves without a
 //! script.
 
-use nalgebra::Vector2;
+use nalgebra::{Point2, Vector2};
 
 use super::{DrawingError, smil};
 
@@ -50,12 +50,11 @@ impl Part {
 ///
 /// ```
 /// use linkage_report::drawing::Animation;
-/// use linkage_runtime::nalgebra::Vector2;
 ///
 /// let mut picture = Animation::new("A crank", 4.0);
 /// for step in 0..=90_u32 {
 ///     let angle = f64::from(step * 4).to_radians();
-///     picture.frame([("A", Vector2::zeros()), ("B", Vector2::new(angle.cos(), angle.sin()))]);
+///     picture.frame([("A", [0.0, 0.0]), ("B", [angle.cos(), angle.sin()])]);
 /// }
 /// picture.ground("A").crank(&["A", "B"]).trace("B");
 /// assert!(picture.to_svg()?.starts_with("<svg"));
@@ -87,8 +86,12 @@ impl Animation {
     /// The next frame: where the points are, of the same names each time. Frames are equally far apart in time and
     /// near enough that nothing turns by half a turn between them; the last is the first again where the motion
     /// is to be smooth.
-    pub fn frame<N: Into<String>>(&mut self, points: impl IntoIterator<Item = (N, Vector2<f64>)>) -> &mut Self {
-        self.frames.push(points.into_iter().map(|(name, at)| (name.into(), at)).collect());
+    pub fn frame<N, P>(&mut self, points: impl IntoIterator<Item = (N, P)>) -> &mut Self
+    where
+        N: Into<String>,
+        P: Into<Point2<f64>>,
+    {
+        self.frames.push(points.into_iter().map(|(name, at)| (name.into(), at.into().coords)).collect());
         self
     }
 
@@ -98,8 +101,8 @@ impl Animation {
     }
 
     /// A line of the frame, hatched on the right of those who walk along it.
-    pub fn ground_line(&mut self, line: impl IntoIterator<Item = Vector2<f64>>) -> &mut Self {
-        self.part(Part::GroundLine(line.into_iter().collect()))
+    pub fn ground_line(&mut self, line: impl IntoIterator<Item = impl Into<Point2<f64>>>) -> &mut Self {
+        self.part(Part::GroundLine(line.into_iter().map(|point| point.into().coords).collect()))
     }
 
     /// A rigid link through points: a bar through two, a plate through more.

@@ -24,7 +24,7 @@ mod smil;
 
 use std::fmt;
 
-use nalgebra::Vector2;
+use nalgebra::{Point2, Vector2};
 
 pub use animation::Animation;
 
@@ -128,18 +128,18 @@ impl Drawing {
     }
 
     /// A pivot on the frame.
-    pub fn ground(&mut self, name: &str, at: impl Into<Vector2<f64>>) -> &mut Self {
-        self.place(name, at.into(), Mark::Ground)
+    pub fn ground(&mut self, name: &str, at: impl Into<Point2<f64>>) -> &mut Self {
+        self.place(name, at.into().coords, Mark::Ground)
     }
 
     /// A moving joint.
-    pub fn joint(&mut self, name: &str, at: impl Into<Vector2<f64>>) -> &mut Self {
-        self.place(name, at.into(), Mark::Joint)
+    pub fn joint(&mut self, name: &str, at: impl Into<Point2<f64>>) -> &mut Self {
+        self.place(name, at.into().coords, Mark::Joint)
     }
 
     /// A point that is not a joint, such as a centre of mass.
-    pub fn point(&mut self, name: &str, at: impl Into<Vector2<f64>>) -> &mut Self {
-        self.place(name, at.into(), Mark::Point)
+    pub fn point(&mut self, name: &str, at: impl Into<Point2<f64>>) -> &mut Self {
+        self.place(name, at.into().coords, Mark::Point)
     }
 
     /// A straight bar between two points, given by name.
@@ -149,8 +149,8 @@ impl Drawing {
     }
 
     /// The path of a point, such as a coupler curve.
-    pub fn path(&mut self, points: impl IntoIterator<Item = Vector2<f64>>) -> &mut Self {
-        self.paths.push(points.into_iter().collect());
+    pub fn path(&mut self, points: impl IntoIterator<Item = impl Into<Point2<f64>>>) -> &mut Self {
+        self.paths.push(points.into_iter().map(|point| point.into().coords).collect());
         self
     }
 

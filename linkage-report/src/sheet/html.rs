@@ -1,7 +1,7 @@
 //! Small pieces of HTML.
 
 use crate::document::outline::Law;
-use linkage_runtime::derivation::{Formula, Matrix};
+use linkage_runtime::derivation::{Formula, FormulaMatrix};
 
 /// Text for the inside of an element or of an attribute in double quotes.
 pub(super) fn escape(text: &str) -> String {
@@ -38,8 +38,8 @@ const LARGEST_MATRIX: usize = 6;
 
 /// The MathML and LaTeX of `name = matrix`, or of each entry if there are many. A `law` such as
 /// J = ∂Ψ/∂u says what the matrix is.
-pub(super) fn matrix(matrix: &Matrix, law: Option<&Law>) -> Vec<(String, String)> {
-    let Matrix { name, factor, rows, columns, .. } = matrix;
+pub(super) fn matrix(matrix: &FormulaMatrix, law: Option<&Law>) -> Vec<(String, String)> {
+    let FormulaMatrix { name, factor, rows, columns, .. } = matrix;
     let (before, before_latex) =
         factor.map_or_else(Default::default, |factor| (factor.mathml.to_owned(), factor.latex.to_owned()));
     if *rows.max(columns) > LARGEST_MATRIX {

@@ -18,7 +18,7 @@ mod lines;
 mod numbers;
 mod page;
 
-use linkage_runtime::derivation::{Derivation, Scene};
+use linkage_runtime::derivation::{Derivation, SceneDerivation};
 
 #[derive(Debug, Clone, PartialEq)]
 struct Table {
@@ -37,7 +37,7 @@ struct Picture {
 pub struct Sheet<'a> {
     derivation: &'a Derivation,
     title: Option<String>,
-    scenes: Vec<&'a Scene>,
+    scenes: Vec<&'a SceneDerivation>,
     tables: Vec<Table>,
     pictures: Vec<Picture>,
 }
@@ -56,7 +56,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// The equations of motion of a scene of this mechanism, behind the kinematics.
-    pub fn scene(&mut self, scene: &'a Scene) -> &mut Self {
+    pub fn scene(&mut self, scene: &'a SceneDerivation) -> &mut Self {
         self.scenes.push(scene);
         self
     }

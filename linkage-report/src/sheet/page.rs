@@ -1,7 +1,9 @@
 //! The page, section by section.
 
 use crate::document::outline::{self, Law, words};
-use linkage_runtime::derivation::{Derivation, Equation, Formula, Kernel, Matrix, Quantity, Scene, Symbol};
+use linkage_runtime::derivation::{
+    Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, SceneDerivation, Symbol,
+};
 
 use super::html::{display, escape, inline, matrix, svg_address};
 use super::{Picture, Sheet, Table, lines, numbers};
@@ -85,7 +87,7 @@ impl Page {
         self.push("</div>");
     }
 
-    fn matrix(&mut self, which: &Matrix, law: Option<&Law>) {
+    fn matrix(&mut self, which: &FormulaMatrix, law: Option<&Law>) {
         let lines: String = matrix(which, law).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
         self.push(&format!("<div class=\"law\">{lines}</div>"));
     }
@@ -256,7 +258,7 @@ impl Page {
         });
     }
 
-    fn scene(&mut self, scene: &Scene) {
+    fn scene(&mut self, scene: &SceneDerivation) {
         self.section(&format!("{}: <code>{}</code>", words::MOTION, escape(scene.scene)), |page| {
             if !scene.parameters.is_empty() {
                 let given = list(scene.parameters.iter().map(|Symbol { formula, .. }| formula));
