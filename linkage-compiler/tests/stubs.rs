@@ -1,4 +1,4 @@
-//! The stub of a mechanism has the functions of the mechanism: their names, arguments and results, in the same order.
+//! The stub of a mechanism has the functions of the mechanism: their names, arguments and results.
 
 use std::fs;
 use std::path::Path;
@@ -18,14 +18,17 @@ fn tokens_of(path: &Path) -> Option<TokenStream> {
     }
 }
 
-/// The public functions as text, without description and body.
+/// The public functions as text, without description and body, in alphabetical order: the plan has them in another order
+/// than the stub, which has that of the emitted code.
 fn signatures<B>(functions: &[Function<B>]) -> Vec<String> {
-    let public = functions.iter().filter(|function| function.access == Access::Public);
+    let public = functions.iter().filter(|function| matches!(function.access, Access::Public | Access::Hidden));
     let signature = |function: &Function<B>| {
         let Function { name, is_method, arguments, returns, is_fallible, .. } = function;
         format!("{name} {is_method} {arguments:?} -> {returns:?} {is_fallible}")
     };
-    public.map(signature).collect()
+    let mut all: Vec<String> = public.map(signature).collect();
+    all.sort();
+    all
 }
 
 #[test]

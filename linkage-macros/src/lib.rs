@@ -40,7 +40,7 @@ use proc_macro::TokenStream;
 /// let guess = FourBarCoordinates { theta2: 0.35, theta3: 1.2, theta4: -0.9 };
 /// let solution = four_bar.solve(&guess)?;
 /// let motion = four_bar.motion(&solution.coordinates, 41.9, 0.0)?;
-/// assert!((motion.velocity.theta3 + 18.4).abs() < 0.1);
+/// assert!((motion.rates.theta3 + 18.4).abs() < 0.1);
 /// assert!(motion.points.g3.position.y > 30.0);
 /// # Ok::<(), linkage::Error>(())
 /// ```
@@ -243,9 +243,9 @@ use proc_macro::TokenStream;
 /// let [_, x] = piston.velocity_ratio_derivatives(&pose)?;
 /// assert!((x[(0, 0)] + 4.0 / 3.0).abs() < 1e-14);
 /// // x is even in phi, so that at constant speed there is no jerk here.
-/// let velocity = piston.velocity(&pose, 1.0)?;
-/// let acceleration = piston.acceleration(&pose, &velocity, 0.0)?;
-/// assert!(piston.jerk(&pose, &velocity, &acceleration, 0.0)?.x.abs() < 1e-14);
+/// let rates = piston.velocity(&pose, 1.0)?;
+/// let accelerations = piston.acceleration(&pose, &rates, 0.0)?;
+/// assert!(piston.jerk(&pose, &rates, &accelerations, 0.0)?.x.abs() < 1e-14);
 /// // With a rod half as long as the crank the joint stays within 30 degrees of the line.
 /// let short = Piston::new(2.0, 1.0);
 /// let limits = short.limits(0.1, PistonBranch { psi: linkage::Slope::Rising })?;
@@ -305,7 +305,7 @@ use proc_macro::TokenStream;
 /// assert_eq!(loaded.derivative(0.0, &state)?[3], acceleration);
 ///
 /// let driven = Driven::default();
-/// let [[_, speed, _]] = driven.drives(0.0);
+/// let [linkage::Prescribed { rate: speed, .. }] = driven.drives(0.0);
 /// let [torque] = driven.drive_forces(0.0, &q, speed)?;
 /// assert!(torque.abs() < 1e3 && driven.reactions(0.0, &q, speed)?.norm() > 0.0);
 /// # Ok::<(), linkage::Error>(())
@@ -342,10 +342,9 @@ use proc_macro::TokenStream;
 /// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; the power that is applied, also by drives, and that is dissipated |
 /// | `reactions(t, &q, v')` | Lagrange's multipliers: the force where a loop is cut, of its left side on its right side |
 /// | `equilibrium(t, &guess)` | the position near the guess where the forces of the inputs that are not driven vanish at rest, by Newton's method; `balance(t, &q)`: these forces and their derivatives, whose signs tell what is stable |
-/// | `contacts(t, &q, &q')`, `equations(t, &q, v')` | with frictions or stops: each with its scalar and its limits; M, Q, W and u'' at v'' = 0, without them |
 /// | `check()` | refuses by their name negative masses, inertias and frictions, empty ranges of stops, and restitutions that are not between 0 and 1 |
 /// | `unreduced(t, &q, &q')` | with `inertia`: M and F of `M q'' + Psi_q' lambda = F` in all coordinates, whichever are independent; without frictions and stops |
-/// | the trait `Scene` | with `inertia`: the state (q, v') of an integrator, its derivative, its projection on the closures |
+/// | the trait `Scene` | with `inertia`: the state (q, v') of an integrator, its derivative, its projection on the closures; `contacts`: each friction and stop with its scalar and its limits; `equations`: M, Q, W and u'' at v'' = 0, without them |
 ///
 /// ## Simulation
 ///
@@ -375,7 +374,7 @@ use proc_macro::TokenStream;
 /// let mut motion = simulate(&scene, (0.0, start, -1.0), 1.0, 1e-9)?;
 /// for state in motion.at([0.25, 0.5, 0.75, 1.0]) {
 ///     let state = state?;
-///     println!("{:4} s: {:8.5} rad, {:8.5} rad/s", state.t, state.q.phi, state.rate.phi);
+///     println!("{:4} s: {:8.5} rad, {:8.5} rad/s", state.t, state.q.phi, state.rates.phi);
 /// }
 /// // The piston drives it over both dead points, turn after turn.
 /// assert!(motion.state().q.phi > 6.5 && motion.passages().exchanges > 4);
@@ -386,6 +385,53 @@ use proc_macro::TokenStream;
 /// let mut motion = motion.events([Crossing::Rising], |state| Ok([turn(state.q.phi)]), |_, _| Ok(Then::Stop))?;
 /// motion.finish(|_state, _progress| true)?;
 /// assert!(turn(motion.state().q.phi).abs() < 1e-12);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
+/// A mechanism, its path and its simulation are fields of your own struct by the mechanism and the scene alone; functions
+/// for any of them take `M: Mechanism` and `S: Scene`.
+///
+/// ```
+/// # linkage::linkage! {
+/// #     #[derive(Debug, Clone)]
+/// #     pub mechanism Engine {
+/// #         param r = 0.05, l = 0.18, j = 0.01, m = 0.9, g = 9.81;
+/// #         input z;
+/// #         unknown phi, psi;
+/// #         loop r@phi + l@psi = (z, 0);
+/// #         body crank { inertia j; angle phi; }
+/// #         body piston { mass m; center (z, 0); }
+/// #         scene Running { inertia; gravity (0, -g); }
+/// #     }
+/// # }
+/// use linkage::Mechanism;
+/// use linkage::continuation::{Direction, Path, PathStep};
+/// use linkage::simulation::{Simulation, simulate};
+///
+/// struct Bench<'a> {
+///     engine: Engine,
+///     by_hand: Path<'a, Engine>,
+///     by_weight: Simulation<'a, Running>,
+///     reached: Vec<PathStep<Engine>>,
+/// }
+///
+/// /// The largest residual of the closures, of any mechanism.
+/// fn gap<M: Mechanism<Scalar = f64>>(mechanism: &M, q: &M::Coordinates) -> f64 {
+///     mechanism.residual(&mechanism.pose_at(q)).largest()
+/// }
+///
+/// let (engine, scene) = (Engine::default(), Running::default());
+/// let start = EngineCoordinates { z: 0.2, phi: 0.7, psi: -0.2 };
+/// let mut bench = Bench {
+///     engine: engine.clone(),
+///     by_hand: Path::new(&engine, &start, Direction::Decreasing)?,
+///     by_weight: simulate(&scene, (0.0, start, -1.0), 1.0, 1e-9)?,
+///     reached: Vec::new(),
+/// };
+/// bench.reached.push(bench.by_hand.advance_to(0.16)?);
+/// bench.by_weight.finish(|_state, _progress| true)?;
+/// assert!(gap(&bench.engine, &bench.reached[0].position) < 1e-15);
+/// assert!(gap(&bench.engine, &bench.by_weight.state().q) < 1e-15);
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
@@ -421,14 +467,13 @@ use proc_macro::TokenStream;
 ///     }
 /// }
 /// use linkage::contact::{Contacts, ReducedEquations};
-/// use linkage::nalgebra::SVector;
-/// use linkage::{Mode, Scene};
+/// use linkage::{Column, D, Mode, Scene};
 ///
 /// let press = Working::default();
 /// let guess = PressCoordinates { phi: 1.2, psi: 2.9, z: 0.4 };
 /// let state = press.start(0.0, &guess, &0.0.into())?;
 /// let (q, rates) = Working::parts(&state);
-/// let at = |v: &SVector<f64, 1>| ReducedEquations::of(&press, 0.0, &Working::state(&q, &v[0].into()));
+/// let at = |v: &Column<f64, D<1>>| ReducedEquations::of(&press, 0.0, &Working::state(&q, &(*v).into()));
 /// // Half a newton metre is less than the friction of the ram holds at this lever.
 /// let (contacts, rates) = Contacts::begin(0.0, &rates.into(), at)?;
 /// assert_eq!(contacts.modes, [Mode::Stick, Mode::Stick, Mode::Open]);
@@ -436,7 +481,7 @@ use proc_macro::TokenStream;
 ///
 /// // Ten times as much moves it.
 /// let press = Working { torque: 5.0, ..press };
-/// let at = |v: &SVector<f64, 1>| ReducedEquations::of(&press, 0.0, &Working::state(&q, &v[0].into()));
+/// let at = |v: &Column<f64, D<1>>| ReducedEquations::of(&press, 0.0, &Working::state(&q, &(*v).into()));
 /// let (contacts, rates) = Contacts::begin(0.0, &rates, at)?;
 /// assert_eq!(contacts.modes, [Mode::SlipForward, Mode::SlipBackward, Mode::Open]);
 /// assert!(contacts.motion(&at(&rates)?)?.acceleration[0] > 50.0);
@@ -457,9 +502,9 @@ use proc_macro::TokenStream;
 /// }
 /// assert_eq!((impacts > 3, last), (true, Some(("stop on z", Change::Rests))));
 /// let end = motion.state();
-/// assert_eq!((end.mode("stop on z"), end.rate.z), (Some(Mode::AtLower), 0.0));
+/// assert_eq!((end.mode("stop on z"), end.rates.z), (Some(Mode::AtLower), 0.0));
 /// // The stop carries what the motor presses: by the lever dz/dphi less than 5 N m would suggest.
-/// let ratio = press.mechanism.motion(&end.q, 1.0, 0.0)?.velocity.z;
+/// let ratio = press.mechanism.motion(&end.q, 1.0, 0.0)?.rates.z;
 /// println!("{:.1} N", motion.loads()?.contacts[2] * ratio);
 /// # Ok::<(), linkage::Error>(())
 /// ```
@@ -474,7 +519,7 @@ use proc_macro::TokenStream;
 ///   may be missed: of random sums of sines 0.1 % with two extrema in a step, 1 % with three, 5 % with four, 25 % with five. The module
 ///   `integrate` says it in full; `largest_step` makes it finer.
 /// - What rests on a stop without a load rests there, and so do two bodies that have met without rebound.
-/// - Time runs forward: a simulation back in time of a scene with frictions or stops is `Error::Irreversible`.
+/// - Time runs forward: a simulation back in time of a scene with frictions or stops is `MotionError::Irreversible`.
 /// - `power` counts limit |s'| of each friction as dissipated; in scenes with contacts it leaves out the power of drives,
 ///   which depends on what sticks: `loads` of a simulation has it, with the forces of frictions, stops and drives.
 ///
@@ -489,27 +534,29 @@ use proc_macro::TokenStream;
 /// | item | what |
 /// |---|---|
 /// | `FourBar<T = f64>` | the parameters; `new` up to seven of them, `Default` for `f64`, `map` to another scalar, conversions from and to arrays |
-/// | `FourBarCoordinates<T>` | q by name, also q' and q''; u before v; conversions from and to `SVector` |
-/// | `FourBarInputs<T>`, `FourBarUnknowns<T>` | v and u by name; a single input also from the bare number |
+/// | `FourBarCoordinates<T>`, `FourBarRates<T>`, `FourBarAccelerations<T>` | q, q' and q'' by name, with `derive jerk` also `FourBarJerks<T>`, q'''; u before v; conversions from and to `SVector` |
+/// | `FourBarInputs<T>` | v by name, also v' and v''; a single input also from the bare number, and all from q, q' or q'' |
 /// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | the points and outputs by name |
-/// | `FourBarPose<T>`, `pose_at(&q)` | directions, determinants, the inputs and the angles whose number matters, values of your own functions: what follows takes a pose and needs no trigonometry; `coordinates()` gives the coordinates back |
-/// | `residual`, `closure_sizes` | Psi, and the sum of the magnitudes of its terms |
-/// | `jacobian_unknowns`, `jacobian_inputs`, `jacobian` | J, A and the whole of `Psi_q` |
-/// | `determinant`, `block_determinants` | det J, and the determinants of its blocks in the order in which they are solved |
-/// | `solve_jacobian`, `velocity_ratios` | J^-1 r, and W |
-/// | `velocity`, `gamma`, `acceleration` | q', the quadratic velocity term, q'' |
-/// | `points`, `point_velocities`, `point_accelerations`, `point_ratios` | of all points; the ratios are W_l |
-/// | `outputs`, `output_velocities`, `output_accelerations`, `output_ratios` | of all outputs |
+/// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once: `FourBarMotion<T>` with `position`, `rates`, `accelerations`, `points` and `outputs` |
 /// | `assemble(v, branch)` | position in closed form where every block has one: group by group, on the branch that is asked for |
 /// | `assemble_near(&guess, branch)` | where a block has no closed form, instead of `assemble`: that block by Newton's method from the guess, all others in closed form; where the number of an angle matters, beside `assemble`: in the turn nearest to the guess, see below |
-/// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` with all turns 0, `all()` of these |
 /// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values; without the branches on which a group is undetermined |
-/// | `solve(&guess)` | position by Newton's method, with its iterations, residual and branch |
-/// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once |
+/// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` with all turns 0, `all()` of these |
+/// | `solve(&guess)` | position by Newton's method on the branch of the guess, with its iterations and residual |
+/// | `solve_any_branch(&guess)` | the same on whatever branch the search ends, and whether that is the branch of the guess |
+/// | `FourBarPose<T>`, `pose_at(&q)` | directions, determinants, the inputs and the angles whose number matters, values of your own functions: what follows takes a pose and needs no trigonometry; `coordinates()` gives the coordinates back |
+/// | `velocity(&pose, v')`, `acceleration(&pose, &q', v'')` | q' and q'' |
+/// | `points(&pose)`, `point_velocities(&pose, &q')`, `point_accelerations(&pose, &q', &q'')` | of all points |
+/// | `outputs(&pose)`, `output_velocities(&pose, &q')`, `output_accelerations(&pose, &q', &q'')` | of all outputs |
+/// | `velocity_ratios`, `point_ratios`, `output_ratios` | W, and W_l with l' = W_l v' of each point and output |
+/// | `residual`, `closure_sizes` | Psi, and the sum of the magnitudes of its terms |
+/// | `jacobian`, `jacobian_unknowns`, `jacobian_inputs` | the whole of `Psi_q`, J and A |
+/// | `determinant`, `block_determinants` | det J, and the determinants of its blocks in the order in which they are solved |
+/// | `gamma(&pose, &q')`, `solve_jacobian(&pose, &r)` | the quadratic velocity term, and J^-1 r |
 /// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and the like of points and outputs | where a `derive` statement asks for them |
 /// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` makes a document of it |
 ///
-/// `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates nothing, cannot panic and
+/// Their errors are `PositionError`. `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates nothing, cannot panic and
 /// needs no standard library.
 ///
 /// The closures are solved block by block: unknowns that depend on one another form a block, a block of
@@ -530,7 +577,7 @@ use proc_macro::TokenStream;
 /// so that a wheel behind an angle that goes through pi is put into another mesh unless the turn is counted.
 /// `assemble_near` counts it: it takes the turn nearest to a guess, such as the position before. `branch_of` finds the
 /// turns of a pose, and `assemble` on that branch gives the same numbers back. Two positions of different turns are
-/// still on one motion: `same_branch` compares the signs of determinants only. Inputs keep the number that they are
+/// still on one motion: `solve` compares the signs of determinants only. Inputs keep the number that they are
 /// given; an angle that a pose holds as its direction alone comes out of `coordinates()` between -pi and pi.
 ///
 /// ```
@@ -561,12 +608,12 @@ use proc_macro::TokenStream;
 ///
 /// A group can have no position at an input, one, two, or infinitely many. `assemble` says which:
 ///
-/// - Links that do not reach each other: `Error::Unbuildable`, with the gap. Guides that are parallel and apart, and an
+/// - Links that do not reach each other: `PositionError::Unbuildable`, with the gap. Guides that are parallel and apart, and an
 ///   unknown whose factor vanishes in an equation that needs it, are unbuildable too.
 /// - Links that just touch, flat at a limit: the position, whose determinant is zero; both branches meet there. A gap of
 ///   less than an epsilon, relative to the terms of the loop equation, counts as touching: rounding leaves no smaller one.
 /// - A dyad whose outer joints coincide: with links of one length it can stand anywhere, which is
-///   `Error::Undetermined`; with links of different lengths it is unbuildable. Joints coincide within eight epsilons of the
+///   `PositionError::Undetermined`; with links of different lengths it is unbuildable. Joints coincide within eight epsilons of the
 ///   terms that they are made of. Likewise undetermined are a slotted arm whose pin is in its pivot, guides on one line, a
 ///   link without length, and `0 * u = 0`.
 ///

@@ -148,9 +148,9 @@ pub(super) fn of_scene(
         impl #name {
             /// The equations of motion as data: every formula as text, `LaTeX` and `MathML`, and the work of each
             /// function. It costs nothing where it is not used.
-            pub const DERIVATION: &'static #root::__rt::derivation::prelude::Scene = {
+            pub const DERIVATION: &'static #root::__rt::derivation::prelude::SceneDerivation = {
                 use #root::__rt::derivation::prelude::*;
-                &Scene {
+                &SceneDerivation {
                     scene: #text,
                     mechanism: #of,
                     parameters: #parameters,
@@ -328,7 +328,7 @@ impl<'a> Document<'a> {
             }
         }
         let [rows, columns] = [rows.len(), columns].map(Literal::usize_unsuffixed);
-        quote!(Matrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &[#(#entries),*] })
+        quote!(FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &[#(#entries),*] })
     }
 
     fn block(&mut self, id: BlockId, inverse: Option<&Inverse>) -> TokenStream {
@@ -349,7 +349,7 @@ impl<'a> Document<'a> {
                 unknowns: #unknowns,
                 equations: &[#(#equations),*],
                 group: #group,
-                method: Method::#method,
+                method: BlockMethod::#method,
                 determinant: #determinant,
                 inverse: #inverse,
             }

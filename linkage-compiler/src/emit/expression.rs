@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::names::{ident, string};
-use crate::graph::Number;
+use crate::graph::{Function, Number};
 use crate::program::{Expression, Pattern, Statement, Type};
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -73,7 +73,7 @@ fn written(value: &Expression) -> TokenStream {
             quote!(-#inside)
         }
         Expression::Elementary(function, arguments) => {
-            let name = ident(function.operation().name);
+            let name = ident(method(*function));
             let first = arguments.first().map(|first| operand(first, Binding::Atom));
             let others = arguments.iter().skip(1);
             quote!(#first.#name(#(#others),*))
@@ -217,7 +217,6 @@ impl ToTokens for Pattern {
             }
             Self::Ignored | Self::Local(_) => quote!(_),
             Self::List(patterns) => quote!([#(#patterns),*]),
-            Self::First(first) => quote!([#first, ..]),
             Self::Tuple(patterns) => quote!((#(#patterns),*)),
             Self::Struct { of, fields, is_whole } => {
                 let of = path(of);
@@ -256,10 +255,15 @@ impl ToTokens for Type {
                 let (rows, columns) = (literal(*rows), literal(*columns));
                 quote!(__rt::SMatrix<T, #rows, #columns>)
             }
+            Self::Point => quote!(__rt::Point2<T>),
             Self::Plane => quote!(__rt::Vector2<T>),
             Self::Runtime(name, sizes) => {
                 let (name, sizes) = (runtime(name), sizes.iter().map(|size| literal(*size)));
                 quote!(#name<T #(, #sizes)*>)
+            }
+            Self::Sized(name, sizes) => {
+                let (name, sizes) = (runtime(name), sizes.iter().map(|size| literal(*size)));
+                quote!(#name<T #(, __rt::D<#sizes>)*>)
             }
             Self::Around(name, item) => {
                 let name = runtime(name);
@@ -270,14 +274,14 @@ impl ToTokens for Type {
                 quote!([#item; #count])
             }
             Self::Tuple(items) => quote!((#(#items),*)),
-            Self::Kinematics { pose, coordinates, unknowns, inputs } => {
-                let [pose, coordinates] = [pose, coordinates].map(|name| ident(name));
+            Self::Kinematics { pose, rates, unknowns, inputs } => {
+                let [pose, rates] = [pose, rates].map(|name| ident(name));
                 let [unknowns, inputs] = [unknowns, inputs].map(|count| literal(*count));
-                quote!(__rt::Kinematics<#pose<T>, #coordinates<T>, T, #unknowns, #inputs>)
+                quote!(__rt::Kinematics<#pose<T>, #rates<T>, T, #unknowns, #inputs>)
             }
             Self::Branches { branch, pose } => {
                 let (branch, pose) = (ident(branch), ident(pose));
-                quote!(impl __rt::Iterator<Item = __rt::Result<(#branch, #pose<T>), __rt::Error>> + '_)
+                quote!(impl __rt::Iterator<Item = __rt::Result<(#branch, #pose<T>), __rt::PositionError>> + '_)
             }
         });
     }
@@ -287,7 +291,7 @@ impl ToTokens for Type {
 fn path(of: &Type) -> TokenStream {
     match of {
         Type::Own(name) | Type::Bare(name) | Type::Each(name, _) => ident(name).into_token_stream(),
-        Type::Runtime(name, _) => runtime(name),
+        Type::Runtime(name, _) | Type::Sized(name, _) => runtime(name),
         other => other.to_token_stream(),
     }
 }
@@ -331,6 +335,15 @@ pub(super) fn plain(number: Number) -> TokenStream {
         None => separated(magnitude.to_f64()),
     };
     if number.is_negative() { quote!(-#tokens) } else { tokens }
+}
+
+/// The method of the runtime's `Real`, or of nalgebra's `RealField`, that computes a function.
+fn method(function: Function) -> &'static str {
+    match function {
+        Function::Sin => "sine",
+        Function::Cos => "cosine",
+        _ => function.operation().name,
+    }
 }
 
 /// A constant as a scalar of any type.

@@ -1,6 +1,6 @@
 //! Functions of a program as Rust.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::expression::argument;
@@ -8,8 +8,9 @@ use super::names::{comment, ident};
 use crate::lower::Code;
 use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value, count};
 
-/// A function with its description; without a body a stub that only has the right signature.
-pub(super) fn function(function: &Function<Code>) -> TokenStream {
+/// A function with its description, which refuses with this type of errors; without a body a stub that only has the right
+/// signature.
+pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
     // People see the work of what they call.
     let work = body.as_ref().filter(|_| access.is_public()).map(|code| code.operations);
@@ -29,6 +30,8 @@ pub(super) fn function(function: &Function<Code>) -> TokenStream {
     let attributes = match access {
         Access::Public if !is_fallible && !matches!(returns, Type::Branches { .. }) => quote!(#[must_use] pub),
         Access::Public => quote!(pub),
+        Access::Hidden if !is_fallible => quote!(#[doc(hidden)] #[must_use] pub),
+        Access::Hidden => quote!(#[doc(hidden)] pub),
         Access::PublicLayer => quote!(#[inline(always)] #[must_use] pub),
         Access::Inlined => quote!(#[inline]),
         Access::Layer => quote!(#[inline(always)]),
@@ -46,7 +49,7 @@ pub(super) fn function(function: &Function<Code>) -> TokenStream {
         None if matches!(returns, Type::Branches { .. }) => quote!(::core::iter::empty()),
         None => quote!(::core::unreachable!()),
     };
-    let result = if *is_fallible { quote!(__rt::Result<#returns, __rt::Error>) } else { quote!(#returns) };
+    let result = if *is_fallible { quote!(__rt::Result<#returns, __rt::#error>) } else { quote!(#returns) };
     quote! {
         #doc
         #attributes fn #name(#(#arguments),*) -> #result { #body }

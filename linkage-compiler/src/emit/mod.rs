@@ -19,7 +19,6 @@ use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::model::Mechanism;
 use crate::program::{self, Function, Operations, Program};
-use functions::function;
 use names::string;
 pub use text::text;
 
@@ -50,7 +49,8 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     let mut tokens = types::of_driver(program, derivation, root);
     let (of_pose, implemented) = (traits::of_pose(program, derivation), traits::of_driver(program, derivation));
     let text = "The name of the mechanism, as errors give it.";
-    tokens.extend(block(&driver.name, text, &program.functions, root, &quote!(#of_pose #implemented)));
+    let kinematics = (text, "PositionError");
+    tokens.extend(block(&driver.name, kinematics, &program.functions, root, &quote!(#of_pose #implemented)));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
         let works = works(&program.functions);
@@ -63,7 +63,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         let name = &scene.signatures.scene.name;
         let implemented = traits::of_scene(&scene.signatures, driver.unknowns.len(), &fields).unwrap_or_default();
         let text = "The name of the scene, as errors give it.";
-        tokens.extend(block(name, text, &scene.functions, root, &implemented));
+        tokens.extend(block(name, (text, "MotionError"), &scene.functions, root, &implemented));
         tokens.extend(external::calls(mechanism, &scene.functions, name, root));
         if let Some(derivation) = derivation {
             let derived = (derivation, &derivation.scenes[number]);
@@ -74,15 +74,17 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     tokens
 }
 
-/// The functions of a type, and what else is implemented by them, in a scope of its own.
+/// The functions of a type with the description of its name and the type of their errors, and what else is implemented by
+/// them, in a scope of its own.
 fn block(
     of: &Ident,
-    text: &str,
+    (text, error): (&str, &str),
     functions: &[Function<Code>],
     root: &TokenStream,
     implemented: &TokenStream,
 ) -> TokenStream {
-    let (functions, name) = (functions.iter().map(function), string(&of.to_string()));
+    let (error, name) = (names::ident(error), string(&of.to_string()));
+    let functions = functions.iter().map(|function| functions::function(function, &error));
     let text = names::comment(&format!(" {text}"));
     quote! {
         const _: () = {

@@ -21,7 +21,7 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
     for function in functions {
         let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
         let access = match function.access {
-            Access::Public | Access::PublicLayer => "",
+            Access::Public | Access::Hidden | Access::PublicLayer => "",
             Access::Inlined | Access::Layer => "inlined ",
             Access::Cold => "cold ",
         };
@@ -60,7 +60,6 @@ fn pattern(pattern: &Pattern) -> String {
         Pattern::Mutable(inside) => self::pattern(inside),
         Pattern::Ignored | Pattern::Local(_) => "_".to_owned(),
         Pattern::List(patterns) => format!("[{}]", all(patterns)),
-        Pattern::First(first) => format!("[{}, ..]", self::pattern(first)),
         Pattern::Tuple(patterns) => format!("({})", all(patterns)),
         Pattern::Struct { fields, .. } => {
             let field = |(field, pattern): &(String, Pattern)| match pattern {
@@ -149,7 +148,7 @@ fn expression(value: &Expression) -> String {
 fn path(of: &Type) -> String {
     match of {
         Type::Own(name) | Type::Bare(name) | Type::Each(name, _) => name.clone(),
-        Type::Runtime(name, _) => (*name).to_owned(),
+        Type::Runtime(name, _) | Type::Sized(name, _) => (*name).to_owned(),
         Type::Itself => "Self".to_owned(),
         _ => "T".to_owned(),
     }

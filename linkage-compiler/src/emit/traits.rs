@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::expression::literal;
+use super::expression::{argument, literal};
 use super::names::{ident, string};
 use super::types::field;
 use crate::derivation::{Block, Derivation};
@@ -82,108 +82,133 @@ fn coordinates_of(derived: &Derived, derivation: &Derivation) -> Vec<TokenStream
 /// The mechanism for general algorithms, with its position in closed form if it has one.
 pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
-    let TypeNames { inputs, unknowns, pose, coordinates, branch, .. } = &program.signatures.types;
-    // No coordinate is called so.
-    let (name, q) = (&driver.name, ident(&program.signatures.arguments.q));
-    let [inputs, unknowns, pose, coordinates, branch] = [inputs, unknowns, pose, coordinates, branch].map(|n| ident(n));
-    let of_unknowns = Members::of(mechanism, &driver.unknowns);
-    let of_inputs = Members::of(mechanism, &driver.inputs);
-    let Members { fields: unknown_fields, texts: unknown_texts, are_angles: unknown_angles } = &of_unknowns;
-    let Members { fields: input_fields, texts: input_texts, are_angles: input_angles } = &of_inputs;
-    let (u, v) = (literal(driver.unknowns.len()), literal(driver.inputs.len()));
+    let TypeNames { inputs, pose, coordinates, rates, .. } = &program.signatures.types;
+    let (name, [inputs, pose, coordinates, rates]) =
+        (&driver.name, [inputs, pose, coordinates, rates].map(|n| ident(n)));
+    let Members { fields: unknown_fields, texts: unknown_texts, are_angles: unknown_angles } =
+        Members::of(mechanism, &driver.unknowns);
+    let Members { fields: input_fields, texts: input_texts, are_angles: input_angles } =
+        Members::of(mechanism, &driver.inputs);
+    let (u, v) = (driver.unknowns.len(), driver.inputs.len());
+    let [u, v, g] = [u, v, program.position.blocks].map(literal);
     let groups = derivation.map(groups).unwrap_or_default();
-    let blocks = literal(program.position.blocks);
-    let assembly = program.position.is_closed.then(|| {
-        let near = (!program.position.turns.is_empty()).then(|| {
-            quote! {
-                fn assemble_near(
-                    &self,
-                    guess: &Self::Coordinates,
-                    branch: Self::Branch,
-                ) -> __rt::Result<Self::Pose, __rt::Error> {
-                    self.assemble_near(guess, branch)
-                }
-            }
-        });
+    let assembly = program.position.is_closed.then(|| assembly(program));
+    let by_unknowns = quote!(__rt::Column<T, __rt::D<#u>>);
+    let by_inputs = quote!(__rt::Column<T, __rt::D<#v>>);
+    let [square, mixed] = [&u, &v].map(|columns| quote!(__rt::Matrix<T, __rt::D<#u>, __rt::D<#columns>>));
+    // In the order of the fields.
+    let order = mechanism.coordinate_order(driver);
+    let fields: Vec<Ident> = order.iter().map(|&place| field(&mechanism.coordinates[place].name)).collect();
+    // Coordinates or rates by name, from and to u and v.
+    let composed = |function: &str, of: &Ident| {
+        let function = ident(function);
         quote! {
-            impl<T: __rt::Real> __rt::Assembly<T, #u, #v> for #name<T> {
-                type Branch = #branch;
-                fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> __rt::Result<Self::Pose, __rt::Error> {
-                    self.assemble(inputs, branch)
-                }
-                #near
-                fn branch_of(&self, pose: &Self::Pose) -> Self::Branch {
-                    self.branch_of(pose)
-                }
+            fn #function(unknowns: #by_unknowns, inputs: #by_inputs) -> #of<T> {
+                let ([#(#unknown_fields),*], [#(#input_fields),*]): ([T; #u], [T; #v]) =
+                    (unknowns.into(), inputs.into());
+                #of { #(#fields),* }
+            }
+        }
+    };
+    let divided = |function: &str, argument: &str, of: &Ident| {
+        let (function, argument) = (ident(function), ident(argument));
+        quote! {
+            fn #function(#argument: &#of<T>) -> (#by_unknowns, #by_inputs) {
+                ([#(#argument.#unknown_fields),*].into(), [#(#argument.#input_fields),*].into())
+            }
+        }
+    };
+    let of_parts = [composed("coordinates", &coordinates), composed("rates", &rates)];
+    let parts = [divided("parts", "q", &coordinates), divided("rate_parts", "rates", &rates)];
+    let of_pose = [
+        ("residual", &by_unknowns),
+        ("closure_sizes", &by_unknowns),
+        ("jacobian_unknowns", &square),
+        ("jacobian_inputs", &mixed),
+        ("jacobian_unknowns_sizes", &square),
+        ("jacobian_inputs_sizes", &mixed),
+        ("block_determinants", &quote!(__rt::Column<T, __rt::D<#g>>)),
+    ];
+    let of_pose = of_pose.map(|(function, of)| {
+        let function = ident(function);
+        quote! {
+            fn #function(&self, pose: &Self::Pose) -> #of {
+                self.#function(pose).into()
             }
         }
     });
     quote! {
-        impl<T: __rt::Real> __rt::Mechanism<T, #u, #v> for #name<T> {
-            const NAME: &'static str = Self::NAME;
-            const UNKNOWNS: [&'static str; #u] = [#(#unknown_texts),*];
-            const INPUTS: [&'static str; #v] = [#(#input_texts),*];
-            const UNKNOWN_ANGLES: [bool; #u] = [#(#unknown_angles),*];
-            const INPUT_ANGLES: [bool; #v] = [#(#input_angles),*];
-            const GROUPS: &'static [__rt::Group] = &[#(#groups),*];
+        impl<T: __rt::Real> __rt::Mechanism for #name<T> {
+            type Scalar = T;
+            type U = __rt::D<#u>;
+            type V = __rt::D<#v>;
+            type G = __rt::D<#g>;
             type Coordinates = #coordinates<T>;
+            type Rates = #rates<T>;
             type Inputs = #inputs<T>;
-            type Unknowns = #unknowns<T>;
             type Pose = #pose<T>;
-            type BlockDeterminants = [T; #blocks];
-            fn unknowns(q: &Self::Coordinates) -> __rt::SVector<T, #u> {
-                __rt::SVector::from([#(q.#unknown_fields),*])
-            }
-            fn inputs(q: &Self::Coordinates) -> __rt::SVector<T, #v> {
-                __rt::SVector::from([#(q.#input_fields),*])
-            }
-            fn with_inputs(#q: &Self::Coordinates, inputs: __rt::SVector<T, #v>) -> Self::Coordinates {
-                let [[#(#input_fields),*]] = inputs.data.0;
-                #coordinates { #(#input_fields,)* ..*#q }
-            }
-            fn with_unknowns(#q: &Self::Coordinates, unknowns: __rt::SVector<T, #u>) -> Self::Coordinates {
-                let [[#(#unknown_fields),*]] = unknowns.data.0;
-                #coordinates { #(#unknown_fields,)* ..*#q }
-            }
+            const NAME: &'static str = Self::NAME;
+            const UNKNOWNS: &'static [&'static str] = &[#(#unknown_texts),*];
+            const INPUTS: &'static [&'static str] = &[#(#input_texts),*];
+            const UNKNOWN_ANGLES: &'static [bool] = &[#(#unknown_angles),*];
+            const INPUT_ANGLES: &'static [bool] = &[#(#input_angles),*];
+            const GROUPS: &'static [__rt::Group] = &[#(#groups),*];
+            #(#of_parts)*
+            #(#parts)*
             fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose {
                 self.pose_at(q)
             }
             fn is_finite(pose: &Self::Pose) -> bool {
                 pose.is_finite()
             }
-            fn residual(&self, pose: &Self::Pose) -> __rt::SVector<T, #u> {
-                self.residual(pose)
-            }
-            fn closure_sizes(&self, pose: &Self::Pose) -> __rt::SVector<T, #u> {
-                self.closure_sizes(pose)
-            }
-            fn jacobian_unknowns(&self, pose: &Self::Pose) -> __rt::SMatrix<T, #u, #u> {
-                self.jacobian_unknowns(pose)
-            }
-            fn jacobian_inputs(&self, pose: &Self::Pose) -> __rt::SMatrix<T, #u, #v> {
-                self.jacobian_inputs(pose)
-            }
-            fn jacobian_sizes(&self, pose: &Self::Pose) -> (__rt::SMatrix<T, #u, #u>, __rt::SMatrix<T, #u, #v>) {
-                self.jacobian_sizes(pose)
-            }
+            #(#of_pose)*
             fn determinant(&self, pose: &Self::Pose) -> T {
                 self.determinant(pose)
             }
-            fn block_determinants(&self, pose: &Self::Pose) -> Self::BlockDeterminants {
-                self.block_determinants(pose)
-            }
-            fn gamma(&self, pose: &Self::Pose, rate: &Self::Coordinates) -> __rt::SVector<T, #u> {
-                self.gamma(pose, rate)
+            fn gamma(&self, pose: &Self::Pose, rates: &Self::Rates) -> #by_unknowns {
+                self.gamma(pose, rates).into()
             }
             fn solve_jacobian(
                 &self,
                 pose: &Self::Pose,
-                right: &__rt::SVector<T, #u>,
-            ) -> __rt::Result<__rt::SVector<T, #u>, __rt::Error> {
-                self.solve_jacobian(pose, right)
+                right: &#by_unknowns,
+            ) -> __rt::Result<#by_unknowns, __rt::PositionError> {
+                __rt::Ok(self.solve_jacobian(pose, &(*right).into())?.into())
             }
         }
         #assembly
+    }
+}
+
+/// The position in closed form for general algorithms.
+fn assembly(program: &Program<Code>) -> TokenStream {
+    let (name, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
+    let near = (!program.position.turns.is_empty()).then(|| {
+        quote! {
+            fn assemble_near(
+                &self,
+                guess: &Self::Coordinates,
+                branch: Self::Branch,
+            ) -> __rt::Result<Self::Pose, __rt::PositionError> {
+                self.assemble_near(guess, branch)
+            }
+        }
+    });
+    quote! {
+        impl<T: __rt::Real> __rt::Assembly for #name<T> {
+            type Branch = #branch;
+            fn assemble(
+                &self,
+                inputs: Self::Inputs,
+                branch: Self::Branch,
+            ) -> __rt::Result<Self::Pose, __rt::PositionError> {
+                self.assemble(inputs, branch)
+            }
+            #near
+            fn branch_of(&self, pose: &Self::Pose) -> Self::Branch {
+                self.branch_of(pose)
+            }
+        }
     }
 }
 
@@ -219,17 +244,15 @@ fn groups(derivation: &Derivation) -> Vec<TokenStream> {
 
 /// The scene for integrators, if anything in it has inertia.
 pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[Ident]) -> Option<TokenStream> {
-    let SceneSignatures { mechanism, scene, types, field: inner, inputs, driven, .. } = signatures;
+    let SceneSignatures { scene, types, field: inner, inputs, driven, .. } = signatures;
     scene.inertia.as_ref()?;
     let (name, text) = (&scene.name, scene.name.to_string());
-    let [of, inputs_type, coordinates] = [&types.driver, &types.inputs, &types.coordinates].map(|n| ident(n));
+    let TypeNames { driver, inputs: inputs_type, coordinates, rates, .. } = types;
+    let [of, inputs_type, coordinates, rates] = [driver, inputs_type, coordinates, rates].map(|n| ident(n));
     let inner = ident(inner);
-    let (u, v, n) = (literal(unknowns), literal(inputs.len()), literal(unknowns + 2 * inputs.len()));
-    let count = literal(scene.contacts.len());
+    let [u, v, n, c] = [unknowns, inputs.len(), unknowns + 2 * inputs.len(), scene.contacts.len()].map(literal);
     let names: Vec<Ident> = inputs.iter().map(|input| ident(input)).collect();
-    let rates: Vec<Ident> = inputs.iter().map(|input| ident(&format!("{input}_rate"))).collect();
-    let places = &mechanism.drivers[scene.driver].inputs;
-    let texts = places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str());
+    let input_rates: Vec<Ident> = inputs.iter().map(|input| ident(&format!("{input}_rate"))).collect();
     let laws: Vec<Ident> = driven.iter().map(|&at| ident(&format!("{}_law", inputs[at]))).collect();
     let prescribed = inputs.ids().map(|at| match driven.iter().position(|&other| other == at) {
         Some(place) => {
@@ -243,83 +266,68 @@ pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[
         [] => (quote!(_t), TokenStream::new()),
         _ => (quote!(t), quote!(let [#(#laws),*] = self.drives(t);)),
     };
-    let (equations, contacts) = match scene.contacts.as_slice() {
-        [] => (
-            quote! {
-                let (mass, forces) = (self.mass_matrix(&q)?, self.forces(t, &q, rates)?);
-                __rt::Equations::at(&self.#inner, &q, &rates.into(), mass, forces)
-            },
-            quote! {
-                fn contacts(
-                    &self,
-                    _t: T,
-                    _q: &#coordinates<T>,
-                    _velocity: &#coordinates<T>,
-                ) -> __rt::Result<[__rt::Contact<T, #u, #v>; #count], __rt::Error> {
-                    __rt::Ok([])
-                }
-            },
-        ),
-        _ => (
-            quote!(self.equations(t, &q, rates)),
-            quote! {
-                fn contacts(
-                    &self,
-                    t: T,
-                    q: &#coordinates<T>,
-                    velocity: &#coordinates<T>,
-                ) -> __rt::Result<[__rt::Contact<T, #u, #v>; #count], __rt::Error> {
-                    self.contacts(t, q, velocity)
-                }
-            },
-        ),
+    let has_contacts = !scene.contacts.is_empty();
+    let equations = match has_contacts {
+        false => quote! {
+            let (mass, forces) = (self.mass_matrix(&q)?, self.forces(t, &q, input_rates)?);
+            __rt::Equations::at(&self.#inner, &q, input_rates, mass, forces)
+        },
+        true => quote!(self.equations(t, &q, input_rates)),
     };
+    let [of_t, of_q, of_rates] = ["t", "q", "rates"].map(|name| argument(name, has_contacts));
+    let contacts = match has_contacts {
+        false => quote!(__rt::Ok([].into())),
+        true => quote!(__rt::Ok(self.contacts(t, q, rates)?.into())),
+    };
+    let state = quote!(__rt::Column<T, __rt::D<#n>>);
+    let result = |of: TokenStream| quote!(__rt::Result<#of, __rt::MotionError>);
+    let (nothing, derivative) = (result(quote!(())), result(state.clone()));
+    let [all_contacts, all_equations, all_unreduced] = [
+        quote!(__rt::Column<__rt::Contact<T, __rt::D<#u>, __rt::D<#v>>, __rt::D<#c>>),
+        quote!(__rt::Equations<T, __rt::D<#u>, __rt::D<#v>>),
+        quote!(__rt::Unreduced<T, __rt::D<#u>, __rt::D<#v>>),
+    ]
+    .map(result);
     Some(quote! {
-        impl<T: __rt::Real> __rt::Scene<T, #u, #v, #n, #count> for #name<T> {
-            const NAME: &'static str = #text;
+        impl<T: __rt::Real> __rt::Scene for #name<T> {
+            type Scalar = T;
+            type U = __rt::D<#u>;
+            type V = __rt::D<#v>;
+            type State = __rt::D<#n>;
+            type Contacts = __rt::D<#c>;
             type Mechanism = #of<T>;
+            const NAME: &'static str = #text;
             fn mechanism(&self) -> &Self::Mechanism {
                 &self.#inner
             }
-            fn state(q: &#coordinates<T>, rates: &#inputs_type<T>) -> __rt::SVector<T, #n> {
-                __rt::SVector::from([#(q.#fields,)* #(rates.#names),*])
+            fn state(q: &#coordinates<T>, input_rates: &#inputs_type<T>) -> #state {
+                [#(q.#fields,)* #(input_rates.#names),*].into()
             }
-            fn parts(state: &__rt::SVector<T, #n>) -> (#coordinates<T>, #inputs_type<T>) {
-                let [[#(#fields,)* #(#rates),*]] = state.data.0;
-                (#coordinates { #(#fields),* }, #inputs_type { #(#names: #rates),* })
+            fn parts(state: &#state) -> (#coordinates<T>, #inputs_type<T>) {
+                let [#(#fields,)* #(#input_rates),*]: [T; #n] = (*state).into();
+                (#coordinates { #(#fields),* }, #inputs_type { #(#names: #input_rates),* })
             }
-            fn check(&self) -> __rt::Result<(), __rt::Error> {
+            fn check(&self) -> #nothing {
                 self.check()
             }
-            fn derivative(&self, t: T, state: &__rt::SVector<T, #n>) -> __rt::Result<__rt::SVector<T, #n>, __rt::Error> {
-                let (q, rates) = Self::parts(state);
-                let (velocity, acceleration) = self.rates(t, &q, rates)?;
-                __rt::Ok(Self::state(&velocity, &acceleration))
+            fn derivative(&self, t: T, state: &#state) -> #derivative {
+                let (q, input_rates) = Self::parts(state);
+                let (rates, accelerations) = self.rates(t, &q, input_rates)?;
+                __rt::Ok([#(rates.#fields,)* #(accelerations.#names),*].into())
             }
-            fn equations(
-                &self,
-                t: T,
-                state: &__rt::SVector<T, #n>,
-            ) -> __rt::Result<__rt::Equations<T, #u, #v>, __rt::Error> {
-                let (q, rates) = Self::parts(state);
+            fn equations(&self, t: T, state: &#state) -> #all_equations {
+                let (q, input_rates) = Self::parts(state);
                 #equations
             }
-            #contacts
-            fn unreduced(
-                &self,
-                t: T,
-                q: &#coordinates<T>,
-                rate: &#coordinates<T>,
-            ) -> __rt::Result<__rt::Unreduced<T, #u, #v>, __rt::Error> {
-                self.unreduced(t, q, rate)
+            fn contacts(&self, #of_t: T, #of_q: &#coordinates<T>, #of_rates: &#rates<T>) -> #all_contacts {
+                #contacts
             }
-            fn prescribed(&self, #time: T) -> [__rt::Option<[T; 3]>; #v] {
+            fn unreduced(&self, t: T, q: &#coordinates<T>, rates: &#rates<T>) -> #all_unreduced {
+                self.unreduced(t, q, rates)
+            }
+            fn prescribed(&self, #time: T) -> __rt::Column<__rt::Option<__rt::Prescribed<T>>, __rt::D<#v>> {
                 #drives
-                [#(#prescribed),*]
-            }
-            fn inputs(state: &__rt::SVector<T, #n>) -> [(&'static str, T, T); #v] {
-                let (q, rates) = Self::parts(state);
-                [#((#texts, q.#names, rates.#names)),*]
+                [#(#prescribed),*].into()
             }
         }
     })

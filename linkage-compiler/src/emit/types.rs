@@ -1,4 +1,4 @@
-//! The types of a mechanism: parameters, coordinates, inputs, unknowns, points, outputs, pose, motion, branch.
+//! The types of a mechanism: parameters, coordinates and their derivatives, inputs, points, outputs, pose, motion, branch.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -9,8 +9,8 @@ use super::names::{comment, ident};
 use crate::derivation::Derivation;
 use crate::graph::{Number, Texts};
 use crate::lower::Code;
-use crate::model::{Coordinate, Mechanism, Name, Parameter};
-use crate::program::{Derived, Position, Program, TypeNames};
+use crate::model::{Coordinate, Kind, Mechanism, Name, Parameter, Request};
+use crate::program::{Derived, Order, Position, Program, TypeNames};
 
 /// More arguments than this are told apart by nobody: there the literal with its names is better.
 pub(super) const MOST_ARGUMENTS: usize = 7;
@@ -105,8 +105,9 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     let Some(names) = names else { return tokens };
     let order = mechanism.drivers.first().map(|driver| mechanism.coordinate_order(driver)).unwrap_or_default();
     let members: Vec<&Coordinate> = order.iter().map(|&index| &mechanism.coordinates[index]).collect();
-    let title = format!(" The coordinates q of [`{name}`] by name; their rates and accelerations as well.");
-    tokens.extend(coordinates(mechanism, &ident(&names.coordinates), &title, &members, root));
+    for order in orders(mechanism) {
+        tokens.extend(coordinates(mechanism, &names, order, &members, root));
+    }
     let points = mechanism.points.iter().map(|point| (&point.name, point.attributes.as_slice()));
     let outputs = mechanism.outputs.iter().map(|output| (&output.name, output.attributes.as_slice()));
     for (group, what, members) in
@@ -146,22 +147,75 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     tokens
 }
 
-/// A struct of coordinates with its conversions from and to vectors.
+/// The coordinates, and their derivatives by time that functions are emitted for.
+fn orders(mechanism: &Mechanism) -> impl Iterator<Item = Order> {
+    let has_jerks = mechanism.requests.contains(&Request::Jerk);
+    Order::ALL.into_iter().filter(move |&order| order != Order::Jerk || has_jerks)
+}
+
+/// All coordinates by name, or their derivatives by time.
 fn coordinates(
+    mechanism: &Mechanism,
+    names: &TypeNames,
+    order: Order,
+    members: &[&Coordinate],
+    root: &TokenStream,
+) -> TokenStream {
+    let [what, of_one] = match order {
+        Order::Value => ["coordinates q", ""],
+        Order::Rate => ["rates q' of the coordinates", "rate"],
+        Order::Acceleration => ["accelerations q'' of the coordinates", "acceleration"],
+        Order::Jerk => ["jerks q''' of the coordinates", "jerk"],
+    };
+    let title = format!(" The {what} of [`{}`] by name.", mechanism.name);
+    let docs = |coordinate: &Coordinate| match order {
+        Order::Value => described(coordinate),
+        _ => {
+            let text = format!(" The {of_one} of `{}`{}.", coordinate.name.text, unit(coordinate.kind, order));
+            let text = comment(&text);
+            quote!(#[doc = #text])
+        }
+    };
+    by_name(mechanism, &ident(names.of(order)), &title, members, &docs, root)
+}
+
+/// The unit of a derivative by time, where there is one.
+fn unit(of: Kind, order: Order) -> String {
+    let [power, each] = match order {
+        Order::Value | Order::Rate => ["", ""],
+        Order::Acceleration => ["^2", " squared"],
+        Order::Jerk => ["^3", " cubed"],
+    };
+    match of {
+        Kind::Angle => format!(", in rad/s{power}"),
+        Kind::Length => format!(", in the unit of lengths per second{each}"),
+        Kind::Number => format!(", per second{each}"),
+    }
+}
+
+/// The user's description of a coordinate, or else its name and kind.
+fn described(coordinate: &Coordinate) -> TokenStream {
+    docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind))
+}
+
+/// A struct of a number for each of some coordinates, with its conversions from and to vectors.
+fn by_name(
     mechanism: &Mechanism,
     name: &Ident,
     title: &str,
     members: &[&Coordinate],
+    docs: &dyn Fn(&Coordinate) -> TokenStream,
     root: &TokenStream,
 ) -> TokenStream {
     let (visibility, derives, title) = (&mechanism.visibility, derives(), comment(title));
     let fields = Fields::of(members.iter().map(|member| &member.name));
     let (names, texts, count) = (&fields.names, &fields.texts, fields.count());
-    let (phantom, mark) = (fields.phantom(), fields.mark());
+    let phantom = fields.phantom();
     let declared = members.iter().zip(names).map(|(coordinate, field)| {
-        let docs = docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind));
+        let docs = docs(coordinate);
         quote!(#docs pub #field: T)
     });
+    let conversions = conversions(name, &fields, &quote!(#root::__rt::SVector<T, #count>), root);
     quote! {
         #[doc = #title]
         #derives
@@ -170,15 +224,23 @@ fn coordinates(
             #[doc = " The coordinates as they were declared, in order."]
             pub const NAMES: [&'static str; #count] = [#(#texts),*];
         }
-        impl<T: #root::__rt::Real> ::core::convert::From<#root::__rt::SVector<T, #count>> for #name<T> {
-            fn from(vector: #root::__rt::SVector<T, #count>) -> Self {
-                let [[#(#names),*]] = vector.data.0;
+        #conversions
+    }
+}
+
+/// A struct of numbers from and to a vector.
+fn conversions(name: &Ident, fields: &Fields, vector: &TokenStream, root: &TokenStream) -> TokenStream {
+    let (names, count, mark) = (&fields.names, fields.count(), fields.mark());
+    quote! {
+        impl<T: #root::__rt::Real> ::core::convert::From<#vector> for #name<T> {
+            fn from(vector: #vector) -> Self {
+                let [#(#names),*] = <[T; #count] as ::core::convert::From<#vector>>::from(vector);
                 Self { #(#names,)* #mark }
             }
         }
-        impl<T: #root::__rt::Real> ::core::convert::From<#name<T>> for #root::__rt::SVector<T, #count> {
-            fn from(coordinates: #name<T>) -> Self {
-                <Self as ::core::convert::From<[T; #count]>>::from([#(coordinates.#names),*])
+        impl<T: #root::__rt::Real> ::core::convert::From<#name<T>> for #vector {
+            fn from(by_name: #name<T>) -> Self {
+                <Self as ::core::convert::From<[T; #count]>>::from([#(by_name.#names),*])
             }
         }
     }
@@ -195,21 +257,20 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
         mechanism.attributes.clone()
     };
     let mut tokens = parameters(mechanism, name, &attributes, root);
-    let all = ident(&types.coordinates);
-    let (inputs, unknowns) = (ident(&types.inputs), ident(&types.unknowns));
-    for (part, what, indices) in [
-        (&inputs, "independent coordinates v", &*driver.inputs),
-        (&unknowns, "dependent coordinates u", &*driver.unknowns),
-    ] {
-        let members: Vec<&Coordinate> = indices.iter().map(|&index| &mechanism.coordinates[index]).collect();
-        let title = format!(" The {what} of [`{name}`] by name; their rates and accelerations as well.");
-        tokens.extend(coordinates(mechanism, part, &title, &members, root));
-        let fields = Fields::of(members.iter().map(|member| &member.name));
-        let (names, mark) = (&fields.names, fields.mark());
+    let inputs = ident(&types.inputs);
+    let members: Vec<&Coordinate> = driver.inputs.iter().map(|&index| &mechanism.coordinates[index]).collect();
+    let title =
+        format!(" The independent coordinates v of [`{name}`] by name; their rates v' and accelerations v'' as well.");
+    tokens.extend(by_name(mechanism, &inputs, &title, &members, &described, root));
+    let fields = Fields::of(members.iter().map(|member| &member.name));
+    let (names, count, mark) = (&fields.names, fields.count(), fields.mark());
+    tokens.extend(conversions(&inputs, &fields, &quote!(#root::__rt::Column<T, #root::__rt::D<#count>>), root));
+    for order in orders(mechanism) {
+        let all = ident(types.of(order));
         tokens.extend(quote! {
-            impl<T: #root::__rt::Real> ::core::convert::From<&#all<T>> for #part<T> {
-                fn from(q: &#all<T>) -> Self {
-                    Self { #(#names: q.#names,)* #mark }
+            impl<T: #root::__rt::Real> ::core::convert::From<&#all<T>> for #inputs<T> {
+                fn from(all: &#all<T>) -> Self {
+                    Self { #(#names: all.#names,)* #mark }
                 }
             }
         });
@@ -255,7 +316,9 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
 
 fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenStream) -> TokenStream {
     let (visibility, derives) = (&mechanism.visibility, derives());
-    let (motion, coordinates) = (ident(&types.motion), ident(&types.coordinates));
+    let motion = ident(&types.motion);
+    let [coordinates, rates, accelerations] =
+        [&types.coordinates, &types.rates, &types.accelerations].map(|name| ident(name));
     let points = (!mechanism.points.is_empty()).then(|| {
         let points = ident(&types.points);
         quote! {
@@ -270,17 +333,17 @@ fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenSt
             pub outputs: #outputs<#root::__rt::OutputMotion<T>>,
         }
     });
-    let title = comment(&format!(" A position of [`{name}`] with its velocity and acceleration."));
+    let title = comment(&format!(" A position of [`{name}`] with its rates and accelerations."));
     quote! {
         #[doc = #title]
         #derives
-        #visibility struct #motion<T = f64> {
+        #visibility struct #motion<T: #root::__rt::Scalar = f64> {
             #[doc = " The position q."]
             pub position: #coordinates<T>,
-            #[doc = " The velocity q'."]
-            pub velocity: #coordinates<T>,
-            #[doc = " The acceleration q''."]
-            pub acceleration: #coordinates<T>,
+            #[doc = " The rates q'."]
+            pub rates: #rates<T>,
+            #[doc = " The accelerations q''."]
+            pub accelerations: #accelerations<T>,
             #points
             #outputs
         }
@@ -479,11 +542,11 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
         }
     });
     let functions = (new.is_some() || all.is_some()).then(|| quote!(impl #branch { #new #all }));
-    let default = sides.is_empty().then(|| quote!(#[derive(::core::default::Default)]));
+    let default = sides.is_empty().then(|| quote!(, ::core::default::Default));
     quote! {
         #[doc = #title]
         #derives
-        #default
+        #[derive(::core::cmp::Eq, ::core::hash::Hash #default)]
         #visibility struct #branch { #(#members,)* #(#turn_members),* }
         #functions
     }

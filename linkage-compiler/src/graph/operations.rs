@@ -12,7 +12,7 @@ type Partials = fn(graph: &mut Graph, arguments: &[NodeId], value: NodeId) -> Ve
 /// One row of the op table.
 pub struct Operation {
     pub function: Function,
-    /// The name in the `linkage!` language, and of the method of nalgebra's `RealField` that computes it.
+    /// The name in the `linkage!` language.
     pub name: &'static str,
     pub arity: usize,
     /// The value, for the interpreter; takes `arity` numbers.

@@ -373,7 +373,6 @@ impl Finished<'_> {
         match pattern {
             Pattern::Local(place) => Pattern::Name(self.locals[place].clone()),
             Pattern::Mutable(inside) => Pattern::Mutable(Box::new(self.pattern(*inside))),
-            Pattern::First(inside) => Pattern::First(Box::new(self.pattern(*inside))),
             Pattern::List(patterns) => Pattern::List(all(patterns)),
             Pattern::Tuple(patterns) => Pattern::Tuple(all(patterns)),
             finished => finished,

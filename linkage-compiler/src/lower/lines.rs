@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::names::Names;
-use super::schedule::{Line, Schedule};
+use super::schedule::{Circular, Line, Schedule};
 use super::stretches;
 use super::value::{Signed, Value, ValueId};
 use crate::derivation::{ChordOf, Derivation};
@@ -74,16 +74,14 @@ impl<'a, 'n> Writer<'a, 'n> {
                     }
                 }
             }
-            Line::SineCosine { sine, cosine, angle } => {
-                let angle = self.signed(*angle);
-                let pair = [*sine, *cosine].map(|id| Pattern::Name(self.names.invent(self.schedule, id)));
-                self.let_pattern(Pattern::Tuple(pair.to_vec()), angle.method("sine_cosine", []));
+            Line::SineCosine(one) => {
+                let call = self.signed(one.angle).method("sine_cosine", []);
+                let pair = self.pair(one);
+                self.let_pattern(pair, call);
             }
             Line::SinesCosines(several) => {
                 let angles: Vec<Expression> = several.iter().map(|one| self.signed(one.angle)).collect();
-                let pairs =
-                    several.iter().map(|one| Pattern::Tuple(vec![self.pattern(one.sine), self.pattern(one.cosine)]));
-                let pairs = pairs.collect();
+                let pairs = several.iter().map(|one| self.pair(one)).collect();
                 let call = Expression::associated(Type::Scalar, "sines_cosines", [Expression::List(angles)]);
                 self.let_pattern(Pattern::List(pairs), call);
             }
@@ -179,11 +177,13 @@ impl<'a, 'n> Writer<'a, 'n> {
         }
     }
 
-    /// The name of a symbol, or one that the user gave.
+    /// The name of a symbol, of a sine or cosine, or one that the user gave.
     fn known(&self, value: ValueId) -> Option<String> {
-        let is_symbol = matches!(self.schedule.value(value), Value::Symbol(_));
-        let name = self.names.get(self.schedule, value).filter(|_| is_symbol || self.schedule.name(value).is_some());
-        name.map(str::to_owned)
+        let is_known = match self.schedule.value(value) {
+            Value::Symbol(_) | Value::Call(Function::Sin | Function::Cos, _) => true,
+            _ => self.schedule.name(value).is_some(),
+        };
+        self.names.get(self.schedule, value).filter(|_| is_known).map(str::to_owned)
     }
 
     fn chord(&mut self, (block, symbol): (BlockId, SymbolId), factors: [Signed; 2], size: Signed, of: ChordOf<Signed>) {
@@ -275,6 +275,10 @@ impl<'a, 'n> Writer<'a, 'n> {
 
     fn pattern(&mut self, value: Option<ValueId>) -> Pattern {
         value.map_or(Pattern::Ignored, |value| Pattern::Name(self.names.invent(self.schedule, value)))
+    }
+
+    fn pair(&mut self, one: &Circular) -> Pattern {
+        Pattern::Tuple([one.sine, one.cosine].map(|value| self.pattern(value)).to_vec())
     }
 
     /// The columns of a matrix given by rows.

@@ -26,10 +26,8 @@ impl Schedule {
         total.multiplications += chords;
         for line in &self.lines {
             total.functions -= match line {
-                Line::SineCosine { .. } => 1,
-                Line::SinesCosines(several) => {
-                    several.iter().filter(|one| one.sine.is_some() && one.cosine.is_some()).count()
-                }
+                Line::SineCosine(_) => 1,
+                Line::SinesCosines(several) => several.iter().filter(|one| one.is_pair()).count(),
                 Line::External { values, .. } => values.iter().flatten().count().saturating_sub(1),
                 _ => 0,
             };

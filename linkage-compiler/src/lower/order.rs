@@ -11,6 +11,9 @@ use crate::graph::{ExternalId, Function, Graph, SymbolId};
 /// An inline expression nested deeper than this is hard to read; it gets a line of its own.
 const DEEPEST_INLINE: usize = 5;
 
+/// As many angles have their sines and cosines taken in one vector operation.
+const SIDE_BY_SIDE: usize = 4;
+
 /// Decides which values get a line, and in what order.
 pub(super) struct Ordering {
     pub(super) values: Vec<Value>,
@@ -18,8 +21,8 @@ pub(super) struct Ordering {
     /// The nesting of a value written inline; zero once it has a name.
     height: Vec<Option<usize>>,
     pub(super) lines: Vec<Line>,
-    /// Sines and cosines that are used, by function and argument.
-    circular: FxHashMap<(Function, Signed), ValueId>,
+    /// The sines and cosines that are used, by their angles and the signs of these.
+    circular: BTreeMap<(ValueId, bool), Circular>,
     /// The value and the derivatives that are used of each user function, by its arguments.
     externals: FxHashMap<(ExternalId, Vec<Signed>), Vec<Option<ValueId>>>,
 }
@@ -27,7 +30,7 @@ pub(super) struct Ordering {
 impl Ordering {
     pub(super) fn new(graph: &Graph, values: Vec<Value>, roots: &[Signed]) -> Self {
         let (mut uses, mut height) = (vec![0; values.len()], vec![None; values.len()]);
-        let (mut circular, mut externals) = (FxHashMap::default(), FxHashMap::default());
+        let (mut circular, mut externals) = (BTreeMap::new(), FxHashMap::default());
         let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
         while let Some(id) = stack.pop() {
             uses[id.0] += 1;
@@ -37,8 +40,14 @@ impl Ordering {
             let value = &values[id.0];
             match value {
                 Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => height[id.0] = Some(0),
-                Value::Call(function @ (Function::Sin | Function::Cos), angle) => {
-                    circular.insert((*function, angle[0]), id);
+                Value::Call(function @ (Function::Sin | Function::Cos), arguments) => {
+                    let angle = arguments[0];
+                    let empty = Circular { angle, sine: None, cosine: None };
+                    let one = circular.entry((angle.value, angle.negative)).or_insert(empty);
+                    match function {
+                        Function::Sin => one.sine = Some(id),
+                        _ => one.cosine = Some(id),
+                    }
                 }
                 Value::External(external, arguments) => {
                     let given = graph.external_names(external.function).len();
@@ -81,7 +90,7 @@ impl Ordering {
                 stack[first..].reverse();
                 continue;
             }
-            if named && id == root && !matches!(value, Value::External(..)) {
+            if named && id == root && !matches!(value, Value::External(..)) && self.paired(id).is_none() {
                 self.height[id.0] = Some(0);
                 continue;
             }
@@ -106,26 +115,21 @@ impl Ordering {
     /// Takes the sines and cosines of all angles that are known from the start together: side by side
     /// they cost half as much as one by one.
     pub(super) fn gather_sines(&mut self, introduced: &BTreeSet<SymbolId>) {
-        let mut several: BTreeMap<(ValueId, bool), Circular> = BTreeMap::new();
-        for (&(function, angle), &value) in &self.circular {
-            let empty = Circular { angle, sine: None, cosine: None };
-            let one = several.entry((angle.value, angle.negative)).or_insert(empty);
-            match function {
-                Function::Sin => one.sine = Some(value),
-                _ => one.cosine = Some(value),
-            }
-        }
         let mut known = FxHashSet::default();
-        let several = several.into_values().filter(|one| self.is_known(one.angle.value, introduced, &mut known));
-        let several: Vec<Circular> = several.collect();
+        let several = self.circular.values().filter(|one| self.is_known(one.angle.value, introduced, &mut known));
+        let mut several: Vec<Circular> = several.copied().collect();
+        // The last of five stands beside none: a sine without its cosine costs less by itself.
+        if several.len() % SIDE_BY_SIDE == 1
+            && let Some(alone) = several.iter().rposition(|one| !one.is_pair())
+        {
+            several.remove(alone);
+        }
         if several.len() < 2 {
             return;
         }
         for one in &several {
             self.require(one.angle.value, false);
-            for value in one.sine.into_iter().chain(one.cosine) {
-                self.height[value.0] = Some(0);
-            }
+            self.give_names(one);
         }
         self.lines.push(Line::SinesCosines(several));
     }
@@ -148,18 +152,26 @@ impl Ordering {
         true
     }
 
+    /// The sine and cosine of one angle, of which this value is one, if both are used.
+    fn paired(&self, id: ValueId) -> Option<Circular> {
+        let Value::Call(Function::Sin | Function::Cos, arguments) = &self.values[id.0] else { return None };
+        let angle = arguments[0];
+        self.circular.get(&(angle.value, angle.negative)).copied().filter(Circular::is_pair)
+    }
+
     /// Writes sine and cosine of one angle as one line, if both are used.
     fn pair(&mut self, id: ValueId) -> bool {
-        let Value::Call(function @ (Function::Sin | Function::Cos), arguments) = &self.values[id.0] else {
-            return false;
-        };
-        let other = if *function == Function::Sin { Function::Cos } else { Function::Sin };
-        let angle = arguments[0];
-        let Some(&partner) = self.circular.get(&(other, angle)) else { return false };
-        let (sine, cosine) = if *function == Function::Sin { (id, partner) } else { (partner, id) };
-        self.height[partner.0] = Some(0);
-        self.lines.push(Line::SineCosine { sine, cosine, angle });
+        let Some(pair) = self.paired(id) else { return false };
+        self.give_names(&pair);
+        self.lines.push(Line::SineCosine(pair));
         true
+    }
+
+    /// Marks what is used as named by the line that follows.
+    fn give_names(&mut self, one: &Circular) {
+        for value in one.sine.into_iter().chain(one.cosine) {
+            self.height[value.0] = Some(0);
+        }
     }
 
     /// Writes all that is used of a user function as one call.

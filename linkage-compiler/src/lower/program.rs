@@ -17,6 +17,7 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
     let reserved = signatures.arguments.reserved();
     let mut context = context(derivation, &derived, &reserved, &signatures.arguments, BTreeMap::new());
     let functions = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
+    let functions = ordered(functions, &signatures.all(&position));
     let works = context.works.iter().map(|(name, work)| (signatures.types.function(name), *work));
     let works: BTreeMap<String, Operations> = works.collect();
     let scenes = scenes.into_iter().map(|scene| {
@@ -25,10 +26,18 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
         reserved.insert(signatures.field.clone());
         let mut context = self::context(derivation, &derived, &reserved, &signatures.arguments, works.clone());
         let functions = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
+        let functions = ordered(functions, &signatures.all());
         SceneProgram { signatures, functions }
     });
     let scenes = scenes.collect();
     Program { signatures, position, functions, scenes, derived: Some(derived) }
+}
+
+/// Functions, which were planned each after those that it calls, in the order of their signatures; private ones come last.
+fn ordered(mut functions: Vec<Function<Code>>, order: &[Function<Body>]) -> Vec<Function<Code>> {
+    let place = |function: &Function<Code>| order.iter().position(|other| other.name == function.name);
+    functions.sort_by_key(|function| place(function).unwrap_or(order.len()));
+    functions
 }
 
 fn context<'c>(

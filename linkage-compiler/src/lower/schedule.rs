@@ -9,11 +9,8 @@ use crate::ids::BlockId;
 #[derive(Debug, Clone)]
 pub enum Line {
     Let(ValueId),
-    SineCosine {
-        sine: ValueId,
-        cosine: ValueId,
-        angle: Signed,
-    },
+    /// Both of one angle.
+    SineCosine(Circular),
     /// The sines and cosines of several angles at once, those that are used.
     SinesCosines(Vec<Circular>),
     /// One call of a user function, for its value and its derivatives: those that are used.
@@ -71,12 +68,18 @@ pub enum Line {
     },
 }
 
-/// An angle with its sine and cosine.
+/// An angle with its sine and cosine, if they are used.
 #[derive(Debug, Clone, Copy)]
 pub struct Circular {
     pub angle: Signed,
     pub sine: Option<ValueId>,
     pub cosine: Option<ValueId>,
+}
+
+impl Circular {
+    pub(super) fn is_pair(&self) -> bool {
+        self.sine.is_some() && self.cosine.is_some()
+    }
 }
 
 /// A kernel as straight-line code.

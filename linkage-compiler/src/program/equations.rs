@@ -63,7 +63,7 @@ impl Plan<'_, '_> {
             Statement::Let(columns, Expression::call(function, [Expression::name(pose)]).columns())
         };
         let all = Expression::List(names(&order).into_iter().map(Expression::Name).collect());
-        let mut body = Body::plain(Expression::matrix_from(all));
+        let mut body = Body::plain(Expression::made("SMatrix", all));
         body.before = vec![
             part(&self.signatures.driver.unknowns, "jacobian_unknowns"),
             part(&self.signatures.driver.inputs, "jacobian_inputs"),
@@ -75,15 +75,12 @@ impl Plan<'_, '_> {
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
         let (of_unknowns, of_inputs) = self.derivation.jacobian_sizes();
         let (unknowns, inputs) = (self.derivation.unknowns.ids(), self.derivation.inputs.ids());
-        let (of_unknowns, of_inputs) = (entries(&of_unknowns, unknowns), entries(&of_inputs, inputs));
-        let nodes = of_unknowns.iter().chain(&of_inputs).map(|(_, _, node)| *node);
-        let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
-        let mut body = Body { kernel: Some(kernel), ..Body::default() };
-        let first = of_unknowns.len();
-        let matrices = [body.matrix(&places(&of_unknowns, 0), u, u), body.matrix(&places(&of_inputs, first), u, v)];
-        let body = Body { value: super::Value::Plain(Expression::Tuple(matrices.to_vec())), ..body };
-        let doc = lines(["The largest magnitude that each entry of J and of A could have at these lengths."]);
-        self.add(self.signatures.jacobian_sizes(), without_result(doc), body);
+        let body = self.matrix_function(&entries(&of_unknowns, unknowns), u, u);
+        let doc = lines(["The largest magnitude that each entry of J could have at these lengths."]);
+        self.add(self.signatures.jacobian_unknowns_sizes(), without_result(doc), body);
+        let body = self.matrix_function(&entries(&of_inputs, inputs), u, v);
+        let doc = lines(["The largest magnitude that each entry of A could have at these lengths."]);
+        self.add(self.signatures.jacobian_inputs_sizes(), without_result(doc), body);
     }
 
     fn determinants(&mut self) {
@@ -128,7 +125,7 @@ impl Plan<'_, '_> {
         let nodes = entries.iter().map(|(_, _, node)| *node);
         let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
         let mut body = Body { kernel: Some(kernel), ..Body::default() };
-        let matrix = body.matrix(&places(entries, 0), rows, columns);
+        let matrix = body.matrix("SMatrix", &places(entries, 0), rows, columns);
         Body { value: super::Value::Plain(matrix), ..body }
     }
 
@@ -164,17 +161,23 @@ pub(super) fn places<N>(entries: &[(usize, usize, N)], from: usize) -> Vec<(usiz
 
 impl Body {
     /// A matrix from its entries, which come column by column, after the statements that it needs; entries that are
-    /// not named are zero.
-    pub(super) fn matrix(&mut self, entries: &[(usize, usize, Expression)], rows: usize, columns: usize) -> Expression {
+    /// not named are zero. It is of this type of the runtime.
+    pub(super) fn matrix(
+        &mut self,
+        of: &'static str,
+        entries: &[(usize, usize, Expression)],
+        rows: usize,
+        columns: usize,
+    ) -> Expression {
         if rows * columns <= LARGEST_DENSE || 2 * entries.len() >= rows * columns {
             let mut flat = vec![Expression::zero(); rows * columns];
             for (row, column, value) in entries {
                 flat[column * rows + row] = value.clone();
             }
-            return Expression::matrix(&flat, rows);
+            return Expression::made(of, Expression::listed(&flat, rows));
         }
         if entries.is_empty() {
-            return Expression::associated(super::Type::Runtime("SMatrix", Vec::new()), "zeros", []);
+            return Expression::associated(super::Type::Runtime(of, Vec::new()), "zeros", []);
         }
         let matrix = self.local("matrix");
         let Expression::Local(place) = matrix else { return matrix };
@@ -186,6 +189,6 @@ impl Body {
             let entry = Expression::Index(Box::new(entry), *row);
             self.after.push(Statement::Assign(entry, value.clone()));
         }
-        Expression::matrix_from(matrix)
+        Expression::made(of, matrix)
     }
 }

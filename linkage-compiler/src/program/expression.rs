@@ -84,8 +84,6 @@ pub enum Pattern {
     Typed(String, Type),
     Ignored,
     List(Vec<Pattern>),
-    /// `[first, ..]`
-    First(Box<Pattern>),
     Tuple(Vec<Pattern>),
     /// `Type { field: pattern, .. }`
     Struct {
@@ -112,19 +110,22 @@ pub enum Type {
     Each(String, Box<Type>),
     Vector(usize),
     Matrix(usize, usize),
+    /// `Point2<T>`
+    Point,
     /// `Vector2<T>`
     Plane,
     /// A type of the runtime with these sizes: `Name<T, 2>`.
     Runtime(&'static str, Vec<usize>),
+    /// A type of the runtime with these sizes as types: `Name<T, D<2>>`.
+    Sized(&'static str, Vec<usize>),
     /// A type of the runtime around another: `Name<Item>`.
     Around(&'static str, Box<Type>),
     List(Box<Type>, usize),
     Tuple(Vec<Type>),
-    /// Values that the functions of scenes share, for a type of pose and of coordinates, and so many unknowns and
-    /// inputs.
+    /// Values that the functions of scenes share, for a type of pose and of rates, and so many unknowns and inputs.
     Kinematics {
         pose: String,
-        coordinates: String,
+        rates: String,
         unknowns: usize,
         inputs: usize,
     },
@@ -196,19 +197,34 @@ impl Expression {
         Self::Struct(of, members.into_iter().collect(), None)
     }
 
+    /// A type of the runtime from something else.
+    pub fn made(of: &'static str, from: Self) -> Self {
+        Self::associated(Type::Runtime(of, Vec::new()), "from", [from])
+    }
+
     /// A column vector.
     pub fn vector(entries: Vec<Self>) -> Self {
-        Self::associated(Type::Runtime("SVector", Vec::new()), "from", [Self::List(entries)])
+        Self::made("SVector", Self::List(entries))
     }
 
     /// A matrix from its entries, column by column.
     pub fn matrix(entries: &[Self], rows: usize) -> Self {
-        let columns = entries.chunks(rows).map(|column| Self::List(column.to_vec())).collect();
-        Self::matrix_from(Self::List(columns))
+        Self::made("SMatrix", Self::listed(entries, rows))
     }
 
-    pub fn matrix_from(columns: Self) -> Self {
-        Self::associated(Type::Runtime("SMatrix", Vec::new()), "from", [columns])
+    /// As [`vector`](Self::vector), of a number that is a type.
+    pub fn sized_vector(entries: Vec<Self>) -> Self {
+        Self::made("Column", Self::List(entries))
+    }
+
+    /// As [`matrix`](Self::matrix), of numbers that are types.
+    pub fn sized_matrix(entries: &[Self], rows: usize) -> Self {
+        Self::made("Matrix", Self::listed(entries, rows))
+    }
+
+    /// Columns of so many entries each.
+    pub fn listed(entries: &[Self], rows: usize) -> Self {
+        Self::List(entries.chunks(rows).map(|column| Self::List(column.to_vec())).collect())
     }
 
     /// The columns of a matrix as lists.
@@ -278,7 +294,7 @@ impl Pattern {
     pub fn each_name<'p>(&'p self, visit: &mut dyn FnMut(&'p str)) {
         match self {
             Self::Name(name) | Self::Typed(name, _) => visit(name),
-            Self::Mutable(inside) | Self::First(inside) => inside.each_name(visit),
+            Self::Mutable(inside) => inside.each_name(visit),
             Self::List(all) | Self::Tuple(all) => all.iter().for_each(|pattern| pattern.each_name(visit)),
             Self::Struct { fields, .. } => fields.iter().for_each(|(_, pattern)| pattern.each_name(visit)),
             Self::Local(_) | Self::Ignored => {}

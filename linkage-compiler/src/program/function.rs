@@ -30,6 +30,8 @@ pub struct Function<B> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
     Public,
+    /// Mostly the library, by its traits: manuals leave it out.
+    Hidden,
     /// Other emitted functions, which it may be inlined into.
     Inlined,
     /// The functions of scenes, which it is always inlined into, so that what they do not use costs nothing.
@@ -42,7 +44,7 @@ pub enum Access {
 
 impl Access {
     pub fn is_public(self) -> bool {
-        matches!(self, Self::Public | Self::PublicLayer)
+        matches!(self, Self::Public | Self::Hidden | Self::PublicLayer)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Source};
-use super::names::Arguments;
+use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::ids::{Id, InputId};
 use crate::model::Kind;
@@ -27,7 +27,7 @@ impl Plan<'_, '_> {
         let nodes = bounds.iter().flat_map(|bound| bound.coefficients.into_iter().chain([bound.rate.unwrap_or(one)]));
         let nodes = unnamed(nodes);
         // They are taken apart by reference: the position needs them whole.
-        let source = Source { from: Expression::name(&inputs), ..self.inputs(&inputs, |c| c.value) };
+        let source = Source { from: Expression::name(&inputs), ..self.inputs(Order::Value) };
         let kernel = self.kernel(vec![source], Vec::new(), nodes);
 
         let bounds = bounds.iter().enumerate().map(|(number, bound)| {
@@ -46,7 +46,7 @@ impl Plan<'_, '_> {
         let bounds = Expression::List(bounds.collect());
         let position = || Expression::name(&here);
         let search = match kind {
-            _ if !is_searched => Expression::Constant("Search::Nothing"),
+            _ if !is_searched => Expression::Constant("Search::ClosedFormOnly"),
             Kind::Angle => Expression::Constant("Search::Turn"),
             _ => {
                 let sizes = Expression::call("closure_sizes", [position().borrowed()]).method("sum", []);
@@ -107,7 +107,7 @@ impl Plan<'_, '_> {
             "the others. Inputs at which a group is undetermined on the way are passed.",
             "",
             "# Errors",
-            "Those of the position asked about, `NotFinite` if a number is not finite.",
+            "Those of the position asked about, `PositionError::NotFinite` if a number is not finite.",
         ]);
         self.add(self.signatures.limits(&self.position, place), doc, body);
     }

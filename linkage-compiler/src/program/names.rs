@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use crate::derivation::Coordinate;
+use crate::graph::SymbolId;
 use crate::model::{Driver, Mechanism};
 
 /// A longer name says less than a number.
@@ -86,6 +88,30 @@ pub fn call_of(names: &[String]) -> String {
     format!("extern_{}", names.first().map_or("", String::as_str))
 }
 
+/// How often coordinates are derived by time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    Value,
+    Rate,
+    Acceleration,
+    Jerk,
+}
+
+impl Order {
+    /// All of them, in order.
+    pub const ALL: [Self; 4] = [Self::Value, Self::Rate, Self::Acceleration, Self::Jerk];
+
+    /// The symbol of a coordinate or of its derivative.
+    pub fn symbol(self, of: &Coordinate) -> SymbolId {
+        match self {
+            Self::Value => of.value,
+            Self::Rate => of.rate,
+            Self::Acceleration => of.acceleration,
+            Self::Jerk => of.jerk,
+        }
+    }
+}
+
 /// The names of the types of one driver, or of one of its scenes.
 #[derive(Debug, Clone)]
 pub struct TypeNames {
@@ -94,9 +120,11 @@ pub struct TypeNames {
     /// The driver, with the kinematics.
     pub driver: String,
     pub inputs: String,
-    pub unknowns: String,
     pub pose: String,
     pub coordinates: String,
+    pub rates: String,
+    pub accelerations: String,
+    pub jerks: String,
     pub points: String,
     pub outputs: String,
     pub motion: String,
@@ -110,13 +138,25 @@ impl TypeNames {
             itself: own.to_string(),
             driver: own.to_string(),
             inputs: format!("{own}Inputs"),
-            unknowns: format!("{own}Unknowns"),
             pose: format!("{own}Pose"),
             coordinates: format!("{shared}Coordinates"),
+            rates: format!("{shared}Rates"),
+            accelerations: format!("{shared}Accelerations"),
+            jerks: format!("{shared}Jerks"),
             points: format!("{shared}Points"),
             outputs: format!("{shared}Outputs"),
             motion: format!("{own}Motion"),
             branch: format!("{own}Branch"),
+        }
+    }
+
+    /// The type of all coordinates, or of their derivatives by time.
+    pub fn of(&self, order: Order) -> &str {
+        match order {
+            Order::Value => &self.coordinates,
+            Order::Rate => &self.rates,
+            Order::Acceleration => &self.accelerations,
+            Order::Jerk => &self.jerks,
         }
     }
 
@@ -131,9 +171,14 @@ impl TypeNames {
 pub struct Arguments {
     pub pose: String,
     pub q: String,
-    pub rate: String,
-    pub acceleration: String,
-    pub jerk: String,
+    /// q', q'' and q'''.
+    pub rates: String,
+    pub accelerations: String,
+    pub jerks: String,
+    /// v', v'' and v'''.
+    pub input_rates: String,
+    pub input_accelerations: String,
+    pub input_jerks: String,
     pub right: String,
     pub branch: String,
     pub turn: String,
@@ -141,7 +186,6 @@ pub struct Arguments {
     pub guess: String,
     pub position: String,
     pub ratios: String,
-    pub velocity: String,
     pub bias: String,
     /// The name by which errors call whoever asks.
     pub whose: String,
@@ -154,9 +198,12 @@ impl Arguments {
         Self {
             pose: name("pose"),
             q: name("q"),
-            rate: name("rate"),
-            acceleration: name("acceleration"),
-            jerk: name("jerk"),
+            rates: name("rates"),
+            accelerations: name("accelerations"),
+            jerks: name("jerks"),
+            input_rates: name("input_rates"),
+            input_accelerations: name("input_accelerations"),
+            input_jerks: name("input_jerks"),
             right: name("right"),
             branch: name("branch"),
             turn: name("turn"),
@@ -164,10 +211,29 @@ impl Arguments {
             guess: name("guess"),
             position: name("position"),
             ratios: name("ratios"),
-            velocity: name("velocity"),
             bias: name("bias"),
             whose: name("whose"),
             time: mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time)).to_owned(),
+        }
+    }
+
+    /// The argument that holds all coordinates, or their derivatives by time.
+    pub fn of(&self, order: Order) -> &str {
+        match order {
+            Order::Value => &self.q,
+            Order::Rate => &self.rates,
+            Order::Acceleration => &self.accelerations,
+            Order::Jerk => &self.jerks,
+        }
+    }
+
+    /// The argument that holds the inputs, or their derivatives by time.
+    pub fn of_inputs(&self, order: Order) -> &str {
+        match order {
+            Order::Value => &self.inputs,
+            Order::Rate => &self.input_rates,
+            Order::Acceleration => &self.input_accelerations,
+            Order::Jerk => &self.input_jerks,
         }
     }
 
@@ -176,9 +242,12 @@ impl Arguments {
         let Self {
             pose,
             q,
-            rate,
-            acceleration,
-            jerk,
+            rates,
+            accelerations,
+            jerks,
+            input_rates,
+            input_accelerations,
+            input_jerks,
             right,
             branch,
             turn,
@@ -186,7 +255,6 @@ impl Arguments {
             guess,
             position,
             ratios,
-            velocity,
             bias,
             whose,
             time: _,
@@ -194,9 +262,12 @@ impl Arguments {
         let all = [
             pose,
             q,
-            rate,
-            acceleration,
-            jerk,
+            rates,
+            accelerations,
+            jerks,
+            input_rates,
+            input_accelerations,
+            input_jerks,
             right,
             branch,
             turn,
@@ -204,7 +275,6 @@ impl Arguments {
             guess,
             position,
             ratios,
-            velocity,
             bias,
             whose,
         ];

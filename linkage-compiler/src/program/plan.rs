@@ -5,9 +5,10 @@ use std::cell::RefCell;
 use super::branch::Position;
 use super::expression::{Expression, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source, results};
+use super::names::Order;
 use super::pose::PosePlan;
 use super::signatures::{Family, Signatures};
-use crate::derivation::{Assembly, Coordinate, Derivation, Form, Formulas, Step};
+use crate::derivation::{Assembly, Derivation, Form, Formulas, Step};
 use crate::graph::{NodeId, SymbolId, Texts};
 use crate::ids::{ColumnId, Id, InputId, Table};
 use crate::model::{Driver, Mechanism, Request};
@@ -196,21 +197,21 @@ impl<'d, 'a> Plan<'d, 'a> {
         Source { from: Expression::name(pose), shape }
     }
 
-    /// All coordinates, or their rates and so on, from an argument that is a reference.
-    pub(super) fn coordinates(&self, argument: &str, symbol: fn(&Coordinate) -> SymbolId) -> Source {
-        let fields = self.derivation.coordinates.iter().map(|c| (c.name.clone(), symbol(c)));
+    /// All coordinates, or their derivatives by time, from an argument that is a reference.
+    pub(super) fn coordinates(&self, order: Order) -> Source {
+        let fields = self.derivation.coordinates.iter().map(|c| (c.name.clone(), order.symbol(c)));
         Source {
-            from: Expression::name(argument).behind(),
-            shape: Shape::fields(self.signatures.coordinates_type(), fields, true),
+            from: Expression::name(self.signatures.arguments.of(order)).behind(),
+            shape: Shape::fields(self.signatures.coordinates_type(order), fields, true),
         }
     }
 
-    /// The inputs, or their rates and so on, from an argument that has still to be converted.
-    pub(super) fn inputs(&self, argument: &str, symbol: fn(&Coordinate) -> SymbolId) -> Source {
+    /// The inputs, or their derivatives by time, from an argument that has still to be converted.
+    pub(super) fn inputs(&self, order: Order) -> Source {
         let coordinates = self.derivation.inputs.iter().map(|&index| &self.derivation.coordinates[index]);
-        let fields = coordinates.map(|c| (c.name.clone(), symbol(c)));
+        let fields = coordinates.map(|c| (c.name.clone(), order.symbol(c)));
         Source {
-            from: Expression::name(argument).method("into", []),
+            from: Expression::name(self.signatures.arguments.of_inputs(order)).method("into", []),
             shape: Shape::fields(Type::Own(self.signatures.types.inputs.clone()), fields, true),
         }
     }
@@ -245,11 +246,11 @@ impl<'d, 'a> Plan<'d, 'a> {
         self.derivation.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect()
     }
 
-    /// Coordinates from as many results.
-    pub(super) fn coordinates_of(&self, from: usize) -> Expression {
+    /// Derivatives of the coordinates from as many results.
+    pub(super) fn coordinates_of(&self, order: Order, from: usize) -> Expression {
         let fields = self.fields();
         let values = results(from..from + fields.len());
-        Expression::structure(self.signatures.coordinates_type(), fields.into_iter().zip(values))
+        Expression::structure(self.signatures.coordinates_type(order), fields.into_iter().zip(values))
     }
 }
 

@@ -4,7 +4,7 @@ use super::branch::Position;
 use super::doc::{lines, without_result};
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Kernel, Output, Shape, Source, Value};
-use super::names::Arguments;
+use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Step, needed_names};
 use crate::graph::{Function as Elementary, NodeId, SymbolId};
@@ -14,8 +14,8 @@ const ASSEMBLE: [&str; 5] = [
     "The position at these inputs in closed form: group by group, on the branch that is asked for.",
     "",
     "# Errors",
-    "`Unbuildable` if a group does not reach, `Undetermined` if it can stand anywhere, as between joints that",
-    "coincide, `NotFinite` if a number is not finite.",
+    "`PositionError::Unbuildable` if a group does not reach, `PositionError::Undetermined` if it can stand anywhere, as between",
+    "joints that coincide, `PositionError::NotFinite` if a number is not finite.",
 ];
 
 impl Plan<'_, '_> {
@@ -30,7 +30,6 @@ impl Plan<'_, '_> {
     }
 
     fn pose_at(&mut self) {
-        let q = self.signatures.arguments.q.clone();
         let blocks = &self.derivation.blocks;
         let determinants = self.pose.determinants.iter();
         let determinants: Vec<NodeId> =
@@ -40,7 +39,7 @@ impl Plan<'_, '_> {
         let numbers = self.variables(&numbers);
         let externals = self.pose.externals.iter().map(|(node, ..)| *node);
         let results = determinants.into_iter().chain(circular).chain(numbers).chain(externals);
-        let kernel = self.kernel(vec![self.coordinates(&q, |c| c.value)], Vec::new(), unnamed(results));
+        let kernel = self.kernel(vec![self.coordinates(Order::Value)], Vec::new(), unnamed(results));
         let body = Body::of(kernel, self.pose_of_results());
         let calls = match self.signatures.mechanism.externals.as_slice() {
             [] => "",
@@ -52,15 +51,23 @@ impl Plan<'_, '_> {
     }
 
     fn solve(&mut self) {
-        let guess = &self.signatures.arguments.guess;
-        let body = Body::result(Expression::runtime("newton", [Expression::own(), Expression::name(guess)]));
+        let guess = self.signatures.arguments.guess.clone();
+        let newton = |name| Body::result(Expression::runtime(name, [Expression::own(), Expression::name(&guess)]));
         let doc = lines([
             "The position near `guess` whose inputs are those of `guess`, by Newton's method.",
             "",
             "# Errors",
-            "`NotConverged` if no position is found, `NotFinite` if a number is not finite.",
+            "`PositionError::NotConverged` if no position is found, `PositionError::OtherBranch` if the determinant of a group has",
+            "another sign there than at the guess, `PositionError::NotFinite` if a number is not finite.",
         ]);
-        self.add(self.signatures.solve(), doc, body);
+        self.add(self.signatures.solve(), doc, newton("newton"));
+        let doc = lines([
+            "The position near `guess` whose inputs are those of `guess`, by Newton's method, on whatever branch it is found.",
+            "",
+            "# Errors",
+            "`PositionError::NotConverged` if no position is found, `PositionError::NotFinite` if a number is not finite.",
+        ]);
+        self.add(self.signatures.solve_any_branch(), doc, newton("newton_any_branch"));
     }
 
     /// Cosine and sine of each angle that a pose holds.
@@ -99,9 +106,9 @@ impl Plan<'_, '_> {
         let source = if !self.position.is_closed {
             self.guess()
         } else if self.position.turns.is_empty() {
-            self.inputs(&inputs, |c| c.value)
+            self.inputs(Order::Value)
         } else {
-            Source { from: Expression::name(&inputs), ..self.inputs(&inputs, |c| c.value) }
+            Source { from: Expression::name(&inputs), ..self.inputs(Order::Value) }
         };
         let turns = self.position.turns.iter().enumerate();
         let kernel = Kernel {
@@ -142,7 +149,7 @@ impl Plan<'_, '_> {
             &format!("{} that are nearest to the guess.", names.join(", ")),
             "",
             "# Errors",
-            "Those of `assemble`, and `OutOfRange` if a guess is more turns away than a branch can count.",
+            "Those of `assemble`, and `InputError::OutOfRange` if a guess is more turns away than a branch can count.",
         ]);
         let inputs = Type::Bare(self.signatures.types.inputs.clone());
         let inputs = Expression::associated(inputs, "from", [near]);
@@ -172,7 +179,7 @@ impl Plan<'_, '_> {
         let guess = &self.signatures.arguments.guess;
         Source {
             from: Expression::name(guess).behind(),
-            shape: Shape::fields(self.signatures.coordinates_type(), fields, is_whole),
+            shape: Shape::fields(self.signatures.coordinates_type(Order::Value), fields, is_whole),
         }
     }
 
@@ -188,9 +195,9 @@ impl Plan<'_, '_> {
             &format!("but {} by Newton's method from the guess.", iterated.join(", then ")),
             "",
             "# Errors",
-            "`Unbuildable` if a group does not reach, `Undetermined` if it can stand anywhere, `NotConverged` if",
-            "Newton's method finds no position, `OtherBranch` if it finds one beyond a dead point, `NotFinite` if a",
-            "number is not finite.",
+            "`PositionError::Unbuildable` if a group does not reach, `PositionError::Undetermined` if it can stand anywhere,",
+            "`PositionError::NotConverged` if Newton's method finds no position, `PositionError::OtherBranch` if it finds one beyond",
+            "a dead point, `PositionError::NotFinite` if a number is not finite.",
         ])
     }
 
@@ -244,8 +251,8 @@ impl Plan<'_, '_> {
             "Every position that exists at these inputs, each with its branch.",
             "",
             "# Errors",
-            "`NotFinite` if a number is not finite; a branch that cannot be assembled is left out, and one on which a group",
-            "is undetermined.",
+            "`PositionError::NotFinite` if a number is not finite; a branch that cannot be assembled is left out, and one on which",
+            "a group is undetermined.",
         ]);
         self.add(self.signatures.branches(), doc, body);
     }

@@ -3,7 +3,7 @@
 use super::doc::{fenced, lines};
 use super::expression::Expression;
 use super::function::{Body, Output, results};
-use super::names::Arguments;
+use super::names::Order;
 use super::plan::{ENDINGS, Plan, unnamed};
 use super::signatures::{Family, ORDERS};
 use crate::derivation::{Quantity, QuantityFormulas};
@@ -42,14 +42,13 @@ impl Plan<'_, '_> {
 
     /// The values, or their derivatives by time.
     fn derived(&mut self, family: Family, order: usize) {
-        let Arguments { rate, acceleration, jerk, .. } = self.signatures.arguments.clone();
         let word = family.word();
         let meaning = match order {
             0 if family == Family::Points => "The positions of the points.".to_owned(),
             0 => "The values of the outputs.".to_owned(),
-            1 => format!("The rates of the {word}s at the velocity q'."),
-            2 => format!("The accelerations of the {word}s at the velocity q' and the acceleration q''."),
-            _ => format!("The jerks of the {word}s at the velocity q', the acceleration q'' and the jerk q'''."),
+            1 => format!("The velocities of the {word}s at the rates q'."),
+            2 => format!("The accelerations of the {word}s at the rates q' and the accelerations q''."),
+            _ => format!("The jerks of the {word}s at the rates q', the accelerations q'' and the jerks q'''."),
         };
         let mut doc = vec![meaning];
         if order == 0 {
@@ -60,7 +59,7 @@ impl Plan<'_, '_> {
             });
             doc.extend(fenced(formulas.map(|(name, node)| self.law(name, node))));
         }
-        doc.extend(lines(["", "# Errors", "`NotFinite` where a formula has no finite value."]));
+        doc.extend(lines(["", "# Errors", "`PositionError::NotFinite` where a formula has no finite value."]));
         let part = |quantity: &Quantity| match order {
             0 => quantity.value.clone(),
             1 => quantity.rate.clone(),
@@ -69,18 +68,17 @@ impl Plan<'_, '_> {
         };
         let nodes: Vec<NodeId> = self.quantities_of(family).iter().flat_map(part).collect();
         let count = nodes.len();
-        let sources = [
-            self.coordinates(&rate, |c| c.rate),
-            self.coordinates(&acceleration, |c| c.acceleration),
-            self.coordinates(&jerk, |c| c.jerk),
-        ];
+        let sources = Order::ALL.into_iter().skip(1).take(order).map(|order| self.coordinates(order)).collect();
         let ending = ENDINGS[order];
         let names = family.names(self.signatures.mechanism);
         let names = names.iter().flat_map(|name| family.axes().iter().map(move |axis| format!("{name}{axis}{ending}")));
         let outputs = nodes.into_iter().zip(names).map(|(node, name)| Output::named(node, name)).collect();
-        let kernel = self.on_pose(sources.into_iter().take(order).collect(), Vec::new(), outputs);
-        let (finite, sizes): (_, &[usize]) =
-            if family == Family::Points { ("finite_points", &[2]) } else { ("finite_outputs", &[]) };
+        let kernel = self.on_pose(sources, Vec::new(), outputs);
+        let (finite, sizes): (_, &[usize]) = match (family, order) {
+            (Family::Points, 0) => ("finite_points", &[2]),
+            (Family::Points, _) => ("finite_vectors", &[2]),
+            (Family::Outputs, _) => ("finite_outputs", &[]),
+        };
         let values = Expression::List(Expression::nested(results(0..count), sizes));
         let name = Expression::text(format!("{word}{}", ORDERS[order]));
         let value = Expression::runtime(finite, [Expression::mechanism(), name, values]);
@@ -107,7 +105,7 @@ impl Plan<'_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` where a formula has no finite value.",
         ]));
         let mut nodes = Vec::new();
         for quantity in self.quantities_of(family).to_vec() {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Shape, Source, results};
-use super::names::Arguments;
+use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
 use crate::derivation::{Form, Quantity, Step};
@@ -16,19 +16,18 @@ impl Plan<'_, '_> {
     pub(super) fn velocity(&mut self) {
         self.solve_jacobian();
         self.velocity_ratios();
-        let rate = self.signatures.arguments.rate.clone();
         let unknowns = self.rates(&self.derivation.unknowns);
         let side = self.derivation.velocity_side();
         let steps = self.derivation.solution(&[(side, unknowns)], Form::Factored);
         let all = self.all();
         let nodes = self.variables(&self.rates(&all));
-        let kernel = self.on_pose(vec![self.inputs(&rate, |c| c.rate)], steps, unnamed(nodes));
-        let body = Body::of(kernel, self.coordinates_of(0)).checked("velocity", self.checked(0));
+        let kernel = self.on_pose(vec![self.inputs(Order::Rate)], steps, unnamed(nodes));
+        let body = Body::of(kernel, self.coordinates_of(Order::Rate, 0)).checked("velocity", self.checked(0));
         let doc = lines([
-            "The velocity q' at the input rates v'.",
+            "The rates q' of all coordinates at the input rates v'.",
             "",
             "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if a rate is not finite.",
         ]);
         self.add(self.signatures.velocity(), doc, body);
     }
@@ -60,7 +59,7 @@ impl Plan<'_, '_> {
             "The solution x of J x = `right`.",
             "",
             "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` if the solution is not finite.",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if the solution is not finite.",
         ]);
         self.add(self.signatures.solve_jacobian(), doc, body);
     }
@@ -85,14 +84,18 @@ impl Plan<'_, '_> {
         doc.extend(fenced(
             laws.filter_map(|(&name, formula)| Some(self.law(self.derivation.graph.symbol_name(name), (*formula)?))),
         ));
-        doc.extend(lines(["", "# Errors", "`Singular` where J has no inverse, `NotFinite` if a ratio is not finite."]));
+        doc.extend(lines([
+            "",
+            "# Errors",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if a ratio is not finite.",
+        ]));
         self.add(self.signatures.velocity_ratios(), doc, body);
     }
 
     /// What the functions of scenes are made of: W, q' = (W v', v'), and u'' at v'' = 0. Of these a determinant is refused,
     /// and nothing else: what is made of them is checked by whoever calls them.
     pub(super) fn layers(&mut self) {
-        let Arguments { rate, ratios, whose, .. } = self.signatures.arguments.clone();
+        let Arguments { input_rates, ratios, whose, .. } = self.signatures.arguments.clone();
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
         let steps = self.ratio_steps(Form::Entries);
         let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
@@ -114,12 +117,12 @@ impl Plan<'_, '_> {
             nodes.insert(unknown, graph.sum(&terms));
         }
         nodes.extend(self.derivation.inputs.iter().copied().zip(rates));
-        let by_value = Source { from: Expression::name(&rate), ..self.inputs(&rate, |c| c.rate) };
+        let by_value = Source { from: Expression::name(&input_rates), ..self.inputs(Order::Rate) };
         let columns = Source { from: Expression::name(&ratios).behind(), shape: Shape::columns(u, &names) };
         let outputs = unnamed(nodes.into_values());
         let kernel = Kernel { sources: vec![columns, by_value], results: outputs, ..Kernel::default() };
-        let body = Body::of(kernel, self.coordinates_of(0));
-        let doc = without_result(lines(["The velocity q' = (W v', v')."]));
+        let body = Body::of(kernel, self.coordinates_of(Order::Rate, 0));
+        let doc = without_result(lines(["The rates q' = (W v', v')."]));
         self.add(self.signatures.coordinate_rates(), doc, body);
 
         self.kinematics_at();
@@ -127,7 +130,7 @@ impl Plan<'_, '_> {
 
     /// Everything that moves at the rates of the inputs.
     fn kinematics_at(&mut self) {
-        let Arguments { q, rate, pose, ratios, velocity, whose, .. } = self.signatures.arguments.clone();
+        let Arguments { q, input_rates, pose, ratios, rates, whose, .. } = self.signatures.arguments.clone();
         let names = self.derivation.scenes.first().map(|scene| scene.bias.clone()).unwrap_or_default();
         let side = self.derivation.bias_side();
         let mut steps = self.derivation.solution(&[(side, names.clone())], Form::Entries);
@@ -144,20 +147,20 @@ impl Plan<'_, '_> {
             false => Expression::associated(Type::Itself, "ratio_columns", on),
         };
         let ratios_at = if is_fallible { ratios_at.tried() } else { ratios_at };
-        let rates = [name(&ratios).borrowed(), name(&rate)];
+        let moving = [name(&ratios).borrowed(), name(&input_rates)];
         let before = [
             (&pose, Expression::call("pose_at", [name(&q)])),
             (&ratios, ratios_at),
-            (&velocity, Expression::associated(Type::Itself, "coordinate_rates", rates)),
+            (&rates, Expression::associated(Type::Itself, "coordinate_rates", moving)),
         ];
         let before = before.map(|(name, value)| Statement::Let(Pattern::Name(name.clone()), value));
-        let moving = Source { from: name(&velocity), ..self.coordinates(&velocity, |c| c.rate) };
+        let moving = Source { from: name(&rates), ..self.coordinates(Order::Rate) };
         let at_pose = Source { from: name(&pose), ..self.pose_source() };
         let sources = vec![self.parameters(), at_pose, moving];
         let whose = is_fallible.then_some(whose);
         let kernel = Kernel { sources, steps, results: unnamed(nodes), whose, is_on_pose: true, ..Kernel::default() };
         let bias = Expression::List(results(0..names.len()));
-        let members = [("pose", name(&pose)), ("ratios", name(&ratios)), ("velocity", name(&velocity)), ("bias", bias)];
+        let members = [("pose", name(&pose)), ("ratios", name(&ratios)), ("rates", name(&rates)), ("bias", bias)];
         let members = members.map(|(field, value)| (field.to_owned(), value));
         let value = Expression::structure(Type::Runtime("Kinematics", Vec::new()), members);
         let calls = ["pose_at", "ratio_columns", "coordinate_rates"].map(str::to_owned).to_vec();
@@ -172,12 +175,11 @@ impl Plan<'_, '_> {
     }
 
     pub(super) fn acceleration(&mut self) {
-        let Arguments { rate, acceleration, .. } = self.signatures.arguments.clone();
         let gamma = self.derivation.gamma.clone();
         let mut doc = lines(["The quadratic velocity term gamma = `(Psi_q q')_q q'`."]);
         doc.extend(self.numbered("gamma", &gamma));
         let count = gamma.len();
-        let kernel = self.on_pose(vec![self.coordinates(&rate, |c| c.rate)], Vec::new(), unnamed(gamma));
+        let kernel = self.on_pose(vec![self.coordinates(Order::Rate)], Vec::new(), unnamed(gamma));
         let body = Body::of(kernel, Expression::vector(results(0..count)));
         self.add(self.signatures.gamma(), without_result(doc), body);
 
@@ -186,46 +188,46 @@ impl Plan<'_, '_> {
         let steps = self.derivation.solution(&[(side, unknowns)], Form::Entries);
         let all = self.all();
         let nodes = self.variables(&self.accelerations(&all));
-        let sources = vec![self.coordinates(&rate, |c| c.rate), self.inputs(&acceleration, |c| c.acceleration)];
+        let sources = vec![self.coordinates(Order::Rate), self.inputs(Order::Acceleration)];
         let kernel = self.on_pose(sources, steps, unnamed(nodes));
-        let body = Body::of(kernel, self.coordinates_of(0)).checked("acceleration", self.checked(0));
+        let body = Body::of(kernel, self.coordinates_of(Order::Acceleration, 0));
+        let body = body.checked("acceleration", self.checked(0));
         let doc = lines([
-            "The acceleration q'' at the velocity q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
+            "The accelerations q'' of all coordinates at the rates q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
             "",
             "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` if a rate is not finite.",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if an acceleration is not finite.",
         ]);
         self.add(self.signatures.acceleration(), doc, body);
     }
 
     pub(super) fn jerk(&mut self) {
-        let Arguments { rate, acceleration, jerk, .. } = self.signatures.arguments.clone();
         let mut doc = lines([
-            "The jerk q''' at the velocity q', the acceleration q'' and the input jerks v''': J u''' = -(A v''' + eta)",
-            "with eta = `3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q'`.",
+            "The jerks q''' of all coordinates at the rates q', the accelerations q'' and the input jerks v''':",
+            "J u''' = -(A v''' + eta) with eta = `3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q'`.",
         ]);
         let eta = self.derivation.eta.clone().unwrap_or_default();
         doc.extend(self.numbered("eta", &eta));
-        doc.extend(lines(["", "# Errors", "`Singular` where J has no inverse, `NotFinite` if a rate is not finite."]));
+        doc.extend(lines([
+            "",
+            "# Errors",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if a jerk is not finite.",
+        ]));
         let jerks: Table<ColumnId, SymbolId> =
             self.derivation.coordinates.iter().map(|coordinate| coordinate.jerk).collect();
         let targets = self.derivation.unknowns.iter().map(|&index| jerks[index]).collect();
         let side = self.derivation.jerk_side();
         let steps = self.derivation.solution(&[(side, targets)], Form::Factored);
         let nodes = self.variables(&jerks);
-        let sources = vec![
-            self.coordinates(&rate, |c| c.rate),
-            self.coordinates(&acceleration, |c| c.acceleration),
-            self.inputs(&jerk, |c| c.jerk),
-        ];
+        let [rates, accelerations] = [Order::Rate, Order::Acceleration].map(|order| self.coordinates(order));
+        let sources = vec![rates, accelerations, self.inputs(Order::Jerk)];
         let kernel = self.on_pose(sources, steps, unnamed(nodes));
-        let body = Body::of(kernel, self.coordinates_of(0)).checked("jerk", self.checked(0));
+        let body = Body::of(kernel, self.coordinates_of(Order::Jerk, 0)).checked("jerk", self.checked(0));
         self.add(self.signatures.jerk(), doc, body);
     }
 
     /// Everything at once, in one kernel.
     pub(super) fn motion(&mut self) {
-        let Arguments { q, rate, acceleration, .. } = self.signatures.arguments.clone();
         let unknowns = self.derivation.unknowns.clone();
         let sides = [
             (self.derivation.velocity_side(), self.rates(&unknowns)),
@@ -244,17 +246,14 @@ impl Plan<'_, '_> {
         };
         let quantities: Vec<NodeId> = quantities.flat_map(of_each).collect();
         nodes.extend(quantities);
-        let sources = vec![
-            self.coordinates(&q, |c| c.value),
-            self.inputs(&rate, |c| c.rate),
-            self.inputs(&acceleration, |c| c.acceleration),
-        ];
+        let [rates, accelerations] = [Order::Rate, Order::Acceleration].map(|order| self.inputs(order));
+        let sources = vec![self.coordinates(Order::Value), rates, accelerations];
         let (count, total) = (all.len(), nodes.len());
         let kernel = self.kernel(sources, steps, unnamed(nodes));
         let mut members = vec![
-            ("position".to_owned(), Expression::name(&q).behind()),
-            ("velocity".to_owned(), self.coordinates_of(0)),
-            ("acceleration".to_owned(), self.coordinates_of(count)),
+            ("position".to_owned(), Expression::name(&self.signatures.arguments.q).behind()),
+            ("rates".to_owned(), self.coordinates_of(Order::Rate, 0)),
+            ("accelerations".to_owned(), self.coordinates_of(Order::Acceleration, count)),
         ];
         let points = 3 * count + 6 * self.signatures.mechanism.points.len();
         for (family, function, values, sizes) in [
@@ -272,11 +271,11 @@ impl Plan<'_, '_> {
         let motion = Type::Bare(self.signatures.types.motion.clone());
         let body = Body::of(kernel, Expression::structure(motion, members)).checked("motion", checked);
         let doc = lines([
-            "Everything at once at coordinates that close the mechanism: velocity, acceleration, points and outputs,",
-            "every shared subexpression computed once.",
+            "Everything at once at coordinates that close the mechanism and at the input rates v' and accelerations v'': the",
+            "rates q', the accelerations q'', points and outputs, every shared subexpression computed once.",
             "",
             "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value.",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` where a formula has no finite value.",
         ]);
         self.add(self.signatures.motion(), doc, body);
     }

@@ -9,8 +9,11 @@ use crate::derivation::{Form, Solutions, Step, needed};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{PairId, Table};
 
-const ERRORS: [&str; 3] =
-    ["", "# Errors", "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value."];
+const ERRORS: [&str; 3] = [
+    "",
+    "# Errors",
+    "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` where a formula has no finite value.",
+];
 
 impl Plan<'_, '_> {
     /// Steps that name W and L, and L.

@@ -11,8 +11,11 @@ use crate::derivation::{Form, Solutions, Step, needed};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{Id, ParameterId, Table, UnknownId};
 
-const ERRORS: [&str; 3] =
-    ["", "# Errors", "`Singular` where J has no inverse, `NotFinite` where a formula has no finite value."];
+const ERRORS: [&str; 3] = [
+    "",
+    "# Errors",
+    "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` where a formula has no finite value.",
+];
 
 impl Plan<'_, '_> {
     pub(super) fn sensitivity(&mut self) {
@@ -49,7 +52,7 @@ impl Plan<'_, '_> {
         let steps = needed(&self.derivation.graph, steps, &nodes);
         let kernel = self.on_pose(Vec::new(), steps, unnamed(nodes));
         let mut body = Body { kernel: Some(kernel), ..Body::default() };
-        let matrix = body.matrix(&places(&entries, 0), u, p);
+        let matrix = body.matrix("SMatrix", &places(&entries, 0), u, p);
         let value = body.finite_matrix("sensitivity", "sensitivity", matrix);
         let body = Body { value: Value::Plain(value), ..body };
         self.add(self.signatures.sensitivity(), doc, body);
@@ -97,7 +100,7 @@ impl Plan<'_, '_> {
             let entries = entries.iter().enumerate().filter(|(_, (_, node))| !self.derivation.graph.is_zero(**node));
             let entries =
                 entries.map(|(index, (place, _))| (index % dimension, index / dimension, Expression::Result(*place)));
-            let matrix = body.matrix(&entries.collect::<Vec<_>>(), dimension, columns);
+            let matrix = body.matrix("SMatrix", &entries.collect::<Vec<_>>(), dimension, columns);
             let value = body.finite_matrix(&format!("{name}_sensitivity"), word, matrix);
             members.push((name.clone(), value));
         }

@@ -3,7 +3,7 @@
 use super::branch::Position;
 use super::expression::Type;
 use super::function::{Access, Argument, Body, Function, Passed};
-use super::names::{Arguments, TypeNames};
+use super::names::{Arguments, Order, TypeNames};
 use crate::ids::InputId;
 use crate::model::{Driver, Mechanism, Request};
 
@@ -61,39 +61,25 @@ impl<'a> Signatures<'a> {
         Self { mechanism, driver, types, arguments }
     }
 
-    /// All of them, in the order in which they are emitted.
+    /// All of them, in the order in which they are emitted: what people call first comes first.
     pub fn all(&self, position: &Position) -> Vec<Function<Body>> {
         let wants = |request| self.mechanism.requests.contains(&request);
         let families = || [Family::Points, Family::Outputs].into_iter().filter(|&family| self.has(family));
-        let mut all = vec![self.pose_at(), self.solve()];
+        let mut all = vec![self.motion()];
         all.extend(self.assemblies(position));
-        all.push(self.branch_of());
-        if wants(Request::Limits) {
-            all.extend(self.driver.inputs.ids().map(|place| self.limits(position, place)));
-        }
-        all.extend([
-            self.residual(),
-            self.closure_sizes(),
-            self.jacobian_unknowns(),
-            self.jacobian_inputs(),
-            self.jacobian(),
-            self.jacobian_sizes(),
-            self.determinant(),
-            self.block_determinants(position.blocks),
-            self.solve_jacobian(),
-            self.velocity_ratios(),
-            self.velocity(),
-            self.gamma(),
-            self.acceleration(),
-        ]);
+        all.extend([self.branch_of(), self.solve(), self.solve_any_branch(), self.pose_at()]);
+        all.extend([self.velocity(), self.acceleration()]);
         if wants(Request::Jerk) {
             all.push(self.jerk());
         }
         for family in families() {
             all.extend((0..self.orders()).map(|order| self.quantities(family, order)));
-            all.push(self.quantity_ratios(family));
         }
-        all.push(self.motion());
+        if wants(Request::Limits) {
+            all.extend(self.driver.inputs.ids().map(|place| self.limits(position, place)));
+        }
+        all.push(self.velocity_ratios());
+        all.extend(families().map(|family| self.quantity_ratios(family)));
         if wants(Request::VelocityRatioDerivatives) {
             all.push(self.ratio_derivatives());
             all.extend(families().map(|family| self.quantity_ratio_derivatives(family)));
@@ -102,6 +88,19 @@ impl<'a> Signatures<'a> {
             all.push(self.sensitivity());
             all.extend(families().map(|family| self.quantity_sensitivities(family)));
         }
+        all.extend([
+            self.residual(),
+            self.closure_sizes(),
+            self.jacobian(),
+            self.jacobian_unknowns(),
+            self.jacobian_inputs(),
+            self.jacobian_unknowns_sizes(),
+            self.jacobian_inputs_sizes(),
+            self.determinant(),
+            self.block_determinants(position.blocks),
+            self.gamma(),
+            self.solve_jacobian(),
+        ]);
         all
     }
 
@@ -131,12 +130,17 @@ impl<'a> Signatures<'a> {
     pub fn pose_at(&self) -> Function<Body> {
         let is_layer = self.mechanism.scenes_of(self.driver).next().is_some();
         let access = if is_layer { Access::PublicLayer } else { Access::Public };
-        Function { access, ..total("pose_at", [self.coordinates(&self.arguments.q)], self.pose_type()) }
+        Function { access, ..total("pose_at", [self.coordinates(Order::Value)], self.pose_type()) }
     }
 
     pub fn solve(&self) -> Function<Body> {
-        let solution = Type::Around("Solution", Box::new(self.coordinates_type()));
-        fallible("solve", [self.coordinates(&self.arguments.guess)], solution)
+        let solution = Type::Around("Solution", Box::new(self.coordinates_type(Order::Value)));
+        fallible("solve", [self.guess()], solution)
+    }
+
+    pub fn solve_any_branch(&self) -> Function<Body> {
+        let found = Type::Around("AnyBranch", Box::new(self.coordinates_type(Order::Value)));
+        fallible("solve_any_branch", [self.guess()], found)
     }
 
     /// The functions that assemble a position, and the one that goes through all branches.
@@ -159,11 +163,11 @@ impl<'a> Signatures<'a> {
     }
 
     pub fn assemble(&self) -> Function<Body> {
-        fallible("assemble", [self.converted(&self.arguments.inputs), self.branch()], self.pose_type())
+        fallible("assemble", [self.inputs_by(Order::Value), self.branch()], self.pose_type())
     }
 
     pub fn assemble_near(&self) -> Function<Body> {
-        fallible("assemble_near", [self.coordinates(&self.arguments.guess), self.branch()], self.pose_type())
+        fallible("assemble_near", [self.guess(), self.branch()], self.pose_type())
     }
 
     pub fn assemble_in_turns(&self) -> Function<Body> {
@@ -175,7 +179,7 @@ impl<'a> Signatures<'a> {
 
     pub fn branches(&self) -> Function<Body> {
         let of = Type::Branches { branch: self.types.branch.clone(), pose: self.types.pose.clone() };
-        total("branches", [self.converted(&self.arguments.inputs)], of)
+        total("branches", [self.inputs_by(Order::Value)], of)
     }
 
     pub fn branch_of(&self) -> Function<Body> {
@@ -185,8 +189,8 @@ impl<'a> Signatures<'a> {
     /// The limits of one input.
     pub fn limits(&self, position: &Position, place: InputId) -> Function<Body> {
         let from = match position.is_closed {
-            true => self.converted(&self.arguments.inputs),
-            false => self.coordinates(&self.arguments.guess),
+            true => self.inputs_by(Order::Value),
+            false => self.guess(),
         };
         let name = match self.inputs() {
             1 => "limits".to_owned(),
@@ -217,9 +221,12 @@ impl<'a> Signatures<'a> {
         total("jacobian", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns() + self.inputs()))
     }
 
-    pub fn jacobian_sizes(&self) -> Function<Body> {
-        let of = [self.unknowns(), self.inputs()].map(|columns| Type::Matrix(self.unknowns(), columns));
-        total("jacobian_sizes", [self.pose()], Type::Tuple(of.to_vec()))
+    pub fn jacobian_unknowns_sizes(&self) -> Function<Body> {
+        hidden("jacobian_unknowns_sizes", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns()))
+    }
+
+    pub fn jacobian_inputs_sizes(&self) -> Function<Body> {
+        hidden("jacobian_inputs_sizes", [self.pose()], Type::Matrix(self.unknowns(), self.inputs()))
     }
 
     pub fn determinant(&self) -> Function<Body> {
@@ -255,20 +262,17 @@ impl<'a> Signatures<'a> {
 
     pub fn coordinate_rates(&self) -> Function<Body> {
         let ratios = Argument { name: self.arguments.ratios.clone(), passed: Passed::ByReference(self.columns()) };
-        let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
-        let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
-        let rates = layer(total("coordinate_rates", [ratios, rate], self.coordinates_type()));
+        let arguments = [ratios, self.input_rates()];
+        let rates = layer(total("coordinate_rates", arguments, self.coordinates_type(Order::Rate)));
         Function { is_method: false, ..rates }
     }
 
     /// The pose, W, q', and u'' at v'' = 0.
     pub fn kinematics_at(&self) -> Function<Body> {
-        let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
-        let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
-        let arguments = [self.coordinates(&self.arguments.q), rate, self.whose()];
+        let arguments = [self.coordinates(Order::Value), self.input_rates(), self.whose()];
         let of = Type::Kinematics {
             pose: self.types.pose.clone(),
-            coordinates: self.types.coordinates.clone(),
+            rates: self.types.rates.clone(),
             unknowns: self.unknowns(),
             inputs: self.inputs(),
         };
@@ -276,28 +280,28 @@ impl<'a> Signatures<'a> {
     }
 
     pub fn velocity(&self) -> Function<Body> {
-        fallible("velocity", [self.pose(), self.converted(&self.arguments.rate)], self.coordinates_type())
+        let arguments = [self.pose(), self.inputs_by(Order::Rate)];
+        fallible("velocity", arguments, self.coordinates_type(Order::Rate))
     }
 
     pub fn gamma(&self) -> Function<Body> {
-        total("gamma", [self.pose(), self.coordinates(&self.arguments.rate)], Type::Vector(self.unknowns()))
+        total("gamma", [self.pose(), self.coordinates(Order::Rate)], Type::Vector(self.unknowns()))
     }
 
     pub fn acceleration(&self) -> Function<Body> {
-        let Arguments { rate, acceleration, .. } = &self.arguments;
-        let arguments = [self.pose(), self.coordinates(rate), self.converted(acceleration)];
-        fallible("acceleration", arguments, self.coordinates_type())
+        let arguments = [self.pose(), self.coordinates(Order::Rate), self.inputs_by(Order::Acceleration)];
+        fallible("acceleration", arguments, self.coordinates_type(Order::Acceleration))
     }
 
     pub fn jerk(&self) -> Function<Body> {
-        let Arguments { rate, acceleration, jerk, .. } = &self.arguments;
-        let arguments = [self.pose(), self.coordinates(rate), self.coordinates(acceleration), self.converted(jerk)];
-        fallible("jerk", arguments, self.coordinates_type())
+        let [rates, accelerations] = [Order::Rate, Order::Acceleration].map(|order| self.coordinates(order));
+        let arguments = [self.pose(), rates, accelerations, self.inputs_by(Order::Jerk)];
+        fallible("jerk", arguments, self.coordinates_type(Order::Jerk))
     }
 
     pub fn motion(&self) -> Function<Body> {
-        let Arguments { q, rate, acceleration, .. } = &self.arguments;
-        let arguments = [self.coordinates(q), self.converted(rate), self.converted(acceleration)];
+        let [rates, accelerations] = [Order::Rate, Order::Acceleration].map(|order| self.inputs_by(order));
+        let arguments = [self.coordinates(Order::Value), rates, accelerations];
         fallible("motion", arguments, Type::Own(self.types.motion.clone()))
     }
 
@@ -305,10 +309,13 @@ impl<'a> Signatures<'a> {
 
     /// Values, rates, accelerations or jerks.
     pub fn quantities(&self, family: Family, order: usize) -> Function<Body> {
-        let Arguments { rate, acceleration, jerk, .. } = &self.arguments;
-        let motion = [rate, acceleration, jerk].into_iter().take(order).map(|argument| self.coordinates(argument));
+        let motion = Order::ALL.into_iter().skip(1).take(order).map(|order| self.coordinates(order));
         let arguments = std::iter::once(self.pose()).chain(motion);
-        let item = if family == Family::Points { Type::Plane } else { Type::Scalar };
+        let item = match (family, order) {
+            (Family::Points, 0) => Type::Point,
+            (Family::Points, _) => Type::Plane,
+            (Family::Outputs, _) => Type::Scalar,
+        };
         fallible(format!("{}{}", family.word(), ORDERS[order]), arguments, self.each(family, item))
     }
 
@@ -352,21 +359,34 @@ impl<'a> Signatures<'a> {
         Argument { name: self.arguments.whose.clone(), passed: Passed::ByValue(Type::Text) }
     }
 
-    fn coordinates(&self, name: &str) -> Argument {
-        Argument { name: name.to_owned(), passed: Passed::ByReference(self.coordinates_type()) }
+    /// All coordinates, or their derivatives by time.
+    fn coordinates(&self, order: Order) -> Argument {
+        let passed = Passed::ByReference(self.coordinates_type(order));
+        Argument { name: self.arguments.of(order).to_owned(), passed }
     }
 
-    fn converted(&self, name: &str) -> Argument {
+    fn guess(&self) -> Argument {
+        Argument { name: self.arguments.guess.clone(), ..self.coordinates(Order::Value) }
+    }
+
+    /// The inputs, or their derivatives by time, to be converted.
+    fn inputs_by(&self, order: Order) -> Argument {
         let of = Type::Own(self.types.inputs.clone());
-        Argument { name: name.to_owned(), passed: Passed::Converted(of) }
+        Argument { name: self.arguments.of_inputs(order).to_owned(), passed: Passed::Converted(of) }
+    }
+
+    /// The rates of the inputs as they are.
+    fn input_rates(&self) -> Argument {
+        let of = Type::Own(self.types.inputs.clone());
+        Argument { name: self.arguments.input_rates.clone(), passed: Passed::ByValue(of) }
     }
 
     pub fn pose_type(&self) -> Type {
         Type::Own(self.types.pose.clone())
     }
 
-    pub fn coordinates_type(&self) -> Type {
-        Type::Own(self.types.coordinates.clone())
+    pub fn coordinates_type(&self, order: Order) -> Type {
+        Type::Own(self.types.of(order).to_owned())
     }
 
     fn each(&self, family: Family, item: Type) -> Type {
@@ -394,6 +414,11 @@ pub fn total(name: impl Into<String>, arguments: impl IntoIterator<Item = Argume
         is_fallible: false,
         body: None,
     }
+}
+
+/// A public function that always has a result, and that the library calls more than people do.
+pub fn hidden(name: impl Into<String>, arguments: impl IntoIterator<Item = Argument>, returns: Type) -> Function<Body> {
+    Function { access: Access::Hidden, ..total(name, arguments, returns) }
 }
 
 /// A private function that scenes are made of.

@@ -6,12 +6,13 @@ use crate::graph::{NodeId, SymbolId};
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Value, results};
+use crate::program::names::Order;
 use crate::program::plan::unnamed;
 
 impl ScenePlan<'_, '_, '_> {
     /// Each friction and stop with its scalar, the derivatives of that, and its numbers.
     pub(super) fn contacts(&mut self) {
-        let mut doc = lines(["The frictions and stops at a position and the velocity q', in the order of the scene."]);
+        let mut doc = lines(["The frictions and stops at a position and the rates q', in the order of the scene."]);
         let formulas = self.scene.contacts.iter().map(|contact| {
             let value = self.plan.text(contact.value);
             match &contact.law {
@@ -28,8 +29,8 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`NotFinite` with the name of the effect that has no finite value, `Negative` with that of the friction whose",
-            "limit is negative.",
+            "`PositionError::NotFinite` with the name of the effect that has no finite value, `InputError::OutOfRange` with that of the",
+            "friction whose limit is negative.",
         ]));
         let zero = self.plan.derivation.graph.zero();
         let derivation = &self.plan.derivation;
@@ -54,8 +55,8 @@ impl ScenePlan<'_, '_, '_> {
             let result = |place: usize| Expression::Result(first + place);
             let along = [
                 ("value", result(u + v)),
-                ("unknowns", Expression::vector(results(first..first + u))),
-                ("inputs", Expression::vector(results(first + u..first + u + v))),
+                ("unknowns", Expression::sized_vector(results(first..first + u))),
+                ("inputs", Expression::sized_vector(results(first + u..first + u + v))),
                 ("bias", result(u + v + 1)),
             ];
             let numbers = numbers.iter().enumerate().map(|(at, name)| (*name, result(u + v + 2 + at)));
@@ -63,14 +64,13 @@ impl ScenePlan<'_, '_, '_> {
                 "Contact",
                 [
                     ("name", Expression::text(&contact.label)),
-                    ("along", structure("Along", along)),
+                    ("along", structure("ContactCoordinate", along)),
                     ("law", structure(law, numbers)),
                 ],
             ));
         }
-        let rate = &self.signatures.arguments.rate;
-        let sources = vec![self.plan.coordinates(rate, |c| c.rate)];
-        let body = self.on_pose(sources, Vec::new(), unnamed(nodes));
+        let sources = vec![self.plan.coordinates(Order::Rate)];
+        let body = self.on_coordinates(sources, Vec::new(), unnamed(nodes));
         let sound = Expression::runtime("sound", [Expression::mechanism(), Expression::List(contacts)]);
         let body = Body { value: Value::Result(sound), ..body };
         self.add(self.signatures.contacts(), doc, body);
@@ -89,18 +89,18 @@ impl ScenePlan<'_, '_, '_> {
         let body = self.with_rates(body);
         let (forces, ratios) = (v * v + v, v * v + v + u * v);
         let members = [
-            ("mass", Expression::matrix(&results(0..v * v), v)),
-            ("forces", Expression::vector(results(v * v..forces))),
-            ("ratios", Expression::matrix(&results(forces..ratios), u)),
-            ("bias", Expression::vector(results(ratios..count))),
+            ("mass", Expression::sized_matrix(&results(0..v * v), v)),
+            ("forces", Expression::sized_vector(results(v * v..forces))),
+            ("ratios", Expression::sized_matrix(&results(forces..ratios), u)),
+            ("bias", Expression::sized_vector(results(ratios..count))),
         ];
         let body = Body { value: Value::Plain(structure("Equations", members)), ..body };
         let doc = lines([
             "M and Q of M v'' = Q without frictions and stops, W of u' = W v', and u'' at v'' = 0.",
             "",
             "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` with the name of the body or the effect that has no finite",
-            "value.",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` with the name of the body or the effect that",
+            "has no finite value.",
         ]);
         self.add(self.signatures.equations(), doc, body);
     }

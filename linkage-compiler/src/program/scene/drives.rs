@@ -5,7 +5,7 @@ use crate::derivation::Prescribed;
 use crate::graph::NodeId;
 use crate::ids::InputId;
 use crate::program::doc::{lines, without_result};
-use crate::program::expression::Expression;
+use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
 use crate::program::operations::Operations;
 use crate::program::plan::unnamed;
@@ -21,11 +21,16 @@ impl ScenePlan<'_, '_, '_> {
     pub(super) fn drives(&mut self) {
         let doc = vec![format!("The value, the rate and the acceleration that are prescribed of {}.", self.driven())];
         let laws = self.scene.drives.values();
+        let many = laws.len();
         let nodes = laws.flat_map(|Prescribed { value, rate, acceleration }| [*value, *rate, *acceleration]);
         let nodes: Vec<NodeId> = nodes.collect();
-        let count = nodes.len();
         let kernel = self.on_parameters(unnamed(nodes));
-        let body = Body::of(kernel, Expression::List(Expression::nested(results(0..count), &[3])));
+        let law = |at: usize| {
+            let members = ["value", "rate", "acceleration"].map(str::to_owned).into_iter();
+            let members = members.zip(results(3 * at..3 * at + 3));
+            Expression::structure(Type::Runtime("Prescribed", Vec::new()), members)
+        };
+        let body = Body::of(kernel, Expression::List((0..many).map(law).collect()));
         self.add(self.signatures.drives(), without_result(doc), body);
     }
 

@@ -8,7 +8,11 @@ use crate::program::function::{Body, Output, Value, results};
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn energy(&mut self) {
         let mut doc = lines(["The kinetic energy, and the potential energy of gravity, springs and potentials."]);
-        doc.extend(lines(["", "# Errors", "`Singular` where J has no inverse, `NotFinite` if it is not finite."]));
+        doc.extend(lines([
+            "",
+            "# Errors",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if it is not finite.",
+        ]));
         let members = ["kinetic", "potential"];
         let nodes = [self.scene.kinetic, self.scene.potential];
         let outputs = nodes.into_iter().zip(members).map(|(node, name)| Output::named(node, name)).collect();

@@ -25,8 +25,7 @@ impl ScenePlan<'_, '_, '_> {
             members.collect(),
             Some(Box::new(Expression::name(&guess).behind())),
         );
-        let newton = Expression::runtime("newton", [self.mechanism().borrowed(), near.borrowed()]);
-        let found = Expression::runtime("on_branch", [Expression::mechanism(), newton.tried()]).tried();
+        let found = self.mechanism().method("solve", [near.borrowed()]).tried().field("coordinates");
         let balance = Expression::call("balance", [Expression::name(&time), Expression::name(&q).borrowed()]).tried();
         let both = Expression::Tuple(vec![Expression::name(&q), balance]);
         let closure = Expression::Closure {
@@ -38,7 +37,11 @@ impl ScenePlan<'_, '_, '_> {
         let search = [Expression::mechanism(), Expression::List(start), closure];
         let mut body = Body::result(Expression::runtime("equilibrium", search));
         if !driven.is_empty() {
-            let laws = driven.into_iter().map(|input| Pattern::First(Box::new(Pattern::Name(input))));
+            let laws = driven.into_iter().map(|input| Pattern::Struct {
+                of: Type::Runtime("Prescribed", Vec::new()),
+                fields: vec![("value".to_owned(), Pattern::Name(input))],
+                is_whole: false,
+            });
             let drives = Expression::call("drives", [Expression::name(&time)]);
             body.before = vec![Statement::Let(Pattern::List(laws.collect()), drives)];
         }
@@ -47,8 +50,8 @@ impl ScenePlan<'_, '_, '_> {
             "stable or not.",
             "",
             "# Errors",
-            "`NotConverged` if there is none to be found, `OtherBranch` if the guess belongs to no position of its branch,",
-            "`NotFinite` if a number is not finite.",
+            "`PositionError::NotConverged` if there is none to be found, `PositionError::OtherBranch` if the guess belongs to no",
+            "position of its branch, `PositionError::NotFinite` if a number is not finite.",
         ]);
         self.add(self.signatures.equilibrium(), doc, body);
     }
@@ -73,7 +76,8 @@ impl ScenePlan<'_, '_, '_> {
         let nodes: Vec<NodeId> = outputs.iter().map(|output| output.node).collect();
         let steps = self.plan.derivation.solution(&equilibrium.systems, Form::Entries);
         let steps = needed(&self.plan.derivation.graph, steps, &nodes);
-        let body = self.on_pose(Vec::new(), steps, outputs).checked("the forces at rest", results(0..nodes.len()));
+        let body =
+            self.on_coordinates(Vec::new(), steps, outputs).checked("the forces at rest", results(0..nodes.len()));
         let many = free.len();
         let list = |from: usize| Expression::List(results(from..from + many));
         let slopes = Expression::List(Expression::nested(results(2 * many..nodes.len()), &[many]));
@@ -85,7 +89,7 @@ impl ScenePlan<'_, '_, '_> {
             "inputs along the closures, column by column: an equilibrium of one input is stable where its slope is negative.",
             "",
             "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` if a force, its size or a derivative is not finite.",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if a force, its size or a derivative is not finite.",
         ]);
         self.add(self.signatures.balance(), doc, body);
     }

@@ -11,7 +11,7 @@ use crate::ids::{ColumnId, Id, InputId, Table};
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value, results};
-use crate::program::names::name_of;
+use crate::program::names::{Order, name_of};
 use crate::program::plan::unnamed;
 
 impl ScenePlan<'_, '_, '_> {
@@ -129,10 +129,10 @@ impl ScenePlan<'_, '_, '_> {
             all.extend(&self.layers.parts_read);
         }
         let mut body = self.moved(&all);
-        let rate = &self.signatures.arguments.rate;
         let mut sources: Vec<Source> = self.still().into_iter().chain(self.moving(&own)).collect();
-        if own.contains(&Read::Rates) && !own.contains(&Read::Velocity) {
-            sources.push(Source { from: Expression::name(rate), ..self.plan.inputs(rate, |c| c.rate) });
+        if own.contains(&Read::InputRates) && !own.contains(&Read::Rates) {
+            let input_rates = Expression::name(&self.signatures.arguments.input_rates);
+            sources.push(Source { from: input_rates, ..self.plan.inputs(Order::Rate) });
         }
         if own.contains(&Read::Inertia) {
             let inertia = &self.layers.inertia;
@@ -157,13 +157,13 @@ impl ScenePlan<'_, '_, '_> {
     /// A body that finds pose, W, q' and u'' at v'' = 0, as far as these are read.
     fn moved(&self, reads: &BTreeSet<Read>) -> Body {
         let arguments = &self.signatures.arguments;
-        let rate = Expression::name(&arguments.rate);
+        let input_rates = Expression::name(&arguments.input_rates);
         let mut body = Body::default();
         if reads.contains(&Read::Bias) {
             let found = [
                 (Read::Pose, "pose", &arguments.pose),
                 (Read::Ratios, "ratios", &arguments.ratios),
-                (Read::Velocity, "velocity", &arguments.velocity),
+                (Read::Rates, "rates", &arguments.rates),
                 (Read::Bias, "bias", &arguments.bias),
             ];
             let read = found.into_iter().filter(|(read, ..)| reads.contains(read));
@@ -171,7 +171,7 @@ impl ScenePlan<'_, '_, '_> {
             let fields: Vec<_> = fields.collect();
             let of = Type::Runtime("Kinematics", Vec::new());
             let pattern = Pattern::Struct { of, is_whole: fields.len() == found.len(), fields };
-            let call = self.judged("kinematics_at", vec![Expression::name(&arguments.q), rate]);
+            let call = self.judged("kinematics_at", vec![Expression::name(&arguments.q), input_rates]);
             body.before.push(Statement::Let(pattern, call));
             body.calls.push(self.of_driver("kinematics_at"));
             return body;
@@ -179,15 +179,15 @@ impl ScenePlan<'_, '_, '_> {
         self.pose_at(&mut body);
         let call = self.judged("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
         body.calls.push(self.of_driver("ratio_columns"));
-        body.before.push(match reads.contains(&Read::Ratios) || reads.contains(&Read::Velocity) {
+        body.before.push(match reads.contains(&Read::Ratios) || reads.contains(&Read::Rates) {
             true => Statement::Let(Pattern::Name(arguments.ratios.clone()), call),
             false => Statement::Do(call),
         });
-        if reads.contains(&Read::Velocity) {
+        if reads.contains(&Read::Rates) {
             let driver = Type::Bare(self.signatures.types.driver.clone());
-            let on = [Expression::name(&arguments.ratios).borrowed(), rate];
+            let on = [Expression::name(&arguments.ratios).borrowed(), input_rates];
             let call = Expression::associated(driver, "coordinate_rates", on);
-            body.before.push(Statement::Let(Pattern::Name(arguments.velocity.clone()), call));
+            body.before.push(Statement::Let(Pattern::Name(arguments.rates.clone()), call));
             body.calls.push(self.of_driver("coordinate_rates"));
         }
         body
@@ -197,10 +197,10 @@ impl ScenePlan<'_, '_, '_> {
     fn moving(&self, reads: &BTreeSet<Read>) -> Vec<Source> {
         let (arguments, derivation) = (&self.signatures.arguments, &self.plan.derivation);
         let ratios: Vec<SymbolId> = derivation.ratios.iter().flatten().copied().collect();
-        let velocity = self.plan.coordinates(&arguments.velocity, |c| c.rate);
+        let rates = self.plan.coordinates(Order::Rate);
         let all = [
             (Read::Ratios, &arguments.ratios, Shape::columns(derivation.unknowns.len(), &ratios)),
-            (Read::Velocity, &arguments.velocity, velocity.shape),
+            (Read::Rates, &arguments.rates, rates.shape),
             (Read::Bias, &arguments.bias, Shape::list(&self.scene.bias)),
         ];
         let read = all.into_iter().filter(|(read, ..)| reads.contains(read));
@@ -220,9 +220,9 @@ impl ScenePlan<'_, '_, '_> {
             (Read::Time, self.signatures.mechanism.time.into_iter().collect()),
             (Read::Q, derivation.coordinates.iter().map(|coordinate| coordinate.value).collect()),
             (Read::Ratios, derivation.ratios.iter().flatten().copied().collect()),
-            (Read::Velocity, rates(&derivation.unknowns)),
+            (Read::Rates, rates(&derivation.unknowns)),
             (Read::Bias, self.scene.bias.to_vec()),
-            (Read::Rates, rates(&derivation.inputs)),
+            (Read::InputRates, rates(&derivation.inputs)),
             (Read::Inertia, self.layers.inertia.iter().flatten().copied().collect()),
             (Read::Forces, self.layers.forces.to_vec()),
         ];
@@ -234,7 +234,7 @@ impl ScenePlan<'_, '_, '_> {
     /// The dependencies of a layer, which takes q' even where the rates of the inputs would do.
     fn read_by_layer(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
         let reads = self.reads(nodes).into_iter();
-        reads.map(|read| if read == Read::Rates { Read::Velocity } else { read }).collect()
+        reads.map(|read| if read == Read::InputRates { Read::Rates } else { read }).collect()
     }
 
     /// The arguments of a layer.

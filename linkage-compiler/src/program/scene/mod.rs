@@ -14,6 +14,7 @@ mod validity;
 
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
+use super::names::Order;
 use super::plan::Plan;
 use crate::derivation::{Scene, Step};
 use crate::graph::NodeId;
@@ -24,8 +25,8 @@ pub use signatures::SceneSignatures;
 const ERRORS: [&str; 4] = [
     "",
     "# Errors",
-    "`Singular` where J has no inverse, `NotFinite` with the name of the body or the effect that has no finite",
-    "value.",
+    "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` with the name of the body or the effect that",
+    "has no finite value.",
 ];
 
 /// The program of one scene.
@@ -146,7 +147,16 @@ impl ScenePlan<'_, '_, '_> {
         self.signatures.types.function(function)
     }
 
-    /// A body on coordinates and what else it is given, without any motion.
+    /// A body on coordinates and what else it is given, without any motion: it takes the sines that it needs itself, of
+    /// which a pose holds more.
+    fn on_coordinates(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Body {
+        let coordinates = self.plan.coordinates(Order::Value);
+        let sources = [self.given(), coordinates].into_iter().chain(sources).collect();
+        let steps = self.plan.with_determinants(steps);
+        Body { kernel: Some(Kernel { sources, steps, results, ..Kernel::default() }), ..Body::default() }
+    }
+
+    /// A body on the pose at coordinates and what else it is given.
     fn on_pose(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Body {
         let mut body = Body::default();
         let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
@@ -160,7 +170,7 @@ impl ScenePlan<'_, '_, '_> {
 
     /// The parameters, the coordinates, and what a pose holds beside directions.
     fn still(&self) -> [Source; 3] {
-        let coordinates = self.plan.coordinates(&self.signatures.arguments.q, |c| c.value);
+        let coordinates = self.plan.coordinates(Order::Value);
         [self.given(), coordinates, self.plan.computed()]
     }
 
@@ -190,9 +200,9 @@ impl ScenePlan<'_, '_, '_> {
         };
         let blame = (self.is_blamable && values.iter().any(is_formula)).then(|| {
             let time = self.blame_takes_time().then_some(&arguments.time);
-            let state = time.into_iter().chain([&arguments.q, &arguments.rate]);
+            let state = time.into_iter().chain([&arguments.q, &arguments.input_rates]);
             let blame = Expression::call("blame", state.map(Expression::name));
-            let refused = Expression::runtime("Err", [Expression::name("error")]);
+            let refused = Expression::runtime("Err", [Expression::name("error").method("into", [])]);
             Expression::Closure {
                 arguments: vec![Pattern::Name("error".to_owned())],
                 statements: Vec::new(),
@@ -205,12 +215,12 @@ impl ScenePlan<'_, '_, '_> {
         body
     }
 
-    /// The rates by their name, which a body may use more than once.
+    /// The rates of the inputs by their name, which a body may use more than once.
     fn with_rates(&self, mut body: Body) -> Body {
-        let rate = &self.signatures.arguments.rate;
+        let input_rates = &self.signatures.arguments.input_rates;
         let inputs = Type::Own(self.signatures.types.inputs.clone());
-        let converted = Expression::name(rate).method("into", []);
-        body.before.insert(0, Statement::Let(Pattern::Typed(rate.clone(), inputs), converted));
+        let converted = Expression::name(input_rates).method("into", []);
+        body.before.insert(0, Statement::Let(Pattern::Typed(input_rates.clone(), inputs), converted));
         body
     }
 }

@@ -25,7 +25,7 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`Singular` where J has no inverse, `NotFinite` if an entry is not finite.",
+            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if an entry is not finite.",
         ]));
         let symbols: Vec<SymbolId> = self.layers.inertia.iter().flatten().copied().collect();
         let outputs = unnamed(self.plan.variables(&symbols));
@@ -126,27 +126,27 @@ impl ScenePlan<'_, '_, '_> {
         let entries = 0..free.len().pow(2);
         let sides = entries.end..entries.end + free.len();
         let laws = sides.end..outputs.len();
-        let mut body = self.on_motion(outputs, Some(Read::Velocity));
+        let mut body = self.on_motion(outputs, Some(Read::Rates));
         let accelerations = self.solve_free(&mut body, results(entries), results(sides));
         let mut accelerations: Vec<(InputId, Expression)> = free.into_iter().zip(accelerations).collect();
         accelerations.extend(self.signatures.driven.iter().copied().zip(results(laws)));
         accelerations.sort_by_key(|(at, _)| *at);
         let accelerations: Vec<Expression> = accelerations.into_iter().map(|(_, value)| value).collect();
-        let velocity = Expression::name(&self.signatures.arguments.velocity);
-        let rates = self.plan.to_check().into_iter();
-        let rates = rates.map(|column| velocity.clone().field(&self.plan.derivation.coordinates[column].name));
-        let checked = accelerations.iter().cloned().chain(rates).collect();
+        let rates = Expression::name(&self.signatures.arguments.rates);
+        let unchecked = self.plan.to_check().into_iter();
+        let unchecked = unchecked.map(|column| rates.clone().field(&self.plan.derivation.coordinates[column].name));
+        let checked = accelerations.iter().cloned().chain(unchecked).collect();
         let body = self.blamed(body, "the acceleration", checked);
         let body = self.with_rates(body);
         let inputs = self.signatures.inputs.iter().cloned().zip(accelerations);
         let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), inputs);
-        let body = Body { value: Value::Plain(Expression::Tuple(vec![velocity, inputs])), ..body };
+        let body = Body { value: Value::Plain(Expression::Tuple(vec![rates, inputs])), ..body };
         let mut errors = lines(ERRORS);
         if !self.signatures.free.is_empty() {
-            errors.push("`NoInertia` where an input could accelerate without a force.".to_owned());
+            errors.push("`MotionError::NoInertia` where an input could accelerate without a force.".to_owned());
         }
         let mut doc = lines([
-            "The velocity q' = (W v', v') and the input accelerations v'' of M v'' = Q: the right-hand side for an integrator.",
+            "The rates q' = (W v', v') and the input accelerations v'' of M v'' = Q: the right-hand side for an integrator.",
         ]);
         doc.extend(errors.clone());
         self.add(self.signatures.rates(), doc, body);
@@ -154,7 +154,7 @@ impl ScenePlan<'_, '_, '_> {
         let mut doc = lines(["The accelerations v'' of the inputs: M v'' = Q, and the laws of what is driven."]);
         doc.extend(errors);
         let arguments = &self.signatures.arguments;
-        let state = [&arguments.time, &arguments.q, &arguments.rate];
+        let state = [&arguments.time, &arguments.q, &arguments.input_rates];
         let rates = Expression::call("rates", state.map(Expression::name)).tried();
         let body = Body::plain(rates.field("1"));
         self.add(self.signatures.acceleration(), doc, body);

@@ -6,7 +6,7 @@ use crate::graph::SymbolId;
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement};
 use crate::program::function::{Body, Source, Value, results};
-use crate::program::names::Arguments;
+use crate::program::names::{Arguments, Order};
 use crate::program::plan::unnamed;
 
 impl ScenePlan<'_, '_, '_> {
@@ -18,7 +18,8 @@ impl ScenePlan<'_, '_, '_> {
             "with which the left side pulls there at the right side.",
         ]);
         doc.extend(lines(ERRORS));
-        let Arguments { time, q, rate, acceleration, pose, .. } = self.signatures.arguments.clone();
+        let Arguments { time, q, rates, accelerations, input_rates, input_accelerations, pose, .. } =
+            self.signatures.arguments.clone();
         let steps = self.plan.derivation.transposed_solution(&reactions);
         let nodes = self.plan.variables(&reactions.names);
         let steps = needed(&self.plan.derivation.graph, steps, &nodes);
@@ -30,23 +31,21 @@ impl ScenePlan<'_, '_, '_> {
         };
         let (takes_rate, takes_acceleration) = (used(|c| c.rate), used(|c| c.acceleration));
         let count = nodes.len();
-        let by_name = |name: &str, source: Source| Source { from: Expression::name(name), ..source };
-        let sources = vec![
-            by_name(&rate, self.plan.coordinates(&rate, |c| c.rate)),
-            by_name(&acceleration, self.plan.coordinates(&acceleration, |c| c.acceleration)),
-        ];
+        let by_name = |name: &str, order| Source { from: Expression::name(name), ..self.plan.coordinates(order) };
+        let sources = vec![by_name(&rates, Order::Rate), by_name(&accelerations, Order::Acceleration)];
         let mut body = self.on_pose(sources, steps, unnamed(nodes)).checked("the reactions", results(0..count));
         let at = |name: &str| Expression::name(name);
         let on = at(&pose).borrowed();
         if takes_acceleration {
-            let both = Pattern::Tuple(vec![Pattern::Name(rate.clone()), Pattern::Name(acceleration.clone())]);
-            let rates = Expression::call("rates", [at(&time), at(&q), at(&rate)]).tried();
-            body.before.push(Statement::Let(both, rates));
-            let all = self.mechanism().method("acceleration", [on, at(&rate).borrowed(), at(&acceleration)]).tried();
-            body.before.push(Statement::Let(Pattern::Name(acceleration), all));
+            let both = Pattern::Tuple(vec![Pattern::Name(rates.clone()), Pattern::Name(input_accelerations.clone())]);
+            let moving = Expression::call("rates", [at(&time), at(&q), at(&input_rates)]).tried();
+            body.before.push(Statement::Let(both, moving));
+            let all = [on, at(&rates).borrowed(), at(&input_accelerations)];
+            let all = self.mechanism().method("acceleration", all).tried();
+            body.before.push(Statement::Let(Pattern::Name(accelerations), all));
         } else if takes_rate {
-            let velocity = self.mechanism().method("velocity", [on, at(&rate)]).tried();
-            body.before.push(Statement::Let(Pattern::Name(rate.clone()), velocity));
+            let all = self.mechanism().method("velocity", [on, at(&input_rates)]).tried();
+            body.before.push(Statement::Let(Pattern::Name(rates), all));
         }
         let body = Body { value: Value::Plain(Expression::vector(results(0..count))), ..body };
         self.add(self.signatures.reactions(), doc, body);

@@ -14,11 +14,11 @@ pub enum Read {
     /// W.
     Ratios,
     /// q'.
-    Velocity,
+    Rates,
     /// u'' at v'' = 0.
     Bias,
     /// v'.
-    Rates,
+    InputRates,
     /// M.
     Inertia,
     /// Q.

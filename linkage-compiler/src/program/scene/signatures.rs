@@ -5,7 +5,7 @@ use crate::ids::{InputId, Table};
 use crate::model::{self, Driver, Mechanism, Wish};
 use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
-use crate::program::names::{Arguments, TypeNames, argument};
+use crate::program::names::{Arguments, Order, TypeNames, argument};
 use crate::program::signatures::{fallible, total};
 
 /// The functions of one scene, without bodies.
@@ -41,19 +41,15 @@ impl<'a> SceneSignatures<'a> {
         }
     }
 
-    /// All of them, in the order in which they are emitted.
+    /// All of them, in the order in which they are emitted: what people call first comes first.
     pub fn all(&self) -> Vec<Function<Body>> {
         let (scene, mut all) = (self.scene, Vec::new());
         let has_inertia = scene.inertia.is_some();
         if has_inertia {
-            all.push(self.mass_matrix());
-        }
-        all.push(self.forces());
-        if has_inertia {
-            all.extend([self.rates(), self.acceleration(), self.unreduced()]);
+            all.extend([self.acceleration(), self.rates()]);
         }
         if !self.driven.is_empty() {
-            all.extend([self.drives(), self.drive_forces()]);
+            all.extend([self.drive_forces(), self.drives()]);
         }
         let wishes = [Wish::Energy, Wish::Power, Wish::Reactions, Wish::Equilibrium];
         for wish in wishes.into_iter().filter(|wish| scene.wishes.contains(wish)) {
@@ -61,19 +57,26 @@ impl<'a> SceneSignatures<'a> {
                 Wish::Energy => all.push(self.energy()),
                 Wish::Power => all.push(self.power()),
                 Wish::Reactions => all.push(self.reactions()),
-                Wish::Equilibrium => all.extend([self.balance(), self.equilibrium()]),
+                Wish::Equilibrium => all.extend([self.equilibrium(), self.balance()]),
             }
         }
+        if has_inertia {
+            all.push(self.mass_matrix());
+        }
+        all.push(self.forces());
+        if has_inertia {
+            all.push(self.unreduced());
+        }
+        all.push(self.check());
         if !scene.contacts.is_empty() {
             all.extend([self.contacts(), self.equations()]);
         }
-        all.push(self.check());
         all
     }
 
     pub fn mass_matrix(&self) -> Function<Body> {
         let v = self.inputs.len();
-        fallible("mass_matrix", [self.coordinates(&self.arguments.q)], Type::Matrix(v, v))
+        fallible("mass_matrix", [self.coordinates(Order::Value)], Type::Matrix(v, v))
     }
 
     pub fn forces(&self) -> Function<Body> {
@@ -81,7 +84,7 @@ impl<'a> SceneSignatures<'a> {
     }
 
     pub fn rates(&self) -> Function<Body> {
-        let of = Type::Tuple(vec![self.coordinates_type(), Type::Own(self.types.inputs.clone())]);
+        let of = Type::Tuple(vec![self.coordinates_type(Order::Rate), Type::Own(self.types.inputs.clone())]);
         fallible("rates", self.state(), of)
     }
 
@@ -90,12 +93,12 @@ impl<'a> SceneSignatures<'a> {
     }
 
     pub fn unreduced(&self) -> Function<Body> {
-        fallible("unreduced", self.whole_state(), Type::Runtime("Unreduced", vec![self.unknowns, self.inputs.len()]))
+        fallible("unreduced", self.whole_state(), Type::Sized("Unreduced", vec![self.unknowns, self.inputs.len()]))
     }
 
     pub fn drives(&self) -> Function<Body> {
-        let laws = Type::List(Box::new(Type::Scalar), 3);
-        total("drives", [self.time()], Type::List(Box::new(laws), self.driven.len()))
+        let law = Type::Runtime("Prescribed", Vec::new());
+        total("drives", [self.time()], Type::List(Box::new(law), self.driven.len()))
     }
 
     pub fn drive_forces(&self) -> Function<Body> {
@@ -116,22 +119,24 @@ impl<'a> SceneSignatures<'a> {
     }
 
     pub fn balance(&self) -> Function<Body> {
-        let arguments = [self.time(), self.coordinates(&self.arguments.q)];
+        let arguments = [self.time(), self.coordinates(Order::Value)];
         fallible("balance", arguments, Type::Runtime("Balance", vec![self.free.len()]))
     }
 
     pub fn equilibrium(&self) -> Function<Body> {
-        fallible("equilibrium", [self.time(), self.coordinates(&self.arguments.guess)], self.coordinates_type())
+        let guess = Argument { name: self.arguments.guess.clone(), ..self.coordinates(Order::Value) };
+        fallible("equilibrium", [self.time(), guess], self.coordinates_type(Order::Value))
     }
 
     pub fn contacts(&self) -> Function<Body> {
-        let contact = Type::Runtime("Contact", vec![self.unknowns, self.inputs.len()]);
+        let contact = Type::Sized("Contact", vec![self.unknowns, self.inputs.len()]);
         let of = Type::List(Box::new(contact), self.scene.contacts.len());
-        fallible("contacts", self.whole_state(), of)
+        Function { access: Access::Hidden, ..fallible("contacts", self.whole_state(), of) }
     }
 
     pub fn equations(&self) -> Function<Body> {
-        fallible("equations", self.state(), Type::Runtime("Equations", vec![self.unknowns, self.inputs.len()]))
+        let of = Type::Sized("Equations", vec![self.unknowns, self.inputs.len()]);
+        Function { access: Access::Hidden, ..fallible("equations", self.state(), of) }
     }
 
     pub fn check(&self) -> Function<Body> {
@@ -139,51 +144,52 @@ impl<'a> SceneSignatures<'a> {
     }
 
     pub fn blame(&self, takes_time: bool) -> Function<Body> {
-        let rate = Passed::ByValue(Type::Own(self.types.inputs.clone()));
-        let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
+        let rates = Passed::ByValue(Type::Own(self.types.inputs.clone()));
+        let rates = Argument { name: self.arguments.input_rates.clone(), passed: rates };
         let time = takes_time.then(|| self.time());
-        let arguments = time.into_iter().chain([self.coordinates(&self.arguments.q), rate]);
+        let arguments = time.into_iter().chain([self.coordinates(Order::Value), rates]);
         Function { access: Access::Cold, ..fallible("blame", arguments, Type::Tuple(Vec::new())) }
     }
 
     /// What a layer may take.
     pub fn of_layer(&self, read: Read) -> Option<Argument> {
-        let Arguments { q, pose, ratios, velocity, bias, .. } = &self.arguments;
+        let Arguments { q, pose, ratios, rates, bias, .. } = &self.arguments;
         let list = |of: Type, many: usize| Type::List(Box::new(of), many);
         let (name, of) = match read {
             Read::Time => return Some(self.time()),
-            Read::Q => (q, self.coordinates_type()),
+            Read::Q => (q, self.coordinates_type(Order::Value)),
             Read::Pose => (pose, Type::Own(self.types.pose.clone())),
             Read::Ratios => (ratios, list(list(Type::Scalar, self.unknowns), self.inputs.len())),
-            Read::Velocity => (velocity, self.coordinates_type()),
+            Read::Rates => (rates, self.coordinates_type(Order::Rate)),
             Read::Bias => (bias, list(Type::Scalar, self.unknowns)),
-            Read::Rates | Read::Inertia | Read::Forces => return None,
+            Read::InputRates | Read::Inertia | Read::Forces => return None,
         };
         Some(Argument { name: name.clone(), passed: Passed::ByReference(of) })
     }
 
     /// t, q and v'.
     fn state(&self) -> [Argument; 3] {
-        let rate = Passed::Converted(Type::Own(self.types.inputs.clone()));
-        let rate = Argument { name: self.arguments.rate.clone(), passed: rate };
-        [self.time(), self.coordinates(&self.arguments.q), rate]
+        let rates = Passed::Converted(Type::Own(self.types.inputs.clone()));
+        let rates = Argument { name: self.arguments.input_rates.clone(), passed: rates };
+        [self.time(), self.coordinates(Order::Value), rates]
     }
 
     /// t, q and q'.
     fn whole_state(&self) -> [Argument; 3] {
-        [self.time(), self.coordinates(&self.arguments.q), self.coordinates(&self.arguments.rate)]
+        [self.time(), self.coordinates(Order::Value), self.coordinates(Order::Rate)]
     }
 
     fn time(&self) -> Argument {
         Argument { name: self.arguments.time.clone(), passed: Passed::ByValue(Type::Scalar) }
     }
 
-    fn coordinates(&self, name: &str) -> Argument {
-        Argument { name: name.to_owned(), passed: Passed::ByReference(self.coordinates_type()) }
+    fn coordinates(&self, order: Order) -> Argument {
+        let passed = Passed::ByReference(self.coordinates_type(order));
+        Argument { name: self.arguments.of(order).to_owned(), passed }
     }
 
-    fn coordinates_type(&self) -> Type {
-        Type::Own(self.types.coordinates.clone())
+    fn coordinates_type(&self, order: Order) -> Type {
+        Type::Own(self.types.of(order).to_owned())
     }
 }
 

@@ -7,6 +7,7 @@ use crate::ids::{ColumnId, Id, Table};
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
+use crate::program::names::Order;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn unreduced(&mut self) {
@@ -22,9 +23,9 @@ impl ScenePlan<'_, '_, '_> {
         let forces = forces.map(|(&node, name)| Output::named(node, format!("{name}_force")));
         let outputs: Vec<Output> = entries.chain(forces).collect();
         let count = outputs.len();
-        let rate = &self.signatures.arguments.rate;
-        let sources = vec![self.plan.coordinates(rate, |c| c.rate)];
-        let mut body = self.on_pose(sources, Vec::new(), outputs).checked("the equations of motion", results(0..count));
+        let sources = vec![self.plan.coordinates(Order::Rate)];
+        let mut body =
+            self.on_coordinates(sources, Vec::new(), outputs).checked("the equations of motion", results(0..count));
         let entries: BTreeMap<(ColumnId, ColumnId), usize> =
             unreduced.mass_matrix.keys().enumerate().map(|(result, &place)| (place, result)).collect();
         // Each entry above the diagonal is below it as well.
@@ -41,12 +42,13 @@ impl ScenePlan<'_, '_, '_> {
         let derivation = &self.plan.derivation;
         let (unknowns, inputs) = (&derivation.unknowns, &derivation.inputs);
         let matrices = [
-            body.matrix(&block(unknowns, unknowns), u, u),
-            body.matrix(&block(unknowns, inputs), u, v),
-            body.matrix(&block(inputs, inputs), v, v),
+            body.matrix("Matrix", &block(unknowns, unknowns), u, u),
+            body.matrix("Matrix", &block(unknowns, inputs), u, v),
+            body.matrix("Matrix", &block(inputs, inputs), v, v),
         ];
         let force = |at: &ColumnId| Expression::Result(entries.len() + at.index());
-        let forces = [&**unknowns, &**inputs].map(|places| Expression::vector(places.iter().map(force).collect()));
+        let forces =
+            [&**unknowns, &**inputs].map(|places| Expression::sized_vector(places.iter().map(force).collect()));
         let members = ["unknowns", "mixed", "inputs", "unknown_forces", "input_forces"].map(str::to_owned);
         let members = members.into_iter().zip(matrices.into_iter().chain(forces));
         let value = Expression::structure(Type::Runtime("Unreduced", Vec::new()), members);
@@ -55,7 +57,7 @@ impl ScenePlan<'_, '_, '_> {
             "The inertia and the forces in all coordinates, at the rates of all coordinates: `M q'' + Psi_q' lambda = F`.",
             "",
             "# Errors",
-            "`NotFinite` if an entry is not finite.",
+            "`PositionError::NotFinite` if an entry is not finite.",
         ]);
         self.add(self.signatures.unreduced(), doc, body);
     }

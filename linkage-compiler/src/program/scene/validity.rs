@@ -15,14 +15,15 @@ impl ScenePlan<'_, '_, '_> {
                 "Refuses parameters that no body has.",
                 "",
                 "# Errors",
-                "`Negative` if a mass or an inertia is negative, `NotFinite` if it is not finite, with its name.",
+                "With its name: `InputError::OutOfRange` if a mass or an inertia is negative, `PositionError::NotFinite` if it is",
+                "not finite.",
             ]),
             _ => lines([
                 "Refuses parameters that no body, no friction and no stop has.",
                 "",
                 "# Errors",
-                "With its name: `Negative` if a mass, an inertia or a friction is negative, `NoRange` if nothing is left between",
-                "stops, `Restitution` if one is not between 0 and 1, `NotFinite` if a number is not finite.",
+                "With its name: `InputError::OutOfRange` if a mass, an inertia or a friction is negative or a restitution not between",
+                "0 and 1, `InputError::EmptyRange` if nothing is left between stops, `PositionError::NotFinite` if a number is not finite.",
             ]),
         };
         let mut nodes: Vec<NodeId> = self.scene.masses.iter().map(|(_, node)| *node).collect();
