@@ -5,11 +5,17 @@
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!("enable the feature `std` of `linkage`, or `libm` where there is no standard library");
 
+#[cfg(any(feature = "std", feature = "libm"))]
+mod error;
+
+#[cfg(any(feature = "std", feature = "libm"))]
+pub use error::Error;
 #[cfg(all(feature = "double-double", any(feature = "std", feature = "libm")))]
 pub use linkage_double::DoubleDouble;
 #[cfg(all(feature = "dynamics", any(feature = "std", feature = "libm")))]
 pub use linkage_dynamics::{
-    Along, Balance, Contact, ContactLaw, Energy, Equations, Mode, Power, Scene, Unreduced, contact, simulation,
+    Balance, Contact, ContactCoordinate, ContactLaw, Coordinates, Energy, Equations, Inputs, Mode, MotionError, Power,
+    Prescribed, Rates, Scene, StateColumn, Unreduced, contact, simulation,
 };
 #[cfg(feature = "drawing")]
 pub use linkage_report::drawing;
@@ -17,8 +23,9 @@ pub use linkage_report::drawing;
 pub use linkage_report::{Document, sheet};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
-    Assembly, Elbow, Error, Group, Mechanism, OutputMotion, PointMotion, Real, Slider, Slope, Solution, accuracy,
-    continuation, derivation, limits, nalgebra, position, singularity,
+    AnyBranch, Assembly, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion, PathError,
+    PerInput, PerUnknown, PointMotion, PositionError, Real, Slider, Slope, Solution, accuracy, continuation,
+    derivation, limits, nalgebra, position, real, singularity,
 };
 
 /// A mechanism under forces: the position is solved for within the rate, the last one being the guess.

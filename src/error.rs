@@ -1,0 +1,74 @@
+//! Why there is no result, whatever was attempted.
+
+use core::fmt;
+
+#[cfg(feature = "dynamics")]
+use linkage_dynamics::MotionError;
+use linkage_runtime::{InputError, PathError, PositionError};
+
+/// Why there is no result, whatever was attempted: what `?` makes of the other errors, for functions that attempt several
+/// things.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number or a setting cannot be used.
+    Input(InputError),
+    /// There is no position, velocity or force.
+    Position(PositionError),
+    /// A path cannot be followed.
+    Path(PathError),
+    /// A motion cannot be computed.
+    #[cfg(feature = "dynamics")]
+    Motion(MotionError),
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(error) => error.fmt(f),
+            Self::Position(error) => error.fmt(f),
+            Self::Path(error) => error.fmt(f),
+            #[cfg(feature = "dynamics")]
+            Self::Motion(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+impl From<InputError> for Error {
+    fn from(error: InputError) -> Self {
+        Self::Input(error)
+    }
+}
+
+impl From<PositionError> for Error {
+    fn from(error: PositionError) -> Self {
+        match error {
+            PositionError::Input(error) => Self::Input(error),
+            error => Self::Position(error),
+        }
+    }
+}
+
+impl From<PathError> for Error {
+    fn from(error: PathError) -> Self {
+        match error {
+            PathError::Input(error) => Self::Input(error),
+            PathError::Position(error) => Self::Position(error),
+            error => Self::Path(error),
+        }
+    }
+}
+
+#[cfg(feature = "dynamics")]
+impl From<MotionError> for Error {
+    fn from(error: MotionError) -> Self {
+        match error {
+            MotionError::Input(error) => Self::Input(error),
+            MotionError::Position(error) => Self::Position(error),
+            MotionError::Path(error) => Self::Path(error),
+            error => Self::Motion(error),
+        }
+    }
+}
