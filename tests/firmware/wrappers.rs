@@ -1,0 +1,162 @@
+//! The text of the library: what is emitted for each mechanism, and a function without type parameters for each of
+//! its functions, in `f64`.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
+use syn::{FnArg, ImplItem, Item, ItemImpl, PathArguments, ReturnType, Type, TypeParamBound, Visibility};
+
+use crate::every::{self, Expansion};
+
+/// The files of the library by name, and how many functions of emitted code are wrapped in them.
+pub fn files(root: &Path) -> (Vec<(String, String)>, usize) {
+    let laws = root.join("tests/source/cam_laws.rs");
+    let mut library = format!("#![no_std]\n#[path = {laws:?}] mod cam_laws;\n{PLANTED}\n");
+    let (mut files, mut count) = (Vec::new(), 0);
+    for Expansion { module, functions, emitted } in every::expansions(root, None) {
+        let wrappers: Vec<String> = every::items(&emitted.items).into_iter().flat_map(wrapped).collect();
+        count += wrappers.len();
+        let wrappers = wrappers.concat();
+        let text = functions + &prettyplease::unparse(&emitted);
+        // Wrappers have the names of types in theirs.
+        writeln!(library, "#[allow(warnings)] pub mod {module};").unwrap();
+        let text = format!("{text}\npub mod wrappers {{ use super::*; use ::linkage::__rt;\n{wrappers}}}\n");
+        files.push((format!("{module}.rs"), text));
+    }
+    files.push(("lib.rs".to_owned(), library));
+    (files, count)
+}
+
+/// What must be found, by way of a generic function and by a pointer in a table, and what must not.
+const PLANTED: &str = "
+pub mod planted {
+    #[inline(never)]
+    fn entry<T: Copy>(values: &[T], place: usize) -> T {
+        values[place]
+    }
+    pub mod wrappers {
+        use super::entry;
+        #[inline(never)]
+        pub fn indexes(values: &[f64], place: usize) -> f64 {
+            entry(values, place)
+        }
+        #[inline(never)]
+        pub fn points(place: bool) -> fn(&[f64], usize) -> f64 {
+            const TABLE: [fn(&[f64], usize) -> f64; 2] = [entry::<f64>, indexes];
+            TABLE[usize::from(place)]
+        }
+        #[inline(never)]
+        pub fn looks(values: &[f64], place: usize) -> f64 {
+            values.get(place).copied().unwrap_or_default()
+        }
+    }
+}";
+
+/// A wrapper of each function of an `impl` that can be called: those of a type, and those of the traits by which
+/// general algorithms call it.
+fn wrapped(item: &Item) -> Vec<String> {
+    let Item::Impl(implementation) = item else { return Vec::new() };
+    let called = implementation.trait_.as_ref().map(|(path, _)| path);
+    let is_of_runtime = |path: &syn::Path| {
+        let name = &path.segments.last().unwrap().ident;
+        ["Mechanism", "Assembly", "Scene"].iter().any(|known| name == known)
+    };
+    if called.is_some_and(|path| !is_of_runtime(path)) {
+        return Vec::new();
+    }
+    let functions = implementation.items.iter().filter_map(|item| match item {
+        ImplItem::Fn(function) if called.is_some() || matches!(function.vis, Visibility::Public(_)) => Some(function),
+        _ => None,
+    });
+    functions.map(|function| wrapper(implementation, called, &function.sig)).collect()
+}
+
+fn wrapper(implementation: &ItemImpl, called: Option<&syn::Path>, signature: &syn::Signature) -> String {
+    let of = in_doubles(implementation.self_ty.to_token_stream());
+    let scalars: Vec<&Ident> = signature.generics.type_params().map(|parameter| &parameter.ident).collect();
+    let concrete = |tokens| replaced(tokens, &|name| scalars.contains(&name).then(|| quote!(f64)));
+    let own = |tokens| with_self(concrete(in_doubles(tokens)), implementation, &of);
+    let mut arguments = Vec::new();
+    for (place, argument) in signature.inputs.iter().enumerate() {
+        let of = match argument {
+            FnArg::Receiver(receiver) => match &receiver.kind {
+                syn::ReceiverKind::Reference(..) => quote!(&#of),
+                _ => of.clone(),
+            },
+            FnArg::Typed(argument) => own(argument_type(&argument.ty)),
+        };
+        arguments.push((quote::format_ident!("a{place}"), of));
+    }
+    let parameters = arguments.iter().map(|(name, of)| quote!(#name: #of));
+    let names = arguments.iter().map(|(name, _)| name);
+    let function = &signature.ident;
+    let on = match called {
+        None => quote!(<#of>),
+        Some(path) => {
+            let path = in_doubles(path.to_token_stream());
+            quote!(<#of as #path>)
+        }
+    };
+    let call = quote!(#on::#function(#(#names),*));
+    let plain = |tokens: &TokenStream| tokens.to_string().split('<').next().unwrap_or_default().trim().to_owned();
+    let by = called.map_or(String::new(), |path| format!("_as_{}", path.segments.last().unwrap().ident));
+    let name = quote::format_ident!("{}{by}_{function}", plain(&of));
+    let text = match &signature.output {
+        ReturnType::Default => quote!(pub fn #name(#(#parameters),*) { #call }),
+        ReturnType::Type(_, of) if matches!(**of, Type::ImplTrait(_)) => quote! {
+            pub fn #name(#(#parameters),*) { #call.for_each(|item| { ::core::hint::black_box(item); }) }
+        },
+        ReturnType::Type(_, of) => {
+            let of = own(of.to_token_stream());
+            quote!(pub fn #name(#(#parameters),*) -> #of { #call })
+        }
+    };
+    format!("#[inline(never)] {text}\n")
+}
+
+/// `impl Into<X>` is an X, and `impl Fn(X) -> Y` a pointer.
+fn argument_type(of: &Type) -> TokenStream {
+    let Type::ImplTrait(bounds) = of else { return of.to_token_stream() };
+    let Some(TypeParamBound::Trait(bound)) = bounds.bounds.first() else { return of.to_token_stream() };
+    match bound.path.segments.last().map(|segment| &segment.arguments) {
+        Some(PathArguments::AngleBracketed(arguments)) => arguments.args.to_token_stream(),
+        Some(PathArguments::Parenthesized(of)) => quote!(fn #of),
+        _ => of.to_token_stream(),
+    }
+}
+
+/// f64 for T.
+fn in_doubles(tokens: TokenStream) -> TokenStream {
+    replaced(tokens, &|name| (name == "T").then(|| quote!(f64)))
+}
+
+/// The type for `Self`; where that leads to an associated type, the trait says of which implementation.
+fn with_self(tokens: TokenStream, implementation: &ItemImpl, of: &TokenStream) -> TokenStream {
+    let mechanism = implementation.items.iter().find_map(|item| match item {
+        ImplItem::Type(item) if item.ident == "Mechanism" => Some(item.ty.to_token_stream()),
+        _ => None,
+    });
+    let mut text = tokens.to_string();
+    if let Some(mechanism) = mechanism {
+        text = text.replace("Self :: Mechanism", &in_doubles(mechanism).to_string());
+    }
+    if let Some((path, _)) = &implementation.trait_ {
+        let path = in_doubles(path.to_token_stream());
+        // What an assembly says of positions is that of the mechanism.
+        let mechanism = path.to_string().replace("Assembly", "Mechanism");
+        text = text.replace("Self :: Branch", &format!("< {of} as {path} > :: Branch"));
+        text = text.replace("Self ::", &format!("< {of} as {mechanism} > ::"));
+    }
+    replaced(text.parse().unwrap(), &|name| (name == "Self").then(|| of.clone()))
+}
+
+fn replaced(tokens: TokenStream, by: &impl Fn(&Ident) -> Option<TokenStream>) -> TokenStream {
+    let replace = |token| match token {
+        TokenTree::Ident(name) => by(&name).unwrap_or_else(|| name.into_token_stream()),
+        TokenTree::Group(group) => Group::new(group.delimiter(), replaced(group.stream(), by)).into_token_stream(),
+        other => other.into_token_stream(),
+    };
+    tokens.into_iter().map(replace).collect()
+}
