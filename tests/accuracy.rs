@@ -4,9 +4,9 @@
 use std::borrow::Borrow;
 use std::f64::consts::{PI, TAU};
 
-use linkage::accuracy::{ClosedForm, Method, Newton, Reached, Table};
+use linkage::accuracy::{ClosedForm, Newton, PositionMethod, Reached, Table};
 use linkage::nalgebra::SVector;
-use linkage::{Assembly, Error, Mechanism, Real, linkage};
+use linkage::{Assembly, Column, InputError, Mechanism, PositionError, Real, linkage};
 use linkage_double::DoubleDouble;
 
 #[path = "../examples/accuracy_cost/dominance.rs"]
@@ -40,30 +40,27 @@ macro_rules! errors {
             }
 
             pub fn coordinates<T: Real>(unknowns: &[f64], input: f64) -> $Coordinates<T> {
-                let zero = $Coordinates::from(SVector::from([T::zero(); $U + 1]));
-                let unknowns = SVector::from(scalars::<T, $U>(unknowns));
-                let all = <$Mechanism<T> as Mechanism<T, $U, 1>>::with_unknowns(&zero, unknowns);
-                <$Mechanism<T> as Mechanism<T, $U, 1>>::with_inputs(&all, SVector::from(scalars::<T, 1>(&[input])))
+                let (unknowns, inputs) = (scalars::<T, $U>(unknowns), scalars::<T, 1>(&[input]));
+                <$Mechanism<T> as Mechanism>::coordinates(unknowns.into(), inputs.into())
             }
 
-            pub fn near<T: Real>(
-                case: &Case,
-            ) -> Reached<$Coordinates<T>, <$Mechanism<T> as Mechanism<T, $U, 1>>::Pose> {
+            pub fn near<T: Real>(case: &Case) -> Reached<$Coordinates<T>, <$Mechanism<T> as Mechanism>::Pose> {
                 Reached::at(&mechanism(case), coordinates(&case.before.1, case.before.0))
             }
 
             /// The largest errors of u, u' and u'' over the poses of this kind.
-            pub fn errors<T: Real, R: Method<$Mechanism<T>, T, $U, 1>>(
+            pub fn errors<T: Real, R: PositionMethod<$Mechanism<T>>>(
                 pose: &str,
                 start: impl Fn(&Case) -> R::From,
-            ) -> Result<[f64; 3], Error> {
+            ) -> Result<[f64; 3], PositionError> {
                 let mut largest = [0.0_f64; 3];
                 let poses = poses_of(stringify!($name));
                 let poses = poses.iter().filter(|poses| poses.pose == pose && !poses.angles_given);
                 for case in poses.flat_map(|poses| &poses.cases) {
                     let m = mechanism::<T>(case);
                     let [input] = scalars::<T, 1>(&[case.input]);
-                    let position = R::position(&m, &start(case), SVector::<T, 1>::new(input))?;
+                    let inputs = <$Mechanism<T> as Mechanism>::Inputs::from(Column::from([input]));
+                    let position = R::position(&m, &start(case), inputs)?;
                     for (largest, error) in largest.iter_mut().zip(rates(case, &m, position.borrow())?) {
                         *largest = largest.max(error);
                     }
@@ -73,7 +70,7 @@ macro_rules! errors {
             }
 
             /// The largest errors of u' and u'' where the angles are given.
-            pub fn errors_at_angles<T: Real>(pose: &str) -> Result<[f64; 2], Error> {
+            pub fn errors_at_angles<T: Real>(pose: &str) -> Result<[f64; 2], PositionError> {
                 let mut largest = [0.0_f64; 2];
                 let poses = poses_of(stringify!($name));
                 let poses = poses.iter().filter(|poses| poses.pose == pose && poses.angles_given);
@@ -90,24 +87,23 @@ macro_rules! errors {
             fn rates<T: Real>(
                 case: &Case,
                 m: &$Mechanism<T>,
-                pose: &<$Mechanism<T> as Mechanism<T, $U, 1>>::Pose,
-            ) -> Result<[f64; 3], Error> {
-                let unknowns = |q: &$Coordinates<T>| <$Mechanism<T> as Mechanism<T, $U, 1>>::unknowns(q);
+                pose: &<$Mechanism<T> as Mechanism>::Pose,
+            ) -> Result<[f64; 3], PositionError> {
                 let velocity = m.velocity(pose, T::one())?;
-                let acceleration = m.acceleration(pose, &velocity, T::zero())?;
+                let acceleration: SVector<T, { $U + 1 }> = m.acceleration(pose, &velocity, T::zero())?.into();
                 let position = if case.unknowns.is_empty() {
-                    case.error(0, unknowns(&pose.coordinates()).as_slice())
+                    case.error(0, <$Mechanism<T>>::unknowns(&pose.coordinates()).as_slice())
                 } else {
                     0.0
                 };
                 Ok([
                     position,
-                    case.error(1, unknowns(&velocity).as_slice()),
-                    case.error(2, unknowns(&acceleration).as_slice()),
+                    case.error(1, <$Mechanism<T>>::rate_parts(&velocity).0.as_slice()),
+                    case.error(2, &acceleration.as_slice()[..$U]),
                 ])
             }
 
-            pub type Entries<const N: usize> = Table<$Coordinates, f64, $U, N>;
+            pub type Entries<const N: usize> = Table<$Mechanism, N>;
 
             /// Over a turn, at benign poses.
             pub fn table<const N: usize>() -> (Entries<N>, [f64; 3]) {
@@ -158,7 +154,7 @@ fn closed_form_at_benign_poses() {
 fn closed_form_near_a_dead_point() {
     let four_bar = |sine: &str| four_bar::errors::<f64, ClosedForm>(sine, branch::<f64>);
     within(four_bar("1e-3").unwrap(), [2e-13, 2e-10, 3e-7]);
-    assert!(matches!(four_bar("1e-9"), Err(Error::Singular { group: "theta3, theta4", .. })));
+    assert!(matches!(four_bar("1e-9"), Err(PositionError::Singular { group: "theta3, theta4", .. })));
     let exact = |sine: &str| four_bar::errors::<DoubleDouble, ClosedForm>(sine, branch::<f64>).unwrap();
     within(exact("1e-3"), [2e-29, 2e-26, 3e-23]);
     // A rounding of the squares over the cube of the sine: 3.2e-15. `elbow_chord`'s factors are in double-double as right
@@ -169,7 +165,7 @@ fn closed_form_near_a_dead_point() {
     within(jansen::errors::<f64, ClosedForm>("1e-3", leg::<f64>).unwrap(), [2e-12, 4e-9, 1e-5]);
     assert!(matches!(
         jansen::errors::<f64, ClosedForm>("1e-9", leg::<f64>),
-        Err(Error::Singular { group: "angle_b, angle_j", .. })
+        Err(PositionError::Singular { group: "angle_b, angle_j", .. })
     ));
 }
 
@@ -211,7 +207,7 @@ fn newton_keeps_its_branch() {
     for step in 0..60 {
         match Newton::<1>::position(&m, &here, 0.9 + 0.05 * f64::from(step)) {
             Ok(there) => assert_eq!(m.branch_of(&there.pose), left),
-            Err(Error::OtherBranch { group: "theta3, theta4", .. }) => refused += 1,
+            Err(PositionError::OtherBranch { group: "theta3, theta4", .. }) => refused += 1,
             Err(other) => panic!("{other}"),
         }
     }
@@ -237,7 +233,7 @@ fn tables_go_round() {
     let m = FourBar::new(20.0, 80.0, 50.0, 70.0);
     let start = m.assemble(0.3, FourBarBranch::new(linkage::Elbow::Left)).unwrap();
     // A drag link: coupler and rocker turn with the crank.
-    let table = Table::<_, f64, 2, 257>::turn(&m, &start.coordinates()).unwrap();
+    let table = Table::<_, 257>::turn(&m, &start.coordinates()).unwrap();
     for (input, turns) in
         [(0.3 + 0.01, 0.0), (0.3 + TAU + 0.01, 1.0), (0.3 - TAU + 0.01, -1.0), (0.3 + 5.0 * TAU + 0.01, 5.0)]
     {
@@ -253,22 +249,21 @@ fn tables_refuse() {
     let m = FourBar::new(80.0, 50.0, 40.0, 60.0);
     let start = m.assemble(0.9, FourBarBranch::new(linkage::Elbow::Left)).unwrap().coordinates();
     // Its crank cannot turn; a part of the way it can.
-    Table::<_, f64, 2, 33>::turn(&m, &start).unwrap_err();
-    let table = Table::<_, f64, 2, 33>::between(&m, &start, 0.5).unwrap();
+    Table::<_, 33>::turn(&m, &start).unwrap_err();
+    let table = Table::<_, 33>::between(&m, &start, 0.5).unwrap();
     assert!(Table::position(&m, &table, 0.7).is_ok() && Table::position(&m, &table, 0.5).is_ok());
     for outside in [0.45, 0.95] {
         let error = Table::position(&m, &table, outside).unwrap_err();
-        assert!(
-            matches!(error, Error::OutsideTable { range, .. } if (range[0] - 0.5).abs() + (range[1] - 0.9).abs() < 1e-12)
-        );
+        assert!(matches!(error, PositionError::Input(InputError::OutOfRange { least, most, .. })
+                if (least - 0.5).abs() + (most - 0.9).abs() < 1e-12));
     }
-    assert!(matches!(Table::position(&m, &table, f64::NAN), Err(Error::NotFinite { .. })));
+    assert!(matches!(Table::position(&m, &table, f64::NAN), Err(PositionError::NotFinite { .. })));
     // Gears that turn once while the crank turns twice are somewhere else after a turn.
     let geared = GearedFiveBar { ratio: -0.5, ..GearedFiveBar::default() };
     let guess = GearedFiveBarCoordinates { theta1: 0.9, theta2: 0.3, theta3: 1.2, theta4: -0.45 + geared.phase };
     let start = geared.solve(&guess).unwrap().coordinates;
-    let around = Table::<_, f64, 3, 65>::turn(&geared, &start);
-    assert!(matches!(around, Err(Error::NotPeriodic { .. })), "{around:?}");
+    let around = Table::<_, 65>::turn(&geared, &start);
+    assert!(matches!(around, Err(PositionError::Input(InputError::NotPeriodic { .. }))), "{around:?}");
 }
 
 /// Asked for by type, it is the direct call.

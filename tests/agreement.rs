@@ -15,11 +15,13 @@ const TOLERANCE: f64 = 1e-12;
 macro_rules! agreement {
     (
         $test:ident, $path:literal, $file:literal, $index:literal,
-        $Driver:ident, $Coordinates:ident, $Inputs:ident, $Points:ident, $Outputs:ident
+        $Driver:ident, $Coordinates:ident, $Rates:ident, $Accelerations:ident, $Inputs:ident, $Points:ident,
+        $Outputs:ident
     ) => {
         mod $test {
+            use linkage::Real;
             use linkage::linkage;
-            use linkage::nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector2};
+            use linkage::nalgebra::{DMatrix, DVector, Point2, SMatrix, SVector, Vector2};
             use linkage_compiler::ids::{ColumnId, Id};
             use num_dual::{Dual2_64, Dual64};
 
@@ -36,17 +38,25 @@ macro_rules! agreement {
                 $Driver::from(std::array::from_fn(|index| scalar(sample.parameters[index])))
             }
 
-            fn coordinates<T: linkage::nalgebra::RealField + Copy>(value: impl Fn(usize) -> T) -> $Coordinates<T> {
+            /// Coordinates, rates or accelerations.
+            fn coordinates<T: Real, Q: From<SVector<T, COORDINATES>>>(value: impl Fn(usize) -> T) -> Q {
                 SVector::<T, COORDINATES>::from_fn(|row, _| value(row)).into()
             }
 
-            fn array(q: $Coordinates<f64>) -> Vec<f64> {
-                SVector::<f64, COORDINATES>::from(q).as_slice().to_vec()
+            fn array(q: impl Into<SVector<f64, COORDINATES>>) -> Vec<f64> {
+                q.into().as_slice().to_vec()
             }
 
-            fn flat(points: $Points<Vector2<f64>>) -> Vec<f64> {
-                let points: [Vector2<f64>; POINTS] = points.into();
-                points.iter().flat_map(|point| [point.x, point.y]).collect()
+            fn flat_points(points: $Points<Point2<f64>>) -> Vec<f64> {
+                listed_points(points).iter().flat_map(|point| [point.x, point.y]).collect()
+            }
+
+            fn listed_points<Q>(points: $Points<Q>) -> [Q; POINTS] {
+                points.into()
+            }
+
+            fn flat(vectors: $Points<Vector2<f64>>) -> Vec<f64> {
+                listed_points(vectors).iter().flat_map(|vector| [vector.x, vector.y]).collect()
             }
 
             fn listed<T>(outputs: $Outputs<T>) -> [T; OUTPUTS] {
@@ -61,9 +71,9 @@ macro_rules! agreement {
                 let mut regular = 0;
                 for sample in oracle.samples(POSES) {
                     let m = mechanism(&sample, |x| x);
-                    let q = coordinates(|i| sample.q[i]);
-                    let rate = coordinates(|i| sample.rate[i]);
-                    let acceleration = coordinates(|i| sample.acceleration[i]);
+                    let q: $Coordinates = coordinates(|i| sample.q[i]);
+                    let rates: $Rates = coordinates(|i| sample.rate[i]);
+                    let accelerations: $Accelerations = coordinates(|i| sample.acceleration[i]);
                     let pose = m.pose_at(&q);
 
                     let sizes = oracle.values(&sample, &d.sizes);
@@ -78,7 +88,7 @@ macro_rules! agreement {
                     let a = oracle.matrix(&sample, &a_rows, d.inputs.len());
                     all_close("A", m.jacobian_inputs(&pose).as_slice(), a.as_slice(), 0.0, TOLERANCE);
                     let gamma = oracle.values(&sample, &d.gamma);
-                    all_close("gamma", m.gamma(&pose, &rate).as_slice(), &gamma, 0.0, TOLERANCE);
+                    all_close("gamma", m.gamma(&pose, &rates).as_slice(), &gamma, 0.0, TOLERANCE);
                     // The simplified determinant against that of the matrix as it stands.
                     let size: f64 = j.column_iter().map(|column| column.norm()).product();
                     close("determinant", m.determinant(&pose), j.determinant(), size, TOLERANCE);
@@ -86,26 +96,26 @@ macro_rules! agreement {
                     let points: Vec<_> = d.points.iter().flat_map(|point| point.value.clone()).collect();
                     all_close(
                         "points",
-                        &flat(m.points(&pose).unwrap()),
+                        &flat_points(m.points(&pose).unwrap()),
                         &oracle.values(&sample, &points),
                         0.0,
                         TOLERANCE,
                     );
                     let points: Vec<_> = d.points.iter().flat_map(|point| point.rate.clone()).collect();
-                    let found = flat(m.point_velocities(&pose, &rate).unwrap());
+                    let found = flat(m.point_velocities(&pose, &rates).unwrap());
                     all_close("point velocities", &found, &oracle.values(&sample, &points), 0.0, TOLERANCE);
                     let points: Vec<_> = d.points.iter().flat_map(|point| point.acceleration.clone()).collect();
-                    let found = flat(m.point_accelerations(&pose, &rate, &acceleration).unwrap());
+                    let found = flat(m.point_accelerations(&pose, &rates, &accelerations).unwrap());
                     all_close("point accelerations", &found, &oracle.values(&sample, &points), 0.0, TOLERANCE);
                     let values = listed(m.outputs(&pose).unwrap());
-                    let rates = listed(m.output_velocities(&pose, &rate).unwrap());
-                    let accelerations = listed(m.output_accelerations(&pose, &rate, &acceleration).unwrap());
+                    let output_rates = listed(m.output_velocities(&pose, &rates).unwrap());
+                    let output_accelerations = listed(m.output_accelerations(&pose, &rates, &accelerations).unwrap());
                     for (index, output) in d.outputs.iter().enumerate() {
                         let name = $Outputs::<()>::NAMES[index];
                         for (found, node) in [
                             (values[index], output.value[0]),
-                            (rates[index], output.rate[0]),
-                            (accelerations[index], output.acceleration[0]),
+                            (output_rates[index], output.rate[0]),
+                            (output_accelerations[index], output.acceleration[0]),
                         ] {
                             let expected = oracle.values(&sample, &[node])[0];
                             close(name, found, expected, expected.abs().max(0.01), TOLERANCE);
@@ -128,14 +138,14 @@ macro_rules! agreement {
                     let pick = |q: &[f64], of: &[ColumnId]| {
                         DVector::from_iterator(of.len(), of.iter().map(|place| q[place.index()]))
                     };
-                    let velocity = m.velocity(&pose, $Inputs::from(&rate)).unwrap();
+                    let velocity = m.velocity(&pose, $Inputs::from(&rates)).unwrap();
                     let found = array(velocity);
                     let (u, v) = (pick(&found, &d.unknowns), pick(&found, &d.inputs));
                     assert_eq!(v, pick(&sample.rate, &d.inputs));
                     let left = &j * &u + &a * &v;
                     let scale = j.norm() * u.norm() + a.norm() * v.norm();
                     all_close("J u' + A v'", left.as_slice(), &vec![0.0; left.len()], scale, TOLERANCE);
-                    let found = array(m.acceleration(&pose, &rate, $Inputs::from(&acceleration)).unwrap());
+                    let found = array(m.acceleration(&pose, &rates, $Inputs::from(&accelerations)).unwrap());
                     let (u, v) = (pick(&found, &d.unknowns), pick(&found, &d.inputs));
                     let gamma = DVector::from_vec(gamma);
                     let left = &j * &u + &a * &v + &gamma;
@@ -163,29 +173,28 @@ macro_rules! agreement {
                     }
 
                     // The fused kernel says what its parts say.
-                    let motion = m.motion(&q, $Inputs::from(&rate), $Inputs::from(&acceleration)).unwrap();
+                    let motion = m.motion(&q, $Inputs::from(&rates), $Inputs::from(&accelerations)).unwrap();
                     assert_eq!(motion.position, q);
-                    all_close("motion velocity", &array(motion.velocity), &array(velocity), 0.0, TOLERANCE);
-                    let expected = array(m.acceleration(&pose, &velocity, $Inputs::from(&acceleration)).unwrap());
-                    all_close("motion acceleration", &array(motion.acceleration), &expected, 0.0, 1e2 * TOLERANCE);
+                    all_close("motion velocity", &array(motion.rates), &array(velocity), 0.0, TOLERANCE);
+                    let expected = array(m.acceleration(&pose, &velocity, $Inputs::from(&accelerations)).unwrap());
+                    all_close("motion acceleration", &array(motion.accelerations), &expected, 0.0, 1e2 * TOLERANCE);
                     let moving: [_; POINTS] = motion.points.into();
-                    let expected = flat(m.point_velocities(&pose, &motion.velocity).unwrap());
+                    let expected = flat(m.point_velocities(&pose, &motion.rates).unwrap());
                     let found: Vec<f64> =
                         moving.iter().flat_map(|point| [point.velocity.x, point.velocity.y]).collect();
-                    let scale = array(motion.velocity).iter().fold(0.0, |a: f64, b| a.max(b.abs())) * full.amax();
+                    let scale = array(motion.rates).iter().fold(0.0, |a: f64, b| a.max(b.abs())) * full.amax();
                     all_close("motion point velocities", &found, &expected, scale, TOLERANCE);
-                    let expected = flat(m.point_accelerations(&pose, &motion.velocity, &motion.acceleration).unwrap());
+                    let expected = flat(m.point_accelerations(&pose, &motion.rates, &motion.accelerations).unwrap());
                     let found: Vec<f64> =
                         moving.iter().flat_map(|point| [point.acceleration.x, point.acceleration.y]).collect();
-                    let scale = array(motion.acceleration).iter().fold(0.0, |a: f64, b| a.max(b.abs())) * full.amax();
+                    let scale = array(motion.accelerations).iter().fold(0.0, |a: f64, b| a.max(b.abs())) * full.amax();
                     all_close("motion point accelerations", &found, &expected, scale, TOLERANCE);
                     let found: Vec<f64> =
                         moving.iter().flat_map(|point| [point.position.x, point.position.y]).collect();
-                    all_close("motion points", &found, &flat(m.points(&pose).unwrap()), 0.0, TOLERANCE);
+                    all_close("motion points", &found, &flat_points(m.points(&pose).unwrap()), 0.0, TOLERANCE);
                     let moving = listed(motion.outputs);
-                    let expected =
-                        listed(m.output_accelerations(&pose, &motion.velocity, &motion.acceleration).unwrap());
-                    let terms = scale + array(motion.velocity).iter().map(|rate| rate * rate).sum::<f64>();
+                    let expected = listed(m.output_accelerations(&pose, &motion.rates, &motion.accelerations).unwrap());
+                    let terms = scale + array(motion.rates).iter().map(|rate| rate * rate).sum::<f64>();
                     for index in 0..OUTPUTS {
                         close("motion output", moving[index].value, values[index], values[index].abs(), TOLERANCE);
                         close(
@@ -205,15 +214,16 @@ macro_rules! agreement {
                 let oracle = Oracle::read($file, $index);
                 for sample in oracle.samples(POSES) {
                     let m = mechanism(&sample, |x| x);
-                    let pose = m.pose_at(&coordinates(|i| sample.q[i]));
-                    let rate = coordinates(|i| sample.rate[i]);
-                    let acceleration = coordinates(|i| sample.acceleration[i]);
+                    let pose = m.pose_at(&coordinates::<_, $Coordinates>(|i| sample.q[i]));
+                    let rates: $Rates = coordinates(|i| sample.rate[i]);
+                    let accelerations: $Accelerations = coordinates(|i| sample.acceleration[i]);
 
                     // Psi_q, column by column.
                     let dual = mechanism(&sample, Dual64::from_re);
                     let jacobian = m.jacobian(&pose);
                     for column in 0..sample.q.len() {
-                        let q = coordinates(|i| Dual64::new(sample.q[i], if i == column { 1.0 } else { 0.0 }));
+                        let q: $Coordinates<_> =
+                            coordinates(|i| Dual64::new(sample.q[i], if i == column { 1.0 } else { 0.0 }));
                         let residual = dual.residual(&dual.pose_at(&q));
                         let expected: Vec<f64> = residual.iter().map(|psi| psi.eps).collect();
                         let found: Vec<f64> = jacobian.column(column).iter().copied().collect();
@@ -222,7 +232,7 @@ macro_rules! agreement {
                     // gamma is the second derivative of Psi along q'; points and outputs along q' and q''.
                     let dual = mechanism(&sample, Dual2_64::from_re);
                     let along = |second: bool| {
-                        coordinates(|i| {
+                        coordinates::<_, $Coordinates<_>>(|i| {
                             Dual2_64::new(
                                 sample.q[i],
                                 sample.rate[i],
@@ -232,28 +242,28 @@ macro_rules! agreement {
                     };
                     let gamma: Vec<f64> =
                         dual.residual(&dual.pose_at(&along(false))).iter().map(|psi| psi.v2).collect();
-                    all_close("gamma", m.gamma(&pose, &rate).as_slice(), &gamma, 0.0, TOLERANCE);
+                    all_close("gamma", m.gamma(&pose, &rates).as_slice(), &gamma, 0.0, TOLERANCE);
                     let moving = dual.pose_at(&along(true));
-                    let points: [Vector2<Dual2_64>; POINTS] = dual.points(&moving).unwrap().into();
+                    let points = listed_points(dual.points(&moving).unwrap());
                     let expected: Vec<f64> = points.iter().flat_map(|point| [point.x.v1, point.y.v1]).collect();
                     all_close(
                         "velocities",
-                        &flat(m.point_velocities(&pose, &rate).unwrap()),
+                        &flat(m.point_velocities(&pose, &rates).unwrap()),
                         &expected,
                         0.0,
                         TOLERANCE,
                     );
                     let expected: Vec<f64> = points.iter().flat_map(|point| [point.x.v2, point.y.v2]).collect();
-                    let found = flat(m.point_accelerations(&pose, &rate, &acceleration).unwrap());
+                    let found = flat(m.point_accelerations(&pose, &rates, &accelerations).unwrap());
                     all_close("accelerations", &found, &expected, 0.0, TOLERANCE);
                     let outputs = listed(dual.outputs(&moving).unwrap());
-                    let rates = listed(m.output_velocities(&pose, &rate).unwrap());
-                    let accelerations = listed(m.output_accelerations(&pose, &rate, &acceleration).unwrap());
+                    let output_rates = listed(m.output_velocities(&pose, &rates).unwrap());
+                    let output_accelerations = listed(m.output_accelerations(&pose, &rates, &accelerations).unwrap());
                     for index in 0..OUTPUTS {
                         let name = $Outputs::<()>::NAMES[index];
                         let Dual2_64 { v1, v2, .. } = outputs[index];
-                        close(name, rates[index], v1, v1.abs().max(0.01), TOLERANCE);
-                        close(name, accelerations[index], v2, v2.abs().max(v1 * v1).max(0.01), TOLERANCE);
+                        close(name, output_rates[index], v1, v1.abs().max(0.01), TOLERANCE);
+                        close(name, output_accelerations[index], v2, v2.abs().max(v1 * v1).max(0.01), TOLERANCE);
                     }
                 }
             }
@@ -268,6 +278,8 @@ agreement!(
     0,
     FourBar,
     FourBarCoordinates,
+    FourBarRates,
+    FourBarAccelerations,
     FourBarInputs,
     FourBarPoints,
     FourBarOutputs
@@ -279,6 +291,8 @@ agreement!(
     0,
     Components,
     ComponentsCoordinates,
+    ComponentsRates,
+    ComponentsAccelerations,
     ComponentsInputs,
     ComponentsPoints,
     ComponentsOutputs
@@ -290,6 +304,8 @@ agreement!(
     0,
     Introductory,
     IntroductoryCoordinates,
+    IntroductoryRates,
+    IntroductoryAccelerations,
     IntroductoryInputs,
     IntroductoryPoints,
     IntroductoryOutputs
@@ -301,6 +317,8 @@ agreement!(
     0,
     Engine,
     SliderCrankCoordinates,
+    SliderCrankRates,
+    SliderCrankAccelerations,
     EngineInputs,
     SliderCrankPoints,
     SliderCrankOutputs
@@ -312,12 +330,38 @@ agreement!(
     1,
     Compressor,
     SliderCrankCoordinates,
+    SliderCrankRates,
+    SliderCrankAccelerations,
     CompressorInputs,
     SliderCrankPoints,
     SliderCrankOutputs
 );
-agreement!(rrr, "mechanisms/rrr.rs", "rrr", 0, Rrr, RrrCoordinates, RrrInputs, RrrPoints, RrrOutputs);
-agreement!(rpr, "mechanisms/rpr.rs", "rpr", 0, Rpr, RprCoordinates, RprInputs, RprPoints, RprOutputs);
+agreement!(
+    rrr,
+    "mechanisms/rrr.rs",
+    "rrr",
+    0,
+    Rrr,
+    RrrCoordinates,
+    RrrRates,
+    RrrAccelerations,
+    RrrInputs,
+    RrrPoints,
+    RrrOutputs
+);
+agreement!(
+    rpr,
+    "mechanisms/rpr.rs",
+    "rpr",
+    0,
+    Rpr,
+    RprCoordinates,
+    RprRates,
+    RprAccelerations,
+    RprInputs,
+    RprPoints,
+    RprOutputs
+);
 agreement!(
     six_bar,
     "mechanisms/six_bar.rs",
@@ -325,6 +369,8 @@ agreement!(
     0,
     SixBar,
     SixBarCoordinates,
+    SixBarRates,
+    SixBarAccelerations,
     SixBarInputs,
     SixBarPoints,
     SixBarOutputs
@@ -336,6 +382,8 @@ agreement!(
     0,
     FiveBar,
     FiveBarCoordinates,
+    FiveBarRates,
+    FiveBarAccelerations,
     FiveBarInputs,
     FiveBarPoints,
     FiveBarOutputs
@@ -347,6 +395,8 @@ agreement!(
     0,
     GearedFiveBar,
     GearedFiveBarCoordinates,
+    GearedFiveBarRates,
+    GearedFiveBarAccelerations,
     GearedFiveBarInputs,
     GearedFiveBarPoints,
     GearedFiveBarOutputs
@@ -358,6 +408,8 @@ agreement!(
     0,
     ScotchYoke,
     ScotchYokeCoordinates,
+    ScotchYokeRates,
+    ScotchYokeAccelerations,
     ScotchYokeInputs,
     ScotchYokePoints,
     ScotchYokeOutputs
@@ -369,6 +421,8 @@ agreement!(
     0,
     CamFollower,
     CamFollowerCoordinates,
+    CamFollowerRates,
+    CamFollowerAccelerations,
     CamFollowerInputs,
     CamFollowerPoints,
     CamFollowerOutputs
@@ -380,6 +434,8 @@ agreement!(
     0,
     CamRocker,
     CamRockerCoordinates,
+    CamRockerRates,
+    CamRockerAccelerations,
     CamRockerInputs,
     CamRockerPoints,
     CamRockerOutputs
@@ -391,6 +447,8 @@ agreement!(
     0,
     EveryFunction,
     EveryFunctionCoordinates,
+    EveryFunctionRates,
+    EveryFunctionAccelerations,
     EveryFunctionInputs,
     EveryFunctionPoints,
     EveryFunctionOutputs

@@ -6,7 +6,7 @@ use linkage::Elbow::Left;
 use linkage::Slope::Rising;
 use linkage::drawing::{Animation, DrawingError};
 use linkage::linkage;
-use linkage::nalgebra::{Rotation2, Vector2, vector};
+use linkage::nalgebra::{Point2, Rotation2, Vector2, point, vector};
 use roxmltree::{Document, Node};
 
 include!("mechanisms/four_bar.rs");
@@ -18,7 +18,7 @@ const STEPS: u32 = 72;
 /// the angle at the end of a link of 400 pixels.
 const WRITTEN: f64 = 0.05 + 0.005 * 400.0 * std::f64::consts::PI / 180.0 + 0.05;
 
-type Frame = Vec<(&'static str, Vector2<f64>)>;
+type Frame = Vec<(&'static str, Point2<f64>)>;
 
 /// The four-bar through a full turn, with the unit of length so many times smaller.
 fn four_bar(scale: f64) -> Vec<Frame> {
@@ -26,7 +26,7 @@ fn four_bar(scale: f64) -> Vec<Frame> {
     let frame = |step: u32| {
         let theta2 = f64::from(step * 360 / STEPS).to_radians();
         let points = m.points(&m.assemble(theta2, FourBarBranch::new(Left)).unwrap()).unwrap();
-        vec![("A", vector![0.0, 0.0]), ("B", points.b), ("C", points.c), ("D", vector![m.l1, 0.0]), ("G3", points.g3)]
+        vec![("A", point![0.0, 0.0]), ("B", points.b), ("C", points.c), ("D", point![m.l1, 0.0]), ("G3", points.g3)]
     };
     (0..=STEPS).map(frame).collect()
 }
@@ -72,7 +72,7 @@ fn tag(name: &str) -> (&'static str, &str) {
 }
 
 /// Places and turns, in degrees from the first frame on, of a group.
-fn motion(group: Node, frames: usize) -> Vec<(Vector2<f64>, f64)> {
+fn motion(group: Node, frames: usize) -> Vec<(Point2<f64>, f64)> {
     let first = transform(group, "translate");
     let places = values(group, "translate").unwrap_or_else(|| vec![first.clone(); frames]);
     let turns = values(group, "rotate").unwrap_or_else(|| vec![vec![0.0]; frames]);
@@ -80,7 +80,7 @@ fn motion(group: Node, frames: usize) -> Vec<(Vector2<f64>, f64)> {
     // The still picture is the first frame.
     assert_eq!(places[0], first);
     assert_eq!(turns[0], [0.0]);
-    places.into_iter().zip(turns).map(|(place, turn)| (vector![place[0], place[1]], turn[0])).collect()
+    places.into_iter().zip(turns).map(|(place, turn)| (point![place[0], place[1]], turn[0])).collect()
 }
 
 fn layer<'a>(document: &'a Document, class: &str) -> Vec<Node<'a, 'a>> {
@@ -95,16 +95,16 @@ fn joint<'a>(document: &'a Document, name: &str) -> Node<'a, 'a> {
 }
 
 /// From points to pixels, found from two pivots of the picture.
-fn pixels(document: &Document, first: &Frame, [from, to]: [&str; 2]) -> impl Fn(Vector2<f64>) -> Vector2<f64> {
+fn pixels(document: &Document, first: &Frame, [from, to]: [&str; 2]) -> impl Fn(Point2<f64>) -> Point2<f64> {
     let at = |name: &str| first.iter().find(|(other, _)| *other == name).unwrap().1;
-    let pixel = |name: &str| Vector2::from_vec(transform(joint(document, name), "translate"));
+    let pixel = |name: &str| Point2::from_slice(&transform(joint(document, name), "translate"));
     let (origin, start) = (at(from), pixel(from));
     let scale = (pixel(to) - start).norm() / (at(to) - origin).norm();
-    move |point: Vector2<f64>| start + vector![point.x - origin.x, origin.y - point.y] * scale
+    move |point: Point2<f64>| start + vector![point.x - origin.x, origin.y - point.y] * scale
 }
 
 #[track_caller]
-fn near(found: Vector2<f64>, expected: Vector2<f64>) {
+fn near(found: Point2<f64>, expected: Point2<f64>) {
     assert!((found - expected).amax() <= WRITTEN, "{found} is not {expected}");
 }
 
@@ -202,7 +202,7 @@ fn sliders_stay_on_their_guides() {
             let theta2 = f64::from(step * 360 / STEPS).to_radians();
             let pose = m.assemble(theta2, OffsetSliderCrankBranch::new(Rising)).unwrap();
             let points = m.points(&pose).unwrap();
-            vec![("O", points.o), ("A", points.a), ("B", points.b), ("Foot", vector![0.0, m.c])]
+            vec![("O", points.o), ("A", points.a), ("B", points.b), ("Foot", point![0.0, m.c])]
         })
         .collect();
     let mut picture = animation("Slider", &frames);
@@ -265,7 +265,7 @@ fn names_are_escaped() {
     let name = "P<&\"'>";
     for step in 0..=STEPS {
         let angle = f64::from(step * 360 / STEPS).to_radians();
-        picture.frame([("O", vector![0.0, 0.0]), (name, vector![angle.cos(), angle.sin()])]);
+        picture.frame([("O", point![0.0, 0.0]), (name, point![angle.cos(), angle.sin()])]);
     }
     picture.ground("O").crank(&["O", name]).trace(name);
     let svg = picture.to_svg().unwrap();
@@ -296,16 +296,16 @@ fn contradictions_are_named() {
     assert_eq!(error(&|picture| picture.ground("C")), DrawingError::Moves(name("C")));
     assert_eq!(error(&|picture| picture.slider("G3")), DrawingError::NotStraight(name("G3")));
     assert_eq!(error(&|picture| picture.slider("A")), DrawingError::NotStraight(name("A")));
-    let other: &Draw = &|picture| picture.ground("A").frame([("A", vector![0.0, 0.0])]);
+    let other: &Draw = &|picture| picture.ground("A").frame([("A", point![0.0, 0.0])]);
     assert_eq!(error(other), DrawingError::OtherPoints(frames.len()));
-    let twice = Animation::new("Twice", 6.0).frame([("A", vector![0.0, 0.0]), ("A", vector![1.0, 0.0])]).to_svg();
+    let twice = Animation::new("Twice", 6.0).frame([("A", point![0.0, 0.0]), ("A", point![1.0, 0.0])]).to_svg();
     assert_eq!(twice, Err(DrawingError::DuplicatePoint(name("A"))));
     let wrong: [&Draw; 6] = [
         &|picture| picture.wheel("A", "B", f64::NAN),
         &|picture| picture.wheel("A", "B", 0.0),
         &|picture| picture.plate("A", "B", [vector![0.0, 1.0], vector![f64::INFINITY, 0.0]]),
         &|picture| picture.plate("A", "B", []),
-        &|picture| picture.ground("A").ground_line([vector![0.0, 0.0], vector![f64::NAN, 0.0]]),
+        &|picture| picture.ground("A").ground_line([point![0.0, 0.0], point![f64::NAN, 0.0]]),
         &|picture| picture.spring("A", "A").ground("A").ground("D"),
     ];
     for draw in wrong {
@@ -313,10 +313,10 @@ fn contradictions_are_named() {
     }
     for seconds in [0.0, -1.0, f64::NAN] {
         let mut picture = Animation::new("Time", seconds);
-        picture.frame([("A", vector![0.0, 0.0])]).ground("A");
+        picture.frame([("A", point![0.0, 0.0])]).ground("A");
         assert!(matches!(picture.to_svg(), Err(DrawingError::NotFinite(_))));
     }
     let mut picture = Animation::new("NaN", 6.0);
-    picture.frame([("A", vector![f64::NAN, 0.0])]).ground("A");
+    picture.frame([("A", point![f64::NAN, 0.0])]).ground("A");
     assert!(matches!(picture.to_svg(), Err(DrawingError::NotFinite(_))));
 }

@@ -2,8 +2,8 @@
 //!
 //! `assemble` finds algebraically what `pose_at` finds from the angles, and J itself says what a determinant is.
 
-use linkage::{Assembly, Mechanism, linkage};
-use nalgebra::{SMatrix, SVector};
+use linkage::{Assembly, D, Dim, Mechanism, linkage};
+use nalgebra::{DMatrix, DVector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -30,16 +30,14 @@ fn close(found: f64, expected: f64, size: f64, what: &str) {
 }
 
 /// Determinants and velocity ratios of a pose against those of the matrices that it gives.
-fn agrees_with_its_matrices<M: Mechanism<f64, U, 1>, const U: usize>(m: &M, pose: &M::Pose)
-where
-    nalgebra::Const<U>: nalgebra::DimMin<nalgebra::Const<U>, Output = nalgebra::Const<U>>,
-{
-    let jacobian: SMatrix<f64, U, U> = m.jacobian_unknowns(pose);
-    let determinant = jacobian.lu().determinant();
+fn agrees_with_its_matrices<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, pose: &M::Pose) {
+    let jacobian = m.jacobian_unknowns(pose);
+    let jacobian = DMatrix::from_fn(M::U::COUNT, M::U::COUNT, |row, column| jacobian[(row, column)]);
+    let determinant = jacobian.clone().lu().determinant();
     let size: f64 = jacobian.column_iter().map(|column| column.norm()).product();
     close(m.determinant(pose), determinant, size, "det J");
-    let right: SVector<f64, U> = m.jacobian_inputs(pose).column(0).into_owned();
-    let expected = jacobian.lu().solve(&right).unwrap();
+    let right = m.jacobian_inputs(pose).column(0);
+    let expected = jacobian.lu().solve(&DVector::from_column_slice(right.as_slice())).unwrap();
     let found = m.solve_jacobian(pose, &right).unwrap();
     let size = expected.amax().max(1.0);
     for (found, expected) in found.iter().zip(&expected) {
@@ -48,29 +46,28 @@ where
 }
 
 /// Assembled poses of all branches at random inputs, and what `more` compares of them besides.
-fn agrees<M, const U: usize>(
+fn agrees<M>(
     m: &M,
     branches: impl Fn() -> Vec<M::Branch>,
     coordinates: impl Fn(&M::Pose) -> M::Coordinates,
     more: impl Fn(&M::Pose, &M::Pose),
 ) where
-    M: Assembly<f64, U, 1>,
-    nalgebra::Const<U>: nalgebra::DimMin<nalgebra::Const<U>, Output = nalgebra::Const<U>>,
+    M: Assembly<Scalar = f64, V = D<1>>,
 {
     let random = &mut SmallRng::seed_from_u64(11);
     let mut found = 0;
     for _ in 0..200 {
-        let input = SVector::<f64, 1>::new(random.random_range(-7.0..7.0));
+        let input = M::Inputs::from([random.random_range(-7.0..7.0)].into());
         for branch in branches() {
-            let Ok(pose) = m.assemble(input.into(), branch) else { continue };
+            let Ok(pose) = m.assemble(input, branch) else { continue };
             let again = m.pose_at(&coordinates(&pose));
             let [these, those] = [&pose, &again].map(|pose| m.block_determinants(pose));
-            for ((this, that), group) in these.as_ref().iter().zip(those.as_ref()).zip(M::GROUPS) {
+            for ((this, that), group) in these.iter().zip(&those).zip(M::GROUPS) {
                 close(*this, *that, 100.0, group.name);
             }
-            assert!(m.residual(&pose).amax() < 1e-13 && m.same_branch(&pose, &again));
-            agrees_with_its_matrices::<M, U>(m, &pose);
-            agrees_with_its_matrices::<M, U>(m, &again);
+            assert!(m.residual(&pose).largest() < 1e-13 && m.same_branch(&pose, &again));
+            agrees_with_its_matrices(m, &pose);
+            agrees_with_its_matrices(m, &again);
             more(&pose, &again);
             found += 1;
         }
@@ -115,9 +112,9 @@ fn multiples_of_solved_angles() {
                 turned(1.0, 0.0, 5.0 * q.u - 6.0 * q.w),
             ];
             for pose in [pose, again] {
-                let points: [nalgebra::Vector2<f64>; 6] = m.points(pose).unwrap().into();
+                let points: [nalgebra::Point2<f64>; 6] = m.points(pose).unwrap().into();
                 for (found, expected) in points.iter().zip(expected) {
-                    assert!((found - expected).amax() < 1e-13, "{found} is not {expected}");
+                    assert!((found.coords - expected).amax() < 1e-13, "{found} is not {expected}");
                 }
                 let outputs = m.outputs(pose).unwrap();
                 close(outputs.difference, (q.u - q.w).sin(), 1.0, "sin(u - w)");
@@ -149,7 +146,7 @@ fn three_unknowns_together() {
         q = m.solve(&ThreeTogetherCoordinates { v: 3.0 + 0.01 * f64::from(step), ..q }).unwrap().coordinates;
         let pose = m.pose_at(&q);
         assert_eq!(ThreeTogether::<f64>::GROUPS.len(), 1);
-        agrees_with_its_matrices::<ThreeTogether, 3>(&m, &pose);
+        agrees_with_its_matrices::<ThreeTogether>(&m, &pose);
         // Against the position a little further.
         let h = 1e-5;
         let [after, before] = [h, -h].map(|h| {
@@ -157,6 +154,6 @@ fn three_unknowns_together() {
             ThreeTogether::unknowns(&near)
         });
         let ratios = m.velocity_ratios(&pose).unwrap();
-        assert!(((after - before) / (2.0 * h) - ratios).amax() < 1e-8);
+        assert!(((after - before) / (2.0 * h) - ratios.into()).largest() < 1e-8);
     }
 }

@@ -1,6 +1,6 @@
 //! Position in closed form: what cannot be assembled, what must not matter, and what a branch is.
 
-use linkage::{Elbow, Error, Slider, Slope, linkage};
+use linkage::{Elbow, PositionError, Slider, Slope, linkage};
 
 include!("mechanisms/four_bar.rs");
 include!("mechanisms/six_bar.rs");
@@ -29,7 +29,7 @@ fn both_branches_of_a_four_bar() {
             assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).sum());
         }
         // C lies as far left of the line from B to D in one as right of it in the other.
-        let [b, d] = [m.points(&left).unwrap().b, nalgebra::vector![m.l1, 0.0]];
+        let [b, d] = [m.points(&left).unwrap().b, nalgebra::point![m.l1, 0.0]];
         let across = |pose| (m.points(pose).unwrap().c - b).perp(&(d - b));
         assert!((across(&left) + across(&right)).abs() <= 1e-11);
     }
@@ -65,7 +65,7 @@ fn branches_mean_what_they_say() {
         let m = FourBar::default();
         let left = elbows.map(|elbow| {
             let points = m.points(&m.assemble(angle, branch(elbow)).unwrap()).unwrap();
-            (nalgebra::vector![m.l1, 0.0] - points.b).perp(&(points.c - points.b))
+            (nalgebra::point![m.l1, 0.0] - points.b).perp(&(points.c - points.b))
         });
         assert!(left[0] > 0.0 && left[1] < 0.0, "{left:?}");
         let m = relative::Knee::default();
@@ -109,7 +109,7 @@ fn branches_that_exist() {
     let first: Vec<_> = short.branches(1.0).map(|position| position.unwrap().0.theta2_theta3).collect();
     assert_eq!(first, [Elbow::Right, Elbow::Right]);
     assert!(FourBar::new(80.0, 20.0, 10.0, 10.0).branches(0.3).next().is_none());
-    assert!(matches!(FourBar::default().branches(f64::NAN).next(), Some(Err(Error::NotFinite { .. }))));
+    assert!(matches!(FourBar::default().branches(f64::NAN).next(), Some(Err(PositionError::NotFinite { .. }))));
 }
 
 /// A dyad, then Kepler's equation, which has no closed form, then what follows from it.
@@ -168,16 +168,19 @@ fn a_group_without_closed_form() {
                 let [before, after] = [&before, &pose].map(|pose| steep.block_determinants(pose)[1]);
                 assert!(before * after > 0.0, "{guess:?}");
             }
-            Err(Error::OtherBranch { group: "psi", .. }) => others += 1,
-            Err(Error::NotConverged { group: Some("psi"), .. }) => lost += 1,
+            Err(PositionError::OtherBranch { group: "psi", .. }) => others += 1,
+            Err(PositionError::NotConverged { group: Some("psi"), .. }) => lost += 1,
             Err(error) => panic!("{error}"),
         }
     }
     assert!((1..100).contains(&others) && (1..100).contains(&lost), "{others}, {lost}");
     let error = steep.assemble_near(&at(f64::INFINITY), left).unwrap_err();
-    assert_eq!(error, Error::NotFinite { mechanism: "Kepler", quantity: "the residual" });
+    assert_eq!(error, PositionError::NotFinite { mechanism: "Kepler", quantity: "the residual" });
     let short = Kepler { l3: 1.0, l4: 1.0, ..Kepler::default() };
-    assert!(matches!(short.assemble_near(&at(0.0), left), Err(Error::Unbuildable { group: "theta3, theta4", .. })));
+    assert!(matches!(
+        short.assemble_near(&at(0.0), left),
+        Err(PositionError::Unbuildable { group: "theta3, theta4", .. })
+    ));
 }
 
 /// Where the links are in line the two branches meet; each keeps its name.
@@ -248,21 +251,21 @@ impl Bits for JansenPose<f64> {
 fn what_does_not_reach_is_named() {
     let short = FourBar::new(80.0, 20.0, 10.0, 10.0);
     match short.assemble(0.3, branch(Elbow::Right)) {
-        Err(Error::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap }) => assert!(gap > 1.0),
+        Err(PositionError::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap }) => assert!(gap > 1.0),
         other => panic!("{other:?}"),
     }
     // Of two groups the second: its links are too short, the first assembles.
     let m = SixBar { f: 0.1, g: 0.1, ..SixBar::default() };
     let branch = SixBarBranch::new(Elbow::Right, Elbow::Right);
     match m.assemble(1.0, branch) {
-        Err(Error::Unbuildable { group: "theta4, theta5", .. }) => {}
+        Err(PositionError::Unbuildable { group: "theta4, theta5", .. }) => {}
         other => panic!("{other:?}"),
     }
     // A rod shorter than the offset.
     let m = OffsetSliderCrank { b: 1.0, ..OffsetSliderCrank::default() };
     assert!(matches!(
         m.assemble(0.0, OffsetSliderCrankBranch::new(Slope::Rising)),
-        Err(Error::Unbuildable { group: "theta3", .. })
+        Err(PositionError::Unbuildable { group: "theta3", .. })
     ));
 }
 

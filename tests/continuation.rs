@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::continuation::{Along, AlongCoordinates, Direction, Event, Options, Path, Step};
-use linkage::{Elbow, Error, Mechanism, linkage};
+use linkage::continuation::{Along, AlongCoordinates, AlongRates, Direction, Event, Options, Path, PathStep};
+use linkage::{Column, Elbow, Mechanism, PathError, PositionError, linkage};
 use nalgebra::{SVector, vector};
 
 include!("mechanisms/coupled_wheels.rs");
@@ -66,7 +66,7 @@ fn rates_are_velocity_ratios() {
     let m = FourBar::default();
     let path = Path::new(&m, &left(&m, 0.35), Direction::Decreasing).unwrap();
     for step in path.take(100) {
-        let Step { position, rates, .. } = step.unwrap();
+        let PathStep { position, rates, .. } = step.unwrap();
         assert!(rates.theta2 < 0.0);
         let w = m.velocity_ratios(&m.pose_at(&position)).unwrap();
         close(rates.theta3, w[0] * rates.theta2, 1e-13);
@@ -79,7 +79,7 @@ fn rates_are_velocity_ratios() {
 #[test]
 fn zero_of_an_output() {
     let m = FourBar::default();
-    let right_angle = |q: &FourBarCoordinates, _: &FourBarCoordinates| m.outputs(&m.pose_at(q)).unwrap().mu.cos();
+    let right_angle = |q: &FourBarCoordinates, _: &FourBarRates| m.outputs(&m.pose_at(q)).unwrap().mu.cos();
     let mut path = Path::new(&m, &left(&m, 0.35), Direction::Increasing).unwrap();
     let mut found = Vec::new();
     while path.position().theta2 < 0.35 + TAU {
@@ -178,7 +178,7 @@ fn coarse_and_fine_steps_agree() {
     };
     for (coarse, fine) in turn(1.0, 1).into_iter().zip(turn(0.02, 7)) {
         let [coarse, fine] = [coarse, fine].map(|step| DoubleButterfly::unknowns(&step.position));
-        close((coarse - fine).amax(), 0.0, 1e-13);
+        close((coarse - fine).largest(), 0.0, 1e-13);
     }
 }
 
@@ -202,22 +202,23 @@ fn along_a_path_of_two_inputs() {
         close((m.jacobian_unknowns(&pose) - m.jacobian_unknowns(&expected)).amax(), 0.0, 1e-13);
         // dq/ds beside the velocity that the inputs' rates give.
         let rate = m.velocity(&pose, FiveBarInputs::from(inputs(s)[1])).unwrap();
-        close(reached.rates.q.theta2 / reached.rates.parameter, rate.theta2, 1e-12);
-        close(reached.rates.q.theta3 / reached.rates.parameter, rate.theta3, 1e-12);
+        close(reached.rates.rates.theta2 / reached.rates.parameter, rate.theta2, 1e-12);
+        close(reached.rates.rates.theta3 / reached.rates.parameter, rate.theta3, 1e-12);
     }
     // gamma of the whole: d2/ds2 of Psi, by differences of its first derivative.
     let at = |s: f64| AlongCoordinates { parameter: s, ..start };
-    let rate = AlongCoordinates { q: FiveBarCoordinates { theta2: 0.3, theta3: -0.7, ..start.q }, parameter: 1.3 };
+    let of_q = FiveBarRates { theta1: 0.0, theta2: 0.3, theta3: -0.7, theta4: 0.0 };
+    let rates = AlongRates { rates: of_q, parameter: 1.3 };
     let moved = |t: f64| {
         let q = FiveBarCoordinates { theta2: start.q.theta2 + 0.3 * t, theta3: start.q.theta3 - 0.7 * t, ..start.q };
         along.pose_at(&AlongCoordinates { q, ..at(0.3 + 1.3 * t) })
     };
     let slope = |t: f64| {
         let pose = moved(t);
-        along.jacobian_unknowns(&pose) * vector![0.3, -0.7] + along.jacobian_inputs(&pose) * vector![1.3]
+        along.jacobian_unknowns(&pose) * Column::from([0.3, -0.7]) + along.jacobian_inputs(&pose) * Column::from([1.3])
     };
     let difference = (slope(1e-5) - slope(-1e-5)) / 2e-5;
-    close((difference - along.gamma(&moved(0.0), &rate)).amax(), 0.0, 1e-9);
+    close((difference - along.gamma(&moved(0.0), &rates)).largest(), 0.0, 1e-9);
 }
 
 /// In single precision the same path, to its rounding.
@@ -254,6 +255,6 @@ fn strokes_of_a_slider() {
     }
     assert_eq!(ends.len(), 2);
     assert!((ends[0] - ends[1]).abs() > 1.0);
-    assert!(matches!(path.advance_to(f64::NAN), Err(Error::NotFinite { .. })));
+    assert!(matches!(path.advance_to(f64::NAN), Err(PathError::Position(PositionError::NotFinite { .. }))));
     assert!(path.position().theta2 < 2.0 * PI + 2.0);
 }

@@ -25,7 +25,7 @@ fn it_rests_on_its_stop() {
     let after: Vec<_> = run.moments.iter().filter(|state| state.t > rest.t).collect();
     assert!(after.len() > 8 && after[after.len() - 1].t == END);
     for state in after {
-        assert_eq!((state.mode("stop on door"), state.rate.door), (Some(Mode::AtLower), 0.0));
+        assert_eq!((state.mode("stop on door"), state.rates.door), (Some(Mode::AtLower), 0.0));
         // The event is found to the rounding of its time: the door is nearer than the last rate moves it in that.
         assert!(state.q.door.abs() < 1e-20, "{:e}", state.q.door);
     }

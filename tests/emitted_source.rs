@@ -45,7 +45,7 @@ version = "0.0.0"
 edition = "2024"
 
 [dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["libm"] }
+linkage = { path = "ROOT", default-features = false, features = ["dynamics", "libm"] }
 
 [lints.rust]
 unsafe_code = "forbid"
@@ -130,11 +130,11 @@ fn main() {
     let pose = chain.assemble(0.5, branch).unwrap();
     let (residual, sizes) = (chain.residual(&pose), chain.closure_sizes(&pose));
     let coordinates: ChainCoordinates = pose.coordinates();
-    let velocity = chain.velocity(&pose, 2.0).unwrap();
-    let acceleration = chain.acceleration(&pose, &velocity, 0.0).unwrap();
+    let rates = chain.velocity(&pose, 2.0).unwrap();
+    let accelerations = chain.acceleration(&pose, &rates, 0.0).unwrap();
     let motion = chain.motion(&coordinates, 2.0, 0.0).unwrap();
-    let [q, rates, accelerations, again] =
-        [coordinates, velocity, acceleration, motion.acceleration].map(|values| SVector::from(values).data.0[0]);
+    let (q, rates) = (SVector::from(coordinates), SVector::from(rates));
+    let [accelerations, again] = [accelerations, motion.accelerations].map(SVector::from);
     let (mut input, mut rate, mut input_acceleration) = (0.5, 2.0, 0.0);
     for i in 0..LOOPS {
         let (t, s, t_rate, s_rate) = (q[2 * i], q[2 * i + 1], rates[2 * i], rates[2 * i + 1]);
@@ -161,7 +161,9 @@ fn main() {
     // The others need a stack for matrices of 400 x 400, and are compiled only.
     black_box((
         (Chain::<f64>::jacobian_unknowns as fn(&_, &_) -> _, Chain::<f64>::jacobian_inputs as fn(&_, &_) -> _),
-        (Chain::<f64>::jacobian as fn(&_, &_) -> _, Chain::<f64>::jacobian_sizes as fn(&_, &_) -> _),
+        (Chain::<f64>::jacobian as fn(&_, &_) -> _, Chain::<f64>::solve_any_branch as fn(&_, &_) -> _),
+        Chain::<f64>::jacobian_unknowns_sizes as fn(&_, &_) -> _,
+        Chain::<f64>::jacobian_inputs_sizes as fn(&_, &_) -> _,
         (Chain::<f64>::determinant as fn(&_, &_) -> _, Chain::<f64>::block_determinants as fn(&_, &_) -> _),
         (Chain::<f64>::solve_jacobian as fn(&_, &_, &_) -> _, Chain::<f64>::gamma as fn(&_, &_, &_) -> _),
         (Chain::<f64>::velocity_ratios as fn(&_, &_) -> _, Chain::<f64>::point_ratios as fn(&_, &_) -> _),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use linkage::nalgebra::{Vector2, vector};
+use linkage::nalgebra::{Point2, Vector2, vector};
 use linkage::{Mode, Slope};
 
 #[path = "../examples/quadrature/mod.rs"]
@@ -41,7 +41,7 @@ fn energy_is_accounted_for() {
     }
     let [gas, rings] = indicated::work(&run.scene, [start, last.q.phi]).unwrap();
     close("gas", end.applied, gas, 1e-12 * end.applied);
-    let brake = run.integral(|state| Ok(run.scene.brake * state.rate.phi.powi(2))).unwrap();
+    let brake = run.integral(|state| Ok(run.scene.brake * state.rates.phi.powi(2))).unwrap();
     close("heat", end.dissipated, rings + brake, 1e-12 * end.applied);
 }
 
@@ -55,7 +55,7 @@ fn rings_slip_both_ways() {
             turns += 1;
             close("dead centre", (state.q.phi / PI).round() * PI, state.q.phi, 1e-9);
         } else if (state.q.phi / PI - (state.q.phi / PI).round()).abs() > 1e-6 {
-            let expected = if state.rate.z > 0.0 { Mode::SlipForward } else { Mode::SlipBackward };
+            let expected = if state.rates.z > 0.0 { Mode::SlipForward } else { Mode::SlipBackward };
             assert_eq!(state.mode("friction on z"), Some(expected), "{state:?}");
         }
     }
@@ -72,7 +72,7 @@ fn joints_carry_the_bodies() {
         let loads = Loads::at(scene, state).unwrap();
         let pose = engine.pose_at(&state.q);
         let points = engine.points(&pose).unwrap();
-        let velocity = engine.velocity(&pose, state.rate.phi).unwrap();
+        let velocity = engine.velocity(&pose, state.rates.phi).unwrap();
         let acceleration = engine.acceleration(&pose, &velocity, loads.acceleration).unwrap();
         let size = loads.bearing.norm() + loads.piston_pin.norm();
         assert_eq!(loads.phi, state.q.phi);
@@ -81,21 +81,21 @@ fn joints_carry_the_bodies() {
         let along = gas + loads.drag - scene.m4 * scene.g + loads.piston_pin.x;
         close("piston", along, scene.m4 * acceleration.z, 1e-11 * size);
         // The rod about its centre, under the force of the crank and the piston's, which is the other way round.
-        let moment = |at: Vector2<f64>, force: Vector2<f64>| (at - points.rod).perp(&force);
-        let rod = moment(points.pin, loads.crank_pin) - moment(points.piston, loads.piston_pin);
+        let moment = |about: Point2<f64>, at: Point2<f64>, force: Vector2<f64>| (at - about).perp(&force);
+        let rod = moment(points.rod, points.pin, loads.crank_pin) - moment(points.rod, points.piston, loads.piston_pin);
         close("rod", rod, scene.j3 * acceleration.psi, 1e-11 * size * engine.l);
         // The crank about its bearing: the rod's force, its weight, the flywheel.
-        let weight = points.crank.perp(&vector![-scene.g * scene.m2, 0.0]);
+        let weight = moment(Point2::origin(), points.crank, vector![-scene.g * scene.m2, 0.0]);
         let inertia = scene.j2 + scene.m2 * engine.b2.powi(2);
-        let crank = points.pin.perp(&-loads.crank_pin) + weight - loads.torque;
+        let crank = moment(Point2::origin(), points.pin, -loads.crank_pin) + weight - loads.torque;
         close("crank", crank, inertia * loads.acceleration, 1e-11 * size * engine.l);
-        let flywheel = loads.torque - scene.brake * state.rate.phi;
+        let flywheel = loads.torque - scene.brake * state.rates.phi;
         close("flywheel", flywheel, scene.flywheel * loads.acceleration, 1e-10 * size * engine.l);
         close("side", loads.side, loads.piston_pin.y, 0.0);
     }
-    let work = run.integral(|state| Ok(Loads::at(scene, state)?.torque * state.rate.phi)).unwrap();
-    let brake = run.integral(|state| Ok(scene.brake * state.rate.phi.powi(2))).unwrap();
-    let [first, last] = [run.moments[0], run.moments[run.moments.len() - 1]].map(|state| state.rate.phi);
+    let work = run.integral(|state| Ok(Loads::at(scene, state)?.torque * state.rates.phi)).unwrap();
+    let brake = run.integral(|state| Ok(scene.brake * state.rates.phi.powi(2))).unwrap();
+    let [first, last] = [run.moments[0], run.moments[run.moments.len() - 1]].map(|state| state.rates.phi);
     let stored = scene.flywheel / 2.0 * (last * last - first * first);
     close("shaft", work, brake + stored, 1e-9 * work);
     let cycle = run.last_cycles(1.0);

@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use linkage::{Error, Real, linkage};
+use linkage::{PositionError, Real, linkage};
 
 thread_local! {
     static CALLS: Cell<usize> = const { Cell::new(0) };
@@ -54,8 +54,8 @@ fn one_call_for_each_argument() {
         assert!(cam.residual(&pose).amax() < 1e-14);
         assert_eq!(cam.jacobian(&pose)[(0, 0)], -13.5);
         let velocity = cam.velocity(&pose, 1.0).unwrap();
-        cam.acceleration(&pose, &velocity, 1.0).unwrap();
-        cam.output_accelerations(&pose, &velocity, &velocity).unwrap();
+        let accelerations = cam.acceleration(&pose, &velocity, 1.0).unwrap();
+        cam.output_accelerations(&pose, &velocity, &accelerations).unwrap();
         cam.output_ratios(&pose).unwrap();
     });
     assert_eq!(count, 0);
@@ -71,15 +71,15 @@ fn what_is_inside_the_function_is_found_by_newton() {
     assert!((q.x - 1.0).abs() < 1e-15 && (q.z - at_one().z).abs() < 1e-14, "{q:?}");
     // dx/dy = 1 / (k c') = 1 / 13.5
     let motion = slider.motion(&q, 13.5, 0.0).unwrap();
-    assert!((motion.velocity.x - 1.0).abs() < 1e-15);
+    assert!((motion.rates.x - 1.0).abs() < 1e-15);
     // y'' = k (c'' x'^2 + c' x'') = 0
-    assert!((motion.acceleration.x + 9.0 / 6.75).abs() < 1e-14);
+    assert!((motion.accelerations.x + 9.0 / 6.75).abs() < 1e-14);
     let group = Slider::DERIVATION.blocks[0].group;
     assert_eq!(group, "one unknown");
     // Where the cam is flat the slider cannot drive it.
     let flat = WedgeCoordinates { x: -0.5, y: 0.0, z: 0.0 };
     let error = slider.velocity_ratios(&slider.pose_at(&flat)).unwrap_err();
-    assert!(matches!(error, Error::Singular { group: "x", .. }), "{error:?}");
+    assert!(matches!(error, PositionError::Singular { group: "x", .. }), "{error:?}");
 }
 
 #[test]
@@ -87,16 +87,18 @@ fn no_value_is_an_error() {
     let cam = Cam::default();
     let q = WedgeCoordinates { x: 11.0, ..at_one() };
     let pose = cam.pose_at(&q);
-    let not_finite = |error: Error| assert!(matches!(error, Error::NotFinite { .. }), "{error:?}");
+    let not_finite = |error: PositionError| assert!(matches!(error, PositionError::NotFinite { .. }), "{error:?}");
+    let rates = WedgeRates { x: 1.0, y: 13.5, z: 7.0 };
+    let accelerations = WedgeAccelerations { x: 1.0, y: 13.5, z: 7.0 };
     not_finite(cam.solve(&q).unwrap_err());
     not_finite(cam.velocity_ratios(&pose).unwrap_err());
     not_finite(cam.velocity(&pose, 1.0).unwrap_err());
-    not_finite(cam.acceleration(&pose, &at_one(), 1.0).unwrap_err());
+    not_finite(cam.acceleration(&pose, &rates, 1.0).unwrap_err());
     not_finite(cam.motion(&q, 1.0, 0.0).unwrap_err());
     not_finite(cam.assemble(11.0, CamBranch {}).unwrap_err());
     not_finite(cam.outputs(&pose).unwrap_err());
-    not_finite(cam.output_velocities(&pose, &at_one()).unwrap_err());
-    not_finite(cam.output_accelerations(&pose, &at_one(), &at_one()).unwrap_err());
+    not_finite(cam.output_velocities(&pose, &rates).unwrap_err());
+    not_finite(cam.output_accelerations(&pose, &rates, &accelerations).unwrap_err());
     not_finite(cam.output_ratios(&pose).unwrap_err());
     // J has the function of an unknown beside the diagonal.
     let q = WedgeCoordinates { y: 2000.0, ..at_one() };

@@ -214,7 +214,7 @@ fn functions_of_the_user() {
     assert_eq!(q.pose, 0.25 * 2.0 + 1.0);
     assert_eq!(q.y, q.pose + 3.0 * 0.25_f64.sin() + 1.0);
     let motion = m.motion(&q, 2.0, 0.0).unwrap();
-    assert_eq!(motion.velocity.pose, 2.0 * (2.0 * 1.0 + 4.0));
+    assert_eq!(motion.rates.pose, 2.0 * (2.0 * 1.0 + 4.0));
     assert_eq!(motion.outputs.slope.value, 0.5_f64.cos());
     assert_eq!(motion.outputs.slope.acceleration, -4.0 * 0.5_f64.cos());
     assert_eq!(motion.outputs.still.velocity, 0.0);

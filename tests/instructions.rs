@@ -18,7 +18,7 @@ name = "twin"
 path = "ROOT/benches/twin.rs"
 
 [dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["std"] }
+linkage = { path = "ROOT", default-features = false, features = ["std", "dynamics"] }
 
 [workspace]
 "#;

@@ -1,8 +1,8 @@
 //! A mechanism in motion under forces: its position is solved for within the rate, as a user would write it.
 
 use linkage::integrate::{Action, Counts, Crossing, Tolerance, dop853, watched};
-use linkage::nalgebra::{SVector, vector};
-use linkage::{Elbow, Error};
+use linkage::nalgebra::vector;
+use linkage::{Column, D, Elbow, MotionError};
 
 linkage::linkage! {
     /// Four-bar linkage, a crank-rocker.
@@ -25,14 +25,14 @@ const MASS: f64 = 2.0;
 type Position = FourBarCoordinates<f64>;
 
 /// Crank angle and speed.
-type State = SVector<f64, 2>;
+type State = Column<f64, D<2>>;
 
 /// (I + m C'^2) theta2'' = -m C' . (C'' - g), C' for unit speed and C'' without acceleration of the crank.
-fn rate(four_bar: &FourBar<f64>, position: &Position, y: &State) -> Result<State, Error> {
+fn rate(four_bar: &FourBar<f64>, position: &Position, y: &State) -> Result<State, MotionError> {
     let unit = four_bar.motion(position, 1.0, 0.0)?.points.c.velocity;
     let drift = four_bar.motion(position, y[1], 0.0)?.points.c.acceleration;
     let force = -MASS * unit.dot(&(drift + vector![0.0, GRAVITY]));
-    Ok(vector![y[1], force / (INERTIA + MASS * unit.norm_squared())])
+    Ok([y[1], force / (INERTIA + MASS * unit.norm_squared())].into())
 }
 
 fn energy(four_bar: &FourBar<f64>, position: &Position, y: &State) -> f64 {
@@ -40,11 +40,11 @@ fn energy(four_bar: &FourBar<f64>, position: &Position, y: &State) -> f64 {
     0.5 * (INERTIA * y[1] * y[1] + MASS * c.velocity.norm_squared()) + MASS * GRAVITY * c.position.y
 }
 
-fn assembled(four_bar: &FourBar<f64>, theta2: f64) -> Result<Position, Error> {
+fn assembled(four_bar: &FourBar<f64>, theta2: f64) -> Result<Position, MotionError> {
     Ok(four_bar.assemble(theta2, FourBarBranch::new(Elbow::Left))?.coordinates())
 }
 
-const START: (f64, State) = (0.0, State::new(0.35, 6.0));
+const START: (f64, [f64; 2]) = (0.0, [0.35, 6.0]);
 const END: f64 = 5.0;
 
 /// The end, by Newton's method from the last position.
@@ -69,11 +69,11 @@ fn energy_stays_and_both_ways_to_the_position_agree() {
         let mut motion = dop853(closed, START, END, Tolerance::new(relative, [1.0, 10.0]).unwrap()).unwrap();
         let times = (0..=500).map(|i| END * f64::from(i) / 500.0);
         let drift =
-            motion.at(times).map(|state| (of(&state.unwrap().1) / of(&START.1) - 1.0).abs()).fold(0.0, f64::max);
+            motion.at(times).map(|state| (of(&state.unwrap().1) / of(&START.1.into()) - 1.0).abs()).fold(0.0, f64::max);
         println!("{relative:e}: energy to {drift:.1e}, {:?}", motion.counts());
         assert!(drift < bound, "{relative:e}: {drift:e}");
         // Newton's method may fail where a step is tried that is too long; it is then tried shorter.
-        let apart = (from_the_last_position(relative).0 - motion.state()).amax();
+        let apart = (from_the_last_position(relative).0 - *motion.state()).largest();
         assert!(apart < 200.0 * relative, "{relative:e}: {apart:e}");
     }
     assert!(START.1[0] + 10.0 < from_the_last_position(1e-9).0[0], "it turns");

@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::limits::{Limit, Limits};
-use linkage::{Elbow, Error, Slider, Slope, linkage};
+use linkage::{Elbow, PositionError, Slider, Slope, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -121,12 +121,12 @@ fn a_four_bar_in_closed_form() {
         };
         for (limit, distance, sign) in [(lower, low, -1.0), (upper, high, 1.0)] {
             match distance {
-                None => assert_eq!(limit, Limit::None),
+                None => assert_eq!(limit, Limit::Unlimited),
                 Some(distance) => {
                     exact(limit, mirrored(angle(distance), sign), "theta3, theta4");
                     let input = limit.input().unwrap();
                     assert!(m.assemble(input - sign * 1e-12, branch).is_ok());
-                    assert!(matches!(m.assemble(input + sign * 1e-12, branch), Err(Error::Unbuildable { .. })));
+                    assert!(matches!(m.assemble(input + sign * 1e-12, branch), Err(PositionError::Unbuildable { .. })));
                 }
             }
         }
@@ -145,7 +145,7 @@ fn sliders_in_closed_form() {
     exact(negative.upper, -2.0, "phi1, phi2");
     let compressor = Compressor::from(SliderCrank::default());
     let branch = CompressorBranch { phi2: Slope::Rising };
-    assert_eq!(compressor.limits(0.3, branch).unwrap(), Limits { lower: Limit::None, upper: Limit::None });
+    assert_eq!(compressor.limits(0.3, branch).unwrap(), Limits { lower: Limit::Unlimited, upper: Limit::Unlimited });
     // A rod shorter than the crank: sin(phi1) = l/r.
     let short = Compressor::from(SliderCrank::new(2.0, 1.0));
     let found = short.limits(0.3, branch).unwrap();
@@ -180,7 +180,7 @@ fn span(theta1: f64, branch: SixBarBranch) -> f64 {
 fn groups_on_groups_are_bracketed() {
     let branch = SixBarBranch::new(Elbow::Left, Elbow::Left);
     let m = SixBar::default();
-    assert_eq!(m.limits(1.0, branch).unwrap(), Limits { lower: Limit::None, upper: Limit::None });
+    assert_eq!(m.limits(1.0, branch).unwrap(), Limits { lower: Limit::Unlimited, upper: Limit::Unlimited });
     // The second dyad too short for all of the swing.
     let turn = || (0..360).map(|degree| f64::from(degree).to_radians());
     let [near, far] = [f64::min, f64::max].map(|of| turn().map(|v| span(v, branch)).reduce(of).unwrap());
@@ -222,7 +222,10 @@ fn one_input_at_a_time() {
         assert!(at(input - sign * 1e-12).is_ok() && at(input + sign * 1e-12).is_err());
     }
     // Of the other input there is no limit: its crank is short.
-    assert_eq!(m.limits_of_theta4(inputs, branch).unwrap(), Limits { lower: Limit::None, upper: Limit::None });
+    assert_eq!(
+        m.limits_of_theta4(inputs, branch).unwrap(),
+        Limits { lower: Limit::Unlimited, upper: Limit::Unlimited }
+    );
 }
 
 /// A length whose first group stops in closed form, unless the second stops before.
@@ -249,7 +252,7 @@ fn groups_without_closed_form_are_followed() {
     let m = Kepler::default();
     let branch = KeplerBranch { theta3_theta4: Elbow::Left };
     let guess = |psi| KeplerCoordinates { theta2: 0.3, psi, theta3: 0.0, theta4: 0.0 };
-    assert_eq!(m.limits(&guess(0.0), branch).unwrap(), Limits { lower: Limit::None, upper: Limit::None });
+    assert_eq!(m.limits(&guess(0.0), branch).unwrap(), Limits { lower: Limit::Unlimited, upper: Limit::Unlimited });
     // Steep enough for dead points of psi on the way.
     let steep = Kepler { e: 1.3, ..m };
     let position = steep.assemble_near(&guess(-2.0), branch).unwrap().coordinates();
@@ -277,9 +280,15 @@ fn scale_free() {
 fn nonsense_is_refused() {
     let m = FourBar::new(80.0, 20.0, 10.0, 10.0);
     let branch = FourBarBranch::new(Elbow::Left);
-    assert!(matches!(m.limits(0.3, branch), Err(Error::Unbuildable { .. })));
-    assert!(matches!(FourBar::new(80.0, 20.0, 50.0, 70.0).limits(f64::NAN, branch), Err(Error::NotFinite { .. })));
-    assert!(matches!(FourBar::new(f64::INFINITY, 20.0, 50.0, 70.0).limits(0.0, branch), Err(Error::NotFinite { .. })));
+    assert!(matches!(m.limits(0.3, branch), Err(PositionError::Unbuildable { .. })));
+    assert!(matches!(
+        FourBar::new(80.0, 20.0, 50.0, 70.0).limits(f64::NAN, branch),
+        Err(PositionError::NotFinite { .. })
+    ));
+    assert!(matches!(
+        FourBar::new(f64::INFINITY, 20.0, 50.0, 70.0).limits(0.0, branch),
+        Err(PositionError::NotFinite { .. })
+    ));
 }
 
 linkage! {
@@ -343,7 +352,10 @@ fn behind_wheels_and_racks_in_closed_form() {
     // Of nearly straight links the joints come near each other: the other end.
     exact(found.lower, -(3.5_f64 * 3.5 - 0.6 * 0.6).sqrt(), "alpha, beta");
     let standing = Train { ratio: 0.0, ..m };
-    assert_eq!(standing.limits_of_theta(inputs, branch).unwrap(), Limits { lower: Limit::None, upper: Limit::None });
+    assert_eq!(
+        standing.limits_of_theta(inputs, branch).unwrap(),
+        Limits { lower: Limit::Unlimited, upper: Limit::Unlimited }
+    );
 }
 
 /// A group that turns forty times as fast as the input stops it within a degree or two, and many times in a turn; the
@@ -470,12 +482,12 @@ fn no_limit_is_not_finite() {
     }
     let random = &mut SmallRng::seed_from_u64(7);
     let mut found = 0;
-    let mut check = |limits: Result<Limits<f64>, Error>, start: f64, case: &dyn std::fmt::Debug| {
+    let mut check = |limits: Result<Limits<f64>, PositionError>, start: f64, case: &dyn std::fmt::Debug| {
         let Ok(Limits { lower, upper }) = limits else { return };
         found += 1;
         for limit in [lower, upper] {
             let numbers = match limit {
-                Limit::None => vec![],
+                Limit::Unlimited => vec![],
                 Limit::Exact { input, .. } => vec![input],
                 Limit::Bracketed { assembled, unbuildable, .. } => vec![assembled, unbuildable],
             };
@@ -519,7 +531,8 @@ fn no_limit_is_not_finite() {
         let start = near / far;
         assert!(m.assemble(start, on_bar).is_ok());
         let limits = m.limits(start, on_bar);
-        refused += usize::from(matches!(limits, Err(Error::NotFinite { mechanism: "FourBar", quantity: "a limit" })));
+        refused +=
+            usize::from(matches!(limits, Err(PositionError::NotFinite { mechanism: "FourBar", quantity: "a limit" })));
         check(limits, start, &m);
     }
     assert!((80..100).contains(&refused), "{refused}");

@@ -162,7 +162,7 @@ macro_rules! sweep {
             let Ok(found) = m.limits(start, branch) else { continue };
             for limit in [found.lower, found.upper] {
                 match limit {
-                    Limit::None => {}
+                    Limit::Unlimited => {}
                     Limit::Exact { input, .. } => {
                         exact.note($of, &parameters, input);
                         assert!(m.assemble(input, branch).is_ok(), "{m:?}: {limit:?}");

@@ -75,7 +75,7 @@ fn equation_1_3() {
         let m = Introductory::new(z1, z3, z4, delta);
         let pose = m.pose_at(&IntroductoryCoordinates { phi2, z2, phi1 });
         let rate =
-            m.velocity(&pose, length(&mut random)).unwrap_or(IntroductoryCoordinates { phi1: 1.0, phi2: 2.0, z2: 3.0 });
+            m.velocity(&pose, length(&mut random)).unwrap_or(IntroductoryRates { phi1: 1.0, phi2: 2.0, z2: 3.0 });
         let expected = block(z1, phi1) * vector![0.0, rate.phi1] + block(z2, phi2) * vector![rate.z2, rate.phi2];
         let found = m.point_velocities(&pose, &rate).unwrap().p;
         close(found.as_slice(), expected.as_slice(), z1 * rate.phi1.abs() + z2 * rate.phi2.abs() + rate.z2.abs());
@@ -114,7 +114,7 @@ fn singular_configurations() {
     let engine = Engine::new(1.0, 3.0);
     let dead = SliderCrankCoordinates { z3: 4.0, phi1: 0.0, phi2: 0.0 };
     match engine.velocity_ratios(&engine.pose_at(&dead)) {
-        Err(linkage::Error::Singular { mechanism: "Engine", group: "phi1, phi2", regularity }) => {
+        Err(linkage::PositionError::Singular { mechanism: "Engine", group: "phi1, phi2", regularity }) => {
             assert!(regularity == 0.0)
         }
         other => panic!("{other:?}"),
@@ -123,7 +123,7 @@ fn singular_configurations() {
     let upright =
         SliderCrankCoordinates { z3: 0.0, phi1: -std::f64::consts::FRAC_PI_2, phi2: std::f64::consts::FRAC_PI_2 };
     match compressor.velocity_ratios(&compressor.pose_at(&upright)) {
-        Err(linkage::Error::Singular { mechanism: "Compressor", group: "phi2", regularity }) => {
+        Err(linkage::PositionError::Singular { mechanism: "Compressor", group: "phi2", regularity }) => {
             assert!(regularity < 1e-16, "{regularity}");
         }
         other => panic!("{other:?}"),

@@ -53,7 +53,7 @@ fn newton_iterates() {
     let solution = four_bar.solve(&start()).unwrap();
     close(solution.coordinates.theta3, iterates[4][0], EXACT);
     close(solution.coordinates.theta4, iterates[4][1], EXACT);
-    assert!(solution.residual < 1e-15 && solution.iterations <= 5 && solution.same_branch);
+    assert!(solution.residual < 1e-15 && solution.iterations <= 5);
     close(solution.coordinates.theta3, 1.231_343_146_814_298_8, PRINTED);
     close(solution.coordinates.theta4, -0.880_796_908_651_079_8, PRINTED);
 }

@@ -114,7 +114,7 @@ version = "0.0.0"
 edition = "2024"
 
 [dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["std"] }
+linkage = { path = "ROOT", default-features = false, features = ["std", "dynamics"] }
 
 [lints.rust]
 warnings = "deny"

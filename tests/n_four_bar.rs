@@ -9,10 +9,9 @@
 //! TOLERANCES=64 cargo test --release --test n_four_bar -- --nocapture
 //! ```
 
-use linkage::Error;
 use linkage::integrate::{Tolerance, dop853};
-use linkage::linkage;
 use linkage::simulation::simulate;
+use linkage::{MotionError, PathError, PositionError, linkage};
 use nalgebra::vector;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -53,7 +52,7 @@ struct Run {
     spread: f64,
     /// The first joint from where the law has it, in metres, at the end.
     off: f64,
-    stop: Option<(f64, Error)>,
+    stop: Option<(f64, MotionError)>,
 }
 
 /// Runs at random tolerances, and what they came to.
@@ -66,7 +65,14 @@ fn judge(windows: f64, count: usize, run: impl Fn(f64, (f64, f64)) -> Run) {
         let Run { spread, off, stop } = run(tolerance, exact);
         if let Some((t, error)) = stop {
             println!("{windows} windows at {tolerance:.3e} stop at {t}: {error:?}");
-            assert!(matches!(error, Error::ChangePoint { .. } | Error::Singular { .. }), "{error}");
+            assert!(
+                matches!(
+                    error,
+                    MotionError::Path(PathError::ChangePoint { .. })
+                        | MotionError::Position(PositionError::Singular { .. })
+                ),
+                "{error}"
+            );
             stops += 1;
         } else {
             worst_share = worst_share.max(off / tolerance);

@@ -87,8 +87,8 @@ struct Calls<'a> {
 impl Calls<'_> {
     fn count(&mut self, name: &str) {
         let name = if name == "elbow_chord" { "chord" } else { name };
-        let known =
-            ["sine_cosine", "chord", "sines_cosines", "sin", "cos", "sin_cos", "atan2", "sqrt", "hypot", "acos"];
+        let others = ["sines_cosines", "sine", "cosine", "sin", "cos", "sin_cos", "atan2", "sqrt", "hypot", "acos"];
+        let known: Vec<&str> = ["sine_cosine", "chord"].into_iter().chain(others).collect();
         match known.iter().position(|known| *known == name) {
             Some(place) if self.within => self.calls[place.min(2)] += 1,
             _ => {}
@@ -118,6 +118,18 @@ impl syn::visit::Visit<'_> for Calls<'_> {
 fn a_cascade_of_dyads_needs_one_sine_and_a_root_each() {
     assert_eq!(calls("four_bar"), [1, 1, 0]);
     assert_eq!(calls("jansen"), [1, 5, 0]);
+}
+
+/// An unknown that is the cosine of an angle is computed once, together with the sine.
+#[test]
+fn an_unknown_may_be_a_cosine() {
+    let source = "mechanism Odd { input theta; unknown y, z, w; equation y = sin(theta); equation z = cos(y); \
+                  equation w = sin(y) + sin(z); }";
+    let mechanism = linkage_compiler::read(source.parse().unwrap()).unwrap().remove(0);
+    let text: String = linkage_compiler::programs(&mechanism).concat();
+    let position = text.split("\n\n").find(|function| function.starts_with("assemble(")).unwrap();
+    let count = |what: &str| position.matches(what).count();
+    assert_eq!([count(".sine_cosine()"), count("cos("), count("sin(")], [3, 0, 0], "{position}");
 }
 
 /// Nodes, operations of each kind and bytes of an expansion.

@@ -22,7 +22,7 @@ macro_rules! orders {
     ) => {
         mod $test {
             use linkage::linkage;
-            use linkage::nalgebra::{DVector, RealField, SMatrix, SVector, Vector2};
+            use linkage::nalgebra::{DVector, Point2, RealField, SMatrix, SVector, Vector2};
             use linkage_compiler::ids::Id;
             use num_dual::{Dual3_64, Dual64, HyperDual64};
 
@@ -45,12 +45,13 @@ macro_rules! orders {
                 $Mechanism::from(std::array::from_fn(|index| scalar(index, sample.parameters[index])))
             }
 
-            fn coordinates<T: RealField + Copy>(value: impl Fn(usize) -> T) -> $Coordinates<T> {
+            /// Coordinates, or one of their derivatives.
+            fn coordinates<T: RealField + Copy, C: From<SVector<T, Q>>>(value: impl Fn(usize) -> T) -> C {
                 SVector::<T, Q>::from_fn(|row, _| value(row)).into()
             }
 
-            fn array(q: $Coordinates<f64>) -> [f64; Q] {
-                SVector::<f64, Q>::from(q).data.0[0]
+            fn array(q: impl Into<SVector<f64, Q>>) -> [f64; Q] {
+                q.into().data.0[0]
             }
 
             /// Any jerks: the accelerations of other coordinates.
@@ -83,7 +84,7 @@ macro_rules! orders {
                     let moving = dual.pose_at(&motion(array(given)));
                     let found: [Vector2<f64>; POINTS] =
                         m.point_jerks(&pose, &rate, &acceleration, &given).unwrap().into();
-                    let expected: [Vector2<Dual3_64>; POINTS] = dual.points(&moving).unwrap().into();
+                    let expected: [Point2<Dual3_64>; POINTS] = dual.points(&moving).unwrap().into();
                     for (found, expected) in found.iter().zip(expected) {
                         all_close("point jerk", found.as_slice(), &[expected.x.v3, expected.y.v3], 0.0, TOLERANCE);
                     }
@@ -147,7 +148,7 @@ macro_rules! orders {
                             nothing("J L_jk + gamma(w_j, w_k)", second(1.0).as_slice(), size);
 
                             let moving = along(1.0);
-                            let expected: [Vector2<HyperDual64>; POINTS] = dual.points(&moving).unwrap().into();
+                            let expected: [Point2<HyperDual64>; POINTS] = dual.points(&moving).unwrap().into();
                             for (found, expected) in points.iter().zip(expected) {
                                 let found = [found[0][(j, k)], found[1][(j, k)]];
                                 let scale = 10.0 * (1.0 + curvature.sqrt() + w.norm_squared());
@@ -165,11 +166,11 @@ macro_rules! orders {
                     }
 
                     // u'' = W v'' + v' . L v'.
-                    let (rates, others) =
-                        ($Inputs::from(&coordinates(|i| sample.rate[i])), coordinates(|i| jerk_of(&sample, i)));
-                    let (v1, v2) = (SVector::<f64, V>::from(rates), SVector::<f64, V>::from($Inputs::from(&others)));
-                    let velocity = m.velocity(&pose, rates).unwrap();
-                    let acceleration = array(m.acceleration(&pose, &velocity, $Inputs::from(&others)).unwrap());
+                    let inputs: Vec<usize> = d.inputs.iter().map(|input| input.index()).collect();
+                    let v1 = SVector::<f64, V>::from_fn(|row, _| sample.rate[inputs[row]]);
+                    let v2 = SVector::<f64, V>::from_fn(|row, _| jerk_of(&sample, inputs[row]));
+                    let velocity = m.velocity(&pose, v1).unwrap();
+                    let acceleration = array(m.acceleration(&pose, &velocity, v2).unwrap());
                     for (unknown, &place) in d.unknowns.iter().enumerate() {
                         let curved = v1.dot(&(l[unknown] * v1));
                         let found = w.row(unknown).transpose().dot(&v2) + curved;
@@ -214,7 +215,7 @@ macro_rules! orders {
                         all_close("Psi_p", direct.as_slice(), &entries, 0.0, TOLERANCE);
 
                         let following = along(1.0);
-                        let expected: [Vector2<Dual64>; POINTS] = dual.points(&following).unwrap().into();
+                        let expected: [Point2<Dual64>; POINTS] = dual.points(&following).unwrap().into();
                         for (found, expected) in points.iter().zip(expected) {
                             let found = [found[(0, p)], found[(1, p)]];
                             let scale = 10.0 * (1.0 + s.column(p).norm());

@@ -231,8 +231,11 @@ fn a_hundred_thousand_tokens_of_honest_input_are_within_the_budget() {
     let steps = |legs: usize| {
         let budget = Budget::default();
         let legs = std::iter::repeat_n(leg.clone(), legs).flatten().collect();
-        let expansion =
-            linkage_compiler::expand_within(legs, &Facade::complete(&"::linkage".parse().unwrap()), &budget);
+        let expansion = linkage_compiler::expand_within(
+            legs,
+            &linkage_compiler::Facade::complete(&"::linkage".parse().unwrap()),
+            &budget,
+        );
         assert!(!expansion.to_string().contains("compile_error"));
         MOST_STEPS - budget.left()
     };

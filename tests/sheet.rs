@@ -2,7 +2,7 @@
 
 #![cfg(feature = "sheet")]
 
-use linkage::derivation::{Entry, Formula, Matrix};
+use linkage::derivation::{Entry, Formula, FormulaMatrix};
 use linkage::sheet::Sheet;
 use linkage::{Document, linkage};
 
@@ -108,7 +108,7 @@ fn large_matrices_are_lists_of_entries() {
     let mut large = *FourBar::DERIVATION;
     let name = FourBar::DERIVATION.jacobian_inputs.name;
     large.jacobian_inputs =
-        Matrix { name, factor: None, rows: 7, columns: 1, entries: &[Entry { row: 6, column: 0, value: ONE }] };
+        FormulaMatrix { name, factor: None, rows: 7, columns: 1, entries: &[Entry { row: 6, column: 0, value: ONE }] };
     let html = Sheet::new(&large).to_html();
     assert_balanced(&html);
     assert!(html.contains("<mrow><mn>7</mn><mo>,</mo><mn>1</mn></mrow></msub><mo>=</mo><mn>1</mn>"));

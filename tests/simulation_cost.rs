@@ -1,10 +1,9 @@
 //! What the price list of simulation stands on: its references, by 31 digits and two methods, its formulations, by the
 //! figures of another program, and the orders of its methods.
 
-use linkage::Scene;
 use linkage::integrate::{Dop853, Dopri5, Method};
-use linkage::nalgebra::SVector;
 use linkage::simulation::{RealTime, simulate};
+use linkage::{D, Scene};
 use linkage_double::DoubleDouble;
 
 #[path = "../examples/simulation_cost/formulations.rs"]
@@ -16,24 +15,20 @@ mod problem;
 
 use formulations::{Hold, Multipliers};
 use four_bars::Turning;
-use problem::Problem;
+use problem::{Problem, State};
 
 /// The coordinates at the end of the same problem by numbers of 31 digits.
-fn end<M: Method, S, D, const U: usize, const V: usize, const N: usize>(
-    problem: &Problem<S, U, V, N>,
-    scene: &D,
-    tolerance: f64,
-) -> SVector<f64, N>
+fn end<M: Method, S, L>(problem: &Problem<S>, scene: &L, tolerance: f64) -> State<S>
 where
-    S: Scene<f64, U, V, N, 0>,
-    D: Scene<DoubleDouble, U, V, N, 0>,
+    S: Scene<Scalar = f64>,
+    L: Scene<Scalar = DoubleDouble, State = S::State>,
 {
-    let (q, rates) = D::parts(&problem.start.map(DoubleDouble::from));
+    let (q, rates) = L::parts(&problem.start.map(DoubleDouble::from));
     let end = DoubleDouble::from(problem.end);
     let motion = simulate(scene, (DoubleDouble::from(0.0), q, rates), end, tolerance).unwrap();
     let mut motion = motion.method::<M>().unwrap().most_steps(1_000_000);
     motion.finish(|_, _| true).unwrap();
-    D::state(&motion.state().q, &rates).map(DoubleDouble::high)
+    L::state(&motion.state().q, &rates).map(DoubleDouble::high)
 }
 
 fn bars() -> four_bars::Bars<DoubleDouble> {
@@ -41,9 +36,9 @@ fn bars() -> four_bars::Bars<DoubleDouble> {
     [a, b, c, d].map(DoubleDouble::from).into()
 }
 
-fn apart<const N: usize>(found: &SVector<f64, N>, expected: &SVector<f64, N>) -> f64 {
+fn apart(found: State<Turning>, expected: State<Turning>) -> f64 {
     println!("{found:?}");
-    (found - expected).amax()
+    (found - expected).largest()
 }
 
 /// Where the code is optimised also at a tighter tolerance, by another method, and for 44 turns.
@@ -52,26 +47,26 @@ fn the_references_by_31_digits() {
     let problem = four_bars::sprung();
     let four_bars::Sprung { m, g, k, l0, xp, yp, .. } = problem.scene;
     let scene = four_bars::Sprung::from((bars(), [m, g, k, l0, xp, yp].map(DoubleDouble::from)));
-    let sprung = |tolerance| end::<Dop853, _, _, 2, 1, 4>(&problem, &scene, tolerance);
-    assert!(apart(&sprung(1e-16), &problem.expected) < 2e-13);
+    let sprung = |tolerance| end::<Dop853, _, _>(&problem, &scene, tolerance);
+    assert!(apart(sprung(1e-16), problem.expected) < 2e-13);
     if cfg!(debug_assertions) {
         return;
     }
-    assert!(apart(&sprung(1e-18), &problem.expected) < 2e-14);
-    assert!(apart(&end::<Dopri5, _, _, 2, 1, 4>(&problem, &scene, 1e-14), &problem.expected) < 5e-13);
+    assert!(apart(sprung(1e-18), problem.expected) < 2e-14);
+    assert!(apart(end::<Dopri5, _, _>(&problem, &scene, 1e-14), problem.expected) < 5e-13);
     let problem = four_bars::turning();
     let four_bars::Turning { m, g, .. } = problem.scene;
     let scene = four_bars::Turning::from((bars(), [m, g].map(DoubleDouble::from)));
     // 2e-12 at 1e-16, and some of a hundredth of it here; an angle of 275 rad is itself rounded to 6e-14.
-    assert!(apart(&end::<Dop853, _, _, 2, 1, 4>(&problem, &scene, 1e-18), &problem.expected) < 1e-13);
+    assert!(apart(end::<Dop853, _, _>(&problem, &scene, 1e-18), problem.expected) < 1e-13);
 }
 
 /// The motion with multipliers by steps of this number, and the widest gap on the way.
-fn with_multipliers<S>(problem: &Problem<S, 2, 1, 4>, hold: Hold, steps: u32) -> (SVector<f64, 4>, f64)
+fn with_multipliers<S>(problem: &Problem<S>, hold: Hold, steps: u32) -> (State<S>, f64)
 where
-    S: Scene<f64, 2, 1, 4, 0>,
+    S: Scene<Scalar = f64, U = D<2>, V = D<1>>,
 {
-    let mut motion = Multipliers::<S, 2, 1, 4, 3, 5>::new(problem, hold).unwrap();
+    let mut motion = Multipliers::<S, 2, 5>::new(problem, hold).unwrap();
     let h = problem.end / f64::from(steps);
     let mut gap = 0.0_f64;
     for step in 0..steps {
@@ -93,7 +88,7 @@ const PROJECTED: Rows = [(5000, 274.964_844_557_934_1, 0.0), (20_000, 274.967_49
 #[test]
 fn the_formulations_are_those_of_another_program() {
     let problem = four_bars::turning();
-    let theta = |y: &SVector<f64, 4>| Turning::parts(y).0.theta;
+    let theta = |y: &State<Turning>| Turning::parts(y).0.theta;
     let rows = if cfg!(debug_assertions) { 1 } else { 2 };
     for (hold, expected) in [
         (Hold::Accelerations, ACCELERATIONS),

@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-use linkage::{Error, Mechanism, Slope, linkage, singularity};
+use linkage::{Dim, Mechanism, PositionError, Slope, linkage, singularity};
 use nalgebra::{DMatrix, vector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -24,9 +24,7 @@ fn close(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 4.0 * ROUNDING * (1.0 + expected.abs()), "{found:e} is not {expected:e}");
 }
 
-fn names<T: linkage::Real, const U: usize, const V: usize>(
-    report: &singularity::Singularity<T, U, V>,
-) -> Vec<(&'static str, &'static str)> {
+fn names<M: Mechanism>(report: &singularity::Singularity<M>) -> Vec<(&'static str, &'static str)> {
     report.drivers().map(|exchange| (exchange.unknown, exchange.input)).collect()
 }
 
@@ -44,7 +42,7 @@ fn slider_crank_driven_by_its_slider() {
         assert_eq!(found.admissible().count(), 0);
         let [free] = found.free().collect::<Vec<_>>()[..] else { panic!("{found}") };
         close(m.z1 * free[0] + sign * m.z2 * free[1], 0.0);
-        close(free[0].abs().max(free[1].abs()), free.amax());
+        close(free[0].abs().max(free[1].abs()), free.largest());
         assert_eq!(names(&found), [("phi1", "z3"), ("phi2", "z3")]);
         assert!(m.velocity_ratios(&pose).is_err());
         let text = found.to_string();
@@ -180,31 +178,33 @@ fn numerical_rank(matrix: &DMatrix<f64>) -> usize {
 
 /// Against brute force at random positions, none of them consistent, and at positions made singular: rank and null
 /// vectors of J, the inputs that A leaves admissible, and the exchanges.
-fn brute_force<M: Mechanism<f64, U, V>, const U: usize, const V: usize>(m: &M, pose: &M::Pose) -> bool {
+fn brute_force<M: Mechanism<Scalar = f64>>(m: &M, pose: &M::Pose) -> bool {
     let found = singularity::report(m, pose).unwrap();
+    let (u, v) = (M::U::COUNT, M::V::COUNT);
     let (j, a) = (m.jacobian_unknowns(pose), m.jacobian_inputs(pose));
-    let dynamic = DMatrix::from_iterator(U, U, j.iter().copied());
+    let dynamic = DMatrix::from_iterator(u, u, j.iter().copied());
+    let by_inputs = DMatrix::from_iterator(u, v, a.iter().copied());
     let rank = numerical_rank(&dynamic);
     assert_eq!(found.rank(), rank, "{found}");
-    assert_eq!(found.free().count(), U - rank);
+    assert_eq!(found.free().count(), u - rank);
     for free in found.free() {
-        assert!((j * free).amax() <= 1e-13 * j.amax() * free.amax(), "{found}");
+        assert!((j * free).largest() <= 1e-13 * dynamic.amax() * free.largest(), "{found}");
     }
-    let mut all = dynamic.clone().insert_columns(U, V, 0.0);
-    all.columns_mut(U, V).copy_from(&a);
+    let mut all = dynamic.clone().insert_columns(u, v, 0.0);
+    all.columns_mut(u, v).copy_from(&by_inputs);
     assert_eq!(found.rank_with_inputs(), numerical_rank(&all));
-    assert_eq!(found.admissible().count(), V - (numerical_rank(&all) - rank));
+    assert_eq!(found.admissible().count(), v - (numerical_rank(&all) - rank));
     for rates in found.admissible() {
-        let mut beside = dynamic.clone().insert_column(U, 0.0);
-        beside.column_mut(U).copy_from(&(a * rates));
+        let mut beside = dynamic.clone().insert_column(u, 0.0);
+        beside.column_mut(u).copy_from_slice((a * rates).as_slice());
         assert_eq!(numerical_rank(&beside), rank, "an admissible rate leaves the range of J");
     }
     let mut exchanges = Vec::new();
-    for input in 0..V {
-        for unknown in 0..U {
+    for input in 0..v {
+        for unknown in 0..u {
             let mut exchanged = dynamic.clone();
-            exchanged.column_mut(unknown).copy_from(&a.column(input));
-            if numerical_rank(&exchanged) == U {
+            exchanged.column_mut(unknown).copy_from(&by_inputs.column(input));
+            if numerical_rank(&exchanged) == u {
                 exchanges.push((M::UNKNOWNS[unknown], M::INPUTS[input]));
             }
         }
@@ -286,7 +286,7 @@ fn attainable_accuracy() {
             let other = solution.coordinates;
             let error = (other.theta3 - q.theta3).abs().max((other.theta4 - q.theta4).abs());
             if here.attainable() < 1e-9 {
-                worst.0 = worst.0.max(error / here.unknowns().amax());
+                worst.0 = worst.0.max(error / here.unknowns().largest());
             }
             worst.1 = worst.1.max(here.attainable());
             worst.2 = worst.2.max(error);
@@ -326,12 +326,15 @@ fn bad_input() {
     let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -0.9 };
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let m = FourBar { l3: bad, ..FourBar::default() };
-        assert!(matches!(singularity::report(&m, &m.pose_at(&q)), Err(Error::NotFinite { mechanism: "FourBar", .. })));
-        assert!(matches!(singularity::accuracy(&m, &m.pose_at(&q)), Err(Error::NotFinite { .. })));
-        assert!(matches!(singularity::sigma_min(&m, &m.pose_at(&q)), Err(Error::NotFinite { .. })));
+        assert!(matches!(
+            singularity::report(&m, &m.pose_at(&q)),
+            Err(PositionError::NotFinite { mechanism: "FourBar", .. })
+        ));
+        assert!(matches!(singularity::accuracy(&m, &m.pose_at(&q)), Err(PositionError::NotFinite { .. })));
+        assert!(matches!(singularity::sigma_min(&m, &m.pose_at(&q)), Err(PositionError::NotFinite { .. })));
         let m = FourBar::default();
         let pose = m.pose_at(&FourBarCoordinates { theta4: bad, ..q });
-        assert!(matches!(singularity::report(&m, &pose), Err(Error::NotFinite { .. })));
+        assert!(matches!(singularity::report(&m, &pose), Err(PositionError::NotFinite { .. })));
     }
     let m = FourBar::new(0.0, 0.0, 0.0, 0.0);
     let found = singularity::report(&m, &m.pose_at(&q)).unwrap();

@@ -7,8 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Direction, Path};
 use linkage::simulation::simulate;
-use linkage::{Assembly, Elbow, Error, Mechanism, Slider, Slope, linkage};
-use nalgebra::SVector;
+use linkage::{Assembly, D, Elbow, InputError, Mechanism, PositionError, Slider, Slope, linkage};
 
 include!("mechanisms/drag_link_drive.rs");
 include!("mechanisms/four_bar.rs");
@@ -86,43 +85,41 @@ fn rise<T: linkage::Real>(angle: T, lift: T) -> (T, T, T, T) {
 }
 
 /// The largest difference of coordinates; those of which a pose knows the direction alone are compared as directions.
-fn difference<M: Mechanism<f64, U, 1>, const U: usize>(a: &M::Coordinates, b: &M::Coordinates, bare: &[&str]) -> f64 {
+fn difference<M: Mechanism<Scalar = f64, V = D<1>>>(a: &M::Coordinates, b: &M::Coordinates, bare: &[&str]) -> f64 {
     let off = M::unknowns(a) - M::unknowns(b);
     let of_unknowns = off.iter().zip(M::UNKNOWNS).map(|(&off, name)| {
-        let turns = if bare.contains(&name) { (off / TAU).round() } else { 0.0 };
+        let turns = if bare.contains(name) { (off / TAU).round() } else { 0.0 };
         (off - turns * TAU).abs()
     });
-    of_unknowns.fold((M::inputs(a) - M::inputs(b)).amax(), f64::max)
+    of_unknowns.fold((M::inputs(a) - M::inputs(b)).largest(), f64::max)
 }
 
 /// Follows a mechanism over ten turns either way and assembles each position again from its branch; the coordinates
 /// come from the pose as numbers.
-fn comes_back<M, const U: usize>(
+fn comes_back<M>(
     m: &M,
     start: &M::Coordinates,
     bare: &[&str],
     coordinates: impl Fn(&M::Pose) -> M::Coordinates,
 ) -> [M::Coordinates; 2]
 where
-    M: Assembly<f64, U, 1>,
-    M::Branch: std::fmt::Debug,
-    M::Coordinates: std::fmt::Debug,
+    M: Assembly<Scalar = f64, V = D<1>>,
 {
     [Direction::Increasing, Direction::Decreasing].map(|direction| {
         let mut path = Path::new(m, start, direction).unwrap();
         let sign = if matches!(direction, Direction::Increasing) { 1.0 } else { -1.0 };
-        let [begin]: [f64; 1] = M::inputs(start).into();
+        let begin = M::inputs(start)[0];
         for step in 1..=800 {
             // Steps that come to every multiple of a quarter turn.
             let input = begin + sign * 20.0 * PI * f64::from(step) / 800.0;
             let here = path.advance_to(input).unwrap().position;
-            for q in [here, M::with_inputs(&here, SVector::<f64, 1>::new(input))] {
+            for q in [here, M::with_inputs(&here, [input].into())] {
                 let pose = m.pose_at(&q);
                 let branch = m.branch_of(&pose);
                 let [again, near] =
                     [m.assemble(M::inputs(&q).into(), branch), m.assemble_near(&q, branch)].map(Result::unwrap);
                 for found in [&again, &near] {
-                    let off = difference::<M, U>(&coordinates(found), &q, bare);
+                    let off = difference::<M>(&coordinates(found), &q, bare);
                     assert!(off < 3e-13, "{off:e} at {input}: {branch:?}, {q:?}, {:?}", coordinates(found));
                 }
                 assert!(m.same_branch(&pose, &again));
@@ -182,7 +179,7 @@ fn ten_turns_both_ways() {
     let turned = HalvedBranch { slot_turn: 1, ..HalvedBranch::new(Slider::Far) };
     let [here, turned] = [HalvedBranch::new(Slider::Far), turned]
         .map(|branch| m.points(&m.assemble(0.4, branch).unwrap()).unwrap().half);
-    assert!((here + turned).amax() < 1e-14, "{here} {turned}");
+    assert!((here.coords + turned.coords).amax() < 1e-14, "{here} {turned}");
 
     let m = Halves::default();
     let branch = HalvesBranch::new(Slope::Rising, Slope::Rising);
@@ -220,7 +217,7 @@ fn at_the_cut_itself() {
             assert_eq!(m.assemble(month, m.branch_of(&near)).unwrap().coordinates(), q);
             let solved = m.solve(&q).unwrap().coordinates;
             let again = m.assemble(month, m.branch_of(&m.pose_at(&solved))).unwrap().coordinates();
-            assert!(difference::<PinAndSlot, 5>(&again, &solved, &[]) < 1e-13, "{again:?} {solved:?}");
+            assert!(difference::<PinAndSlot>(&again, &solved, &[]) < 1e-13, "{again:?} {solved:?}");
         }
     }
 }
@@ -251,7 +248,7 @@ fn a_simulation_comes_back() {
             let q = motion.at([0.02 * f64::from(step)]).next().unwrap().unwrap().q;
             let pose = m.pose_at(&q);
             let again = m.assemble(q.phi, m.branch_of(&pose)).unwrap().coordinates();
-            assert!(difference::<Wound, 2>(&again, &q, &[]) < 1e-12, "{again:?} {q:?}");
+            assert!(difference::<Wound>(&again, &q, &[]) < 1e-12, "{again:?} {q:?}");
             let near = m.assemble_near(&WoundCoordinates { phi: q.phi, ..last }, WoundBranch::new(Slider::Far));
             assert_eq!(near.unwrap().coordinates(), again);
             last = q;
@@ -266,9 +263,9 @@ fn turns_that_cannot_be_counted() {
     let far = PinAndSlotBranch::new(Slider::Far);
     let q = m.assemble(0.4, far).unwrap().coordinates();
     let error = m.assemble_near(&PinAndSlotCoordinates { slot: f64::NAN, ..q }, far).unwrap_err();
-    assert!(matches!(error, Error::NotFinite { .. }), "{error}");
+    assert!(matches!(error, PositionError::NotFinite { .. }), "{error}");
     let error = m.assemble_near(&PinAndSlotCoordinates { slot: 1e300, ..q }, far).unwrap_err();
-    assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
+    assert!(matches!(error, PositionError::Input(InputError::OutOfRange { .. })), "{error}");
     // A pose in no turn that could be counted is still in a turn.
     let pose = m.pose_at(&PinAndSlotCoordinates { slot: 1e300, ..q });
     assert!(m.assemble(0.4, m.branch_of(&pose)).is_ok());

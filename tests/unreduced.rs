@@ -1,9 +1,7 @@
 //! Inertia and forces in all coordinates: what W makes of them are the mass matrix and the forces that are emitted.
 
-use std::fmt::Debug;
-
-use linkage::nalgebra::{SMatrix, SVector};
-use linkage::{Error, Mechanism, Scene, linkage};
+use linkage::nalgebra::SMatrix;
+use linkage::{Column, D, Matrix, Mechanism, MotionError, Scene, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -17,46 +15,46 @@ const POSES: usize = 200;
 
 const TOLERANCE: f64 = 1e-11;
 
-type Reduced<const V: usize> = Result<(SMatrix<f64, V, V>, SVector<f64, V>), Error>;
+type Reduced<S> = Result<(Matrix<f64, <S as Scene>::V, <S as Scene>::V>, Column<f64, <S as Scene>::V>), MotionError>;
 
 /// Compares at random positions whose inputs are within `spread` of those of `near`.
 #[track_caller]
-fn agree<S, const U: usize, const V: usize, const N: usize, const C: usize>(
+fn agree<S, M, const U: usize>(
     scene: &S,
-    (near, spread): (<S::Mechanism as Mechanism<f64, U, V>>::Coordinates, f64),
-    emitted: impl Fn(f64, &<S::Mechanism as Mechanism<f64, U, V>>::Coordinates, SVector<f64, V>) -> Reduced<V>,
+    (near, spread): (M::Coordinates, f64),
+    emitted: impl Fn(f64, &M::Coordinates, Column<f64, S::V>) -> Reduced<S>,
 ) where
-    S: Scene<f64, U, V, N, C>,
-    <S::Mechanism as Mechanism<f64, U, V>>::Coordinates: Debug,
+    S: Scene<Scalar = f64, U = D<U>, Mechanism = M>,
+    M: Mechanism<Scalar = f64, U = D<U>, V = S::V>,
 {
     let mechanism = scene.mechanism();
     let mut random = SmallRng::seed_from_u64(1867);
     let mut compared = 0;
     for _ in 0..POSES {
-        let v = S::Mechanism::inputs(&near).map(|value| value + random.random_range(-spread..spread));
-        let rate = SVector::<f64, V>::from_fn(|_, _| random.random_range(-8.0..8.0));
+        let v = M::inputs(&near).map(|value| value + random.random_range(-spread..spread));
+        let input_rates = Column::from_fn(|_| random.random_range(-8.0..8.0));
         let t = random.random_range(-5.0..5.0);
-        let Ok(found) = linkage::position::newton(mechanism, &S::Mechanism::with_inputs(&near, v)) else { continue };
+        let Ok(found) = linkage::position::newton(mechanism, &M::with_inputs(&near, v)) else { continue };
         let q = found.coordinates;
         let pose = mechanism.pose_at(&q);
         let (j, a) = (mechanism.jacobian_unknowns(&pose), mechanism.jacobian_inputs(&pose));
-        let Some(inverse) = j.try_inverse() else { continue };
+        let Some(inverse) = SMatrix::from(j).try_inverse().map(Matrix::from) else { continue };
         let w = -(inverse * a);
-        let velocity = S::Mechanism::with_inputs(&S::Mechanism::with_unknowns(&q, w * rate), rate);
-        let bias = -(inverse * mechanism.gamma(&pose, &velocity));
-        let all = scene.unreduced(t, &q, &velocity).unwrap();
+        let rates = M::rates(w * input_rates, input_rates);
+        let bias = -(inverse * mechanism.gamma(&pose, &rates));
+        let all = scene.unreduced(t, &q, &rates).unwrap();
         assert_eq!((all.unknowns, all.inputs), (all.unknowns.transpose(), all.inputs.transpose()));
         let mass = w.transpose() * (all.unknowns * w + all.mixed) + all.mixed.transpose() * w + all.inputs;
         let of_unknowns = all.unknown_forces - all.unknowns * bias;
-        let forces = w.transpose() * of_unknowns + all.input_forces - all.mixed.transpose() * bias;
-        let size = (w.abs().transpose() * (all.unknown_forces.abs() + all.unknowns.abs() * bias.abs())
+        let forces = w.tr_mul(&of_unknowns) + all.input_forces - all.mixed.tr_mul(&bias);
+        let size = (w.abs().tr_mul(&(all.unknown_forces.abs() + all.unknowns.abs() * bias.abs()))
             + all.input_forces.abs()
-            + all.mixed.abs().transpose() * bias.abs())
-        .amax();
-        let (expected_mass, expected_forces) = emitted(t, &q, rate).unwrap();
-        let error = (mass - expected_mass).amax() / expected_mass.amax();
+            + all.mixed.abs().tr_mul(&bias.abs()))
+        .largest();
+        let (expected_mass, expected_forces) = emitted(t, &q, input_rates).unwrap();
+        let error = (mass - expected_mass).largest() / expected_mass.largest();
         assert!(error < TOLERANCE, "M: {error:e} at {q:?}");
-        let error = (forces - expected_forces).amax() / size;
+        let error = (forces - expected_forces).largest() / size;
         assert!(error < TOLERANCE, "Q: {error:e} at {q:?}");
         compared += 1;
     }
@@ -64,9 +62,9 @@ fn agree<S, const U: usize, const V: usize, const N: usize, const C: usize>(
 }
 
 macro_rules! agrees {
-    ($scene:expr, $near:expr, $inputs:ident) => {
-        agree(&$scene, ($near, 0.3), |t, q, rate| {
-            Ok(($scene.mass_matrix(q)?, $scene.forces(t, q, $inputs::from(rate))?))
+    ($scene:expr, $near:expr, $inputs:ident, $spread:expr) => {
+        agree(&$scene, ($near, $spread), |t, q, rates| {
+            Ok(($scene.mass_matrix(q)?.into(), $scene.forces(t, q, $inputs::from(rates))?.into()))
         })
     };
 }
@@ -75,26 +73,24 @@ macro_rules! agrees {
 fn one_input() {
     let near = LoadedFourBarCoordinates { theta2: 1.0, theta3: 0.4, theta4: -1.0 };
     let near = LoadedFourBar::default().solve(&near).unwrap().coordinates;
-    agrees!(Idle::default(), near, LoadedFourBarInputs);
-    agrees!(Loaded::default(), near, LoadedFourBarInputs);
-    let driven = Driven::default();
-    agree(&driven, (near, 0.3), |t, q, rate| Ok((driven.mass_matrix(q)?, driven.forces(t, q, rate[0])?)));
+    agrees!(Idle::default(), near, LoadedFourBarInputs, 0.3);
+    agrees!(Loaded::default(), near, LoadedFourBarInputs, 0.3);
+    agrees!(Driven::default(), near, LoadedFourBarInputs, 0.3);
 }
 
 #[test]
 fn two_inputs() {
     let near = PairCoordinates { theta1: 2.0, theta4: 1.2, theta2: 0.3, theta3: 1.9 };
     let near = Pair::default().solve(&near).unwrap().coordinates;
-    agrees!(Free::default(), near, PairInputs);
-    agrees!(Half::default(), near, PairInputs);
+    agrees!(Free::default(), near, PairInputs, 0.3);
+    agrees!(Half::default(), near, PairInputs, 0.3);
 }
 
 #[test]
 fn a_slider_that_drives_or_is_driven() {
     let near = MachineCoordinates { phi: 1.2, psi: -0.25, z: 0.19 };
-    agrees!(Turning::default(), near, CrankInputs);
-    let pushed = Pushed::default();
-    agree(&pushed, (near, 0.03), |t, q, rate| Ok((pushed.mass_matrix(q)?, pushed.forces(t, q, rate[0])?)));
+    agrees!(Turning::default(), near, CrankInputs, 0.3);
+    agrees!(Pushed::default(), near, PistonInputs, 0.03);
 }
 
 #[test]
@@ -108,5 +104,5 @@ fn seven_bodies() {
         omega: -0.2227,
         epsilon: 1.2305,
     };
-    agrees!(Squeezing::default(), near, SqueezerInputs);
+    agrees!(Squeezing::default(), near, SqueezerInputs, 0.3);
 }

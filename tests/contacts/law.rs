@@ -1,8 +1,8 @@
 //! The equations of contacts against those of the mechanism, and their law for any of them.
 
-use linkage::Mode;
 use linkage::contact::{Contacts, ReducedEquations};
-use linkage::nalgebra::{SVector, vector};
+use linkage::nalgebra::vector;
+use linkage::{Column, D, Matrix, Mode};
 
 use super::machines::*;
 use super::moving::close;
@@ -17,22 +17,22 @@ fn contacts_and_equations_as_the_mechanism_says() {
         let guess = MachineCoordinates { phi, psi: 3.0, z: 0.4 };
         let q = scene.mechanism.solve(&guess).unwrap().coordinates;
         let motion = scene.mechanism.motion(&q, rate, acceleration).unwrap();
-        let (velocity, second) = (motion.velocity, motion.acceleration);
-        let contacts = scene.contacts(1.5, &q, &velocity).unwrap();
+        let (rates, second) = (motion.rates, motion.accelerations);
+        let contacts = scene.contacts(1.5, &q, &rates).unwrap();
         let joint = motion.outputs.joint;
         let expected = [
             ("friction on phi", phi, rate, acceleration, 0.2 * 0.01 * 90.0),
             ("friction on joint", joint.value, joint.velocity, joint.acceleration, 0.2 * 0.012 * 90.0),
-            ("friction on psi", q.psi, velocity.psi, second.psi, 0.2 * 0.008 * 90.0),
-            ("friction on z", q.z, velocity.z, second.z, 0.2 * 40.0),
+            ("friction on psi", q.psi, rates.psi, second.psi, 0.2 * 0.008 * 90.0),
+            ("friction on z", q.z, rates.z, second.z, 0.2 * 40.0),
         ];
         for (contact, (name, value, rate, acceleration, limit)) in contacts.iter().zip(expected) {
             let along =
-                |u: SVector<f64, 2>, v: SVector<f64, 1>| contact.along.unknowns.dot(&u) + contact.along.inputs.dot(&v);
+                |u: [f64; 2], v: f64| contact.along.unknowns.dot(&u.into()) + contact.along.inputs.dot(&[v].into());
             assert_eq!(contact.name, name);
             close("s", contact.along.value, value, 1e-15);
-            close("s'", along(vector![velocity.psi, velocity.z], vector![velocity.phi]), rate, 1e-15);
-            let found = along(vector![second.psi, second.z], vector![second.phi]) + contact.along.bias;
+            close("s'", along([rates.psi, rates.z], rates.phi), rate, 1e-15);
+            let found = along([second.psi, second.z], second.phi) + contact.along.bias;
             close("s''", found, acceleration, 1e-13);
             assert!(
                 matches!(contact.law, linkage::ContactLaw::Friction { limit: found } if (found - limit).abs() < 1e-15)
@@ -40,32 +40,31 @@ fn contacts_and_equations_as_the_mechanism_says() {
         }
         let together = scene.equations(1.5, &q, rate).unwrap();
         let (mass, forces) = (scene.mass_matrix(&q).unwrap(), scene.forces(1.5, &q, rate).unwrap());
-        let apart = Equations::at(&scene.mechanism, &q, &vector![rate], mass, forces).unwrap();
-        close("M", together.mass[0], apart.mass[0], 1e-15);
+        let apart = Equations::at(&scene.mechanism, &q, vector![rate], mass, forces).unwrap();
+        close("M", together.mass[(0, 0)], apart.mass[(0, 0)], 1e-15);
         close("Q", together.forces[0], apart.forces[0], 1e-13);
-        close("W", (together.ratios - apart.ratios).amax(), 0.0, 1e-14);
-        close("u''", (together.bias - apart.bias).amax(), 0.0, 1e-13);
+        close("W", (together.ratios - apart.ratios).largest(), 0.0, 1e-14);
+        close("u''", (together.bias - apart.bias).largest(), 0.0, 1e-13);
     }
     // The quadratic terms of an output that is curved in the coordinates.
     let pair = Curved::default();
     let q = pair.mechanism.solve(&self::pair(0.7, 1.1)).unwrap().coordinates;
     let motion =
         pair.mechanism.motion(&q, PairInputs { theta1: 2.0, theta4: -3.0 }, PairInputs { theta1: 5.0, theta4: 4.0 });
-    let (velocity, second) = motion.map(|motion| (motion.velocity, motion.acceleration)).unwrap();
-    let contact = pair.contacts(0.0, &q, &velocity).unwrap()[0];
+    let (rates, second) = motion.map(|motion| (motion.rates, motion.accelerations)).unwrap();
+    let contact = pair.contacts(0.0, &q, &rates).unwrap()[0];
     close("s", contact.along.value, q.theta1 * q.theta2.sin(), 1e-15);
     let (sine, cosine) = q.theta2.sin_cos();
-    let rate = velocity.theta1 * sine + q.theta1 * cosine * velocity.theta2;
-    let u = |q: &PairCoordinates| vector![q.theta2, q.theta3];
-    let v = |q: &PairCoordinates| vector![q.theta1, q.theta4];
-    let along = |q: &PairCoordinates| contact.along.unknowns.dot(&u(q)) + contact.along.inputs.dot(&v(q));
-    close("s'", along(&velocity), rate, 1e-14);
-    let bent = 2.0 * velocity.theta1 * cosine * velocity.theta2 - q.theta1 * sine * velocity.theta2.powi(2);
+    let rate = rates.theta1 * sine + q.theta1 * cosine * rates.theta2;
+    let along = |u: [f64; 2], v: [f64; 2]| contact.along.unknowns.dot(&u.into()) + contact.along.inputs.dot(&v.into());
+    close("s'", along([rates.theta2, rates.theta3], [rates.theta1, rates.theta4]), rate, 1e-14);
+    let bent = 2.0 * rates.theta1 * cosine * rates.theta2 - q.theta1 * sine * rates.theta2.powi(2);
     let expected = second.theta1 * sine + q.theta1 * cosine * second.theta2 + bent;
-    close("s''", along(&second) + contact.along.bias, expected, 1e-12);
+    let found = along([second.theta2, second.theta3], [second.theta1, second.theta4]) + contact.along.bias;
+    close("s''", found, expected, 1e-12);
     // A limit that is a law.
     let linkage::ContactLaw::Friction { limit } = contact.law else { panic!("{contact:?}") };
-    close("limit", limit, 9.0 * (1.0 + velocity.theta3.powi(2)), 1e-13);
+    close("limit", limit, 9.0 * (1.0 + rates.theta3.powi(2)), 1e-13);
 }
 
 /// Any masses, forces and contacts: what is found satisfies the law, and it alone does.
@@ -73,7 +72,6 @@ fn contacts_and_equations_as_the_mechanism_says() {
 fn the_law_holds_for_random_contacts() {
     use linkage::ContactLaw;
     use linkage::contact::ReducedContact;
-    use linkage::nalgebra::SMatrix;
     let mut seed = 0x2545_f491_4f6c_dd1d_u64;
     let mut random = move || {
         seed ^= seed << 13;
@@ -82,11 +80,11 @@ fn the_law_holds_for_random_contacts() {
         (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     };
     fn one<const V: usize>(random: &mut impl FnMut() -> f64, seen: &mut [usize; 6]) {
-        let root = SMatrix::<f64, V, V>::from_fn(|_, _| random());
-        let mass = root * root.transpose() + SMatrix::<f64, V, V>::identity() * 0.2;
-        let forces = SVector::<f64, V>::from_fn(|_, _| 2.0 * random());
-        let contacts: [ReducedContact<f64, V>; 5] = std::array::from_fn(|place| {
-            let row = SVector::<f64, V>::from_fn(|_, _| random());
+        let root = Matrix::<f64, D<V>, D<V>>::from_fn(|_, _| random());
+        let mass = root * root.transpose() + Matrix::identity() * 0.2;
+        let forces = Column::from_fn(|_| 2.0 * random());
+        let contacts = Column::<_, D<5>>::from_fn(|place| {
+            let row = Column::<f64, D<V>>::from_fn(|_| random());
             let law = match place {
                 0..3 => ContactLaw::Friction { limit: 0.8 * (1.0 + random()) },
                 _ => ContactLaw::Stop { lower: 0.0, upper: 1.0, restitution: 0.5 },
@@ -94,18 +92,17 @@ fn the_law_holds_for_random_contacts() {
             let value = if place == 4 { 1.0 } else { 0.0 };
             ReducedContact { name: "a contact", value, row, drift: 0.0, bias: 0.0, law }
         });
-        let coordinates = [""; V];
-        let equations =
-            ReducedEquations { scene: "random", coordinates, mass, forces, rates: SVector::zeros(), contacts };
-        let (state, rates) = Contacts::begin(0.0, &SVector::zeros(), |_| Ok(equations)).unwrap();
-        assert_eq!(rates, SVector::<f64, V>::zeros());
+        let (coordinates, rates) = (Column::repeat(""), Column::zeros());
+        let equations = ReducedEquations { scene: "random", coordinates, mass, forces, rates, contacts };
+        let (state, rates) = Contacts::begin(0.0, &rates, |_| Ok(equations)).unwrap();
+        assert_eq!(rates, Column::zeros());
         let motion = state.motion(&equations).unwrap();
         // M v'' = Q + S' f.
         let mut left = mass * motion.acceleration - forces;
         for (contact, &force) in contacts.iter().zip(motion.forces.iter()) {
             left -= contact.row * force;
         }
-        close("M v'' - Q - S' f", left.amax(), 0.0, 1e-11);
+        close("M v'' - Q - S' f", left.largest(), 0.0, 1e-11);
         for ((contact, &force), mode) in contacts.iter().zip(motion.forces.iter()).zip(state.modes) {
             let second = contact.row.dot(&motion.acceleration);
             let limit = match contact.law {
@@ -127,9 +124,9 @@ fn the_law_holds_for_random_contacts() {
         // The event functions of these modes see nothing; those of everything held see it unless nothing moves.
         assert!(state.events(&equations).unwrap().iter().all(|&value| value >= 0.0));
         let mut all = state;
-        all.modes = [Mode::Stick, Mode::Stick, Mode::Stick, Mode::AtLower, Mode::AtUpper];
+        all.modes = [Mode::Stick, Mode::Stick, Mode::Stick, Mode::AtLower, Mode::AtUpper].into();
         let stands = all.events(&equations).unwrap().iter().all(|&left| left >= 0.0);
-        assert_eq!(stands, motion.acceleration.amax() < 1e-11, "{V} {:?}", state.modes);
+        assert_eq!(stands, motion.acceleration.largest() < 1e-11, "{V} {:?}", state.modes);
     }
     let mut seen = [0; 6];
     for _ in 0..3000 {

@@ -1,7 +1,6 @@
 //! Frictions where the lever of a joint changes: by hand, together, and in dead centres.
 
 use linkage::contact::ReducedEquations;
-use linkage::nalgebra::vector;
 use linkage::{Mode, Scene};
 
 use super::machines::*;
@@ -74,7 +73,7 @@ fn joints_hold_together() {
     assert_eq!(end.events.len(), 4, "{:?}", end.events);
     let (t, y, before, after) = end.events[0];
     assert!(end.events[1..].iter().all(|later| (later.0, later.2, later.3) == (t, after, after)), "{:?}", end.events);
-    assert_eq!((before, y), ([Mode::Stick; 4], start));
+    assert_eq!((before, y), ([Mode::Stick; 4].into(), start));
     close("time", t, limit / 3.0, 1e-12);
     let forward = |ratio: f64| if ratio > 0.0 { Mode::SlipForward } else { Mode::SlipBackward };
     assert_eq!(after, [Mode::SlipForward, forward(1.0 - psi), forward(psi), forward(z)]);
@@ -83,7 +82,7 @@ fn joints_hold_together() {
     let equations = ReducedEquations::of(&scene, 0.999_999 * limit / 3.0, &start).unwrap();
     let motion = moving.contacts.motion(&equations).unwrap();
     let limits = [0.2 * 90.0 * 0.01, 0.2 * 90.0 * 0.012, 0.2 * 90.0 * 0.008, 0.2 * 40.0];
-    let work = motion.forces.dot(&vector![1.0, 1.0 - psi, psi, z]);
+    let work = motion.forces.dot(&[1.0, 1.0 - psi, psi, z].into());
     close("torque", -work, 0.999_999 * limit, 1e-14);
     for (force, limit) in motion.forces.iter().zip(limits) {
         assert!(force.abs() <= limit * (1.0 + 1e-12), "{force} {limit}");

@@ -1,85 +1,73 @@
 //! A scene with its contacts as a system for integrators.
 
 use linkage::contact::{Contacts, ReducedEquations};
-use linkage::integrate::{Action, Crossing, Step, System, Tolerance, dop853};
-use linkage::nalgebra::SVector;
-use linkage::{Error, Mode, Scene};
+use linkage::integrate::{Action, Crossing, System, Tolerance, dop853};
+use linkage::{Column, D, Mode, MotionError, Scene};
+
+type State<S> = Column<f64, <S as Scene>::State>;
+type Modes<S> = Column<Mode, <S as Scene>::Contacts>;
 
 /// A scene with its contacts as a system for integrators.
-pub(super) struct Moving<'a, S, const C: usize> {
+pub(super) struct Moving<'a, S: Scene<Scalar = f64>> {
     pub(super) scene: &'a S,
-    pub(super) contacts: Contacts<f64, C>,
+    pub(super) contacts: Contacts<f64, S::Contacts>,
     /// When something happened, with the modes before and after.
-    pub(super) history: Vec<(f64, [Mode; C], [Mode; C])>,
+    pub(super) history: Vec<(f64, Modes<S>, Modes<S>)>,
     /// How often the end of a step had to be mended.
     pub(super) mended: usize,
 }
 
-impl<'a, S, const C: usize> Moving<'a, S, C> {
-    pub(super) fn start<const U: usize, const V: usize, const N: usize>(
-        scene: &'a S,
-        t: f64,
-        y: &SVector<f64, N>,
-    ) -> Result<(Self, SVector<f64, N>), Error>
-    where
-        S: Scene<f64, U, V, N, C>,
-    {
+impl<'a, S: Scene<Scalar = f64>> Moving<'a, S> {
+    pub(super) fn start(scene: &'a S, t: f64, y: &State<S>) -> Result<(Self, State<S>), MotionError> {
         let (q, rates) = S::parts(y);
-        let rates: SVector<f64, V> = rates.into();
         let (contacts, rates) =
-            Contacts::begin(t, &rates, |rates| ReducedEquations::of(scene, t, &S::state(&q, &(*rates).into())))?;
+            Contacts::begin(t, &rates.into(), |rates| ReducedEquations::of(scene, t, &S::state(&q, &(*rates).into())))?;
         Ok((Self { scene, contacts, history: Vec::new(), mended: 0 }, S::state(&q, &rates.into())))
     }
 
-    fn settle<const U: usize, const V: usize, const N: usize>(
-        &mut self,
-        t: f64,
-        y: &SVector<f64, N>,
-    ) -> Result<SVector<f64, N>, Error>
-    where
-        S: Scene<f64, U, V, N, C>,
-    {
+    fn settle(&mut self, t: f64, y: &State<S>) -> Result<State<S>, MotionError> {
         let scene = self.scene;
         let (q, rates) = S::parts(y);
-        let at = |rates: &SVector<f64, V>| ReducedEquations::of(scene, t, &S::state(&q, &(*rates).into()));
+        let at = |rates: &Column<f64, S::V>| ReducedEquations::of(scene, t, &S::state(&q, &(*rates).into()));
         let rates = self.contacts.settle(t, &rates.into(), at)?;
         Ok(S::state(&q, &rates.into()))
     }
 }
 
-impl<S, const U: usize, const V: usize, const N: usize, const C: usize> System<f64, N, C> for Wrapped<'_, S, U, V, C>
-where
-    S: Scene<f64, U, V, N, C>,
-{
-    fn rate(&mut self, t: f64, y: &SVector<f64, N>) -> Result<SVector<f64, N>, Error> {
-        let scene = self.0.scene;
-        let equations = ReducedEquations::of(scene, t, y)?;
-        let acceleration = self.0.contacts.acceleration(&equations)?;
-        let (velocity, _) = S::parts(&scene.derivative(t, y)?);
-        Ok(S::state(&velocity, &acceleration.into()))
+impl<S: Scene<Scalar = f64>> System for Moving<'_, S> {
+    type Scalar = f64;
+    type N = S::State;
+    type Events = S::Contacts;
+    type Guards = D<0>;
+
+    fn rate(&mut self, t: f64, y: &State<S>) -> Result<State<S>, MotionError> {
+        let equations = ReducedEquations::of(self.scene, t, y)?;
+        let acceleration = self.contacts.acceleration(&equations)?;
+        let (rates, _) = S::parts(&self.scene.derivative(t, y)?);
+        Ok(S::state(&rates, &acceleration.into()))
     }
 
-    fn events(&mut self, t: f64, y: &SVector<f64, N>) -> Result<[f64; C], Error> {
-        self.0.contacts.events(&ReducedEquations::of(self.0.scene, t, y)?)
+    fn events(&mut self, t: f64, y: &State<S>) -> Result<Column<f64, S::Contacts>, MotionError> {
+        self.contacts.events(&ReducedEquations::of(self.scene, t, y)?)
     }
 
-    fn crossings(&self) -> [Crossing; C] {
-        Contacts::<f64, C>::crossings()
+    fn crossings(&self) -> Column<Crossing, S::Contacts> {
+        Contacts::<f64, S::Contacts>::crossings()
     }
 
-    fn at_event(&mut self, _: usize, t: f64, y: &SVector<f64, N>) -> Result<Action<f64, N>, Error> {
-        let before = self.0.contacts.modes;
-        let state = self.0.settle(t, y)?;
-        self.0.history.push((t, before, self.0.contacts.modes));
+    fn at_event(&mut self, _: usize, t: f64, y: &State<S>) -> Result<Action<State<S>>, MotionError> {
+        let before = self.contacts.modes;
+        let state = self.settle(t, y)?;
+        self.history.push((t, before, self.contacts.modes));
         Ok(Action::Restart(state))
     }
 
-    fn before_step(&mut self, t: f64, y: &SVector<f64, N>) -> Result<Option<SVector<f64, N>>, Error> {
-        let equations = ReducedEquations::of(self.0.scene, t, y)?;
-        let (rates, holds) = self.0.contacts.review(&equations)?;
+    fn before_step(&mut self, t: f64, y: &State<S>) -> Result<Option<State<S>>, MotionError> {
+        let equations = ReducedEquations::of(self.scene, t, y)?;
+        let (rates, holds) = self.contacts.review(&equations)?;
         if !holds {
-            self.0.mended += 1;
-            return self.0.settle(t, y).map(Some);
+            self.mended += 1;
+            return self.settle(t, y).map(Some);
         }
         if rates == equations.rates {
             return Ok(None);
@@ -89,37 +77,28 @@ where
     }
 }
 
-/// With the numbers of its coordinates, which the trait of systems does not name.
-pub(super) struct Wrapped<'a, S, const U: usize, const V: usize, const C: usize>(pub(super) Moving<'a, S, C>);
+/// The time, the state, the modes before and after.
+type Event<S> = (f64, State<S>, Modes<S>, Modes<S>);
 
-pub(super) type Event<const N: usize, const C: usize> = (f64, SVector<f64, N>, [Mode; C], [Mode; C]);
-
-/// How a motion ended, and the events on the way: the time, the state at them, the modes before and after.
-pub(super) struct End<const N: usize, const C: usize> {
-    pub(super) y: SVector<f64, N>,
-    pub(super) modes: [Mode; C],
-    pub(super) events: Vec<Event<N, C>>,
+/// How a motion ended, and the events on the way.
+pub(super) struct End<S: Scene<Scalar = f64>> {
+    pub(super) y: State<S>,
+    pub(super) modes: Modes<S>,
+    pub(super) events: Vec<Event<S>>,
 }
 
-pub(super) fn run<S, const U: usize, const V: usize, const N: usize, const C: usize>(
-    scene: &S,
-    y: SVector<f64, N>,
-    end: f64,
-) -> End<N, C>
-where
-    S: Scene<f64, U, V, N, C>,
-{
+pub(super) fn run<S: Scene<Scalar = f64>>(scene: &S, y: State<S>, end: f64) -> End<S> {
     let (moving, y) = Moving::start(scene, 0.0, &y).unwrap();
-    let tolerance = Tolerance::new(1e-13, [1.0; N]).unwrap();
-    let mut motion = dop853(Wrapped(moving), (0.0, y), end, tolerance).unwrap();
+    let tolerance = Tolerance::new(1e-13, Column::repeat(1.0)).unwrap();
+    let mut motion = dop853(moving, (0.0, y), end, tolerance).unwrap();
     let mut states = Vec::new();
     motion
-        .finish(|step: &Step<f64, N>, _| {
+        .finish(|step, _| {
             states.extend(step.event.map(|_| step.state));
             true
         })
         .unwrap();
-    let moving = &motion.system().0;
+    let moving = motion.system();
     assert_eq!(moving.mended, 0, "an event was missed: {:?}", moving.history);
     assert_eq!(states.len(), moving.history.len());
     let events = moving.history.iter().zip(states).map(|(&(t, before, after), y)| (t, y, before, after)).collect();

@@ -1,11 +1,11 @@
 //! A five-bar of two cranks: what sticks while the other slips, impacts, and the account of energy.
 
 use linkage::integrate::{Tolerance, dop853};
-use linkage::nalgebra::{SVector, vector};
-use linkage::{Mode, Scene};
+use linkage::nalgebra::vector;
+use linkage::{Column, D, Mode, Scene};
 
 use super::machines::*;
-use super::moving::{Moving, Wrapped, close, run};
+use super::moving::{Moving, close, run};
 
 /// One crank is held by its friction while the other slips: as if it were clamped.
 #[test]
@@ -15,20 +15,20 @@ fn one_crank_sticks_while_the_other_slips() {
     let clamped = Clamped { place: 1.1, ..Clamped::default() };
     let end = run(&scene, start, 0.6);
     let (q, _) = Braked::parts(&start);
-    let rate = |t: f64, y: &SVector<f64, 6>| clamped.derivative(t, y);
+    let rate = |t: f64, y: &Column<f64, D<6>>| clamped.derivative(t, y);
     let tolerance = Tolerance::new(1e-13, [1.0; 6]).unwrap();
     // The other slips forward first, stops, and goes back.
     let (turn, after) = (end.events[0].0, end.events[0].3);
-    assert_eq!((end.events.len(), after), (1, [Mode::Stick, Mode::SlipBackward]), "{:?}", end.events);
+    assert_eq!((end.events.len(), after), (1, [Mode::Stick, Mode::SlipBackward].into()), "{:?}", end.events);
     let begin = clamped.start(0.0, &q, &PairInputs { theta1: 0.0, theta4: 0.4 }).unwrap();
     let mut there = dop853(rate, (0.0, begin), turn, tolerance).unwrap();
     there.finish(|_, _| true).unwrap();
     close("turn", there.state()[5], 0.0, 1e-12);
     let back = Clamped { sign: -1.0, ..clamped.clone() };
-    let rate = |t: f64, y: &SVector<f64, 6>| back.derivative(t, y);
+    let rate = |t: f64, y: &Column<f64, D<6>>| back.derivative(t, y);
     let mut back = dop853(rate, (turn, *there.state()), 0.6, tolerance).unwrap();
     back.finish(|_, _| true).unwrap();
-    close("y", (end.y - back.state()).amax(), 0.0, 1e-11);
+    close("y", (end.y - *back.state()).largest(), 0.0, 1e-11);
     assert_eq!((end.y[2], end.y[4]), (1.1, 0.0));
 }
 
@@ -43,7 +43,7 @@ fn impacts_of_a_five_bar() {
         let inputs = PairInputs { theta1: rates[0], theta4: rates[1] };
         let start = scene.start(0.0, &q, &inputs).unwrap();
         let (moving, y) = Moving::start(scene, 0.0, &start).unwrap();
-        (moving.contacts.modes, vector![y[4], y[5]])
+        (<[Mode; 3]>::from(moving.contacts.modes), vector![y[4], y[5]])
     };
     // Both leave: nothing happens. One hits: v'+ = v'- - M^-1 S' (1 + e) s' / (S M^-1 S').
     assert_eq!(after(&scene, [-1.0, 2.0]), ([Mode::Open; 3], vector![-1.0, 2.0]));
@@ -78,7 +78,7 @@ fn elastic_stops_keep_the_energy() {
     let opening = q.theta2 - q.theta3;
     let scene = Narrow { half: 0.05, middle: opening, e1: 1.0, ..Narrow::default() };
     let start = scene.start(0.0, &q, &PairInputs { theta1: 0.7, theta4: -0.9 }).unwrap();
-    let energy = |y: &SVector<f64, 6>| {
+    let energy = |y: &Column<f64, D<6>>| {
         let (q, rates) = Narrow::parts(y);
         scene.energy(&q, rates).unwrap().kinetic
     };
@@ -86,7 +86,7 @@ fn elastic_stops_keep_the_energy() {
     assert!(end.events.len() > 4, "{:?}", end.events);
     for (_, y, _, after) in &end.events {
         close("on a stop", (y[0] - y[1] - opening).abs(), 0.05, 1e-12);
-        assert_eq!(after, &[Mode::Open]);
+        assert_eq!(*after, [Mode::Open]);
     }
     close("energy", energy(&end.y) / energy(&start), 1.0, 1e-11);
 }
@@ -100,7 +100,7 @@ fn a_long_motion_keeps_its_accounts() {
     let start = scene.start(0.0, &q, &PairInputs { theta1: 0.0, theta4: 0.0 }).unwrap();
     let (moving, y) = Moving::start(&scene, 0.0, &start).unwrap();
     let tolerance = Tolerance::new(1e-10, [1.0; 6]).unwrap();
-    let mut motion = dop853(Wrapped(moving), (0.0, y), 30.0, tolerance).unwrap().largest_step(0.02).unwrap();
+    let mut motion = dop853(moving, (0.0, y), 30.0, tolerance).unwrap().largest_step(0.02).unwrap();
     let (mut work, mut last) = (0.0, 0.0);
     // By Gauss's rule of three points on each piece between events.
     while let Some(step) = motion.advance().unwrap() {
@@ -114,10 +114,10 @@ fn a_long_motion_keeps_its_accounts() {
         }
         last = step.t;
     }
-    let moving = &motion.system().0;
+    let moving = motion.system();
     let (q, rates) = Shaken::parts(motion.state());
     let energy = scene.energy(&q, rates).unwrap();
-    let seen = |mode: Mode| moving.history.iter().filter(|(_, _, after)| after.contains(&mode)).count();
+    let seen = |mode: Mode| moving.history.iter().filter(|(_, _, after)| after.as_slice().contains(&mode)).count();
     let often = [Mode::Stick, Mode::SlipForward, Mode::SlipBackward].map(seen);
     assert!(often.iter().all(|&often| often > 8) && moving.mended == 0, "{often:?} of {}", moving.history.len());
     close("energy", energy.kinetic, work, 1e-9);

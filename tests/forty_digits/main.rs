@@ -57,7 +57,7 @@ macro_rules! gallery {
     ($($file:ident $Driver:ident $Coordinates:ident $Inputs:ident $Branch:ident $Points:ident $how:ident;)*) => {$(
         mod $file {
             use linkage::linkage;
-            use linkage::nalgebra::{SVector, Vector2};
+            use linkage::nalgebra::SVector;
 
             use super::judge::{Data, Motion};
             use super::verdict::{ULPS, judge, unit_of_length};
@@ -67,13 +67,13 @@ macro_rules! gallery {
             const COORDINATES: usize = $Coordinates::<()>::NAMES.len();
             const POINTS: usize = $Points::<()>::NAMES.len();
 
-            fn flat(points: $Points<Vector2<f64>>) -> Vec<f64> {
-                let points: [Vector2<f64>; POINTS] = points.into();
-                points.iter().flat_map(|point| [point.x, point.y]).collect()
+            fn flat<P: Into<[f64; 2]>>(points: $Points<P>) -> Vec<f64> {
+                let points: [P; POINTS] = points.into();
+                points.into_iter().flat_map(Into::into).collect()
             }
 
-            fn array(q: $Coordinates<f64>) -> Vec<f64> {
-                SVector::<f64, COORDINATES>::from(q).as_slice().to_vec()
+            fn array(q: impl Into<SVector<f64, COORDINATES>>) -> Vec<f64> {
+                q.into().as_slice().to_vec()
             }
 
             fn run(data: &Data) -> Option<Motion> {

@@ -18,7 +18,7 @@ fn cams_reach_their_published_peaks() {
     let m = CamFollower::default();
     let course = turn(&m, CamFollowerCoordinates { theta: 0.0, s: 0.0 }, |q| &mut q.theta);
     let velocity = course.range(|q| m.velocity(&m.pose_at(q), 1.0).unwrap().s);
-    let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().acceleration.s);
+    let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().accelerations.s);
     for (sign, velocity, acceleration) in [(-1.0, velocity[0], acceleration[0]), (1.0, velocity[1], acceleration[1])] {
         close(velocity * m.rise / m.height, sign * 1.875, 1e-14);
         close(acceleration * m.rise.powi(2) / m.height, sign * 10.0 / 3.0_f64.sqrt(), 1e-12);
@@ -28,7 +28,7 @@ fn cams_reach_their_published_peaks() {
     let start = CamRockerCoordinates { theta: 0.0, psi: degrees(75.0), phi: 0.2, beta: degrees(100.0) };
     let course = turn(&m, start, |q| &mut q.theta);
     let velocity = course.range(|q| m.velocity(&m.pose_at(q), 1.0).unwrap().psi);
-    let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().acceleration.psi);
+    let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().accelerations.psi);
     for (sign, velocity, acceleration) in [(-1.0, velocity[0], acceleration[0]), (1.0, velocity[1], acceleration[1])] {
         close(velocity * m.rise / m.swing, sign * 2.0, 1e-14);
         close(acceleration * m.rise.powi(2) / m.swing, sign * TAU, 1e-12);
@@ -48,7 +48,7 @@ fn cam_follower() {
         let motion = m.motion(q, 1.0, 0.0).unwrap();
         let points = motion.points;
         exact(points.roller.position.x, m.offset, size);
-        exact(points.pitch.position.norm(), points.roller.position.norm(), size);
+        exact(points.pitch.position.coords.norm(), points.roller.position.coords.norm(), size);
         let normal = points.roller.position - points.contact.position;
         exact(motion.outputs.pressure.value.tan() * normal.y, -normal.x, size);
         let along = (points.pitch.position - points.profile.position) / m.roller;
@@ -67,7 +67,7 @@ fn cam_follower() {
         [(2.2, m.offset.hypot(foot + m.height)), (3.0, m.offset.hypot(foot + m.height)), (5.9, m.prime)]
     {
         let pose = m.pose_at(&course.at(theta));
-        exact(m.points(&pose).unwrap().pitch.norm(), radius, size);
+        exact(m.points(&pose).unwrap().pitch.coords.norm(), radius, size);
     }
 }
 
@@ -85,7 +85,7 @@ fn cam_rocker() {
     for q in &course.positions {
         let points = m.points(&m.pose_at(q)).unwrap();
         let from_axis = points.roller + nalgebra::vector![m.distance, 0.0];
-        exact(points.pitch.norm(), from_axis.norm(), size);
+        exact(points.pitch.coords.norm(), from_axis.coords.norm(), size);
     }
     // The rocker rests while the follower does.
     for theta in [2.2, 3.0, 5.4, 6.0] {

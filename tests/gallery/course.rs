@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use linkage::{Mechanism, position};
+use linkage::{D, Mechanism, position};
 
 use super::exactness::{close, exact};
 
@@ -14,24 +14,24 @@ pub(super) fn degrees(angle: f64) -> f64 {
 }
 
 /// Where the input stands in a position.
-pub(super) type Input<M, const U: usize> = fn(&mut <M as Mechanism<f64, U, 1>>::Coordinates) -> &mut f64;
+pub(super) type Input<M> = fn(&mut <M as Mechanism>::Coordinates) -> &mut f64;
 
 /// A mechanism followed from a start, and its positions on the way.
-pub(super) struct Course<'a, M: Mechanism<f64, U, 1>, const U: usize> {
+pub(super) struct Course<'a, M: Mechanism<Scalar = f64, V = D<1>>> {
     pub(super) mechanism: &'a M,
-    input: Input<M, U>,
+    input: Input<M>,
     pub(super) positions: Vec<M::Coordinates>,
 }
 
 /// Follows a mechanism while its input goes from that of `start` by `span`, each position found by Newton's
 /// method from what the velocity ratios at the last one predict.
 #[track_caller]
-pub(super) fn follow<'a, M: Mechanism<f64, U, 1>, const U: usize>(
+pub(super) fn follow<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
     mechanism: &'a M,
     start: M::Coordinates,
-    input: Input<M, U>,
+    input: Input<M>,
     span: f64,
-) -> Course<'a, M, U> {
+) -> Course<'a, M> {
     let mut course = Course { mechanism, input, positions: Vec::new() };
     let mut q = start;
     let from = *input(&mut q);
@@ -45,11 +45,11 @@ pub(super) fn follow<'a, M: Mechanism<f64, U, 1>, const U: usize>(
 
 /// A full turn, after which the mechanism stands as it stood at the start, never having left its branch.
 #[track_caller]
-pub(super) fn turn<'a, M: Mechanism<f64, U, 1>, const U: usize>(
+pub(super) fn turn<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
     mechanism: &'a M,
     start: M::Coordinates,
-    input: Input<M, U>,
-) -> Course<'a, M, U> {
+    input: Input<M>,
+) -> Course<'a, M> {
     let course = follow(mechanism, start, input, TAU);
     let first = mechanism.pose_at(&course.positions[0]);
     for q in &course.positions {
@@ -63,7 +63,7 @@ pub(super) fn turn<'a, M: Mechanism<f64, U, 1>, const U: usize>(
     course
 }
 
-impl<M: Mechanism<f64, U, 1>, const U: usize> Course<'_, M, U> {
+impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
     /// Straight on from a position to another input: u + W (to - v).
     #[track_caller]
     pub(super) fn predict(&self, mut q: M::Coordinates, to: f64) -> M::Coordinates {
@@ -71,7 +71,7 @@ impl<M: Mechanism<f64, U, 1>, const U: usize> Course<'_, M, U> {
         let mut guess = q;
         if step != 0.0 {
             let pose = self.mechanism.pose_at(&q);
-            let a = self.mechanism.jacobian_inputs(&pose).column(0).into_owned();
+            let a = self.mechanism.jacobian_inputs(&pose).column(0);
             let ratios = -self.mechanism.solve_jacobian(&pose, &a).expect("a regular position");
             guess = M::with_unknowns(&q, M::unknowns(&q) + ratios * step);
         }
@@ -85,7 +85,6 @@ impl<M: Mechanism<f64, U, 1>, const U: usize> Course<'_, M, U> {
             Ok(solution) => solution,
             Err(error) => panic!("at {:.3}: {error}", *(self.input)(&mut { guess })),
         };
-        assert!(solution.same_branch, "{} at {:.3} changed its branch", M::NAME, *(self.input)(&mut { guess }));
         let pose = self.mechanism.pose_at(&solution.coordinates);
         let sizes = self.mechanism.closure_sizes(&pose);
         for (residual, size) in self.mechanism.residual(&pose).iter().zip(sizes.iter()) {

@@ -22,7 +22,7 @@ fn four_bar_on_both_branches() {
         assert!(course.positions.iter().all(|q| side * m.outputs(&m.pose_at(q)).unwrap().mu.sin() > 0.0));
         for q in &course.positions {
             let points = m.points(&m.pose_at(q)).unwrap();
-            exact((points.c - nalgebra::vector![m.l1, 0.0]).norm(), m.l4, m.l1 + m.l2 + m.l3 + m.l4);
+            exact((points.c - nalgebra::point![m.l1, 0.0]).norm(), m.l4, m.l1 + m.l2 + m.l3 + m.l4);
         }
     }
 }

@@ -34,8 +34,8 @@ fn scotch_yoke_is_a_cosine() {
     for q in &course.positions {
         close(q.x, m.r * q.phi.cos(), f64::EPSILON * m.r);
         let motion = m.motion(q, 2.0, 0.0).unwrap();
-        exact(motion.velocity.x, -2.0 * m.r * q.phi.sin(), m.r);
-        exact(motion.acceleration.x, -4.0 * q.x, m.r);
+        exact(motion.rates.x, -2.0 * m.r * q.phi.sin(), m.r);
+        exact(motion.accelerations.x, -4.0 * q.x, m.r);
     }
 }
 

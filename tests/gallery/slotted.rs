@@ -85,10 +85,10 @@ fn geneva_turns_one_slot() {
     close(last.psi - first.psi, -TAU / m.slots, 1e-15);
     for end in [first, last] {
         let motion = m.motion(end, 1.0, 0.0).unwrap();
-        close(motion.velocity.psi, 0.0, 1e-15);
+        close(motion.rates.psi, 0.0, 1e-15);
         exact(motion.outputs.depth.value, 0.0, m.crank);
         // Not without a jerk: omega^2 tan(pi / slots).
-        close(motion.acceleration.psi.abs(), (PI / m.slots).tan(), 1e-14);
+        close(motion.accelerations.psi.abs(), (PI / m.slots).tan(), 1e-14);
     }
     // Fastest in the middle: omega sin / (1 - sin) of half a slot.
     let half = (PI / m.slots).sin();

@@ -172,8 +172,8 @@ fn peaucellier_is_straight() {
             let motion = m.motion(q, 1.0, 0.0).unwrap();
             let tip = motion.points.q;
             exact(tip.position.x, line, size);
-            let rates = nalgebra::SVector::from(motion.velocity).amax();
-            let accelerations = nalgebra::SVector::from(motion.acceleration).amax();
+            let rates = nalgebra::SVector::from(motion.rates).amax();
+            let accelerations = nalgebra::SVector::from(motion.accelerations).amax();
             exact(tip.velocity.x, 0.0, size * rates);
             exact(tip.acceleration.x, 0.0, size * (rates * rates + accelerations));
             // P and Q are inverse.
@@ -207,8 +207,8 @@ fn hart_is_straight() {
         );
         for q in &course.positions {
             let motion = m.motion(q, 1.0, 0.0).unwrap();
-            let rates = nalgebra::SVector::from(motion.velocity).amax();
-            let accelerations = nalgebra::SVector::from(motion.acceleration).amax();
+            let rates = nalgebra::SVector::from(motion.rates).amax();
+            let accelerations = nalgebra::SVector::from(motion.accelerations).amax();
             let tip = motion.points.q;
             exact(motion.outputs.product.value, product, size);
             exact(tip.position.x, product / (2.0 * m.crank), size);

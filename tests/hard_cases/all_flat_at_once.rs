@@ -2,7 +2,7 @@
 //! turns back. Known to fail: followers that take a crossing for a way on, which here comes back to it for ever.
 
 use linkage::continuation::{Direction, Path};
-use linkage::{Error, linkage};
+use linkage::{PathError, linkage};
 
 include!("../mechanisms/four_bar.rs");
 include!("../mechanisms/hart.rs");
@@ -17,13 +17,15 @@ fn the_end_of_the_range_is_a_dead_point() {
             let start = m.assemble(theta, branch).unwrap().coordinates();
             for way in [1.0, -1.0] {
                 let mut path = Path::new(&m, &start, Direction::Increasing).unwrap();
-                let Err(Error::DeadPoint { gap, .. }) = path.advance_to(way * (end + 0.3)) else { panic!("{start:?}") };
+                let Err(PathError::DeadPoint { gap, .. }) = path.advance_to(way * (end + 0.3)) else {
+                    panic!("{start:?}")
+                };
                 assert!((gap - 0.3).abs() < 1e-7, "{gap}");
                 let found = path.position().theta;
                 assert!((found - way * end).abs() < 1e-7, "{found} is not {end}");
                 // Asked again it does not seek for ever.
                 let again = path.advance_to(way * (end + 0.3));
-                assert!(matches!(again, Err(Error::DeadPoint { .. } | Error::Lost { .. })), "{again:?}");
+                assert!(matches!(again, Err(PathError::DeadPoint { .. } | PathError::Lost { .. })), "{again:?}");
             }
         }
     }
@@ -40,7 +42,7 @@ fn a_dead_point_twice() {
         let mut path = Path::new(&m, &start, Direction::Decreasing).unwrap();
         for _ in 0..2 {
             let found = path.advance_to(end + 0.1);
-            assert!(matches!(found, Err(Error::DeadPoint { .. })), "{found:?}");
+            assert!(matches!(found, Err(PathError::DeadPoint { .. })), "{found:?}");
         }
         m.branch_of(&m.pose_at(&path.advance_to(end - 0.1).unwrap().position))
     });

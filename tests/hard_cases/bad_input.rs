@@ -1,7 +1,7 @@
 //! Numbers that make no sense: each is refused with a typed error, and nothing runs for ever.
 
 use linkage::continuation::{Direction, Event, Options, Path};
-use linkage::{Elbow, Error, linkage};
+use linkage::{Elbow, InputError, PathError, PositionError, linkage};
 
 include!("../mechanisms/four_bar.rs");
 
@@ -22,17 +22,24 @@ fn numbers_that_are_none() {
             FourBarCoordinates { theta4: bad, ..q },
         ] {
             let refused = Path::new(&m, &broken, Direction::Increasing).err();
-            assert!(matches!(refused, Some(Error::NotFinite { .. })), "{refused:?}");
+            assert!(matches!(refused, Some(PathError::Position(PositionError::NotFinite { .. }))), "{refused:?}");
+        }
+        let rates = FourBarRates { theta2: 1.0, theta3: 0.0, theta4: 0.0 };
+        for broken in [
+            FourBarRates { theta2: bad, ..rates },
+            FourBarRates { theta3: bad, ..rates },
+            FourBarRates { theta4: bad, ..rates },
+        ] {
             let refused = Path::new(&m, &q, Direction::Along(broken)).err();
-            assert!(matches!(refused, Some(Error::NotFinite { .. })), "{refused:?}");
+            assert!(matches!(refused, Some(PathError::Position(PositionError::NotFinite { .. }))), "{refused:?}");
         }
         for broken in [FourBar::new(bad, 20.0, 50.0, 70.0), FourBar::new(80.0, 20.0, bad, 70.0)] {
             let refused = Path::new(&broken, &q, Direction::Increasing).err();
-            assert!(matches!(refused, Some(Error::NotFinite { .. })), "{refused:?}");
+            assert!(matches!(refused, Some(PathError::Position(PositionError::NotFinite { .. }))), "{refused:?}");
         }
         let mut path = Path::new(&m, &q, Direction::Increasing).unwrap();
-        assert!(matches!(path.advance_to(bad), Err(Error::NotFinite { .. })));
-        assert!(matches!(path.advance_watching(|_, _| bad), Err(Error::NotFinite { .. })));
+        assert!(matches!(path.advance_to(bad), Err(PathError::Position(PositionError::NotFinite { .. }))));
+        assert!(matches!(path.advance_watching(|_, _| bad), Err(PathError::Position(PositionError::NotFinite { .. }))));
     }
 }
 
@@ -52,11 +59,14 @@ fn options_that_make_no_sense() {
     }
     for options in all {
         let refused = Path::with(&m, &q, Direction::Increasing, options).err();
-        assert!(matches!(refused, Some(Error::Invalid { mechanism: "FourBar", .. })), "{options:?}: {refused:?}");
+        assert!(
+            matches!(refused, Some(PathError::Input(InputError::OutOfRange { of: Some("FourBar"), .. }))),
+            "{options:?}: {refused:?}"
+        );
     }
     let options = Options { range: Some([0.0, 1.0]), ..good };
     let mut path = Path::with(&m, &q, Direction::Increasing, options).unwrap();
-    assert!(matches!(path.advance_to(1.5), Err(Error::Invalid { .. })));
+    assert!(matches!(path.advance_to(1.5), Err(PathError::Input(InputError::OutOfRange { .. }))));
     assert_eq!(path.by_ref().last().unwrap().unwrap().event, Some(Event::Limit));
     assert_eq!(path.position().theta2, 1.0);
     path.turn_back();
@@ -68,20 +78,21 @@ fn too_far() {
     let m = FourBar::default();
     let options = Options { most_steps: 100, ..Options::default() };
     let mut path = Path::with(&m, &start(&m), Direction::Increasing, options).unwrap();
-    assert_eq!(path.advance_to(1e9), Err(Error::TooLong { mechanism: "FourBar", steps: 100 }));
+    assert_eq!(path.advance_to(1e9), Err(PathError::TooManySteps { mechanism: "FourBar", steps: 100 }));
     // The smallest steps that are allowed only take long.
     let options = Options { longest_step: 1e-12, most_steps: 100, ..Options::default() };
     let mut path = Path::with(&m, &start(&m), Direction::Increasing, options).unwrap();
     assert!(path.advance().is_ok());
-    assert!(matches!(path.advance_to(1.0), Err(Error::TooLong { .. })));
+    assert!(matches!(path.advance_to(1.0), Err(PathError::TooManySteps { .. })));
 }
 
 #[test]
 fn zero_lengths() {
     let q = start(&FourBar::default());
+    let along = FourBarRates { theta2: 1.0, theta3: -0.5, theta4: 0.5 };
     for lengths in [[0.0; 4], [1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0], [1.0, 1.0, 0.0, 0.0], [0.0, 1.0, 1.0, 0.0]] {
         let m = FourBar::from(lengths);
-        for direction in [Direction::Increasing, Direction::Along(q)] {
+        for direction in [Direction::Increasing, Direction::Along(along)] {
             let Ok(mut path) = Path::new(&m, &q, direction) else { continue };
             // Whatever moves, moves on positions.
             for step in path.by_ref().take(50) {
@@ -92,5 +103,8 @@ fn zero_lengths() {
         }
     }
     let refused = Path::new(&FourBar::from([0.0; 4]), &q, Direction::Increasing).err();
-    assert!(matches!(refused, Some(Error::Lost { mechanism: "FourBar", group: "theta3, theta4", .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Some(PathError::Lost { mechanism: "FourBar", group: "theta3, theta4", .. })),
+        "{refused:?}"
+    );
 }

@@ -5,7 +5,7 @@
 use std::fmt::Debug;
 
 use linkage::limits::{Limit, Limits};
-use linkage::{Elbow, Error, Slider, Slope, linkage};
+use linkage::{Elbow, Error, PositionError, Slider, Slope, linkage};
 
 linkage! {
     /// Peaucellier's cell, of which the rhombus closes at the ends of the range.
@@ -114,7 +114,7 @@ fn at_all_scales<V: PartialEq + Debug>(value: impl Fn(f64) -> V) -> V {
 fn in_unit(limits: Limits<f64>, unit: f64) -> Limits<f64> {
     let Limits { lower, upper } = limits;
     let [lower, upper] = [lower, upper].map(|limit| match limit {
-        Limit::None => Limit::None,
+        Limit::Unlimited => Limit::Unlimited,
         Limit::Exact { input, group } => Limit::Exact { input: input / unit, group },
         Limit::Bracketed { assembled, unbuildable, group } => {
             Limit::Bracketed { assembled: assembled / unit, unbuildable: unbuildable / unit, group }
@@ -136,7 +136,7 @@ macro_rules! cell {
     ($M:ident, $Branch:ident, $NAME:literal) => {
         // 2 acos(3/4): 82.819244 degrees.
         let end = 1.445_468_495_626_831;
-        let undetermined = Error::Undetermined { mechanism: $NAME, group: "up2, down2" };
+        let undetermined = PositionError::Undetermined { mechanism: $NAME, group: "up2, down2" };
         let at = |scale: f64| $M::default().map(|length: f64| length * scale);
         for start in [-1.4, -0.2, 0.3, 1.1] {
             let mut determined = Vec::new();
@@ -158,7 +158,7 @@ macro_rules! cell {
                     // Before it the cell is determined, beyond it out of reach.
                     assert!(at(1.0).assemble(input * (1.0 - 1e-12), branch).is_ok());
                     let beyond = at(1.0).assemble(input * (1.0 + 1e-12), branch);
-                    assert!(matches!(beyond, Err(Error::Unbuildable { group: "up, up1", .. })), "{beyond:?}");
+                    assert!(matches!(beyond, Err(PositionError::Unbuildable { group: "up, up1", .. })), "{beyond:?}");
                 }
             }
             let found: Result<Vec<_>, _> = at(1.0).branches(start).map(|found| Ok::<_, Error>(found?.0)).collect();
@@ -171,7 +171,7 @@ macro_rules! cell {
 fn a_cell_at_the_ends_of_its_range() {
     cell!(Cell, CellBranch, "Cell");
     assert_eq!(
-        Error::Undetermined { mechanism: "Cell", group: "up2, down2" }.to_string(),
+        PositionError::Undetermined { mechanism: "Cell", group: "up2, down2" }.to_string(),
         "Cell is undetermined at this input: the outer joints of group up2, down2 coincide"
     );
 }
@@ -195,7 +195,7 @@ fn two_dyads_carry_a_third() {
         }
         for end in [0.5, 3.5] {
             let found = at_all_scales(|scale| at(scale).assemble(end * scale, branch).map(|pose| pose.e));
-            assert_eq!(found, Err(Error::Undetermined { mechanism: "Symmetric", group: "e, f" }));
+            assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Symmetric", group: "e, f" }));
         }
         // Links that are not equally long do not reach a joint that is nearly one, nor one that is.
         let unequal = |scale: f64| Symmetric { k: 1.9 * scale, ..at(scale) };
@@ -207,7 +207,7 @@ fn two_dyads_carry_a_third() {
         };
         assert!(group == "e, f" && lower > 0.5 && assembled < 3.5 && assembled > 3.4, "{found:?}");
         let found = at_all_scales(|scale| unequal(scale).assemble(3.5 * scale, branch).map(|pose| pose.e));
-        let Err(Error::Unbuildable { group: "e, f", gap, .. }) = found else { panic!("{found:?}") };
+        let Err(PositionError::Unbuildable { group: "e, f", gap, .. }) = found else { panic!("{found:?}") };
         assert!((gap - (0.1_f64 / 3.9).powi(2)).abs() < 1e-15, "{gap}");
         // Whether the end of the first dyads is rounded inward or outward, the third stops before.
         for l in (1..200).map(|part| 1.9 + 0.001 * f64::from(part)) {
@@ -229,16 +229,16 @@ fn a_kite_that_folds() {
     let at = |scale: f64| Kite::default().map(|length: f64| length * scale);
     for branch in KiteBranch::all() {
         let folded = at_all_scales(|scale| at(scale).assemble(0.0, branch).map(|pose| pose.coordinates()));
-        assert_eq!(folded, Err(Error::Undetermined { mechanism: "Kite", group: "alpha, beta" }));
+        assert_eq!(folded, Err(PositionError::Undetermined { mechanism: "Kite", group: "alpha, beta" }));
         assert_eq!(at(1.0).branches(0.0).count(), 0);
         // Links of 0.1 + 0.2 and 0.3 are equally long.
         let decimal = Kite { coupler: 0.1 + 0.2, rocker: 0.3, ground: 0.7, crank: 0.7, ..at(1.0) };
         let found = decimal.assemble(0.0, branch).map(|pose| pose.coordinates());
-        assert_eq!(found, Err(Error::Undetermined { mechanism: "Kite", group: "alpha, beta" }));
+        assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Kite", group: "alpha, beta" }));
         let unequal = at_all_scales(|scale| {
             Kite { rocker: 51.0 * scale, ..at(scale) }.assemble(0.0, branch).map(|pose| pose.alpha)
         });
-        assert!(matches!(unequal, Err(Error::Unbuildable { group: "alpha, beta", .. })), "{unequal:?}");
+        assert!(matches!(unequal, Err(PositionError::Unbuildable { group: "alpha, beta", .. })), "{unequal:?}");
     }
     // The steps from here are of a degree, and one of them is the fold.
     let mut passed = 0;
@@ -252,7 +252,7 @@ fn a_kite_that_folds() {
                 let beyond = |part: f64| at(1.0).assemble(start + (end - start) * part, branch);
                 assert!((1..1000).all(|part| beyond(f64::from(part) / 1000.0).is_ok()), "{start} {limit:?}");
                 let beyond = beyond(1.0 + 1e-9);
-                assert!(matches!(beyond, Err(Error::Unbuildable { .. })), "{start} {limit:?} {beyond:?}");
+                assert!(matches!(beyond, Err(PositionError::Unbuildable { .. })), "{start} {limit:?} {beyond:?}");
             }
         }
     }
@@ -284,10 +284,10 @@ fn a_pin_in_the_pivot_of_its_slot() {
         // A turn later the pin is off by rounding alone.
         for theta in [0.0, std::f64::consts::TAU] {
             let found = at_all_scales(|scale| at(scale).assemble(theta, branch).map(|pose| pose.arm));
-            assert_eq!(found, Err(Error::Undetermined { mechanism: "Slot", group: "arm, along" }));
+            assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Slot", group: "arm, along" }));
             let offset = |scale: f64| Slot { offset: 20.0 * scale, ..at(scale) };
             let found = at_all_scales(|scale| offset(scale).assemble(theta, branch).map(|pose| pose.arm));
-            assert!(matches!(found, Err(Error::Unbuildable { group: "arm, along", .. })), "{found:?}");
+            assert!(matches!(found, Err(PositionError::Unbuildable { group: "arm, along", .. })), "{found:?}");
         }
         assert!(at(1.0).assemble(1e-9, branch).is_ok());
     }
@@ -299,18 +299,18 @@ fn a_link_without_length() {
         let branch = RodBranch { phi_s: s };
         let at = |scale: f64| Rod { crank: scale, rod: 0.0, tilt: 0.3 };
         let found = at_all_scales(|scale| at(scale).assemble(0.3, branch).map(|pose| pose.phi));
-        assert_eq!(found, Err(Error::Undetermined { mechanism: "Rod", group: "phi, s" }));
+        assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Rod", group: "phi, s" }));
         let found = at_all_scales(|scale| at(scale).assemble(0.4, branch).map(|pose| pose.phi));
-        assert!(matches!(found, Err(Error::Unbuildable { .. })), "{found:?}");
+        assert!(matches!(found, Err(PositionError::Unbuildable { .. })), "{found:?}");
     }
     // Of a dyad one link or both.
     let branch = CellBranch { up_up1: Elbow::Left, down_down1: Elbow::Right, up2_down2: Elbow::Left };
     let found = at_all_scales(|scale| {
         Cell { crank: scale, long: 2.0 * scale, short: 0.0 }.assemble(0.0, branch).map(|pose| pose.up)
     });
-    assert_eq!(found, Err(Error::Undetermined { mechanism: "Cell", group: "up, up1" }));
+    assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Cell", group: "up, up1" }));
     let found = at_all_scales(|_| Cell { crank: 0.0, long: 0.0, short: 0.0 }.assemble(0.0, branch).map(|pose| pose.up));
-    assert_eq!(found, Err(Error::Undetermined { mechanism: "Cell", group: "up, up1" }));
+    assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Cell", group: "up, up1" }));
 }
 
 #[test]
@@ -318,13 +318,15 @@ fn parallel_guides() {
     let at = |scale: f64| Guides { a: 4.0 * scale, b: scale, alpha: 0.5 };
     let branch = GuidesBranch {};
     let apart = at_all_scales(|scale| at(scale).assemble(0.5, branch).map(|pose| pose.s));
-    let Err(Error::Unbuildable { mechanism: "Guides", group: "s, u", gap }) = apart else { panic!("{apart:?}") };
+    let Err(PositionError::Unbuildable { mechanism: "Guides", group: "s, u", gap }) = apart else {
+        panic!("{apart:?}")
+    };
     // Their distance, relative to the terms.
     assert!(gap > 0.01 && gap < 1.0, "{gap}");
     // On one line.
     let one = |scale: f64| Guides { a: 4.0 * 0.5_f64.cos() * scale, b: 4.0 * 0.5_f64.sin() * scale, alpha: 0.5 };
     let found = at_all_scales(|scale| one(scale).assemble(0.5, branch).map(|pose| pose.s));
-    assert_eq!(found, Err(Error::Undetermined { mechanism: "Guides", group: "s, u" }));
+    assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Guides", group: "s, u" }));
     assert_eq!(one(1.0).branches(0.5).count(), 0);
     assert_eq!(one(1.0).branches(0.6).count(), 1);
 }
@@ -339,8 +341,8 @@ fn factors_that_vanish() {
         })
     };
     assert!(at(2.0, 1.0, 3.0, 4.0).is_ok());
-    assert_eq!(at(0.0, 1.0, 0.0, 4.0), Err(Error::Undetermined { mechanism: "Factors", group: "wheel" }));
-    assert!(matches!(at(0.0, 1.0, 3.0, 4.0), Err(Error::Unbuildable { group: "wheel", .. })));
-    assert_eq!(at(2.0, 0.0, 3.0, 0.0), Err(Error::Undetermined { mechanism: "Factors", group: "phi" }));
-    assert!(matches!(at(2.0, 1.0, 3.0, 0.0), Err(Error::Unbuildable { group: "phi", .. })));
+    assert_eq!(at(0.0, 1.0, 0.0, 4.0), Err(PositionError::Undetermined { mechanism: "Factors", group: "wheel" }));
+    assert!(matches!(at(0.0, 1.0, 3.0, 4.0), Err(PositionError::Unbuildable { group: "wheel", .. })));
+    assert_eq!(at(2.0, 0.0, 3.0, 0.0), Err(PositionError::Undetermined { mechanism: "Factors", group: "phi" }));
+    assert!(matches!(at(2.0, 1.0, 3.0, 0.0), Err(PositionError::Unbuildable { group: "phi", .. })));
 }

@@ -4,7 +4,7 @@
 //! at a given stroke, which takes 199 steps at delta = 1e-13 and may come out on either side of the dead centre.
 
 use linkage::continuation::{Direction, Event, Path};
-use linkage::{Error, linkage};
+use linkage::{PathError, linkage};
 
 include!("../mechanisms/slider_crank.rs");
 
@@ -93,7 +93,7 @@ fn round_and_round() {
 fn beyond_reach() {
     let m = engine();
     let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
-    let Err(Error::DeadPoint { mechanism, group, gap }) = path.advance_to(0.46) else { panic!("it cannot reach") };
+    let Err(PathError::DeadPoint { mechanism, group, gap }) = path.advance_to(0.46) else { panic!("it cannot reach") };
     assert_eq!((mechanism, group), ("Engine", "phi1, phi2"));
     assert!(gap > 0.0 && gap < 0.1);
     assert!(path.position().phi1.abs() < 1e-14);

@@ -4,7 +4,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use linkage::{Error, Slope, linkage, singularity};
+use linkage::{PositionError, Slope, linkage, singularity};
 
 use super::precise::{Scalar, big};
 
@@ -24,7 +24,7 @@ fn velocity_at_the_singularity() {
         for phi2 in SLOPES {
             let pose = m.assemble(phi1, CompressorBranch { phi2 }).unwrap();
             assert!(m.residual(&pose).amax() <= 1e-15 && pose.phi2.re.abs() <= 1e-15, "{pose:?}");
-            assert!(matches!(m.velocity_ratios(&pose), Err(Error::Singular { group: "phi2", .. })));
+            assert!(matches!(m.velocity_ratios(&pose), Err(PositionError::Singular { group: "phi2", .. })));
             assert!(singularity::report(&m, &pose).unwrap().is_singular());
         }
     }
@@ -43,7 +43,7 @@ fn positions_beside_it() {
             let expected = if phi2 == SLOPES[0] { big(2.0 * m.z1) * &cosine } else { big(0.0) };
             let attainable = singularity::accuracy(&m, &pose).unwrap().unknowns();
             let error = (big(pose.z3) - expected).double().abs();
-            worst = worst.max(error / attainable.amax());
+            worst = worst.max(error / attainable.largest());
             // Away from it nothing is lost; near it what must be.
             assert!(error <= f64::EPSILON * 10_f64.powi(digits) * 8.0, "{error:e}");
         }

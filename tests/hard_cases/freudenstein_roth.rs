@@ -6,7 +6,7 @@
 //! digits: pitcon66_prb1.f); the further digits are theirs continued in 40-digit arithmetic, rounded.
 
 use linkage::continuation::{Direction, Event, Path};
-use linkage::{Error, linkage};
+use linkage::{PathError, linkage};
 
 include!("../mechanisms/freudenstein_roth.rs");
 
@@ -67,7 +67,7 @@ fn driven_by_x3() {
     close(&path.advance_to(1.0).unwrap().position, [5.0, 4.0, 1.0]);
     // By the input alone it is not reached.
     let error = Path::new(&m, &start(), Direction::Increasing).unwrap().advance_to(1.0);
-    assert!(matches!(error, Err(Error::DeadPoint { mechanism: "FoldsOfX3", .. })), "{error:?}");
+    assert!(matches!(error, Err(PathError::DeadPoint { mechanism: "FoldsOfX3", .. })), "{error:?}");
 }
 
 /// Driven by x1 it is the other way round.

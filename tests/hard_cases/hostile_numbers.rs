@@ -3,7 +3,7 @@
 
 use std::fmt::Debug;
 
-use linkage::{Assembly, Error};
+use linkage::{Assembly, Dim, PerInput, PositionError};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -33,21 +33,17 @@ struct Found {
 }
 
 /// Assembles a mechanism whose parameters and inputs are partly hostile.
-fn assail<M, const N: usize, const U: usize, const V: usize>(
-    branches: &[M::Branch],
-    random: &mut SmallRng,
-    found: &mut Found,
-) where
-    M: Assembly<f64, U, V> + Default + From<[f64; N]>,
+fn assail<M, const N: usize>(branches: &[M::Branch], random: &mut SmallRng, found: &mut Found)
+where
+    M: Assembly<Scalar = f64> + Default + From<[f64; N]>,
     [f64; N]: From<M>,
     M::Pose: Debug,
-    M::Inputs: From<linkage::nalgebra::SVector<f64, V>>,
 {
     for _ in 0..2000 {
         let mut parameters: [f64; N] = M::default().into();
-        let mut inputs = linkage::nalgebra::SVector::<f64, V>::from_fn(|_, _| random.random_range(-3.0..3.0));
+        let mut inputs = PerInput::<M>::from_fn(|_| random.random_range(-3.0..3.0));
         for _ in 0..random.random_range(1..=3) {
-            let place = random.random_range(0..N + V);
+            let place = random.random_range(0..N + M::V::COUNT);
             // Or a number of any size.
             let bad = match HOSTILE.get(random.random_range(0..2 * HOSTILE.len())) {
                 Some(&bad) => bad,
@@ -67,7 +63,11 @@ fn assail<M, const N: usize, const U: usize, const V: usize>(
                     let text = format!("{pose:?}");
                     assert!(!text.contains("NaN") && !text.contains("inf"), "{parameters:?} {inputs:?}: {text}");
                 }
-                Err(Error::NotFinite { .. } | Error::Unbuildable { .. } | Error::Undetermined { .. }) => {
+                Err(
+                    PositionError::NotFinite { .. }
+                    | PositionError::Unbuildable { .. }
+                    | PositionError::Undetermined { .. },
+                ) => {
                     found.refused += 1;
                 }
                 Err(error) => panic!("{parameters:?} {inputs:?}: {error}"),
@@ -102,7 +102,7 @@ fn dyads_of_every_size() {
 
 macro_rules! all {
     ($random:ident, $found:ident: $($M:ident $Branch:ident)*) => {
-        $(assail::<$M, _, _, _>(&$Branch::all().collect::<Vec<_>>(), $random, $found);)*
+        $(assail::<$M, _>(&$Branch::all().collect::<Vec<_>>(), $random, $found);)*
     };
 }
 

@@ -3,7 +3,7 @@
 //! Known to fail: programs that look at det J alone, which say that the mechanism is singular but not where.
 
 use linkage::continuation::{Direction, Event, Path};
-use linkage::{Elbow, Error, linkage};
+use linkage::{Elbow, PathError, PositionError, linkage};
 
 include!("../mechanisms/six_bar.rs");
 
@@ -25,7 +25,7 @@ fn limits(m: &SixBar) -> (f64, f64, &'static str) {
         let middle = (low + high) / 2.0;
         *(if exists(middle) { &mut low } else { &mut high }) = middle;
     }
-    let Err(Error::Unbuildable { group, .. }) = m.assemble(high, BRANCH) else { panic!("it cannot be built") };
+    let Err(PositionError::Unbuildable { group, .. }) = m.assemble(high, BRANCH) else { panic!("it cannot be built") };
     (start, high, group)
 }
 
@@ -36,7 +36,7 @@ fn the_error_names_the_group() {
     assert_eq!(group, "theta4, theta5");
     let start = m.assemble(start + 0.01, BRANCH).unwrap().coordinates();
     let mut path = Path::new(&m, &start, Direction::Increasing).unwrap();
-    let Err(Error::DeadPoint { mechanism, group, gap }) = path.advance_to(limit + 0.5) else { panic!("it locks") };
+    let Err(PathError::DeadPoint { mechanism, group, gap }) = path.advance_to(limit + 0.5) else { panic!("it locks") };
     assert_eq!((mechanism, group), ("SixBar", "theta4, theta5"));
     println!("locks at {}, {limit} by bisection of the assembly", path.position().theta1);
     assert!((gap - 0.5).abs() < 1e-14 && (path.position().theta1 - limit).abs() < 1e-14);

@@ -51,7 +51,8 @@ fn in_double_double(m: &FourBar, q: &FourBarCoordinates, rate: f64, acceleration
     let pose = m.pose_at(&FourBarCoordinates { theta2, theta3, theta4 });
     let velocity = m.velocity(&pose, DoubleDouble::from(rate)).unwrap();
     let acceleration = m.acceleration(&pose, &velocity, DoubleDouble::from(acceleration)).unwrap();
-    [velocity, acceleration].map(|q| [q.theta3.high(), q.theta4.high()])
+    [[velocity.theta3, velocity.theta4], [acceleration.theta3, acceleration.theta4]]
+        .map(|pair| pair.map(DoubleDouble::high))
 }
 
 fn short(errors: &[f64]) -> String {
@@ -84,7 +85,7 @@ fn velocities_and_accelerations() {
             // J from the same sines, by a library.
             let j = m.jacobian_unknowns(&pose).lu();
             let by_library = j.solve(&-(m.jacobian_inputs(&pose) * vector![1.5])).unwrap();
-            let rate = FourBarCoordinates { theta3: by_library[0], theta4: by_library[1], theta2: 1.5 };
+            let rate = FourBarRates { theta3: by_library[0], theta4: by_library[1], theta2: 1.5 };
             let right = -(m.jacobian_inputs(&pose) * vector![-0.7] + m.gamma(&pose, &rate));
             let library = [by_library, j.solve(&right).unwrap()];
             for order in 0..2 {

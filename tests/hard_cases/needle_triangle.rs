@@ -48,7 +48,7 @@ fn areas() {
 fn no_triangle() {
     let branch = TriangleBranch { alpha_beta: Elbow::Right };
     let none = Triangle { p: 1.0, q: 2.0 }.assemble(TriangleInputs { x: 3.0 + 1e-13, y: 0.0 }, branch);
-    assert!(matches!(none, Err(linkage::Error::Unbuildable { .. })), "{none:?}");
+    assert!(matches!(none, Err(linkage::PositionError::Unbuildable { .. })), "{none:?}");
     for (p, q, d) in
         [(100_002.0, 100_002.0, 200_004.0), (33.3, 66.7, 100.0), (5_278.640_55, 94_721.359_41, 99_999.999_96)]
     {
@@ -67,7 +67,7 @@ fn bad_input() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for (p, x, y) in [(bad, 3.0, 0.0), (1.0, bad, 0.0), (1.0, 3.0, bad), (bad, bad, bad)] {
             let found = Triangle { p, q: 2.0 }.assemble(TriangleInputs { x, y }, branch);
-            assert!(matches!(found, Err(linkage::Error::NotFinite { .. })), "{p} {x} {y}: {found:?}");
+            assert!(matches!(found, Err(linkage::PositionError::NotFinite { .. })), "{p} {x} {y}: {found:?}");
         }
     }
     for (p, q, x) in [(0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 0.0), (0.0, 1.0, 1.0)] {

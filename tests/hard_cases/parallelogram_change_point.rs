@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{AtChangePoint, Direction, Event, Options, Path};
-use linkage::{Error, linkage, position};
+use linkage::{Error, PathError, linkage, position};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -86,12 +86,15 @@ fn never_an_antiparallelogram() {
     assert!(naive_flips > 300);
 }
 
+/// The rates of the parallelogram.
+const TOGETHER: CoupledWheelsRates = CoupledWheelsRates { theta: 1.0, rod: 0.0, follower: 1.0 };
+
 /// Steps that end at a change point, from a start at one.
 #[test]
 fn steps_that_land_on_it() {
     let m = wheels();
     for parts in [1_u32, 2, 3, 7, 36, 180] {
-        let mut path = Path::new(&m, &at(0.0), Direction::Along(at(1.0))).unwrap();
+        let mut path = Path::new(&m, &at(0.0), Direction::Along(TOGETHER)).unwrap();
         for k in 1..=10 * parts {
             let theta = PI * f64::from(k) / f64::from(parts);
             let reached = path.advance_to(theta).unwrap();
@@ -139,11 +142,11 @@ fn policies() {
     // Half a turn on, at the next change point, it goes back to the parallelogram.
     assert!(is_parallel(&switched.advance_to(7.0).unwrap().position));
     let mut stopped = start(AtChangePoint::Stop);
-    let error = Error::ChangePoint { mechanism: "CoupledWheels", group: "rod, follower" };
+    let error = PathError::ChangePoint { mechanism: "CoupledWheels", group: "rod, follower" };
     assert_eq!(stopped.advance_to(4.0), Err(error));
     assert!((stopped.position().theta - PI).abs() < 1e-15);
     assert_eq!(stopped.advance(), Err(error));
-    stopped.choose(&at(1.0)).unwrap();
+    stopped.choose(&TOGETHER).unwrap();
     assert!(is_parallel(&stopped.advance_to(4.0).unwrap().position));
     let mut other = start(AtChangePoint::Stop);
     let Some(Event::ChangePoint { tangents, .. }) = other.by_ref().find_map(|step| step.unwrap().event) else {

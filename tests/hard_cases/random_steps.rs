@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Options, Path};
 use linkage::nalgebra::SVector;
-use linkage::{Assembly, Elbow, Error, Mechanism, linkage};
+use linkage::{Assembly, D, Dim, Elbow, Mechanism, PathError, linkage};
 use nalgebra::vector;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -73,24 +73,21 @@ fn stride(random: &mut SmallRng) -> f64 {
 }
 
 /// The largest difference of the unknowns: of angles but for whole turns, of lengths by the largest.
-fn difference<M: Mechanism<f64, U, V>, const U: usize, const V: usize>(
-    one: &M::Coordinates,
-    two: &M::Coordinates,
-) -> f64 {
+fn difference<M: Mechanism<Scalar = f64>>(one: &M::Coordinates, two: &M::Coordinates) -> f64 {
     let (one, two) = (M::unknowns(one), M::unknowns(two));
     let is_length = |index: &usize| !M::UNKNOWN_ANGLES[*index];
-    let largest = (0..U).filter(is_length).map(|index| two[index].abs()).fold(0.0, f64::max);
+    let largest = (0..M::U::COUNT).filter(is_length).map(|index| two[index].abs()).fold(0.0, f64::max);
     let part = |index: usize| match one[index] - two[index] {
         turn if M::UNKNOWN_ANGLES[index] => 2.0 * (turn / 2.0).sin().abs(),
         length => length.abs() / largest,
     };
     // A length that is zero to the last digit on both sides is no difference.
-    (0..U).map(part).filter(|part| !part.is_nan()).fold(0.0, f64::max)
+    (0..M::U::COUNT).map(part).filter(|part| !part.is_nan()).fold(0.0, f64::max)
 }
 
 /// Sends the input here and there, from one of the positions that `starts` has at an input. On the way no position may
 /// be another than the one that `expected` has from where the walk started, from the last position, at the input.
-fn walk<M: Mechanism<f64, U, 1>, const U: usize>(
+fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
     m: &M,
     starts: impl Fn(f64, &mut SmallRng) -> Vec<M::Coordinates>,
     expected: impl Fn(&M::Coordinates, &M::Coordinates, f64) -> Option<M::Coordinates>,
@@ -118,7 +115,7 @@ fn walk<M: Mechanism<f64, U, 1>, const U: usize>(
             match path.advance_to(input) {
                 Ok(step) => {
                     let is_branch = m.same_branch(&m.pose_at(&start), &m.pose_at(&step.position));
-                    let off = expected(&start, &before, input).map(|q| difference::<M, U, 1>(&step.position, &q));
+                    let off = expected(&start, &before, input).map(|q| difference::<M>(&step.position, &q));
                     // The closed form and the follower meet to rounding, or at a dead point to its root.
                     if !is_branch || off.is_none_or(|off| off > 1e-7) {
                         let [before, after] = [before, step.position].map(|q| (M::inputs(&q)[0], M::unknowns(&q)));
@@ -138,18 +135,18 @@ fn walk<M: Mechanism<f64, U, 1>, const U: usize>(
 }
 
 /// What may end a walk.
-fn stop(count: &mut Count, error: &Error) {
+fn stop(count: &mut Count, error: &PathError) {
     match error {
-        Error::DeadPoint { .. } => count.dead_points += 1,
-        Error::ChangePoint { .. } => count.change_points += 1,
-        Error::Lost { .. } => count.errors += 1,
+        PathError::DeadPoint { .. } => count.dead_points += 1,
+        PathError::ChangePoint { .. } => count.change_points += 1,
+        PathError::Lost { .. } => count.errors += 1,
         error => panic!("{error}"),
     }
 }
 
 /// The position of a mechanism without closed form at an input, from another position, by steps so short that Newton's
 /// method has nothing to choose: each corrects the tangent by a hundredth of the step at most.
-fn by_short_steps<M: Mechanism<f64, U, 1>, const U: usize>(
+fn by_short_steps<M: Mechanism<Scalar = f64, V = D<1>>>(
     m: &M,
     from: &M::Coordinates,
     input: f64,
@@ -161,18 +158,18 @@ fn by_short_steps<M: Mechanism<f64, U, 1>, const U: usize>(
             return Some(q);
         }
         let pose = m.pose_at(&q);
-        let ratios = -m.solve_jacobian(&pose, &m.jacobian_inputs(&pose).into_owned()).ok()?;
-        let length = left.abs().min(step / (1.0 + ratios.amax()));
+        let ratios = -m.solve_jacobian(&pose, &m.jacobian_inputs(&pose).column(0)).ok()?;
+        let length = left.abs().min(step / (1.0 + ratios.largest()));
         let forward = length.copysign(left);
         let next = if length == left.abs() { input } else { M::inputs(&q)[0] + forward };
-        let predicted = M::with_inputs(&M::with_unknowns(&q, M::unknowns(&q) + ratios * forward), vector![next]);
+        let predicted = M::coordinates(M::unknowns(&q) + ratios * forward, [next].into());
         let corrected = (0..6).try_fold(predicted, |q, _| {
             let pose = m.pose_at(&q);
             let correction = m.solve_jacobian(&pose, &m.residual(&pose)).ok()?;
             Some(M::with_unknowns(&q, M::unknowns(&q) - correction))
         })?;
-        let correction = (M::unknowns(&corrected) - M::unknowns(&predicted)).amax();
-        if correction <= 0.01 * length * (1.0 + ratios.amax()) + 1e-14 {
+        let correction = (M::unknowns(&corrected) - M::unknowns(&predicted)).largest();
+        if correction <= 0.01 * length * (1.0 + ratios.largest()) + 1e-14 {
             (q, step) = (corrected, (2.0 * step).min(0.01));
         } else if step > 1e-12 {
             step /= 2.0;
@@ -199,7 +196,7 @@ macro_rules! newton {
         let m = $M::default();
         let starts = |input: f64, random: &mut SmallRng| {
             let mut q = $Coordinates::from(SVector::from_fn(|_, _| random.random_range(-PI..PI)));
-            q = <$M as Mechanism<f64, _, 1>>::with_inputs(&q, vector![input]);
+            q = <$M as Mechanism>::with_inputs(&q, [input].into());
             m.solve(&q).ok().map(|solution| solution.coordinates).into_iter().collect()
         };
         walk(&m, starts, |_: &_, before: &_, input| by_short_steps(&m, before, input), $steps, $random)

@@ -3,7 +3,7 @@
 //! Known to fail: every program that begins by solving J u' = -A v'.
 
 use linkage::continuation::{Direction, Path};
-use linkage::{Elbow, Error, linkage};
+use linkage::{Elbow, PathError, PositionError, linkage};
 
 include!("../mechanisms/four_bar.rs");
 
@@ -17,13 +17,13 @@ fn stretched() -> (FourBar, FourBarCoordinates) {
 #[test]
 fn both_ways_out() {
     let (m, q) = stretched();
-    assert!(matches!(m.velocity_ratios(&m.pose_at(&q)), Err(Error::Singular { .. })));
+    assert!(matches!(m.velocity_ratios(&m.pose_at(&q)), Err(PositionError::Singular { .. })));
     // The input stands still: it does not say which way.
     for direction in [Direction::Increasing, Direction::Decreasing] {
-        assert_eq!(Path::new(&m, &q, direction).err(), Some(Error::NoDirection { mechanism: "FourBar" }));
+        assert_eq!(Path::new(&m, &q, direction).err(), Some(PathError::NoDirection { mechanism: "FourBar" }));
     }
     for (theta3, elbow) in [(1.0, Elbow::Left), (-1.0, Elbow::Right)] {
-        let direction = Direction::Along(FourBarCoordinates { theta2: 0.0, theta3, theta4: 0.0 });
+        let direction = Direction::Along(FourBarRates { theta2: 0.0, theta3, theta4: 0.0 });
         let mut path = Path::new(&m, &q, direction).unwrap();
         assert!(path.rates().theta2.abs() < 1e-15);
         let branch = FourBarBranch::new(elbow);
@@ -43,6 +43,6 @@ fn both_ways_out() {
 #[test]
 fn across() {
     let (m, q) = stretched();
-    let none = FourBarCoordinates { theta2: 1.0, theta3: 0.0, theta4: 0.0 };
-    assert_eq!(Path::new(&m, &q, Direction::Along(none)).err(), Some(Error::NoDirection { mechanism: "FourBar" }));
+    let none = FourBarRates { theta2: 1.0, theta3: 0.0, theta4: 0.0 };
+    assert_eq!(Path::new(&m, &q, Direction::Along(none)).err(), Some(PathError::NoDirection { mechanism: "FourBar" }));
 }

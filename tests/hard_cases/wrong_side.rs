@@ -3,7 +3,7 @@
 //! Known to fail: solvers that give what they find: of these guesses a part comes out mirrored.
 
 use linkage::continuation::{Direction, Path};
-use linkage::{Error, linkage, position};
+use linkage::{PathError, PositionError, linkage, position};
 
 include!("../mechanisms/four_bar.rs");
 
@@ -16,19 +16,19 @@ fn never_mirrored_silently() {
             let angle = |k: i32| f64::from(k) / 60.0 * std::f64::consts::TAU - std::f64::consts::PI;
             let guess = FourBarCoordinates { theta2: 0.35, theta3: angle(i), theta4: angle(j) };
             let side = m.branch_of(&m.pose_at(&guess)).theta3_theta4;
-            let found =
-                position::newton(&m, &guess).map(|found| m.branch_of(&m.pose_at(&found.coordinates)).theta3_theta4);
+            let found = position::newton_any_branch(&m, &guess)
+                .map(|found| m.branch_of(&m.pose_at(&found.coordinates)).theta3_theta4);
             match Path::new(&m, &guess, Direction::Increasing) {
                 Ok(path) => {
                     assert_eq!(m.branch_of(&m.pose_at(&path.position())).theta3_theta4, side);
                     followed += 1;
                 }
-                Err(Error::OtherBranch { mechanism, group }) => {
+                Err(PathError::Position(PositionError::OtherBranch { mechanism, group })) => {
                     assert_eq!((mechanism, group), ("FourBar", "theta3, theta4"));
                     assert_ne!(found.unwrap(), side);
                     mirrored += 1;
                 }
-                Err(Error::NotConverged { .. }) => refused += 1,
+                Err(PathError::Position(PositionError::NotConverged { .. })) => refused += 1,
                 Err(error) => panic!("{error}"),
             }
         }

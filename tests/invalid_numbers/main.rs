@@ -27,7 +27,7 @@ version = "0.0.0"
 edition = "2024"
 
 [dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["std"] }
+linkage = { path = "ROOT", default-features = false, features = ["std", "dynamics"] }
 rand = { version = "0.9", default-features = false, features = ["small_rng"] }
 
 [profile.dev]

@@ -1,66 +1,31 @@
 //! The text of the program: what is emitted for each mechanism, and a call of each of its functions.
 
+#[path = "../source/every.rs"]
+mod every;
+
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
-use proc_macro2::TokenStream;
+use every::Expansion;
 use quote::ToTokens;
-use syn::{
-    Expr, FnArg, GenericParam, ImplItem, Item, ItemImpl, ItemStruct, Pat, ReturnType, Signature, Stmt, Visibility,
-};
-
-/// What a mechanism can be asked for; those that it does not ask for itself are added.
-const REQUESTS: [&str; 4] = ["limits", "jerk", "velocity_ratio_derivatives", "sensitivity"];
-
-/// Folders and files with mechanisms.
-const SOURCES: [&str; 3] = ["tests/mechanisms", "examples/engine/machine.rs", "examples/door_closer/machine.rs"];
+use syn::{FnArg, GenericParam, ImplItem, Item, ItemImpl, ItemStruct, Pat, ReturnType, Signature, Visibility};
 
 /// The files of the program by name: of all mechanisms, or of those in the files with these names.
 pub fn files(root: &Path, chosen: Option<&[&str]>) -> Vec<(String, String)> {
     let mut files = Vec::new();
     let mut modules = String::new();
     let mut subjects = String::new();
-    for source in SOURCES {
-        let path = root.join(source);
-        let mut paths: Vec<_> = if path.is_dir() {
-            fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()).collect()
-        } else {
-            vec![path]
-        };
-        paths.sort();
-        for path in paths {
-            let parent = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            let name = if stem == "machine" { parent.into_owned() } else { stem.into_owned() };
-            if chosen.is_some_and(|chosen| !chosen.contains(&name.as_str())) {
-                continue;
-            }
-            let text = fs::read_to_string(&path).unwrap();
-            let file: syn::File = syn::parse_str(&text).unwrap();
-            let macros = file.items.iter().filter_map(|item| match item {
-                Item::Macro(item) if item.mac.path.is_ident("linkage") => Some(item.mac.tokens.clone()),
-                _ => None,
-            });
-            // Functions of the user's stand beside the mechanism.
-            let functions = file.items.iter().filter(|item| matches!(item, Item::Mod(_)));
-            let functions: Vec<_> = functions.map(|item| item.to_token_stream().to_string()).collect();
-            for (number, tokens) in macros.enumerate() {
-                let module = format!("{name}_{number}");
-                let emitted = expanded(&tokens);
-                let emitted: syn::File = syn::parse2(emitted).unwrap_or_else(|error| panic!("{module}: {error}"));
-                let mut text = functions.concat() + &prettyplease::unparse(&emitted);
-                let calls = Calls::of(&emitted);
-                write!(text, "\npub mod calls {{ use super::*; use crate::harness as h;\n{}}}\n", calls.text).unwrap();
-                // Generated calls use whatever there is; warnings of emitted code are the business of `emitted_source`.
-                writeln!(modules, "#[allow(warnings)] mod {module};").unwrap();
-                for subject in calls.subjects {
-                    writeln!(subjects, "(\"{subject}\", {module}::calls::{}),", snake(&subject)).unwrap();
-                }
-                files.push((format!("{module}.rs"), text));
-            }
+    for Expansion { module, functions, emitted } in every::expansions(root, chosen) {
+        let mut text = functions + &prettyplease::unparse(&emitted);
+        let calls = Calls::of(&emitted);
+        write!(text, "\npub mod calls {{ use super::*; use crate::harness as h;\n{}}}\n", calls.text).unwrap();
+        // Generated calls use whatever there is; warnings of emitted code are the business of `emitted_source`.
+        writeln!(modules, "#[allow(warnings)] mod {module};").unwrap();
+        for subject in calls.subjects {
+            writeln!(subjects, "(\"{subject}\", {module}::calls::{}),", snake(&subject)).unwrap();
         }
+        files.push((format!("{module}.rs"), text));
     }
     let harness = root.join("tests/invalid_numbers/harness/mod.rs");
     let laws = root.join("tests/source/cam_laws.rs");
@@ -89,24 +54,6 @@ mod cam_laws {
     }
 }
 ";
-
-/// What is emitted for mechanisms, asked for everything that they can be asked for.
-fn expanded(tokens: &TokenStream) -> TokenStream {
-    let text = tokens.to_string();
-    let expand = |text: &str| linkage_compiler::expand(text.parse().unwrap(), &"::linkage".parse().unwrap());
-    let has_errors = |tokens: &TokenStream| tokens.to_string().contains("compile_error");
-    let wanted: Vec<&str> = text.split("derive ").skip(1).filter_map(|rest| rest.split(';').next()).collect();
-    let is_wanted = |request: &str| wanted.iter().any(|list| list.split(',').any(|name| name.trim() == request));
-    // The first brace is that of the mechanism.
-    let with = |requests: &[&str]| text.replacen('{', &format!("{{ derive {};", requests.join(", ")), 1);
-    let missing: Vec<&str> = REQUESTS.into_iter().filter(|request| !is_wanted(request)).collect();
-    let all = expand(&if missing.is_empty() { text.clone() } else { with(&missing) });
-    if !has_errors(&all) {
-        return all;
-    }
-    let allowed: Vec<&str> = missing.into_iter().filter(|request| !has_errors(&expand(&with(&[request])))).collect();
-    expand(&if allowed.is_empty() { text.clone() } else { with(&allowed) })
-}
 
 /// `FourBar` as `four_bar`.
 fn snake(name: &str) -> String {
@@ -145,20 +92,12 @@ struct Emitted<'a> {
 
 impl<'a> Emitted<'a> {
     fn gather(&mut self, items: &'a [Item]) {
-        for item in items {
+        for item in every::items(items) {
             match item {
                 Item::Struct(item) => {
                     self.structs.insert(item.ident.to_string(), item);
                 }
                 Item::Impl(item) => self.implementation(item),
-                Item::Const(item) => {
-                    let Expr::Block(block) = &*item.expr else { continue };
-                    for statement in &block.block.stmts {
-                        if let Stmt::Item(item) = statement {
-                            self.gather(std::slice::from_ref(item));
-                        }
-                    }
-                }
                 _ => {}
             }
         }
@@ -170,7 +109,7 @@ impl<'a> Emitted<'a> {
         if let Some((path, _)) = item.trait_.as_ref().map(|(path, of)| (plain(path), of)) {
             if path.ends_with("Default") {
                 self.defaults.push(of);
-            } else if path.starts_with("Scene<") {
+            } else if path == "Scene" {
                 self.scenes.push(of);
             }
             return;
@@ -256,22 +195,22 @@ impl Calls {
         let Some(of_inputs) = functions.iter().find_map(|function| inputs_of(function, emitted)) else {
             panic!("{name}: no function has the inputs among its arguments")
         };
-        let coordinates = functions.iter().flat_map(|function| &function.inputs).find_map(|argument| match argument {
-            FnArg::Typed(argument) => Some(plain(&argument.ty).strip_suffix("<T>")?.strip_prefix('&')?.to_owned())
-                .filter(|of| of.ends_with("Coordinates")),
-            FnArg::Receiver(_) => None,
-        });
-        let coordinates = coordinates.unwrap_or_default();
+        let of_arguments =
+            functions.iter().flat_map(|function| &function.inputs).filter_map(|argument| match argument {
+                FnArg::Typed(argument) => Some(plain(&argument.ty).trim_start_matches('&').to_owned()),
+                FnArg::Receiver(_) => None,
+            });
+        let of_results = functions.iter().filter_map(|function| Some(success(&result_of(function)?)?.to_owned()));
+        let types = of_arguments.chain(of_results);
+        let pools: BTreeMap<_, _> = types.filter_map(|of| Some((pool_of(&of)?, of.replace("<T>", "")))).collect();
+        let pools = pools.iter().map(|(pool, of)| format!("let mut {pool} = h::Pool::<{of}>::default();\n"));
         let inner = emitted.structs[name].fields.iter().find_map(|field| {
             let of = plain(&field.ty);
             let of = of.strip_suffix("<T>")?;
             emitted.functions.contains_key(of).then(|| field.ident.as_ref().map(ToString::to_string))?
         });
         let mut text = format!("pub fn {}(t: &mut h::Tally, s: &mut h::Source) {{\n", snake(name));
-        let _ = writeln!(
-            text,
-            "let m: {name} = h::Draw::draw(s);\nlet [mut positions, mut motions] = [(); 2].map(|()| h::Pool::<{coordinates}>::default());"
-        );
+        let _ = writeln!(text, "let m: {name} = h::Draw::draw(s);\n{}", pools.collect::<String>());
         match &inner {
             Some(field) => {
                 let _ = writeln!(text, "h::positions(&m.{field}, s, &mut positions);");
@@ -280,7 +219,6 @@ impl Calls {
                 }
             }
             None => {
-                let _ = writeln!(text, "let mut poses = h::Pool::default();");
                 let _ = writeln!(text, "h::mechanism(t, s, &m, &mut positions, &mut poses);");
                 if emitted.structs[&of_inputs].fields.len() == 1 {
                     let _ = writeln!(text, "h::driven(t, s, &m, &mut positions);");
@@ -304,6 +242,35 @@ impl Calls {
     }
 }
 
+/// Results that become arguments, by the endings of their types, and where they are kept.
+const POOLS: [(&str, &str); 5] = [
+    ("Coordinates", "positions"),
+    ("Rates", "rates"),
+    ("Accelerations", "accelerations"),
+    ("Jerks", "jerks"),
+    ("Pose", "poses"),
+];
+
+/// The type that a function gives.
+fn result_of(function: &Signature) -> Option<String> {
+    match &function.output {
+        ReturnType::Type(_, of) => Some(plain(of)),
+        ReturnType::Default => None,
+    }
+}
+
+/// What a result is if it is no error.
+fn success(of: &str) -> Option<&str> {
+    Some(of.strip_prefix("Result<")?.rsplit_once(',')?.0)
+}
+
+/// Where values of a type are kept.
+fn pool_of(of: &str) -> Option<&'static str> {
+    let name = of.strip_suffix("<T>")?;
+    let is_plain = name.chars().all(char::is_alphanumeric);
+    POOLS.into_iter().find_map(|(ending, pool)| (is_plain && name.ends_with(ending)).then_some(pool))
+}
+
 /// The type of the inputs among the arguments of a function.
 fn inputs_of(function: &Signature, emitted: &Emitted) -> Option<String> {
     function.inputs.iter().find_map(|argument| {
@@ -318,7 +285,6 @@ fn inputs_of(function: &Signature, emitted: &Emitted) -> Option<String> {
 fn call(name: &str, function: &Signature) -> String {
     let mut text = String::from("{ ");
     let mut arguments = Vec::new();
-    let mut is_guessed = false;
     for (place, argument) in function.inputs.iter().enumerate() {
         let FnArg::Typed(argument) = argument else { continue };
         let of = plain(&argument.ty);
@@ -326,13 +292,9 @@ fn call(name: &str, function: &Signature) -> String {
             Pat::Ident(pattern) => pattern.ident.to_string(),
             _ => String::new(),
         };
-        let is_position = ["q", "guess"].contains(&wish.trim_matches('_'));
-        is_guessed |= wish.trim_matches('_') == "guess";
         let (value, passed) = match of.as_str() {
             "T" => ("s.number()".to_owned(), ""),
-            _ if of.ends_with("Pose<T>") => ("poses.take(s)".to_owned(), "&"),
-            _ if of.ends_with("Coordinates<T>") && is_position => ("positions.take(s)".to_owned(), "&"),
-            _ if of.ends_with("Coordinates<T>") => ("motions.take(s)".to_owned(), "&"),
+            _ if let Some(pool) = pool_of(of.trim_start_matches('&')) => (format!("{pool}.take(s)"), "&"),
             _ if of.starts_with("implInto<") || of.ends_with("Branch") => {
                 let of = of.trim_start_matches("implInto<").trim_end_matches('>').trim_end_matches("<T");
                 (format!("<{of} as h::Draw>::draw(s)"), "")
@@ -347,21 +309,17 @@ fn call(name: &str, function: &Signature) -> String {
     }
     let arguments = arguments.join(", ");
     let called = format!("m.{}({arguments})", function.ident);
-    let ReturnType::Type(_, of) = &function.output else {
+    let Some(of) = result_of(function) else {
         return String::new();
     };
-    let of = plain(of);
     let row = format!("\"{name}::{}\"", function.ident);
-    let kept = match of.as_str() {
-        _ if of.ends_with("Coordinates<T>,Error>") && is_guessed => "positions.keep(r)",
-        _ if of.ends_with("Coordinates<T>,Error>") => "motions.keep(r)",
-        _ if of.ends_with("Coordinates<T>>,Error>") && of.starts_with("Result<Solution<") => {
-            "positions.keep(r.coordinates)"
+    let kept = match success(&of) {
+        Some(of) if of.starts_with("Solution<") || of.starts_with("AnyBranch<") => {
+            "positions.keep(r.coordinates)".to_owned()
         }
-        _ if of.ends_with("Pose<T>,Error>") => "poses.keep(r)",
-        _ if of.starts_with("Result<") || of.starts_with("impl") => "()",
+        Some(of) => pool_of(of).map_or("()".to_owned(), |pool| format!("{pool}.keep(r)")),
         // What a function without `Result` gives for invalid numbers, its description says.
-        _ => "",
+        None => String::new(),
     };
     let _ = if of.starts_with("implIterator<Item=Result<") || of.starts_with("impl::core::iter::Iterator<Item=Result<")
     {

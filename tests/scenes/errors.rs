@@ -1,24 +1,25 @@
 //! What is refused, by name.
 
-use linkage::Scene;
+use linkage::{InputError, MotionError, PositionError, Scene};
 
 use super::machines::*;
 
 /// The name of what is wrong, as the error gives it.
 #[test]
 fn errors_name_the_body_or_the_effect() {
-    use linkage::Error;
     let q = four_bar_at([0.4]).unwrap();
     let inputs = LoadedFourBarInputs { theta2: 2.0 };
     let mut scene = Loaded { m3: -0.1, ..Loaded::default() };
     let error = scene.start(0.0, &q, &inputs).unwrap_err();
-    assert_eq!(error, Error::Negative { scene: "Loaded", quantity: "the mass of coupler", value: -0.1 });
-    assert_eq!(error.to_string(), "the mass of coupler in Loaded is negative: -1.0e-1");
+    let (quantity, most) = ("the mass of coupler", f64::MAX);
+    let expected = InputError::OutOfRange { of: Some("Loaded"), quantity, value: -0.1, least: 0.0, most };
+    assert_eq!(error, expected.into());
+    let said = "the mass of coupler of Loaded is -0.1: it must be at least 0.0";
+    assert_eq!(error.to_string(), said);
     scene.m3 = f64::NAN;
-    let named = |quantity| Err(Error::NotFinite { mechanism: "Loaded", quantity });
+    let named = |quantity| Err(PositionError::NotFinite { mechanism: "Loaded", quantity }.into());
     assert_eq!(scene.check(), named("the mass of coupler"));
 
-    let named = |quantity| Err(Error::NotFinite { mechanism: "Loaded", quantity });
     let broken = |change: fn(&mut Loaded)| {
         let mut scene = Loaded::default();
         change(&mut scene);
@@ -30,13 +31,13 @@ fn errors_name_the_body_or_the_effect() {
     assert_eq!(broken(|scene| scene.m4 = f64::NAN), named("body rocker"));
     assert_eq!(broken(|_| ()), Ok(()));
     let laws = Loaded::default().acceleration(f64::NAN, &q, inputs);
-    assert_eq!(laws, Err(Error::NotFinite { mechanism: "Loaded", quantity: "torque on theta2" }));
+    assert_eq!(laws.map(|_| ()), named("torque on theta2"));
 
     // Without masses nothing resists; without one of two only that input.
     let mut light = Idle::default();
     (light.m2, light.j2, light.m3, light.j3, light.m4, light.j4) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     let error = light.acceleration(0.0, &q, inputs).unwrap_err();
-    assert_eq!(error, Error::NoInertia { scene: "Idle", coordinate: "theta2", share: 0.0 });
+    assert_eq!(error, MotionError::NoInertia { scene: "Idle", coordinate: "theta2", share: 0.0 });
 
     // A motion that does not begin where its drive does.
     let driven = Driven::default();
@@ -44,13 +45,16 @@ fn errors_name_the_body_or_the_effect() {
         driven.start(0.0, &four_bar_at([theta2]).unwrap(), &LoadedFourBarInputs { theta2: rate })
     };
     assert!(start(0.0, 15.0).is_ok());
-    let wrong = |quantity, gap| Err(Error::Inconsistent { scene: "Driven", coordinate: "theta2", quantity, gap });
+    let wrong =
+        |quantity, gap| Err(InputError::Inconsistent { scene: "Driven", coordinate: "theta2", quantity, gap }.into());
     assert_eq!(start(0.25, 15.0), wrong("position", 0.25));
     assert_eq!(start(0.0, 16.0), wrong("rate", 1.0));
-    assert!(matches!(start(0.0, f64::NAN), Err(Error::Inconsistent { quantity: "rate", .. })));
+    let without_rate = start(0.0, f64::NAN);
+    assert!(matches!(without_rate, Err(MotionError::Input(InputError::Inconsistent { quantity: "rate", .. }))));
     // Nor where the mechanism is torn apart.
     let open = LoadedFourBarCoordinates { theta2: 0.4, theta3: f64::NAN, theta4: 0.0 };
-    assert!(matches!(Idle::default().start(0.0, &open, &inputs), Err(Error::NotFinite { .. })));
+    let torn = Idle::default().start(0.0, &open, &inputs);
+    assert!(matches!(torn, Err(MotionError::Position(PositionError::NotFinite { .. }))));
 }
 
 /// A dead point: the coupler and the rocker in line.
@@ -62,5 +66,11 @@ fn a_dead_point_is_refused() {
     idle.mechanism.l3 = 0.8;
     let q = LoadedFourBarCoordinates { theta2: std::f64::consts::PI, theta3: 0.0, theta4: 0.0 };
     let error = idle.rates(0.0, &q, 1.0).unwrap_err();
-    assert!(matches!(error, linkage::Error::Singular { mechanism: "Idle", group: "theta3, theta4", .. }), "{error}");
+    assert!(
+        matches!(
+            error,
+            MotionError::Position(PositionError::Singular { mechanism: "Idle", group: "theta3, theta4", .. })
+        ),
+        "{error}"
+    );
 }

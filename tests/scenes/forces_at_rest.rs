@@ -10,7 +10,7 @@ use super::virtual_work::{Placed, Positions, at_random, close, constant, virtual
 /// joint to joint, moments about each centre, and what is left at the crank is the torque of the drive.
 #[test]
 fn reactions_hold_every_body() {
-    use linkage::nalgebra::Vector2;
+    use linkage::nalgebra::{Point2, Vector2};
     let scene = Driven::default();
     let four_bar = &scene.mechanism;
     at_random(|v: [f64; 1], rate: [f64; 1], t| {
@@ -18,20 +18,20 @@ fn reactions_hold_every_body() {
         let q = pose.coordinates();
         let (velocity, acceleration) = scene.rates(t, &q, rate[0]).unwrap();
         let motion = four_bar.motion(&q, rate[0], acceleration).unwrap();
-        let (points, turning) = (motion.points, motion.acceleration);
+        let (points, turning) = (motion.points, motion.accelerations);
         let lambda: Vector2<f64> = scene.reactions(t, &q, rate[0]).unwrap();
         let weight = Vector2::new(0.0, -scene.g);
         let end = points.c.position + Vector2::new(q.theta4.cos(), q.theta4.sin()) * four_bar.l4;
         // What holds a body where it is driven from, and the moment that is left about its centre.
         let held =
-            |m: f64, center: linkage::PointMotion<f64>, from: Vector2<f64>, to: Vector2<f64>, load: Vector2<f64>| {
+            |m: f64, center: linkage::PointMotion<f64>, from: Point2<f64>, to: Point2<f64>, load: Vector2<f64>| {
                 let force = (center.acceleration - weight) * m - load;
                 let moment = (from - center.position).perp(&force) + (to - center.position).perp(&load);
                 (force, moment)
             };
         let (at_c, rocker) = held(scene.m4, points.g4, points.c.position, end, -lambda);
         let (at_b, coupler) = held(scene.m3, points.g3, points.b.position, points.c.position, -at_c);
-        let (at_a, crank) = held(scene.m2, points.g2, Vector2::zeros(), points.b.position, -at_b);
+        let (at_a, crank) = held(scene.m2, points.g2, Point2::origin(), points.b.position, -at_b);
         let size = lambda.norm() + at_c.norm() + at_b.norm() + at_a.norm();
         close("rocker", rocker - scene.ct * velocity.theta4, scene.j4 * turning.theta4, size);
         close("coupler", coupler, scene.j3 * turning.theta3, size);

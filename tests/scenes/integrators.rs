@@ -1,6 +1,6 @@
 //! A scene as a system of differential equations.
 
-use linkage::Scene;
+use linkage::{Column, D, Scene};
 
 use super::machines::*;
 use super::virtual_work::close;
@@ -8,12 +8,12 @@ use super::virtual_work::close;
 /// The state of a scene as plain numbers, integrated by the classical method of Runge and Kutta.
 #[test]
 fn a_state_for_integrators() {
-    fn run<S: Scene<f64, U, V, N, 0>, const U: usize, const V: usize, const N: usize>(
+    fn run<S: Scene<Scalar = f64>>(
         scene: &S,
-        mut y: linkage::nalgebra::SVector<f64, N>,
+        mut y: Column<f64, S::State>,
         step: f64,
         steps: usize,
-    ) -> linkage::nalgebra::SVector<f64, N> {
+    ) -> Column<f64, S::State> {
         let mut t = 0.0;
         for _ in 0..steps {
             let a = scene.derivative(t, &y).unwrap();
@@ -28,7 +28,7 @@ fn a_state_for_integrators() {
     let idle = Idle::default();
     let guess = LoadedFourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
     let start = idle.start(0.0, &guess, &LoadedFourBarInputs { theta2: 10.0 }).unwrap();
-    let energy = |y: &linkage::nalgebra::SVector<f64, 4>| {
+    let energy = |y: &Column<f64, D<4>>| {
         let (q, rates) = Idle::parts(y);
         let energy = idle.energy(&q, rates).unwrap();
         energy.kinetic + energy.potential
@@ -41,19 +41,19 @@ fn a_state_for_integrators() {
     // The parts of the derivative agree with it.
     let derivative = idle.derivative(0.0, &start).unwrap();
     let equations = idle.equations(0.0, &start).unwrap();
-    let acceleration = equations.forces / equations.mass[0];
+    let acceleration = equations.forces / equations.mass[(0, 0)];
     close("v''", acceleration[0], derivative[3], 0.0);
     let (q, rates) = Idle::parts(&start);
-    let moving = equations.ratios * rates.theta2;
+    let moving = equations.ratios.column(0) * rates.theta2;
     (0..2).for_each(|at| close("u'", moving[at], derivative[at], 0.0));
     let four_bar = &idle.mechanism;
     let pose = four_bar.pose_at(&q);
-    let velocity = four_bar.velocity(&pose, rates).unwrap();
-    let all = four_bar.acceleration(&pose, &velocity, acceleration[0]).unwrap();
+    let rates = four_bar.velocity(&pose, rates).unwrap();
+    let all = four_bar.acceleration(&pose, &rates, acceleration[0]).unwrap();
     let of_unknowns = equations.ratios * acceleration + equations.bias;
     close("theta3''", of_unknowns[0], all.theta3, 0.0);
     close("theta4''", of_unknowns[1], all.theta4, 0.0);
-    assert_eq!(idle.contacts(0.0, &q, &velocity).unwrap(), []);
+    assert_eq!(idle.contacts(0.0, &q, &rates).unwrap(), []);
     // The crank has made more than a turn, and the angles say so.
     let end = run(&idle, start, 0.005, 200);
     let (q, _) = Idle::parts(&end);

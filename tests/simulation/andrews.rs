@@ -9,7 +9,7 @@ include!("../mechanisms/andrews_scene.rs");
 include!("../source/andrews_motion.rs");
 
 /// The rates then, found with the angles.
-const END_RATES: SqueezerCoordinates = SqueezerCoordinates {
+const END_RATES: SqueezerRates = SqueezerRates {
     beta: 1_139.920_302_259_106,
     theta: -1_424.379_295_177_54,
     gamma: 11.032_911_910_618_594,
@@ -24,12 +24,15 @@ fn errors<M: Method>(tolerance: f64) -> ([f64; 2], usize) {
     let scene = Squeezing::default();
     let mut motion = simulate(&scene, (0.0, START, 0.0), 0.03, tolerance).unwrap().method::<M>().unwrap();
     motion.finish(|_, _| true).unwrap();
-    let State { q, rate, t, .. } = *motion.state();
+    let State { q, rates, t, .. } = *motion.state();
     assert_eq!(t, 0.03);
     let all = |q: SqueezerCoordinates<f64>| [q.beta, q.theta, q.gamma, q.phi, q.delta, q.omega, q.epsilon];
+    let all_rates = |q: SqueezerRates<f64>| [q.beta, q.theta, q.gamma, q.phi, q.delta, q.omega, q.epsilon];
     let mut errors = [0.0_f64; 2];
-    for (worst, [found, expected]) in errors.iter_mut().zip([[q, END], [rate, END_RATES]]) {
-        for (found, expected) in all(found).into_iter().zip(all(expected)) {
+    for (worst, [found, expected]) in
+        errors.iter_mut().zip([[all(q), all(END)], [all_rates(rates), all_rates(END_RATES)]])
+    {
+        for (found, expected) in found.into_iter().zip(expected) {
             *worst = worst.max((found / expected - 1.0).abs());
         }
     }

@@ -1,7 +1,7 @@
 //! Back in time.
 
 use linkage::simulation::{State, simulate};
-use linkage::{Error, linkage};
+use linkage::{MotionError, linkage};
 
 use super::contacts::close;
 
@@ -26,7 +26,7 @@ fn at(x: f64) -> SledgeCoordinates {
 
 #[test]
 fn what_contacts_have_taken_does_not_come_back() {
-    let refused = |scene, contact| Some(Error::Irreversible { scene, contact });
+    let refused = |scene, contact| Some(MotionError::Irreversible { scene, contact });
     let (start, end) = ((1.0, at(0.3), 0.1), 0.0);
     assert_eq!(simulate(&Rubbing::default(), start, end, 1e-9).err(), refused("Rubbing", "friction on x"));
     assert_eq!(simulate(&Both::default(), start, end, 1e-9).err(), refused("Both", "stop on x"));
@@ -46,9 +46,9 @@ fn a_damped_motion_goes_back_where_it_came_from() {
     let damped = Damped::default();
     let mut motion = simulate(&damped, (0.0, at(0.3), 0.1), 3.0, 1e-13).unwrap();
     motion.finish(|_, _| true).unwrap();
-    let State { q, rate, .. } = *motion.state();
-    let mut motion = simulate(&damped, (3.0, q, rate.x), 0.0, 1e-13).unwrap();
+    let State { q, rates, .. } = *motion.state();
+    let mut motion = simulate(&damped, (3.0, q, rates.x), 0.0, 1e-13).unwrap();
     motion.finish(|_, _| true).unwrap();
     close("place", motion.state().q.x, 0.3, 1e-11);
-    close("rate", motion.state().rate.x, 0.1, 1e-10);
+    close("rate", motion.state().rates.x, 0.1, 1e-10);
 }

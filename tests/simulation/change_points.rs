@@ -50,7 +50,9 @@ fn parallel_stays_parallel_also_when_driven() {
     let (rolling, driven) = (Rolling::default(), Driven::default());
     let q = FrameCoordinates { theta: 0.3, phi: 0.0, psi: 0.3 };
     let mut motion = simulate(&rolling, (0.0, q, 6.0), 10.0, 1e-12).unwrap();
-    let mut given = simulate(&driven, (0.0, q, 3.0), 10.0, 1e-12).unwrap();
+    // Nothing tells the steps of an even motion to be shorter than from one change point to the next but one.
+    let given = simulate(&driven, (0.0, q, 3.0), 10.0, 1e-12).unwrap();
+    let mut given = given.largest_step(0.5).unwrap();
     motion
         .finish(|state, _| {
             assert!((state.q.psi - state.q.theta).abs() < 1e-9 && state.q.phi.abs() < 1e-9, "{state:?}");
@@ -60,8 +62,8 @@ fn parallel_stays_parallel_also_when_driven() {
     given
         .finish(|state, _| {
             let law = 3.0 * state.t + 0.3;
-            assert!((state.q.theta - law).abs() < 1e-14 * law && (state.rate.theta - 3.0).abs() < 1e-14);
-            assert!((state.q.psi - law).abs() < 1e-9 && (state.rate.psi - 3.0).abs() < 1e-8, "{state:?}");
+            assert!((state.q.theta - law).abs() < 1e-14 * law && (state.rates.theta - 3.0).abs() < 1e-14);
+            assert!((state.q.psi - law).abs() < 1e-9 && (state.rates.psi - 3.0).abs() < 1e-8, "{state:?}");
             true
         })
         .unwrap();

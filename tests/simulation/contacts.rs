@@ -3,7 +3,7 @@
 use linkage::contact::Change;
 use linkage::integrate::Crossing;
 use linkage::simulation::{State, Then, simulate};
-use linkage::{Error, Mode, linkage};
+use linkage::{InputError, Mode, MotionError, linkage};
 
 include!("../mechanisms/block.rs");
 include!("../mechanisms/belt.rs");
@@ -30,7 +30,7 @@ fn a_sliding_block_stops() {
     assert_eq!(stop.mode("friction on x"), Some(Mode::Stick));
     let end = motion.state();
     close("place", end.q.x, 0.25 + speed * speed / (2.0 * brake), 1e-14);
-    assert_eq!((end.t, end.q.y, end.rate), (5.0, end.q.x, block(0.0)));
+    assert_eq!((end.t, end.q.y, end.rates), (5.0, end.q.x, BlockRates { x: 0.0, y: 0.0 }));
 }
 
 /// A spring against dry friction: each half cycle the amplitude is 2 F / k less, until the spring holds no more.
@@ -49,7 +49,7 @@ fn an_oscillator_comes_to_rest() {
         assert_eq!(state.changes().collect::<Vec<_>>(), [("friction on x", what)]);
     }
     close("rest", motion.state().q.x, turns[3], 1e-11);
-    assert_eq!(motion.state().rate.x, 0.0);
+    assert_eq!(motion.state().rates.x, 0.0);
 }
 
 /// A ball on a stop: the times of the impacts are a geometric series, after which it rests.
@@ -65,14 +65,14 @@ fn a_ball_bounces_and_rests() {
         let rate = 9.81 * fall * 0.4_f64.powi(i32::try_from(bounce).unwrap());
         close("time", state.t, time, 1e-12 + 1e-15 / rate);
         close("place", state.q.x, -0.5, 1e-15);
-        close("rate before", state.rate.x, -rate, 1e-12 + 1e-15 / rate);
+        close("rate before", state.rates.x, -rate, 1e-12 + 1e-15 / rate);
         let what = if bounce == 19 { Change::Rests } else { Change::Impact };
         assert_eq!(state.changes().collect::<Vec<_>>(), [("stop on height", what)]);
         time += 2.0 * fall * 0.4_f64.powi(i32::try_from(bounce).unwrap() + 1);
     }
     close("rest", events[19].t, 7.0 / 3.0 * fall, 1e-7);
     close("place", motion.state().q.x, -0.5, 1e-15);
-    assert_eq!((motion.state().rate.x, motion.state().mode("stop on height")), (0.0, Some(Mode::AtLower)));
+    assert_eq!((motion.state().rates.x, motion.state().mode("stop on height")), (0.0, Some(Mode::AtLower)));
 }
 
 /// It is dragged until it has the speed of the belt, rides until the spring is stronger, and slips back.
@@ -114,20 +114,20 @@ fn a_block_on_a_belt() {
     let mut motion = simulate(&scene, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), free + 0.4, 1e-13).unwrap();
     let times = (1..200).map(|i| stuck + (free - stuck) * f64::from(i) / 200.0);
     for state in motion.at(times) {
-        let State { rate, contacts: [touch], .. } = state.unwrap();
-        assert_eq!((rate.slip, rate.x, touch.mode), (0.0, 0.5, Mode::Stick));
+        let State { rates, contacts, .. } = state.unwrap();
+        assert_eq!((rates.slip, rates.x, contacts[0].mode), (0.0, 0.5, Mode::Stick));
     }
 }
 
 #[test]
 fn what_cannot_begin_or_go_on() {
-    let beyond = Error::BeyondStop { scene: "Bouncing", stop: "stop on height", gap: 0.5 };
-    assert_eq!(simulate(&Bouncing::default(), (0.0, block(0.75), 0.0), 1.0, 1e-9).err(), Some(beyond));
+    let beyond = InputError::BeyondStop { scene: "Bouncing", stop: "stop on height", gap: 0.5 };
+    assert_eq!(simulate(&Bouncing::default(), (0.0, block(0.75), 0.0), 1.0, 1e-9).err(), Some(beyond.into()));
     // A drive through a stop.
     let driven = Driven::default();
     let q = BeltCoordinates { slip: 0.0, x: 0.0, z: 0.0 };
     let mut motion = simulate(&driven, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), 9.0, 1e-10).unwrap();
-    let named = Error::NoContactForces { scene: "Driven", contact: "stop on z" };
+    let named = MotionError::NoContactForces { scene: "Driven", contact: "stop on z" };
     let states: Vec<_> = motion.by_ref().collect();
     let (last, before) = states.split_last().unwrap();
     assert_eq!(*last, Err(named));
@@ -167,10 +167,10 @@ fn blows_from_outside() {
     let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|state| state.changes().count() > 0).collect();
     let [stops, struck, again] = events[..] else { panic!("{events:?}") };
     assert_eq!((stops.event, struck.event, again.event), (None, Some(0), None));
-    assert_eq!((struck.rate.x, struck.contacts[0].mode), (0.0, Mode::SlipBackward));
+    assert_eq!((struck.rates.x, struck.contacts[0].mode), (0.0, Mode::SlipBackward));
     close("time", again.t, 2.0 + 1.2 / brake, 1e-13);
     close("place", motion.state().q.x, 0.5 * (1.7 * 1.7 - 1.2 * 1.2) / brake, 1e-13);
-    assert_eq!((motion.state().rate.x, again.contacts[0].change), (0.0, Some(Change::Sticks)));
+    assert_eq!((motion.state().rates.x, again.contacts[0].change), (0.0, Some(Change::Sticks)));
 
     let scene = Bouncing { e: 0.0, ..Bouncing::default() };
     for (time, rate, change) in [(1.0, 2.0, Some(Change::LetsGo)), (1.0, -2.0, None), (0.25, -2.0, None)] {
@@ -195,7 +195,7 @@ fn blows_from_outside() {
             time
         };
         close("lands", last.t, lands, 1e-12);
-        assert_eq!((motion.state().rate.x, motion.state().contacts[0].mode), (0.0, Mode::AtLower));
+        assert_eq!((motion.state().rates.x, motion.state().contacts[0].mode), (0.0, Mode::AtLower));
         close("place", motion.state().q.x, -0.5, 1e-15);
     }
 }
@@ -212,7 +212,7 @@ fn a_ball_let_go_late_bounces_and_rests() {
         while let Some(state) = motion.advance().unwrap_or_else(|error| panic!("{start:e}: {error}")) {
             impacts += i32::from(state.changes().any(|(_, change)| change == Change::Impact));
         }
-        assert_eq!((motion.state().rate.x, motion.state().mode("stop on height")), (0.0, Some(Mode::AtLower)));
+        assert_eq!((motion.state().rates.x, motion.state().mode("stop on height")), (0.0, Some(Mode::AtLower)));
         // What is left of the last flight is 64 rounding errors of the time, or 0.4^20 of the fall.
         let flights = |shortest: f64| (shortest / (2.0 * fall)).ln() / 0.4_f64.ln();
         let expected = flights(64.0 * f64::EPSILON * start.abs()).min(20.0) as i32;

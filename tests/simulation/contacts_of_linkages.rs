@@ -74,13 +74,13 @@ fn friction_in_the_dead_points() {
     let (shaft, piston) = (Turned::default(), Thrust::default());
     for speed in [20.0, -20.0] {
         let mut one = simulate(&shaft, (0.0, motor(1.2), speed), 3.0, 1e-14).unwrap();
-        let rate = one.state().rate.z;
+        let rate = one.state().rates.z;
         let mut other = simulate(&piston, (0.0, motor(1.2), rate), 3.0, 1e-14).unwrap();
         let (some, others) = (run!(one), run!(other));
         agree(&some, &others, 1e-9);
         let (a, b) = (one.state(), other.state());
         close("phi", a.q.phi, b.q.phi, 1e-9);
-        close("phi'", a.rate.phi, b.rate.phi, 1e-8);
+        close("phi'", a.rates.phi, b.rates.phi, 1e-8);
         println!("{} {:?} {:?} {:e}", some.len(), other.counts(), other.passages(), a.q.phi - b.q.phi);
         let dead: Vec<_> = some.iter().filter(|(_, name, _)| *name == "friction on z").collect();
         assert!(dead.len() > 20 && dead.iter().all(|(.., change)| *change == Change::Slips), "{dead:?}");
@@ -93,7 +93,7 @@ fn friction_in_the_dead_points() {
 fn a_stop_on_an_output_turns_the_motion_round() {
     let (shaft, piston) = (Knocking::default(), Knocked::default());
     let q = motor(4.5);
-    let start = simulate(&shaft, (0.0, q, -14.0), 1.0, 1e-13).unwrap().state().rate;
+    let start = simulate(&shaft, (0.0, q, -14.0), 1.0, 1e-13).unwrap().state().rates;
     let mut by_shaft = simulate(&shaft, (0.0, q, start.phi), 1.0, 1e-13).unwrap();
     let mut by_piston = simulate(&piston, (0.0, q, start.z), 1.0, 1e-13).unwrap();
     let (some, others) = (run!(by_shaft), run!(by_piston));
@@ -105,10 +105,10 @@ fn a_stop_on_an_output_turns_the_motion_round() {
     let there: Vec<_> = piston.at([0.25 * t, 0.75 * t, 1.25 * t, 1.75 * t, 2.0 * t]).map(Result::unwrap).collect();
     for (before, after) in [(there[0], there[3]), (there[1], there[2])] {
         close("phi", before.q.phi, after.q.phi, 1e-10);
-        close("phi'", before.rate.phi, -after.rate.phi, 1e-9);
+        close("phi'", before.rates.phi, -after.rates.phi, 1e-9);
     }
     close("phi", there[4].q.phi, q.phi, 1e-10);
-    close("z'", there[4].rate.z, -start.z, 1e-9);
+    close("z'", there[4].rates.z, -start.z, 1e-9);
     assert!(piston.passages().exchanges >= 4, "{:?}", piston.passages());
 }
 
@@ -126,15 +126,15 @@ fn one_crank_sticks_while_the_other_slips() {
     let [(turn, "friction on theta4", Change::Slips)] = happened[..] else { panic!("{happened:?}") };
     let mut forth = simulate(&clamped, (0.0, pair(1.1, 1.4), rates), turn, 1e-13).unwrap();
     forth.finish(|_, _| true).unwrap();
-    let State { q, rate, .. } = *forth.state();
-    close("turn", rate.theta4, 0.0, 1e-12);
+    let State { q, rates, .. } = *forth.state();
+    close("turn", rates.theta4, 0.0, 1e-12);
     let back = Clamped { sign: -1.0, ..clamped.clone() };
-    let mut back = simulate(&back, (turn, q, PairInputs { theta1: 0.0, theta4: rate.theta4 }), 0.6, 1e-13).unwrap();
+    let mut back = simulate(&back, (turn, q, PairInputs { theta1: 0.0, theta4: rates.theta4 }), 0.6, 1e-13).unwrap();
     back.finish(|_, _| true).unwrap();
     let (found, expected) = (motion.state(), back.state());
     close("theta4", found.q.theta4, expected.q.theta4, 1e-11);
-    close("theta4'", found.rate.theta4, expected.rate.theta4, 1e-11);
-    assert_eq!((found.q.theta1, found.rate.theta1), (1.1, 0.0));
+    close("theta4'", found.rates.theta4, expected.rates.theta4, 1e-11);
+    assert_eq!((found.q.theta1, found.rates.theta1), (1.1, 0.0));
     assert_eq!(found.mode("friction on theta1"), Some(Mode::Stick));
 }
 
@@ -178,7 +178,7 @@ fn a_motor_through_singular_inputs() {
     let q = cranks.mechanism.solve(&q).unwrap().coordinates;
     let rates = CranksInputs { theta1: 2.0, theta4: 0.0 };
     let mut one = simulate(&cranks, (0.0, q, rates), 6.0, 1e-13).unwrap();
-    let start = one.state().rate;
+    let start = one.state().rates;
     let mut other = simulate(&arm, (0.0, q, ArmInputs { theta1: 2.0, theta2: start.theta2 }), 6.0, 1e-13).unwrap();
     let (some, others) = (run!(one), run!(other));
     println!(
@@ -199,7 +199,7 @@ fn a_motor_through_singular_inputs() {
     for state in other.at((0..6000).map(|i| 0.001 * f64::from(i))).map(Result::unwrap) {
         if state.contacts[0].mode == Mode::Stick {
             stuck += 1;
-            assert!(state.rate.theta4.abs() < 4e-15, "{}: {:e}", state.t, state.rate.theta4);
+            assert!(state.rates.theta4.abs() < 4e-15, "{}: {:e}", state.t, state.rates.theta4);
         }
     }
     assert!(stuck > 100);
@@ -223,7 +223,7 @@ fn a_motor_beside_a_singular_position() {
         let q = ChainCoordinates { theta1: begin, theta2: 0.1, theta3: 3.17, theta4: 0.5 };
         let q = cranks.mechanism.solve(&q).unwrap().coordinates;
         let mut one = simulate(&cranks, (0.0, q, CranksInputs { theta1: 1.0, theta4: 0.3 }), 0.8, 1e-13).unwrap();
-        let start = one.state().rate;
+        let start = one.state().rates;
         let mut other = simulate(&arm, (0.0, q, ArmInputs { theta1: 1.0, theta2: start.theta2 }), 0.8, 1e-13).unwrap();
         let (some, others) = (run!(one), run!(other));
         agree(&some, &others, 1e-10);
@@ -231,7 +231,7 @@ fn a_motor_beside_a_singular_position() {
         let (a, b) = (one.loads().unwrap(), other.loads().unwrap());
         close("motor", a.drives.theta1, b.drives.theta1, 1e-8);
         close("on theta3", a.contacts[2], b.contacts[2], 1e-8);
-        close("power", a.drive_power, a.drives.theta1 * one.state().rate.theta1, 1e-12);
+        close("power", a.drive_power, a.drives.theta1 * one.state().rates.theta1, 1e-12);
         assert_eq!(one.passages().exchanges, 1);
         seen.extend(some);
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
-use linkage::{Error, Mode, linkage};
+use linkage::{Mode, MotionError, PathError, linkage};
 
 use super::contacts::close;
 
@@ -49,7 +49,7 @@ fn friction_takes_all_the_energy() {
                 close("theta", between.q.theta, start + t * (speed - 0.5 * scene.mu / INERTIA * t), 1e-8);
                 close("psi", between.q.psi, between.q.theta, 1e-8);
                 // What is left is what friction has not taken.
-                let energy = 0.5 * INERTIA * between.rate.theta.powi(2);
+                let energy = 0.5 * INERTIA * between.rates.theta.powi(2);
                 let left = 0.5 * INERTIA * speed * speed - scene.mu * (between.q.psi - start);
                 close("energy", energy, left, 1e-7);
             }
@@ -90,7 +90,7 @@ fn a_stop_beside_a_change_point() {
         }
         if beyond == 0.0 {
             // In the change point itself nothing tells how it goes on.
-            assert!(matches!(failure, Some(Error::ChangePoint { .. })), "{failure:?}");
+            assert!(matches!(failure, Some(MotionError::Path(PathError::ChangePoint { .. }))), "{failure:?}");
             continue;
         }
         assert_eq!(failure, None, "{beyond}");
@@ -129,18 +129,18 @@ fn the_account_of_energy_closes() {
             (scene.mu, scene.least) = (mu, least);
             let q = scene.mechanism.solve(&q).unwrap().coordinates;
             let mut motion = simulate(&scene, (0.0, q, 4.0), 12.0, 1e-12).unwrap();
-            let kinetic = |rate: &WheelsCoordinates<f64>| {
+            let kinetic = |rate: &WheelsRates<f64>| {
                 0.5 * (scene.j1 * rate.theta.powi(2) + scene.j2 * rate.phi.powi(2) + scene.j3 * rate.psi.powi(2))
             };
-            let (whole, mut taken, mut last) = (kinetic(&motion.state().rate), 0.0, motion.state().q.psi);
+            let (whole, mut taken, mut last) = (kinetic(&motion.state().rates), 0.0, motion.state().q.psi);
             let mut impacts = 0;
             for state in motion.by_ref().map(Result::unwrap) {
                 taken += mu * (state.q.psi - last).abs();
                 last = state.q.psi;
-                close(name, kinetic(&state.rate), whole - taken, 1e-7 * whole);
+                close(name, kinetic(&state.rates), whole - taken, 1e-7 * whole);
                 if state.changes().any(|(_, change)| change == Change::Impact) {
                     impacts += 1;
-                    taken += (1.0 - scene.e.powi(2)) * kinetic(&state.rate);
+                    taken += (1.0 - scene.e.powi(2)) * kinetic(&state.rates);
                 }
             }
             assert!(impacts == 1 && motion.passages().change_points > 4, "{name} {mu} {least}: {impacts}");
@@ -178,7 +178,7 @@ fn it_slips_in_time_beside_a_change_point() {
                 .unwrap();
         let mut happened = Vec::new();
         for state in motion.by_ref() {
-            let state: State<_, _, 1> = state.unwrap();
+            let state: State<_> = state.unwrap();
             happened.extend(state.changes().map(|(_, change)| (state.t, change, state.q.s)));
         }
         assert!(motion.passages().change_points > 0);

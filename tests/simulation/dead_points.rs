@@ -27,7 +27,7 @@ fn an_engine_by_its_piston_as_by_its_crank() {
     let times: Vec<f64> = (1..=40).map(|i| 0.05 * f64::from(i)).collect();
     for (speed, turns) in [(30.0, 8.0), (-30.0, 8.0), (8.0, 0.0)] {
         let mut reference = simulate(&by_crank, (0.0, q, speed), 2.0, 1e-13).unwrap();
-        let z_rate = reference.state().rate.z;
+        let z_rate = reference.state().rates.z;
         let mut motion = simulate(&by_piston, (0.0, q, z_rate), 2.0, 1e-13).unwrap();
         let expected: Vec<_> = reference.at(times.iter().copied()).map(Result::unwrap).collect();
         let found: Vec<_> = motion.at(times.iter().copied()).map(Result::unwrap).collect();
@@ -38,8 +38,8 @@ fn an_engine_by_its_piston_as_by_its_crank() {
                 (found.q.phi, expected.q.phi, 1.0),
                 (found.q.psi, expected.q.psi, 1.0),
                 (found.q.z, expected.q.z, 0.05),
-                (found.rate.phi, expected.rate.phi, 30.0),
-                (found.rate.z, expected.rate.z, 1.5),
+                (found.rates.phi, expected.rates.phi, 30.0),
+                (found.rates.z, expected.rates.z, 1.5),
             ] {
                 worst = worst.max((found - expected).abs() / size);
             }
@@ -79,7 +79,7 @@ fn two_inputs_by_either_choice() {
     let q = ArmsCoordinates { theta1: 1.3, theta2: 0.3, theta3: 2.0, theta4: 0.9 };
     let q = cranks.mechanism.solve(&q).unwrap().coordinates;
     let mut one = simulate(&cranks, (0.0, q, CranksInputs { theta1: 1.0, theta4: -2.0 }), 3.0, 1e-13).unwrap();
-    let rate = one.state().rate;
+    let rate = one.state().rates;
     let rates = ChainInputs { theta1: rate.theta1, theta2: rate.theta2 };
     let mut other = simulate(&chain, (0.0, q, rates), 3.0, 1e-13).unwrap();
     let start = cranks.energy(&q, CranksInputs { theta1: 1.0, theta4: -2.0 }).unwrap();
@@ -92,7 +92,7 @@ fn two_inputs_by_either_choice() {
         assert!((a - b).abs() < 1e-9, "{a} {b}");
     }
     let end =
-        cranks.energy(&a, CranksInputs { theta1: one.state().rate.theta1, theta4: one.state().rate.theta4 }).unwrap();
+        cranks.energy(&a, CranksInputs { theta1: one.state().rates.theta1, theta4: one.state().rates.theta4 }).unwrap();
     let drift = (end.kinetic + end.potential - start.kinetic - start.potential).abs();
     assert!(drift < 1e-9, "{drift:e}");
     assert!(one.passages().exchanges >= 2 && other.passages().exchanges + one.passages().exchanges >= 4);

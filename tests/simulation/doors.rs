@@ -30,13 +30,13 @@ fn the_same_bits_again_and_output_times_that_change_none() {
     let mut worst = [0.0_f64; 2];
     for (state, exact) in outputs.iter().zip(exact.at(times).map(Result::unwrap)) {
         worst[0] = worst[0].max((state.q.theta - exact.q.theta).abs());
-        worst[1] = worst[1].max((state.rate.psi - exact.rate.psi).abs());
+        worst[1] = worst[1].max((state.rates.psi - exact.rates.psi).abs());
     }
     println!("{worst:?}");
     assert!(worst[0] < 1e-7 && worst[1] < 1e-6, "{worst:?}");
     // Back in time to where it began.
     let end = *exact.state();
-    let mut back = simulate(&scene, (5.0, end.q, end.rate.theta), 0.0, 1e-13).unwrap();
+    let mut back = simulate(&scene, (5.0, end.q, end.rates.theta), 0.0, 1e-13).unwrap();
     back.finish(|_, _| true).unwrap();
     assert!((back.state().q.theta - start().theta).abs() < 1e-9 && back.t() == 0.0);
 }
@@ -49,7 +49,7 @@ fn events_with_what_they_do() {
     let mut motion = motion
         .events(
             [Crossing::Either, Crossing::Rising],
-            |state| Ok([state.rate.psi, state.q.theta - 5.0 * std::f64::consts::TAU]),
+            |state| Ok([state.rates.psi, state.q.theta - 5.0 * std::f64::consts::TAU]),
             |event, _| Ok(if event == 0 { Then::GoOn } else { Then::Stop }),
         )
         .unwrap();
@@ -58,7 +58,7 @@ fn events_with_what_they_do() {
         let state = state.unwrap();
         if state.event == Some(0) {
             turns += 1;
-            assert!(state.rate.psi.abs() < 1e-9);
+            assert!(state.rates.psi.abs() < 1e-9);
         }
     }
     let last = *motion.state();
@@ -70,13 +70,13 @@ fn events_with_what_they_do() {
         .events(
             [Crossing::Rising],
             |state| Ok([state.q.theta - 2.0]),
-            |_, state| Ok(Then::Restart((-0.5 * state.rate.theta).into())),
+            |_, state| Ok(Then::Restart((-0.5 * state.rates.theta).into())),
         )
         .unwrap();
     motion.finish(|state, _| state.event.is_none()).unwrap();
-    let before = motion.state().rate.theta;
+    let before = motion.state().rates.theta;
     let next = motion.advance().unwrap().unwrap();
-    assert!(before > 0.0 && next.rate.theta < 0.0 && next.q.theta < 2.0);
+    assert!(before > 0.0 && next.rates.theta < 0.0 && next.q.theta < 2.0);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Lengths, masses, times, tolerances and intervals of any size.
 
 use linkage::simulation::{Simulation, simulate};
-use linkage::{Error, linkage};
+use linkage::{MotionError, linkage};
 
 linkage! {
     /// A crank that swings under gravity and draws a slider against a spring.
@@ -41,9 +41,9 @@ fn loose(x: f64) -> LooseCoordinates {
 }
 
 /// What a motion of 8 s shows, in units of its own: of each step the time, the angle, the place of the slider.
-fn shown<const C: usize, S>(motion: Simulation<'_, S, f64, 2, 1, 4, C>, [length, time]: [f64; 2]) -> Vec<[f64; 3]>
+fn shown<S>(motion: Simulation<'_, S>, [length, time]: [f64; 2]) -> Vec<[f64; 3]>
 where
-    S: linkage::Scene<f64, 2, 1, 4, C, Mechanism = Swing<f64>>,
+    S: linkage::Scene<Scalar = f64, Mechanism = Swing<f64>>,
 {
     motion.map(Result::unwrap).map(|state| [state.t / time, state.q.theta, state.q.z / length]).collect()
 }
@@ -101,8 +101,8 @@ fn intervals_of_any_length() {
             let mut motion = simulate(&drifting, (0.0, loose(x), rate), end, 1e-9).unwrap();
             motion.finish(|_, _| true).unwrap();
             assert!((motion.state().q.x - (x + rate * end)).abs() <= 1e-12 * end * rate, "{end:e}");
-            let ends = |result: Result<(), Error>, t: f64| {
-                let Err(Error::TooManySteps { .. }) = result else { panic!("{end:e} {x} {rate}: {result:?}") };
+            let ends = |result: Result<(), MotionError>, t: f64| {
+                let Err(MotionError::TooManySteps { .. }) = result else { panic!("{end:e} {x} {rate}: {result:?}") };
                 assert!(t > 10.0 && t < 1e6, "{end:e} {x} {rate}: {t:e}");
             };
             let shaken = Shaken { g: 1.0, ..Shaken::default() };

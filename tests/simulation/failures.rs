@@ -1,7 +1,7 @@
 //! What cannot be simulated says why, and what was computed stays.
 
 use linkage::simulation::simulate;
-use linkage::{Error, linkage};
+use linkage::{InputError, MotionError, PositionError, linkage};
 
 use super::rig::{Fading, Given, Idling, start};
 
@@ -13,7 +13,10 @@ fn a_law_that_ends() {
     let (last, before) = states.split_last().unwrap();
     let error = last.unwrap_err();
     println!("{error:?} {}", motion.t());
-    assert!(matches!(error, Error::NotFinite { quantity, .. } if quantity.contains("torque")), "{error:?}");
+    assert!(
+        matches!(error, MotionError::Position(PositionError::NotFinite { quantity, .. }) if quantity.contains("torque")),
+        "{error:?}"
+    );
     // Up to the last moment at which there is a torque.
     assert!(before.len() > 5 && before.iter().all(Result::is_ok));
     assert!(motion.t() > 1.0 - 1e-6 && motion.t() <= 1.0);
@@ -32,18 +35,21 @@ fn starts_that_make_no_sense() {
         simulate(scene, (0.0, start(), rate), end, tolerance).err()
     };
     assert!(error(&scene, 1e-9, 1.0, 1.0).is_none());
-    assert!(matches!(error(&scene, 0.0, 1.0, 1.0), Some(Error::OutOfRange { .. })));
-    assert!(matches!(error(&scene, 1e-9, 1.0, f64::NAN), Some(Error::OutOfRange { .. })));
+    assert!(matches!(error(&scene, 0.0, 1.0, 1.0), Some(MotionError::Input(InputError::OutOfRange { .. }))));
+    assert!(matches!(error(&scene, 1e-9, 1.0, f64::NAN), Some(MotionError::Input(InputError::OutOfRange { .. }))));
     assert!(error(&scene, 1e-9, f64::NAN, 1.0).is_some());
     scene.m = 0.0;
-    assert!(matches!(error(&scene, 1e-9, 1.0, 1.0), Some(Error::NoInertia { coordinate: "theta", .. })));
+    assert!(matches!(error(&scene, 1e-9, 1.0, 1.0), Some(MotionError::NoInertia { coordinate: "theta", .. })));
     scene.m = -1.0;
-    assert!(matches!(error(&scene, 1e-9, 1.0, 1.0), Some(Error::Negative { .. })));
+    assert!(matches!(error(&scene, 1e-9, 1.0, 1.0), Some(MotionError::Input(InputError::OutOfRange { .. }))));
     let given = Given::default();
     let rate = simulate(&given, (0.0, start(), 1.0), 1.0, 1e-9).err();
-    assert!(matches!(rate, Some(Error::Inconsistent { quantity: "rate", .. })), "{rate:?}");
+    assert!(matches!(rate, Some(MotionError::Input(InputError::Inconsistent { quantity: "rate", .. }))), "{rate:?}");
     let place = simulate(&given, (0.5, start(), 2.0), 1.0, 1e-9).err();
-    assert!(matches!(place, Some(Error::Inconsistent { quantity: "position", .. })), "{place:?}");
+    assert!(
+        matches!(place, Some(MotionError::Input(InputError::Inconsistent { quantity: "position", .. }))),
+        "{place:?}"
+    );
 }
 
 linkage! {
@@ -67,7 +73,10 @@ fn a_drive_beyond_the_dead_point() {
     let mut motion = simulate(&scene, (0.0, q, 0.1), 1.0, 1e-9).unwrap();
     let error = motion.finish(|_, _| true).unwrap_err();
     println!("{error:?} at {}", motion.t());
-    assert!(matches!(error, Error::Singular { mechanism: "Reach", group: "phi, psi", .. }), "{error:?}");
+    assert!(
+        matches!(error, MotionError::Position(PositionError::Singular { mechanism: "Reach", group: "phi, psi", .. })),
+        "{error:?}"
+    );
     assert!(motion.t() > 0.299 && motion.t() <= 0.3, "{}", motion.t());
     assert!((motion.state().q.z - (0.2 + 0.1 * motion.t())).abs() < 1e-15);
 }

@@ -71,7 +71,7 @@ fn a_four_bar_for_44_turns() {
     let mut motion = simulate(&scene, (0.0, q, 12.0), 20.0, 1e-13).unwrap();
     motion
         .finish(|state, _| {
-            assert!((energy(&state.q, state.rate.theta) / start - 1.0).abs() < 1e-10);
+            assert!((energy(&state.q, state.rates.theta) / start - 1.0).abs() < 1e-10);
             true
         })
         .unwrap();

@@ -70,8 +70,8 @@ fn what_hits_a_stop_without_load_rests_there() {
             let [hit] = events[..] else { panic!("{events:?}") };
             assert_eq!(hit.changes().collect::<Vec<_>>(), [("stop on x", Change::Rests)]);
             close("time", hit.t, 1.0, 1e-14);
-            let State { t, q, rate, .. } = *motion.state();
-            assert_eq!((t, q.x, rate.x), (10.0, hit.q.x, 0.0));
+            let State { t, q, rates, .. } = *motion.state();
+            assert_eq!((t, q.x, rates.x), (10.0, hit.q.x, 0.0));
             close("place", q.x / scale, 1.0, 1e-15);
             assert_eq!(motion.state().mode("stop on x"), Some(Mode::AtUpper));
             assert!(motion.counts().accepted < 100, "{:?}", motion.counts());
@@ -93,12 +93,12 @@ fn two_free_blocks_stay_together() {
             let what = if e > 0.0 { Change::Impact } else { Change::Rests };
             assert_eq!(hit.changes().collect::<Vec<_>>(), [("stop on gap", what)]);
             close("time", hit.t, 1.0, 1e-13);
-            let State { q, rate, .. } = *motion.state();
+            let State { q, rates, .. } = *motion.state();
             let fallen = 0.5 * g * 100.0 / scale;
             close("first", q.a / scale, 1.0 + 9.0 * first + fallen, 1e-13 * (1.0 + fallen));
             close("second", q.b / scale, 1.0 + 9.0 * second + fallen, 1e-13 * (1.0 + fallen));
             if e == 0.0 {
-                assert_eq!((rate.gap, motion.state().mode("stop on gap")), (0.0, Some(Mode::AtLower)));
+                assert_eq!((rates.gap, motion.state().mode("stop on gap")), (0.0, Some(Mode::AtLower)));
             }
         }
     }
@@ -115,10 +115,10 @@ fn three_free_blocks_stay_together() {
         let start = (0.0, q, RowInputs { a: rates[0], b: rates[1], c: rates[2] });
         let mut motion = simulate(&scene, start, 10.0, 1e-10).unwrap().most_steps(400);
         motion.finish(|_, _| true).unwrap();
-        let State { rate, .. } = *motion.state();
-        close("a", rate.a, momentum / 6.0, 1e-14);
-        close("b", rate.b, momentum / 6.0, 1e-14);
-        close("c", rate.c, momentum / 6.0, 1e-14);
+        let State { rates, .. } = *motion.state();
+        close("a", rates.a, momentum / 6.0, 1e-14);
+        close("b", rates.b, momentum / 6.0, 1e-14);
+        close("c", rates.c, momentum / 6.0, 1e-14);
         assert_eq!(motion.state().contacts.map(|touch| touch.mode), [Mode::AtLower; 2]);
     }
 }
@@ -130,13 +130,14 @@ fn redundant_stops_and_frictions_without_load_hold() {
     let mut motion = simulate(&scene, (0.0, at(0.0), 1.0), 10.0, 1e-9).unwrap().most_steps(200);
     motion.finish(|_, _| true).unwrap();
     close("place", motion.state().q.x, 1.0, 1e-15);
-    assert_eq!((motion.state().rate.x, motion.state().contacts.map(|t| t.mode)), (0.0, [Mode::AtUpper; 2]));
+    assert_eq!(motion.state().rates.x, 0.0);
+    assert_eq!(motion.state().contacts.map(|t| t.mode), [Mode::AtUpper; 2]);
     for (rate, stays) in [(1.0, false), (0.0, true)] {
         let scene = Rubbed::default();
         let mut motion = simulate(&scene, (0.0, at(0.0), rate), 10.0, 1e-9).unwrap().most_steps(200);
         motion.finish(|_, _| true).unwrap();
         close("place", motion.state().q.x, if stays { 0.0 } else { 1.0 }, 1e-15);
-        assert_eq!((motion.state().rate.x, motion.state().mode("friction on x")), (0.0, Some(Mode::Stick)));
+        assert_eq!((motion.state().rates.x, motion.state().mode("friction on x")), (0.0, Some(Mode::Stick)));
     }
 }
 

@@ -5,9 +5,9 @@
 //! elliptic integral, whose values were computed with 34 digits; for N = 2 the published figures of the multibody code
 //! EXUDYN come to them as its step falls. Energy is the same on all branches, so that only positions tell.
 
-use linkage::Error;
 use linkage::linkage;
 use linkage::simulation::{AtSingularity, simulate};
+use linkage::{MotionError, PositionError};
 
 include!("../mechanisms/windows.rs");
 
@@ -24,7 +24,7 @@ macro_rules! falls {
             let states: Vec<_> = motion.at([10.0, 20.0]).map(Result::unwrap).collect();
             assert_eq!(states.len(), 2);
             for (state, (angle, speed)) in states.iter().zip($exact) {
-                let (q, rate) = (state.q, state.rate);
+                let (q, rate) = (state.q, state.rates);
                 println!("{} at {}: {:e}", stringify!($scene), state.t, q.phi0 - (UP - angle));
                 // B0 is at (sin, cos) of the angle, and every other joint one bar to the right of the last.
                 assert!((q.phi0.cos() - angle.sin()).hypot(q.phi0.sin() - angle.cos()) < 1e-9);
@@ -77,7 +77,13 @@ fn a_policy_ends_the_motion_where_the_input_no_longer_drives() {
     let motion = simulate(&scene, (0.0, start, -1.0), 20.0, 1e-12).unwrap();
     let mut motion = motion.at_singularity(AtSingularity::Stop);
     let error = motion.finish(|_, _| true).unwrap_err();
-    assert!(matches!(error, Error::Singular { mechanism: "OneWindows", group: "psi1, phi1", .. }), "{error}");
+    assert!(
+        matches!(
+            error,
+            MotionError::Position(PositionError::Singular { mechanism: "OneWindows", group: "psi1, phi1", .. })
+        ),
+        "{error}"
+    );
     // What was computed stays: the bars are first in line at 0.70845 s.
     assert!(motion.t() > 0.5 && motion.t() < 0.708_46 && motion.state().q.phi0 > 0.0);
     assert!(motion.next().is_none());

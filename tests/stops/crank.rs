@@ -57,14 +57,14 @@ macro_rules! knocks {
             last = state.t;
             for (_, change) in state.changes() {
                 let expected = first * f64::powi($e, impacts);
-                close("rate", -sign * state.rate.phi, expected, 1e-10 * first + 1e-13 * first * first / expected);
+                close("rate", -sign * state.rates.phi, expected, 1e-10 * first + 1e-13 * first * first / expected);
                 impacts += 1;
                 rest = (change == Change::Rests).then_some($e * expected / first);
                 assert!(matches!(change, Change::Impact | Change::Rests), "{change:?}");
             }
         }
         assert!(rest.is_some_and(|rest| rest < 1e-6) && (impacts == 1) == ($e == 0.0), "{impacts} {rest:?}");
-        assert!(motion.state().rate.phi == 0.0 && motion.state().q.phi.abs() < ROUNDINGS, "{:?}", motion.state());
+        assert!(motion.state().rates.phi == 0.0 && motion.state().q.phi.abs() < ROUNDINGS, "{:?}", motion.state());
     }};
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use linkage::contact::Change;
 use linkage::nalgebra::{RowVector2, Vector2};
-use linkage::simulation::{State, simulate};
+use linkage::simulation::{Touch, simulate};
 use linkage::{Mechanism, Mode, linkage};
 
 use super::{ROUNDINGS, close};
@@ -33,38 +33,39 @@ linkage! {
     }
 }
 
-type Moment = State<f64, ArmsCoordinates<f64>, 1>;
+/// The time, the position, its rates, and the stop: the same whatever the inputs are.
+type Moment = (f64, ArmsCoordinates, ArmsRates, Touch);
 
 /// The account of one run: its energy goes into impacts and nowhere else. Gives the times of the impacts.
 fn account(scene: &BentOnChain<f64>, moments: &[Moment]) -> Vec<f64> {
     let chain = &scene.mechanism;
-    let energy = |state: &Moment| {
-        let rates = ChainInputs { theta1: state.rate.theta1, theta2: state.rate.theta2 };
-        let energy = scene.energy(&state.q, rates).unwrap();
+    let energy = |(_, q, rates, _): &Moment| {
+        let energy = scene.energy(q, ChainInputs { theta1: rates.theta1, theta2: rates.theta2 }).unwrap();
         energy.kinetic + energy.potential
     };
     let (whole, mut taken, mut times) = (energy(&moments[0]), 0.0, Vec::new());
-    for state in moments {
-        close("energy", energy(state), whole - taken, 1e-10 * whole);
-        let (bend, turn) = (state.q.theta3 - state.q.theta2 - PI, state.rate.theta3 - state.rate.theta2);
-        let is_open = state.contacts[0].mode == Mode::Open;
+    for moment in moments {
+        let (t, q, rates, touch) = moment;
+        close("energy", energy(moment), whole - taken, 1e-10 * whole);
+        let (bend, turn) = (q.theta3 - q.theta2 - PI, rates.theta3 - rates.theta2);
+        let is_open = touch.mode == Mode::Open;
         // What rests keeps its rate to rounding, and its place as the steps do.
         let drift = if is_open { ROUNDINGS } else { 1e-11 };
-        assert!(bend < drift, "{bend:e} at {}", state.t);
-        let Some(change) = state.contacts[0].change else {
-            let rests = bend.abs() < drift && turn.abs() < 64.0 * f64::EPSILON * state.rate.theta2.abs();
-            assert!(rests || is_open, "{state:?} {bend:e} {turn:e}");
+        assert!(bend < drift, "{bend:e} at {t}");
+        let Some(change) = touch.change else {
+            let rests = bend.abs() < drift && turn.abs() < 64.0 * f64::EPSILON * rates.theta2.abs();
+            assert!(rests || is_open, "{moment:?} {bend:e} {turn:e}");
             continue;
         };
-        assert!(matches!(change, Change::Impact | Change::Rests), "{change:?} at {}", state.t);
-        times.push(state.t);
+        assert!(matches!(change, Change::Impact | Change::Rests), "{change:?} at {t}");
+        times.push(*t);
         // s' goes to -e s' by an impulse along S: T falls by (1 - e^2) s'^2 / (2 S M^-1 S').
-        let ratios = chain.velocity_ratios(&chain.pose_at(&state.q)).unwrap();
-        let theta3 = <Chain<f64> as Mechanism<f64, 2, 2>>::UNKNOWNS.iter().position(|&name| name == "theta3").unwrap();
+        let ratios = chain.velocity_ratios(&chain.pose_at(q)).unwrap();
+        let theta3 = <Chain<f64> as Mechanism>::UNKNOWNS.iter().position(|&name| name == "theta3").unwrap();
         let row = RowVector2::new(ratios[(theta3, 0)], ratios[(theta3, 1)] - 1.0);
-        let mass = scene.mass_matrix(&state.q).unwrap();
+        let mass = scene.mass_matrix(q).unwrap();
         let answer = (row * mass.try_inverse().unwrap() * row.transpose())[0];
-        let rate = (row * Vector2::new(state.rate.theta1, state.rate.theta2))[0];
+        let rate = (row * Vector2::new(rates.theta1, rates.theta2))[0];
         let part = if change == Change::Rests { 0.0 } else { scene.part };
         taken += (1.0 - part * part) * rate * rate / (2.0 * answer);
     }
@@ -90,14 +91,14 @@ macro_rules! moments {
     ($scene:expr, $q:expr, $inputs:ident { $($input:ident),* }) => {{
         let scene = &$scene;
         let mut motion = simulate(scene, (0.0, $q, $inputs { $($input: 0.0),* }), 1.2, 1e-13).unwrap();
-        let mut moments = vec![*motion.state()];
+        let mut states = vec![*motion.state()];
         while let Some(state) = motion.advance().unwrap() {
-            let last = moments[moments.len() - 1].t;
+            let last = states[states.len() - 1].t;
             let times = (1..4).map(|part| last + (state.t - last) * f64::from(part) / 4.0);
-            moments.extend(motion.at(times).map(Result::unwrap));
-            moments.push(state);
+            states.extend(motion.at(times).map(Result::unwrap));
+            states.push(state);
         }
-        moments
+        states.iter().map(|state| (state.t, state.q, state.rates, state.contacts[0])).collect::<Vec<Moment>>()
     }};
 }
 

@@ -2,7 +2,7 @@
 
 use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
-use linkage::{Error, Mode, linkage};
+use linkage::{InputError, Mode, MotionError, linkage};
 
 use super::{ROUNDINGS, close};
 
@@ -101,9 +101,9 @@ macro_rules! falls {
         let end = (fall.speed() / fall.g) * 4.0;
         let mut motion = simulate(&scene, (0.0, start, 0.0), end, 1e-13).unwrap();
         let mut moments = Vec::<Moment>::new();
-        let mut note = |state: &State<f64, LadderCoordinates<f64>, 1>| {
+        let mut note = |state: &State<$scene>| {
             let touch = state.contacts[0];
-            moments.push((state.t, sign * (state.q.y - l * rest), sign * state.rate.y, touch.change, touch.mode));
+            moments.push((state.t, sign * (state.q.y - l * rest), sign * state.rates.y, touch.change, touch.mode));
         };
         let mut last = 0.0;
         while let Some(state) = motion.advance().unwrap() {
@@ -153,13 +153,13 @@ fn it_begins_on_its_stop() {
             assert_eq!(motion.state().mode("stop on over"), Some(Mode::AtLower), "{l} {askew}");
             motion
                 .finish(|state, _| {
-                    assert!(state.changes().count() == 0 && state.rate.y == 0.0, "{state:?}");
+                    assert!(state.changes().count() == 0 && state.rates.y == 0.0, "{state:?}");
                     true
                 })
                 .unwrap();
             assert!(over(&motion.state().q).abs() <= ROUNDINGS * l);
             let refused = simulate(&scene, (0.0, at(lean - 1e-9), 0.0), 1.0, 1e-12).err();
-            assert!(matches!(refused, Some(Error::BeyondStop { .. })), "{refused:?}");
+            assert!(matches!(refused, Some(MotionError::Input(InputError::BeyondStop { .. }))), "{refused:?}");
         }
     }
     assert!(below > 0 && above > 0, "{below} {above}");

@@ -27,5 +27,5 @@ fn main() {
     // The stub has the functions that are asked for.
     let crank = Crank::default();
     let pose = crank.pose_at(&CrankCoordinates { x: 2.0, phi: 0.0 });
-    let _ = crank.jerk(&pose, &CrankCoordinates { x: 2.0, phi: 0.0 }, &CrankCoordinates { x: 2.0, phi: 0.0 }, 0.0);
+    let _ = crank.jerk(&pose, &CrankRates { x: 2.0, phi: 0.0 }, &CrankAccelerations { x: 2.0, phi: 0.0 }, 0.0);
 }

@@ -2,14 +2,17 @@
 
 use std::fmt::Debug;
 
-use linkage::accuracy::{Method, Newton, Reached, Table};
+use linkage::accuracy::{Newton, PositionMethod, Reached, Table};
 use linkage::continuation::{AtChangePoint, Direction, Options, Path};
 use linkage::integrate::{Action, Crossing, FixedStep, Tolerance, dop853, dopri5, watched};
 use linkage::nalgebra::{SMatrix, SVector};
-use linkage::position::newton_step;
+use linkage::position::{newton, newton_any_branch, newton_step};
 use linkage::simulation::simulate;
 use linkage::singularity::{accuracy, report, sigma_min};
-use linkage::{Contact, Equations, Error, Group, Mechanism, Scene, Unreduced, position};
+use linkage::{
+    Column, Contact, D, Equations, Group, Matrix, Mechanism, MotionError, PathError, PerInput, PerUnknown,
+    PositionError, Prescribed, Scene, Unreduced,
+};
 
 use super::tally::evaluated;
 use super::{Draw, Finite, Pool, Source, Tally};
@@ -17,30 +20,34 @@ use super::{Draw, Finite, Pool, Source, Tally};
 /// A mechanism whose positions are counted.
 struct Counted<'a, M>(&'a M);
 
-impl<M: Mechanism<f64, U, V>, const U: usize, const V: usize> Mechanism<f64, U, V> for Counted<'_, M> {
-    const NAME: &'static str = M::NAME;
-    const UNKNOWNS: [&'static str; U] = M::UNKNOWNS;
-    const INPUTS: [&'static str; V] = M::INPUTS;
-    const GROUPS: &'static [Group] = M::GROUPS;
-    const UNKNOWN_ANGLES: [bool; U] = M::UNKNOWN_ANGLES;
-    const INPUT_ANGLES: [bool; V] = M::INPUT_ANGLES;
+impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
+    type Scalar = f64;
+    type U = M::U;
+    type V = M::V;
+    type G = M::G;
     type Coordinates = M::Coordinates;
+    type Rates = M::Rates;
     type Inputs = M::Inputs;
-    type Unknowns = M::Unknowns;
     type Pose = M::Pose;
-    type BlockDeterminants = M::BlockDeterminants;
 
-    fn unknowns(q: &M::Coordinates) -> SVector<f64, U> {
-        M::unknowns(q)
+    const NAME: &'static str = M::NAME;
+    const UNKNOWNS: &'static [&'static str] = M::UNKNOWNS;
+    const INPUTS: &'static [&'static str] = M::INPUTS;
+    const UNKNOWN_ANGLES: &'static [bool] = M::UNKNOWN_ANGLES;
+    const INPUT_ANGLES: &'static [bool] = M::INPUT_ANGLES;
+    const GROUPS: &'static [Group] = M::GROUPS;
+
+    fn coordinates(unknowns: PerUnknown<M>, inputs: PerInput<M>) -> M::Coordinates {
+        M::coordinates(unknowns, inputs)
     }
-    fn inputs(q: &M::Coordinates) -> SVector<f64, V> {
-        M::inputs(q)
+    fn parts(q: &M::Coordinates) -> (PerUnknown<M>, PerInput<M>) {
+        M::parts(q)
     }
-    fn with_inputs(q: &M::Coordinates, inputs: SVector<f64, V>) -> M::Coordinates {
-        M::with_inputs(q, inputs)
+    fn rates(unknowns: PerUnknown<M>, inputs: PerInput<M>) -> M::Rates {
+        M::rates(unknowns, inputs)
     }
-    fn with_unknowns(q: &M::Coordinates, unknowns: SVector<f64, U>) -> M::Coordinates {
-        M::with_unknowns(q, unknowns)
+    fn rate_parts(rates: &M::Rates) -> (PerUnknown<M>, PerInput<M>) {
+        M::rate_parts(rates)
     }
     fn pose_at(&self, q: &M::Coordinates) -> M::Pose {
         evaluated();
@@ -49,86 +56,92 @@ impl<M: Mechanism<f64, U, V>, const U: usize, const V: usize> Mechanism<f64, U, 
     fn is_finite(pose: &M::Pose) -> bool {
         M::is_finite(pose)
     }
-    fn residual(&self, pose: &M::Pose) -> SVector<f64, U> {
+    fn residual(&self, pose: &M::Pose) -> PerUnknown<M> {
         self.0.residual(pose)
     }
-    fn closure_sizes(&self, pose: &M::Pose) -> SVector<f64, U> {
+    fn closure_sizes(&self, pose: &M::Pose) -> PerUnknown<M> {
         self.0.closure_sizes(pose)
     }
-    fn jacobian_unknowns(&self, pose: &M::Pose) -> SMatrix<f64, U, U> {
+    fn jacobian_unknowns(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::U> {
         self.0.jacobian_unknowns(pose)
     }
-    fn jacobian_inputs(&self, pose: &M::Pose) -> SMatrix<f64, U, V> {
+    fn jacobian_inputs(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::V> {
         self.0.jacobian_inputs(pose)
     }
-    fn jacobian_sizes(&self, pose: &M::Pose) -> (SMatrix<f64, U, U>, SMatrix<f64, U, V>) {
-        self.0.jacobian_sizes(pose)
+    fn jacobian_unknowns_sizes(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::U> {
+        self.0.jacobian_unknowns_sizes(pose)
+    }
+    fn jacobian_inputs_sizes(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::V> {
+        self.0.jacobian_inputs_sizes(pose)
     }
     fn determinant(&self, pose: &M::Pose) -> f64 {
         self.0.determinant(pose)
     }
-    fn block_determinants(&self, pose: &M::Pose) -> M::BlockDeterminants {
+    fn block_determinants(&self, pose: &M::Pose) -> Column<f64, M::G> {
         self.0.block_determinants(pose)
     }
-    fn gamma(&self, pose: &M::Pose, rate: &M::Coordinates) -> SVector<f64, U> {
-        self.0.gamma(pose, rate)
+    fn gamma(&self, pose: &M::Pose, rates: &M::Rates) -> PerUnknown<M> {
+        self.0.gamma(pose, rates)
     }
-    fn solve_jacobian(&self, pose: &M::Pose, right: &SVector<f64, U>) -> Result<SVector<f64, U>, Error> {
+    fn solve_jacobian(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {
         self.0.solve_jacobian(pose, right)
     }
 }
 
 /// A scene whose positions and equations are counted.
-struct CountedScene<'a, S, M> {
+struct CountedScene<'a, S: Scene> {
     scene: &'a S,
-    mechanism: Counted<'a, M>,
+    mechanism: Counted<'a, S::Mechanism>,
 }
 
-impl<'a, S, M, const U: usize, const V: usize, const N: usize, const C: usize> Scene<f64, U, V, N, C>
-    for CountedScene<'a, S, M>
-where
-    M: Mechanism<f64, U, V>,
-    S: Scene<f64, U, V, N, C, Mechanism = M>,
-{
-    const NAME: &'static str = S::NAME;
-    type Mechanism = Counted<'a, M>;
+/// What is given for the coordinates, the rates and the inputs of a mechanism by name.
+type Q<S> = <<S as Scene>::Mechanism as Mechanism>::Coordinates;
+type Rates<S> = <<S as Scene>::Mechanism as Mechanism>::Rates;
+type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
 
-    fn mechanism(&self) -> &Counted<'a, M> {
+impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
+    type Scalar = f64;
+    type U = S::U;
+    type V = S::V;
+    type State = S::State;
+    type Contacts = S::Contacts;
+    type Mechanism = Counted<'a, S::Mechanism>;
+
+    const NAME: &'static str = S::NAME;
+
+    fn mechanism(&self) -> &Counted<'a, S::Mechanism> {
         &self.mechanism
     }
-    fn state(q: &M::Coordinates, rates: &M::Inputs) -> SVector<f64, N> {
-        S::state(q, rates)
+    fn state(q: &Q<S>, input_rates: &Inputs<S>) -> Column<f64, S::State> {
+        S::state(q, input_rates)
     }
-    fn parts(state: &SVector<f64, N>) -> (M::Coordinates, M::Inputs) {
+    fn parts(state: &Column<f64, S::State>) -> (Q<S>, Inputs<S>) {
         S::parts(state)
     }
-    fn check(&self) -> Result<(), Error> {
+    fn check(&self) -> Result<(), MotionError> {
         self.scene.check()
     }
-    fn derivative(&self, t: f64, state: &SVector<f64, N>) -> Result<SVector<f64, N>, Error> {
+    fn derivative(&self, t: f64, state: &Column<f64, S::State>) -> Result<Column<f64, S::State>, MotionError> {
         evaluated();
         self.scene.derivative(t, state)
     }
-    fn equations(&self, t: f64, state: &SVector<f64, N>) -> Result<Equations<f64, U, V>, Error> {
+    fn equations(&self, t: f64, state: &Column<f64, S::State>) -> Result<Equations<f64, S::U, S::V>, MotionError> {
         evaluated();
         self.scene.equations(t, state)
     }
     fn contacts(
         &self,
         t: f64,
-        q: &M::Coordinates,
-        velocity: &M::Coordinates,
-    ) -> Result<[Contact<f64, U, V>; C], Error> {
-        self.scene.contacts(t, q, velocity)
+        q: &Q<S>,
+        rates: &Rates<S>,
+    ) -> Result<Column<Contact<f64, S::U, S::V>, S::Contacts>, MotionError> {
+        self.scene.contacts(t, q, rates)
     }
-    fn unreduced(&self, t: f64, q: &M::Coordinates, rate: &M::Coordinates) -> Result<Unreduced<f64, U, V>, Error> {
-        self.scene.unreduced(t, q, rate)
+    fn unreduced(&self, t: f64, q: &Q<S>, rates: &Rates<S>) -> Result<Unreduced<f64, S::U, S::V>, MotionError> {
+        self.scene.unreduced(t, q, rates)
     }
-    fn prescribed(&self, t: f64) -> [Option<[f64; 3]>; V] {
+    fn prescribed(&self, t: f64) -> Column<Option<Prescribed<f64>>, S::V> {
         self.scene.prescribed(t)
-    }
-    fn inputs(state: &SVector<f64, N>) -> [(&'static str, f64, f64); V] {
-        S::inputs(state)
     }
 }
 
@@ -136,48 +149,49 @@ where
 const SELDOM: usize = 40;
 
 /// Positions of a mechanism, where there are some.
-pub fn positions<M, const U: usize, const V: usize>(m: &M, s: &mut Source, positions: &mut Pool<M::Coordinates>)
+pub fn positions<M>(m: &M, s: &mut Source, positions: &mut Pool<M::Coordinates>)
 where
-    M: Mechanism<f64, U, V>,
-    M::Coordinates: Draw,
+    M: Mechanism<Scalar = f64, Coordinates: Draw>,
 {
     for _ in 0..2 {
         let guess = Draw::draw(s);
-        if let Ok(found) = position::newton(m, &guess) {
+        if let Ok(found) = newton_any_branch(m, &guess) {
             positions.keep(found.coordinates);
         }
     }
 }
 
 /// What takes any mechanism.
-pub fn mechanism<M, const U: usize, const V: usize>(
+pub fn mechanism<M>(
     t: &mut Tally,
     s: &mut Source,
     m: &M,
     positions: &mut Pool<M::Coordinates>,
     poses: &mut Pool<M::Pose>,
 ) where
-    M: Mechanism<f64, U, V>,
-    M::Coordinates: Draw + Finite + Debug,
-    M::Pose: Draw + Finite + Debug + Copy,
+    M: Mechanism<Scalar = f64, Coordinates: Draw + Finite, Pose: Draw + Finite + Debug + Copy>,
 {
     let m = &Counted(m);
     for _ in 0..2 {
         let guess = positions.take(s);
-        if let Some(found) = t.fallible(s, "newton", || position::newton(m, &guess)) {
+        if let Some(found) = t.fallible(s, "newton_any_branch", || newton_any_branch(m, &guess)) {
             positions.keep(found.coordinates);
             poses.keep(m.pose_at(&found.coordinates));
         }
+    }
+    let guess = positions.take(s);
+    if let Some(found) = t.fallible(s, "newton", || newton(m, &guess)) {
+        positions.keep(found.coordinates);
     }
     let q = positions.take(s);
     if let Some(q) = t.fallible(s, "newton_step", || newton_step(m, &q)) {
         positions.keep(q);
     }
-    let (q, there) = (positions.take(s), SVector::<f64, V>::draw(s));
-    t.fallible(s, "accuracy::Newton", || Newton::<2>::position(m, &Reached::at(m, q), M::Inputs::from(there)));
-    let (q, rates) = (positions.take(s), SVector::draw(s));
-    let (mass, forces) = (SMatrix::draw(s), SVector::draw(s));
-    t.fallible(s, "Equations::at", || Equations::at(m, &q, &rates, mass, forces));
+    let (q, there) = (positions.take(s), PerInput::<M>::draw(s));
+    t.fallible(s, "accuracy::Newton", || Newton::<2>::position(m, &Reached::at(m, q), there));
+    let (q, input_rates) = (positions.take(s), PerInput::<M>::draw(s));
+    let (mass, forces) = (Matrix::<f64, M::V, M::V>::draw(s), PerInput::<M>::draw(s));
+    t.fallible(s, "Equations::at", || Equations::at(m, &q, input_rates, mass, forces));
     if s.below(4) == 0 {
         let pose = poses.take(s);
         t.fallible(s, "singularity::report", || report(m, &pose));
@@ -187,11 +201,9 @@ pub fn mechanism<M, const U: usize, const V: usize>(
 }
 
 /// What takes any mechanism with one input.
-pub fn driven<M, const U: usize>(t: &mut Tally, s: &mut Source, m: &M, positions: &mut Pool<M::Coordinates>)
+pub fn driven<M>(t: &mut Tally, s: &mut Source, m: &M, positions: &mut Pool<M::Coordinates>)
 where
-    M: Mechanism<f64, U, 1>,
-    M::Coordinates: Draw + Finite + Debug + Copy,
-    M::Pose: Finite + Debug,
+    M: Mechanism<Scalar = f64, V = D<1>, Coordinates: Draw + Finite, Rates: Draw + Finite, Pose: Finite + Debug>,
 {
     if s.below(SELDOM) > 0 {
         return;
@@ -199,13 +211,13 @@ where
     let m = &Counted(m);
     let (start, end) = (positions.take(s), s.number());
     let table = match s.below(2) {
-        0 => t.fallible(s, "Table::turn", || Table::<_, _, U, 9>::turn(m, &start).map(Whole)),
-        _ => t.fallible(s, "Table::between", || Table::<_, _, U, 9>::between(m, &start, end).map(Whole)),
+        0 => t.fallible(s, "Table::turn", || Table::<_, 9>::turn(m, &start)),
+        _ => t.fallible(s, "Table::between", || Table::<_, 9>::between(m, &start, end)),
     };
-    if let Some(Whole(table)) = table {
+    if let Some(table) = table {
         for _ in 0..4 {
-            let input = SVector::<f64, 1>::draw(s);
-            t.fallible(s, "Table::position", || Table::position(m, &table, M::Inputs::from(input)));
+            let input = PerInput::<M>::draw(s);
+            t.fallible(s, "Table::position", || Table::position(m, &table, input));
         }
     }
     let direction = match s.below(3) {
@@ -222,9 +234,9 @@ where
     let mut path = None;
     t.fallible(s, "Path::with", || {
         let begun = Path::with(m, &start, direction, options)?;
-        let found = [begun.position(), begun.rates()];
+        let found = (begun.position(), begun.rates());
         path = Some(begun);
-        Ok(found)
+        Ok::<_, PathError>(found)
     });
     let Some(mut path) = path else { return };
     for _ in 0..8 {
@@ -243,51 +255,42 @@ where
             }
             _ => t.total(s, "Path::turn_back", || path.turn_back()).is_some(),
         };
-        t.fallible(s, "Path::position", || Ok([path.position(), path.rates()]));
-    }
-}
-
-/// A table by what it tells of itself; what it holds shows in the positions that it gives.
-#[derive(Debug)]
-struct Whole<Q, const U: usize>(Table<Q, f64, U, 9>);
-
-impl<Q: Copy, const U: usize> Finite for Whole<Q, U> {
-    fn all_finite(&self) -> bool {
-        self.0.error().is_finite()
+        t.fallible(s, "Path::position", || Ok::<_, PathError>((path.position(), path.rates())));
     }
 }
 
 /// What takes any scene.
-pub fn scene<S, M, const U: usize, const V: usize, const N: usize, const C: usize>(
-    t: &mut Tally,
-    s: &mut Source,
-    scene: &S,
-    positions: &mut Pool<M::Coordinates>,
-) where
-    M: Mechanism<f64, U, V>,
-    S: Scene<f64, U, V, N, C, Mechanism = M>,
-    M::Coordinates: Draw + Finite + Debug + Copy,
-    M::Inputs: Draw + Finite + Debug,
+pub fn scene<S, M>(t: &mut Tally, s: &mut Source, scene: &S, positions: &mut Pool<M::Coordinates>)
+where
+    S: Scene<Scalar = f64, Mechanism = M>,
+    M: Mechanism<
+            Scalar = f64,
+            U = S::U,
+            V = S::V,
+            Coordinates: Draw + Finite,
+            Rates: Draw + Finite,
+            Inputs: Draw + Finite,
+        >,
 {
     let scene = &CountedScene { scene, mechanism: Counted(scene.mechanism()) };
-    let (q, rates, time) = (positions.take(s), M::Inputs::draw(s), s.number());
-    let rate = M::with_unknowns(&Draw::draw(s), SVector::draw(s));
-    let y = t.fallible(s, "Scene::start", || scene.start(time, &q, &rates)).unwrap_or_else(|| SVector::draw(s));
+    let (q, input_rates, time) = (positions.take(s), M::Inputs::draw(s), s.number());
+    let rates = M::Rates::draw(s);
+    let y = t.fallible(s, "Scene::start", || scene.start(time, &q, &input_rates)).unwrap_or_else(|| Draw::draw(s));
     t.fallible(s, "Scene::project", || scene.project(&y));
     t.fallible(s, "Scene::derivative", || scene.derivative(time, &y));
     t.fallible(s, "Scene::equations", || scene.equations(time, &y));
-    t.fallible(s, "Scene::contacts", || scene.contacts(time, &q, &rate));
-    t.fallible(s, "Scene::unreduced", || scene.unreduced(time, &q, &rate));
+    t.fallible(s, "Scene::contacts", || scene.contacts(time, &q, &rates));
+    t.fallible(s, "Scene::unreduced", || scene.unreduced(time, &q, &rates));
     if s.below(SELDOM) > 0 {
         return;
     }
     let (end, tolerance) = (s.number(), [1e-3, 1e-6, 1e-9, s.number()][s.below(4)]);
     let mut simulation = None;
     t.fallible(s, "simulate", || {
-        let begun = simulate(scene, (time, q, rates), end, tolerance)?.most_steps(60);
+        let begun = simulate(scene, (time, q, input_rates), end, tolerance)?.most_steps(60);
         let state = *begun.state();
         simulation = Some(begun);
-        Ok(state)
+        Ok::<_, MotionError>(state)
     });
     let Some(mut simulation) = simulation else { return };
     t.fallible(s, "Simulation::loads", || simulation.loads());
@@ -301,7 +304,7 @@ pub fn scene<S, M, const U: usize, const V: usize, const N: usize, const C: usiz
         }
         t.fallible(s, "Simulation::loads", || simulation.loads());
     }
-    t.fallible(s, "Simulation::state", || Ok((*simulation.state(), simulation.progress())));
+    t.fallible(s, "Simulation::state", || Ok::<_, MotionError>((*simulation.state(), simulation.progress())));
 }
 
 /// Integrations of systems that are no mechanism.
@@ -316,7 +319,7 @@ pub fn integrations(t: &mut Tally, s: &mut Source) {
             0 => Ok(matrix * y + constant),
             1 => Ok(SVector::from([y[1], -y[0] - level * y[0].powi(3)])),
             2 => Ok(SVector::from([y[1].sqrt(), t.ln()])),
-            _ if y[0] > level => Err(Error::NotFinite { mechanism: "the user's", quantity: "rate" }),
+            _ if y[0] > level => Err(MotionError::NotFinite { quantity: "the rate of the user's", t }),
             _ => Ok(SVector::from([y[1], matrix[0]])),
         }
     };
@@ -327,7 +330,7 @@ pub fn integrations(t: &mut Tally, s: &mut Source) {
         move |t, y| Ok([y[0] - level, if kind == 2 { f64::NAN } else { t - y[1] }]),
         move |event, _, _| Ok(if event == 0 { Action::Record } else { Action::Restart(restart) }),
     );
-    let Some(_) = t.fallible(s, "Tolerance::new", || Tolerance::new(relative, scale).map(|_: Tolerance<f64, 2>| ()))
+    let Some(_) = t.fallible(s, "Tolerance::new", || Tolerance::<f64, D<2>>::new(relative, scale).map(|_| ()))
     else {
         return;
     };
@@ -338,7 +341,7 @@ pub fn integrations(t: &mut Tally, s: &mut Source) {
                 let begun = $method($system, (start, y), end, Tolerance::new(relative, scale)?)?.most_steps(60);
                 let reached = (begun.t(), *begun.state());
                 integration = Some(begun);
-                Ok(reached)
+                Ok::<_, MotionError>(reached)
             });
             if let Some(mut integration) = integration {
                 for _ in 0..10 {
@@ -347,7 +350,7 @@ pub fn integrations(t: &mut Tally, s: &mut Source) {
                 }
                 let times = [integration.t(), end, s.number()];
                 t.each(s, "Integration::at", || integration.at(times).take(times.len()).collect());
-                t.fallible(s, "Integration::state", || Ok((integration.t(), *integration.state())));
+                t.fallible(s, "Integration::state", || Ok::<_, MotionError>((integration.t(), *integration.state())));
             }
         };
     }
@@ -362,7 +365,7 @@ pub fn integrations(t: &mut Tally, s: &mut Source) {
         let begun = FixedStep::new(rate, (start, y), length)?;
         let reached = (begun.t(), *begun.state());
         steps = Some(begun);
-        Ok(reached)
+        Ok::<_, MotionError>(reached)
     });
     if let Some(mut steps) = steps {
         for _ in 0..3 {

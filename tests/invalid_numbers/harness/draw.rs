@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use linkage::nalgebra::{Complex, SMatrix, Unit, UnitComplex};
-use linkage::{Elbow, Slider, Slope};
+use linkage::{Column, Dim, Elbow, Matrix, Slider, Slope};
 use rand::{Rng, RngCore};
 
 /// At the ends of the range, beyond it, and where squares and products leave it.
@@ -129,6 +129,18 @@ impl Draw for UnitComplex<f64> {
 }
 
 impl<const R: usize, const C: usize> Draw for SMatrix<f64, R, C> {
+    fn draw(source: &mut Source) -> Self {
+        Self::from_fn(|_, _| source.number())
+    }
+}
+
+impl<R: Dim> Draw for Column<f64, R> {
+    fn draw(source: &mut Source) -> Self {
+        Self::from_fn(|_| source.number())
+    }
+}
+
+impl<R: Dim, C: Dim> Draw for Matrix<f64, R, C> {
     fn draw(source: &mut Source) -> Self {
         Self::from_fn(|_, _| source.number())
     }

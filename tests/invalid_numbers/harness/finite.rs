@@ -1,18 +1,18 @@
 //! True if every number of a result is finite.
 
+use std::fmt::Debug;
 use std::marker::PhantomData;
 
-use linkage::accuracy::Reached;
-use linkage::contact::Along;
-use linkage::continuation::{Event, Step};
-use linkage::integrate::{Action, Interpolant};
+use linkage::accuracy::{Reached, Table};
+use linkage::continuation::{self, Event};
+use linkage::integrate::{self, Action, Interpolant};
 use linkage::limits::{Limit, Limits};
-use linkage::nalgebra::{SMatrix, UnitComplex};
-use linkage::simulation::{Loads, State};
+use linkage::nalgebra::{Point2, SMatrix, UnitComplex};
+use linkage::simulation::{Loads, State, Touch};
 use linkage::singularity::{Accuracy, Exchange, GroupMeasure, Singularity};
 use linkage::{
-    Balance, Contact, ContactLaw, Elbow, Energy, Equations, OutputMotion, PointMotion, Power, Slider, Slope, Solution,
-    Unreduced,
+    AnyBranch, Balance, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
+    Mechanism, OutputMotion, PointMotion, Power, Scene, Slider, Slope, Solution, Unreduced,
 };
 
 /// Every number of a value: a type says so of its parts.
@@ -35,7 +35,7 @@ macro_rules! always {
         }
     )*};
 }
-always! { () bool usize i32 &'static str Elbow Slider Slope }
+always! { () bool usize i32 &'static str Elbow Slider Slope Touch }
 
 impl<T> Finite for PhantomData<T> {
     fn all_finite(&self) -> bool {
@@ -73,6 +73,24 @@ impl<const R: usize, const C: usize> Finite for SMatrix<f64, R, C> {
     }
 }
 
+impl Finite for Point2<f64> {
+    fn all_finite(&self) -> bool {
+        self.coords.all_finite()
+    }
+}
+
+impl<Q: Finite + Copy + Debug, R: Dim> Finite for Column<Q, R> {
+    fn all_finite(&self) -> bool {
+        self.iter().all(Finite::all_finite)
+    }
+}
+
+impl<R: Dim, C: Dim> Finite for Matrix<f64, R, C> {
+    fn all_finite(&self) -> bool {
+        self.columns().all_finite()
+    }
+}
+
 impl Finite for UnitComplex<f64> {
     fn all_finite(&self) -> bool {
         self.re.is_finite() && self.im.is_finite()
@@ -92,7 +110,10 @@ macro_rules! parts {
 }
 parts! {
     [Q: Finite] Solution<Q> {
-        Solution { coordinates, iterations: _, residual, same_branch: _ } => coordinates residual
+        Solution { coordinates, iterations: _, residual } => coordinates residual
+    }
+    [Q: Finite] AnyBranch<Q> {
+        AnyBranch { coordinates, iterations: _, residual, same_branch: _ } => coordinates residual
     }
     [Q: Finite, P: Finite] Reached<Q, P> { Reached { coordinates, pose } => coordinates pose }
     [] PointMotion<f64> { PointMotion { position, velocity, acceleration } => position velocity acceleration }
@@ -100,26 +121,26 @@ parts! {
     [] Energy<f64> { Energy { kinetic, potential } => kinetic potential }
     [] Power<f64> { Power { applied, dissipated } => applied dissipated }
     [const N: usize] Balance<f64, N> { Balance { forces, sizes, slopes } => forces sizes slopes }
-    [const U: usize, const V: usize] Equations<f64, U, V> {
+    [U: Dim, V: Dim] Equations<f64, U, V> {
         Equations { mass, forces, ratios, bias } => mass forces ratios bias
     }
-    [const U: usize, const V: usize] Unreduced<f64, U, V> {
+    [U: Dim, V: Dim] Unreduced<f64, U, V> {
         Unreduced { unknowns, mixed, inputs, unknown_forces, input_forces } =>
             unknowns mixed inputs unknown_forces input_forces
     }
-    [const U: usize, const V: usize] Along<f64, U, V> {
-        Along { value, unknowns, inputs, bias } => value unknowns inputs bias
+    [U: Dim, V: Dim] ContactCoordinate<f64, U, V> {
+        ContactCoordinate { value, unknowns, inputs, bias } => value unknowns inputs bias
     }
-    [const U: usize, const V: usize] Contact<f64, U, V> { Contact { name: _, along, law } => along law }
+    [U: Dim, V: Dim] Contact<f64, U, V> { Contact { name: _, along, law } => along law }
     [] Limits<f64> { Limits { lower, upper } => lower upper }
-    [Q: Finite + Copy] Step<Q, f64> { Step { position, rates, length, event } => position rates length event }
-    [const N: usize] linkage::integrate::Step<f64, N> {
-        linkage::integrate::Step { t, state, event: _ } => t state
+    [M: Mechanism<Scalar = f64, Coordinates: Finite, Rates: Finite>] continuation::PathStep<M> {
+        continuation::PathStep { position, rates, length, event } => position rates length event
     }
-    [Q: Finite, const C: usize] State<f64, Q, C> {
-        State { t, q, rate, event: _, contacts: _ } => t q rate
+    [N: Dim] integrate::Step<f64, N> { integrate::Step { t, state, event } => t state event }
+    [S: Scene<Scalar = f64, Mechanism: Mechanism<Coordinates: Finite, Rates: Finite>>] State<S> {
+        State { t, q, rates, event, contacts } => t q rates event contacts
     }
-    [I: Finite, const C: usize] Loads<f64, I, C> {
+    [S: Scene<Scalar = f64, Mechanism: Mechanism<Inputs: Finite>>] Loads<S> {
         Loads { contacts, drives, drive_power } => contacts drives drive_power
     }
     [] GroupMeasure<f64> {
@@ -140,7 +161,7 @@ impl Finite for ContactLaw<f64> {
 impl Finite for Limit<f64> {
     fn all_finite(&self) -> bool {
         match self {
-            Self::None => true,
+            Self::Unlimited => true,
             Self::Exact { input, group: _ } => input.all_finite(),
             Self::Bracketed { assembled, unbuildable, group: _ } => [*assembled, *unbuildable].all_finite(),
         }
@@ -156,7 +177,7 @@ impl<Q: Finite + Copy> Finite for Event<Q> {
     }
 }
 
-impl<const N: usize> Finite for Action<f64, N> {
+impl<Y: Finite> Finite for Action<Y> {
     fn all_finite(&self) -> bool {
         match self {
             Self::Restart(state) => state.all_finite(),
@@ -166,15 +187,22 @@ impl<const N: usize> Finite for Action<f64, N> {
 }
 
 /// At its ends and between them.
-impl<const N: usize> Finite for Interpolant<f64, N> {
+impl<N: Dim> Finite for Interpolant<f64, N> {
     fn all_finite(&self) -> bool {
         let (from, to) = self.interval();
         [from, to].all_finite() && [from, 0.5 * from + 0.5 * to, to].map(|t| self.at(t)).all_finite()
     }
 }
 
+/// What it tells of itself; what it holds shows in the positions that it gives.
+impl<M: Mechanism<Scalar = f64, V = D<1>>, const N: usize> Finite for Table<M, N> {
+    fn all_finite(&self) -> bool {
+        self.error().is_finite()
+    }
+}
+
 /// Its numbers, and not what follows from them where the position is singular.
-impl<const U: usize> Finite for Accuracy<f64, U> {
+impl<M: Mechanism<Scalar = f64>> Finite for Accuracy<M> {
     fn all_finite(&self) -> bool {
         [self.residual, self.sigma_min].all_finite()
             && (self.sigma_min < f64::MIN_POSITIVE || self.attainable().is_finite())
@@ -182,7 +210,7 @@ impl<const U: usize> Finite for Accuracy<f64, U> {
 }
 
 /// By all that it can be asked.
-impl<const U: usize, const V: usize> Finite for Singularity<f64, U, V> {
+impl<M: Mechanism<Scalar = f64>> Finite for Singularity<M> {
     fn all_finite(&self) -> bool {
         [self.determinant(), self.sigma_min()].all_finite()
             && self.groups().all(Finite::all_finite)

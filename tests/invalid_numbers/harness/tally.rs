@@ -30,7 +30,8 @@ pub fn listen() {
 struct Row {
     calls: u64,
     finite: u64,
-    refused: u64,
+    /// By the error: of inputs, positions, paths and motions.
+    refused: [u64; 4],
     not_finite: u64,
     panics: u64,
     /// The most evaluations of one call.
@@ -53,11 +54,11 @@ const MOST_EVALUATIONS: u64 = 400_000;
 
 impl Tally {
     /// A call that may refuse; what it gives if it does not, and all is well.
-    pub fn fallible<R: Finite + Debug>(
+    pub fn fallible<R: Finite + Debug, E: Into<Error>>(
         &mut self,
         source: &Source,
         name: &'static str,
-        call: impl FnOnce() -> Result<R, Error>,
+        call: impl FnOnce() -> Result<R, E>,
     ) -> Option<R> {
         let (result, row) = self.call(source, name, call)?;
         match result {
@@ -71,17 +72,26 @@ impl Tally {
                     println!("  {name} seed {}: {result:?}", source.seed);
                 }
             }
-            Err(_) => row.refused += 1,
+            Err(error) => {
+                let kind = match error.into() {
+                    Error::Input(_) => 0,
+                    Error::Position(_) => 1,
+                    Error::Path(_) => 2,
+                    Error::Motion(_) => 3,
+                    other => panic!("an error of a new kind: {other:?}"),
+                };
+                row.refused[kind] += 1;
+            }
         }
         None
     }
 
     /// A call that gives several results, of which each may refuse.
-    pub fn each<R: Finite + Debug>(
+    pub fn each<R: Finite + Debug, E: Into<Error>>(
         &mut self,
         source: &Source,
         name: &'static str,
-        call: impl FnOnce() -> Vec<Result<R, Error>>,
+        call: impl FnOnce() -> Vec<Result<R, E>>,
     ) {
         let results = self.call(source, name, call).map(|(results, _)| results);
         for result in results.into_iter().flatten() {
@@ -118,19 +128,20 @@ impl Tally {
 
     pub fn tell(&self, name: &str) {
         let sum = |number: fn(&Row) -> u64| self.rows.values().map(number).sum::<u64>();
-        let [calls, finite, refused] = [sum(|row| row.calls), sum(|row| row.finite), sum(|row| row.refused)];
+        let [calls, finite] = [sum(|row| row.calls), sum(|row| row.finite)];
+        let refused = [0, 1, 2, 3].map(|kind| self.rows.values().map(|row| row.refused[kind]).sum::<u64>());
         let [not_finite, panics] = [sum(|row| row.not_finite), sum(|row| row.panics)];
         let most = self.rows.values().map(|row| row.evaluations).max().unwrap_or_default();
         println!(
-            "{name}: {calls} calls of {} functions, {finite} finite, {refused} refused, {not_finite} not finite, \
-             {panics} panics, at most {most} evaluations",
+            "{name}: {calls} calls of {} functions, {finite} finite, refused by input, position, path, motion {refused:?}, \
+             {not_finite} not finite, {panics} panics, at most {most} evaluations",
             self.rows.len()
         );
         for (function, row) in &self.rows {
             let is_wrong = row.not_finite > 0 || row.panics > 0 || row.evaluations > MOST_EVALUATIONS;
             if is_wrong || (name == "all" && !function.contains("::")) {
                 println!(
-                    "  {function}: {} calls, {} finite, {} refused, {} not finite, {} panics, at most {} evaluations",
+                    "  {function}: {} calls, {} finite, {:?} refused, {} not finite, {} panics, at most {} evaluations",
                     row.calls, row.finite, row.refused, row.not_finite, row.panics, row.evaluations
                 );
             }
@@ -148,7 +159,9 @@ impl AddAssign<&Self> for Tally {
             let sum = self.rows.entry(name).or_default();
             sum.calls += row.calls;
             sum.finite += row.finite;
-            sum.refused += row.refused;
+            for (sum, refused) in sum.refused.iter_mut().zip(row.refused) {
+                *sum += refused;
+            }
             sum.not_finite += row.not_finite;
             sum.panics += row.panics;
             sum.evaluations = sum.evaluations.max(row.evaluations);
