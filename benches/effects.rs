@@ -14,15 +14,14 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use linkage::contact::{Contacts, ReducedEquations};
-use linkage::nalgebra::SVector;
-use linkage::{Error, Mode, Scene, linkage};
+use linkage::{Column, D, Mode, MotionError, PerInput, Scene, linkage};
 use linkage_compiler::program::Operations;
 use work::{Work, work};
 
 include!("../tests/mechanisms/four_bar_effects.rs");
 
 /// q, v'.
-type State = SVector<f64, 4>;
+type State = Column<f64, D<4>>;
 
 type Evaluate = Box<dyn Fn(&[State])>;
 
@@ -44,7 +43,7 @@ impl Row {
         title: &'static str,
         (name, functions): (&'static str, &'static [&'static str]),
         scene: S,
-        evaluate: impl Fn(&S, &State) -> Result<State, Error> + 'static,
+        evaluate: impl Fn(&S, &State) -> Result<State, MotionError> + 'static,
     ) -> Self {
         let evaluate = move |states: &[State]| {
             for state in states {
@@ -54,23 +53,23 @@ impl Row {
         Self { title, scene: name, functions, bytes: size_of::<S>(), evaluate: Box::new(evaluate), times: Vec::new() }
     }
 
-    fn smooth<S: Scene<f64, 2, 1, 4, 0> + 'static>(title: &'static str, scene: S) -> Self {
+    fn smooth<S: Scene<Scalar = f64, State = D<4>> + 'static>(title: &'static str, scene: S) -> Self {
         Self::new(title, (S::NAME, &["rates"]), scene, |scene, y| scene.derivative(0.5, y))
     }
 
     /// In these modes.
-    fn in_contact<S: Scene<f64, 2, 1, 4, C> + 'static, const C: usize>(
+    fn in_contact<S: Scene<Scalar = f64, State = D<4>> + 'static>(
         title: &'static str,
         scene: S,
-        modes: [Mode; C],
+        modes: impl Into<Column<Mode, S::Contacts>>,
     ) -> Self {
         let start = State::from([1.2, -1.0, 0.5, 12.0]);
         let (_, rates) = S::parts(&start);
         // The accelerations in given modes do not ask how these came about.
-        let rates: SVector<f64, 1> = rates.into();
+        let rates: PerInput<S::Mechanism> = rates.into();
         let begun = Contacts::begin(0.0, &rates, |_| ReducedEquations::of(&scene, 0.0, &start));
         let (mut contacts, _) = begun.expect("modes at the start");
-        contacts.modes = modes;
+        contacts.modes = modes.into();
         Self::new(title, (S::NAME, &["equations", "contacts"]), scene, move |scene, y| {
             let equations = ReducedEquations::of(scene, 0.5, y)?;
             let acceleration = contacts.acceleration(&equations)?;

@@ -10,7 +10,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
-use linkage::Error;
+use linkage::MotionError;
 use linkage::integrate::{Tolerance, dop853, dopri5};
 use linkage::nalgebra::SVector;
 
@@ -102,9 +102,9 @@ impl<P: Problem<N>, const N: usize> ode_solvers::System<f64, TheirState<N>> for 
 fn ours<P: Problem<N>, const N: usize>(called: Called<P>, order: Order, relative: f64) -> [f64; N] {
     let rate = |_: f64, y: &State<N>| {
         called.1.set(called.1.get() + 1);
-        Ok::<State<N>, Error>(P::rate((*y).into()).into())
+        Ok::<State<N>, MotionError>(P::rate((*y).into()).into())
     };
-    let start = (0.0, P::START.into());
+    let start = (0.0, P::START);
     let tolerance = Tolerance::new(relative, [1.0; N]).expect("a tolerance that can be met");
     let state = match order {
         Order::Five => dopri5(rate, start, P::INTERVAL, tolerance).and_then(|mut motion| {

@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use linkage::nalgebra::{Complex, UnitComplex};
-use linkage::{Elbow, Error, Real, linkage};
+use linkage::{Elbow, PositionError, Real, linkage};
 
 linkage! {
     /// Nobody asks for an angle here.
@@ -61,14 +61,14 @@ fn from_sine(m: &FourBar, (sine, cosine): (f64, f64)) -> Option<Hand> {
 
 /// The same with what `assemble` promises: the direction of the input, a typed error, no silent NaN.
 #[inline(never)]
-fn by_hand_alike(m: &FourBar, theta2: f64) -> Result<FourBarPose, Error> {
+fn by_hand_alike(m: &FourBar, theta2: f64) -> Result<FourBarPose, PositionError> {
     let (sine, cosine) = theta2.sin_cos();
     let (dx, dy) = (m.l1 - m.l2 * cosine, -m.l2 * sine);
     let distance = dx * dx + dy * dy;
     let (sum, difference) = (m.l3 + m.l4, m.l3 - m.l4);
     let radicand = (sum * sum - distance) * (distance - difference * difference);
     if radicand < 0.0 {
-        return Err(Error::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap: -radicand });
+        return Err(PositionError::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap: -radicand });
     }
     let across = 0.5 * radicand.sqrt();
     let along = 0.5 * (distance + m.l3 * m.l3 - m.l4 * m.l4);
@@ -84,12 +84,16 @@ fn by_hand_alike(m: &FourBar, theta2: f64) -> Result<FourBarPose, Error> {
         determinant: -across,
     };
     let parts = [pose.theta2, pose.theta3, pose.theta4].iter().fold(across, |sum, part| sum + part.re + part.im);
-    if parts.is_finite() { Ok(pose) } else { Err(Error::NotFinite { mechanism: "FourBar", quantity: "the position" }) }
+    if parts.is_finite() {
+        Ok(pose)
+    } else {
+        Err(PositionError::NotFinite { mechanism: "FourBar", quantity: "the position" })
+    }
 }
 
 const LEFT: FourBarBranch = FourBarBranch::new(Elbow::Left);
 
-fn emitted(m: &FourBar, theta2: f64) -> Result<FourBarPose, Error> {
+fn emitted(m: &FourBar, theta2: f64) -> Result<FourBarPose, PositionError> {
     m.assemble(theta2, LEFT)
 }
 

@@ -5,8 +5,7 @@
 
 use std::hint::black_box;
 
-use linkage::nalgebra::SVector;
-use linkage::{Error, Real, Scene, linkage};
+use linkage::{Column, D, MotionError, PositionError, Real, Scene, linkage};
 
 include!("../tests/mechanisms/four_bar_effects.rs");
 
@@ -51,7 +50,7 @@ mod mounted {
 }
 
 /// q, v'.
-type State = SVector<f64, 4>;
+type State = Column<f64, D<4>>;
 
 /// What every scene of the four-bar needs of the motion.
 struct Motion {
@@ -72,9 +71,9 @@ struct Motion {
 
 /// The velocity ratios by Cramer's rule, and J u'' = -gamma at theta2'' = 0.
 #[inline(always)]
-fn motion(m: &FourBar, [a3, b3]: [f64; 2], scene: &'static str, y: &State) -> Result<Motion, Error> {
+fn motion(m: &FourBar, [a3, b3]: [f64; 2], scene: &'static str, y: &State) -> Result<Motion, PositionError> {
     let FourBar { l2, l3, l4, .. } = *m;
-    let [[theta3, theta4, theta2, rate]] = y.data.0;
+    let [theta3, theta4, theta2, rate] = (*y).into();
     // The library's own sines, so that only what is done with them is compared. The fourth is the transmission angle,
     // whose sine is exact near a dead point, as no difference of products is.
     let [(s2, c2), (s3, c3), (s4, c4), (transmission, _)] =
@@ -96,17 +95,17 @@ fn motion(m: &FourBar, [a3, b3]: [f64; 2], scene: &'static str, y: &State) -> Re
 }
 
 #[cold]
-fn singular(scene: &'static str, determinant: f64, size: f64) -> Error {
+fn singular(scene: &'static str, determinant: f64, size: f64) -> PositionError {
     if determinant.is_finite() && size.is_finite() {
         let regularity = if size == 0.0 { 0.0 } else { (determinant / size).abs() };
-        return Error::Singular { mechanism: scene, group: "theta3, theta4", regularity };
+        return PositionError::Singular { mechanism: scene, group: "theta3, theta4", regularity };
     }
-    Error::NotFinite { mechanism: scene, quantity: "the Jacobian" }
+    PositionError::NotFinite { mechanism: scene, quantity: "the Jacobian" }
 }
 
 /// v'' of M v'' = Q for M > 0.
 #[inline(always)]
-fn accelerated(scene: &'static str, mass: f64, force: f64) -> Result<f64, Error> {
+fn accelerated(scene: &'static str, mass: f64, force: f64) -> Result<f64, MotionError> {
     if mass > 0.0 && mass < f64::INFINITY {
         return Ok(force / mass);
     }
@@ -114,11 +113,11 @@ fn accelerated(scene: &'static str, mass: f64, force: f64) -> Result<f64, Error>
 }
 
 #[cold]
-fn without_inertia(scene: &'static str, mass: f64) -> Error {
+fn without_inertia(scene: &'static str, mass: f64) -> MotionError {
     if mass.is_finite() {
-        return Error::NoInertia { scene, coordinate: "theta2", share: if mass > 0.0 { 1.0 } else { 0.0 } };
+        return MotionError::NoInertia { scene, coordinate: "theta2", share: if mass > 0.0 { 1.0 } else { 0.0 } };
     }
-    Error::NotFinite { mechanism: scene, quantity: "the mass matrix" }
+    PositionError::NotFinite { mechanism: scene, quantity: "the mass matrix" }.into()
 }
 
 /// y', which is finite where the sum of its parts is; `parts` are asked for where it is not.
@@ -128,7 +127,7 @@ fn answer<const N: usize>(
     acceleration: f64,
     [of_2, of_3, of_4]: [f64; 3],
     parts: impl FnOnce() -> [(&'static str, f64); N],
-) -> Result<State, Error> {
+) -> Result<State, MotionError> {
     if !(acceleration + of_3 + of_4).is_finite() {
         not_finite(scene, [acceleration, of_3, of_4], parts)?;
     }
@@ -141,18 +140,18 @@ fn not_finite<const N: usize>(
     scene: &'static str,
     results: [f64; 3],
     parts: impl FnOnce() -> [(&'static str, f64); N],
-) -> Result<(), Error> {
+) -> Result<(), PositionError> {
     if results.iter().all(|result| result.is_finite()) {
         return Ok(());
     }
     let guilty = parts().into_iter().find(|(_, part)| !part.is_finite());
     let quantity = guilty.map_or("the acceleration", |(name, _)| name);
-    Err(Error::NotFinite { mechanism: scene, quantity })
+    Err(PositionError::NotFinite { mechanism: scene, quantity })
 }
 
 /// Inertia alone: M = j2 + m3 G3'^2 + j3 w3^2 + (j4 + m4 a4^2) w4^2, and the same with the biases for Q.
 #[inline(never)]
-fn bare_by_hand(scene: &Bare, y: &State) -> Result<State, Error> {
+fn bare_by_hand(scene: &Bare, y: &State) -> Result<State, MotionError> {
     let Bare { j2, m3, j3, a3, b3, m4, j4, a4, .. } = *scene;
     let Motion { crank: [x2, y2], offset: [px, py], ratios: [w3, w4], rates, biases: [bias3, bias4], .. } =
         motion(&scene.mechanism, [a3, b3], "Bare", y)?;
@@ -169,7 +168,7 @@ fn bare_by_hand(scene: &Bare, y: &State) -> Result<State, Error> {
 
 /// With weight, a spring from C to a fixed point, and a damper of the rocker.
 #[inline(never)]
-fn mounted_by_hand(scene: &Mounted, y: &State) -> Result<State, Error> {
+fn mounted_by_hand(scene: &Mounted, y: &State) -> Result<State, MotionError> {
     let Mounted { j2, m3, j3, a3, b3, m4, j4, a4, g, k, s0, xp, yp, c, .. } = *scene;
     let Motion {
         crank: [x2, y2],
@@ -206,12 +205,12 @@ fn mounted_by_hand(scene: &Mounted, y: &State) -> Result<State, Error> {
 }
 
 #[inline(never)]
-fn emitted<S: Scene<f64, 2, 1, 4, 0>>(scene: &S, y: &State) -> Result<State, Error> {
+fn emitted<S: Scene<Scalar = f64, State = D<4>>>(scene: &S, y: &State) -> Result<State, MotionError> {
     scene.derivative(0.0, y)
 }
 
 /// Evaluates a derivative `calls` times, at a little greater angle each time.
-fn evaluate<S>(calls: usize, scene: &S, derivative: impl Fn(&S, &State) -> Result<State, Error>) -> f64 {
+fn evaluate<S>(calls: usize, scene: &S, derivative: impl Fn(&S, &State) -> Result<State, MotionError>) -> f64 {
     let mut y = State::from([0.8, -1.1, 0.5, 12.0]);
     let mut sum = 0.0;
     for _ in 0..calls {

@@ -9,7 +9,7 @@ use std::error::Error;
 
 use linkage::drawing::Drawing;
 use linkage::nalgebra::{SMatrix, SVector, Vector2};
-use linkage::{linkage, position};
+use linkage::{PositionError, linkage, position};
 
 linkage! {
     /// The sheet's four-bar A-B-C-D: crank l2, coupler l3, l4 from C to D, frame l1.
@@ -159,9 +159,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn by_derivatives_of_the_jacobian(
     four_bar: &FourBar,
     q: &FourBarCoordinates,
-    velocity: &FourBarCoordinates,
+    velocity: &FourBarRates,
     alpha2: f64,
-) -> Result<Vector2<f64>, linkage::Error> {
+) -> Result<Vector2<f64>, PositionError> {
     let FourBar { l2, l3, l4, .. } = *four_bar;
     let column = |l: f64, theta: f64, omega: f64| [-l * theta.cos() * omega, -l * theta.sin() * omega];
     let j_rate =

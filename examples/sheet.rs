@@ -61,11 +61,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         .numbers("Velocity ratios", [("theta3/theta2", ratios[0]), ("theta4/theta2", ratios[1])])
         .numbers(
             "Velocity at 400 rpm, rad/s",
-            [("theta2_rate", omega2), ("theta3_rate", motion.velocity.theta3), ("theta4_rate", motion.velocity.theta4)],
+            [("theta2_rate", omega2), ("theta3_rate", motion.rates.theta3), ("theta4_rate", motion.rates.theta4)],
         )
         .numbers(
             "Acceleration, rad/s²",
-            [("theta3_acceleration", motion.acceleration.theta3), ("theta4_acceleration", motion.acceleration.theta4)],
+            [
+                ("theta3_acceleration", motion.accelerations.theta3),
+                ("theta4_acceleration", motion.accelerations.theta4),
+            ],
         )
         .picture(
             drawing.to_svg()?,

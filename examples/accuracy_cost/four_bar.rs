@@ -1,12 +1,10 @@
 //! The four-bar's methods.
 
-works!(FourBar, FourBarCoordinates, FourBarPose, FourBarInputs, 2, closed, products by_products);
-
-use super::methods;
+works!(FourBar, 2, closed, products by_products);
 
 include!("../../tests/mechanisms/four_bar.rs");
 
-fn by_products(m: &FourBar, pose: &FourBarPose, right: &SVector<f64, 2>) -> SVector<f64, 2> {
+fn by_products(m: &FourBar, pose: &FourBarPose, right: &Unknowns<f64>) -> Unknowns<f64> {
     let columns = [methods::turned(m.l3, pose.theta3), methods::turned(m.l4, pose.theta4)];
     methods::dyad(columns[0], columns[1], [right[0], right[1]]).into()
 }

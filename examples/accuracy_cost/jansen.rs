@@ -1,13 +1,11 @@
 //! The Jansen leg's methods.
 
-works!(Jansen, JansenCoordinates, JansenPose, JansenInputs, 10, closed, products by_products);
-
-use super::methods;
+works!(Jansen, 10, closed, products by_products);
 
 include!("../../tests/mechanisms/jansen.rs");
 
 /// Dyad after dyad.
-fn by_products(m: &Jansen, pose: &JansenPose, right: &SVector<f64, 10>) -> SVector<f64, 10> {
+fn by_products(m: &Jansen, pose: &JansenPose, right: &Unknowns<f64>) -> Unknowns<f64> {
     let turned = |length: f64, direction| methods::turned(length, direction);
     let minus = |[x, y]: [f64; 2]| [-x, -y];
     let row = |first: usize| [right[first], right[first + 1]];
@@ -20,5 +18,5 @@ fn by_products(m: &Jansen, pose: &JansenPose, right: &SVector<f64, 10>) -> SVect
     let [to_f, to_g] = methods::dyad(turned(m.f, pose.angle_f), minus(g), known);
     let known = methods::less(row(8), g, to_g);
     let [to_h, to_i] = methods::dyad(turned(m.h, pose.angle_h), minus(turned(m.i, pose.angle_i)), known);
-    SVector::from([to_b, to_j, to_d, to_e, to_c, to_k, to_f, to_g, to_h, to_i])
+    [to_b, to_j, to_d, to_e, to_c, to_k, to_f, to_g, to_h, to_i].into()
 }

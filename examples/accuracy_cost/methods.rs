@@ -1,23 +1,128 @@
-//! The methods of the price list, for one mechanism each.
+//! The methods of the price list.
 
-use linkage::accuracy::{Method, Newton, Reached};
-use linkage::{Error, Mechanism, Real, position};
+use std::borrow::Borrow;
+use std::hint::black_box;
+use std::rc::Rc;
+
+use linkage::accuracy::{Newton, PositionMethod, Reached};
+use linkage::{Assembly, D, Mechanism, PerUnknown, PositionError, Real, position};
+
+use super::oracle::Case;
+use super::stall::{Point, Work, largest};
+
+/// A position that was found as coordinates.
+pub type Near<M> = Reached<<M as Mechanism>::Coordinates, <M as Mechanism>::Pose>;
+
+/// u, u' or u'' at a pose, by the order of the derivative.
+pub type Rates<M> = fn(&M, &<M as Mechanism>::Pose, usize) -> Result<PerUnknown<M>, PositionError>;
 
 /// Newton's method from the prediction of the velocity ratios until the closures are closed to rounding.
 pub struct ToTolerance;
 
-impl<M, T, const U: usize, const V: usize> Method<M, T, U, V> for ToTolerance
-where
-    M: Mechanism<T, U, V>,
-    T: Real,
-{
-    type From = Reached<M::Coordinates, M::Pose>;
-    type Position = Reached<M::Coordinates, M::Pose>;
+impl<M: Mechanism> PositionMethod<M> for ToTolerance {
+    type From = Near<M>;
+    type Position = Near<M>;
 
-    fn position(mechanism: &M, from: &Self::From, inputs: impl Into<M::Inputs>) -> Result<Self::Position, Error> {
+    fn position(mechanism: &M, from: &Near<M>, inputs: impl Into<M::Inputs>) -> Result<Near<M>, PositionError> {
         let guess = Newton::<0>::position(mechanism, from, inputs)?.coordinates;
         Ok(Reached::at(mechanism, position::newton(mechanism, &guess)?.coordinates))
     }
+}
+
+/// A table that several poses look into.
+pub struct Shared<R>(R);
+
+impl<M: Mechanism, R: PositionMethod<M, From = R>> PositionMethod<M> for Shared<R> {
+    type From = Rc<R>;
+    type Position = R::Position;
+
+    fn position(m: &M, from: &Rc<R>, inputs: impl Into<M::Inputs>) -> Result<R::Position, PositionError> {
+        R::position(m, from, inputs)
+    }
+}
+
+/// u' or u'' by a solution of J x = `right`.
+#[inline(always)]
+pub fn in_products<M: Mechanism<V = D<1>>>(
+    m: &M,
+    pose: &M::Pose,
+    order: usize,
+    solution: impl Fn(&PerUnknown<M>) -> PerUnknown<M>,
+) -> PerUnknown<M> {
+    let rates = solution(&-m.jacobian_inputs(pose).column(0));
+    if order == 1 { rates } else { solution(&-m.gamma(pose, &M::rates(rates, [scalar(1.0)].into()))) }
+}
+
+/// A road to the position from where it starts in each case, and then rates.
+pub fn along<R: PositionMethod<M> + 'static, M: Mechanism<V = D<1>> + 'static>(
+    method: &'static str,
+    point: Point,
+    starts: Vec<(Case, M, R::From)>,
+    rates: Rates<M>,
+) -> Work {
+    let order = point.order;
+    let road = |m: &M, from: &R::From, input: M::Scalar| R::position(m, from, M::Inputs::from([input].into()));
+    let starts = starts.into_iter().map(|(case, m, from)| (scalar(case.input), case, m, from)).collect::<Vec<_>>();
+    let error = largest(starts.iter().map(|(input, case, m, from)| {
+        let found = rates(m, road(m, from, *input)?.borrow(), order)?;
+        Ok(case.error(order, found.as_slice()))
+    }));
+    let cases = starts.len();
+    let pass = move || {
+        for (input, _, m, from) in &starts {
+            let Ok(position) = road(m, from, black_box(*input)) else { continue };
+            if order == 0 {
+                black_box(position);
+            } else {
+                let _ = black_box(rates(m, position.borrow(), order));
+            }
+        }
+    };
+    Work { method, point, error, cases, pass: Box::new(pass) }
+}
+
+/// At given angles.
+pub fn given<M: Mechanism<V = D<1>> + 'static>(
+    method: &'static str,
+    point: Point,
+    starts: Vec<(M, Case)>,
+    rates: Rates<M>,
+) -> Work {
+    let order = point.order;
+    let starts = starts.into_iter().map(|(m, case)| (m, coordinates::<M>(&case.unknowns, case.input), case));
+    let starts: Vec<_> = starts.collect();
+    let error = largest(starts.iter().map(|(m, q, case)| {
+        let found = rates(m, &m.pose_at(q), order)?;
+        Ok(case.error(order, found.as_slice()))
+    }));
+    let cases = starts.len();
+    let pass = move || {
+        for (m, q, _) in &starts {
+            let pose = m.pose_at(black_box(q));
+            let _ = black_box(rates(m, &pose, order));
+        }
+    };
+    Work { method, point, error, cases, pass: Box::new(pass) }
+}
+
+/// Numbers of the oracle as coordinates.
+pub fn coordinates<M: Mechanism<V = D<1>>>(unknowns: &[f64], input: f64) -> M::Coordinates {
+    M::coordinates(PerUnknown::<M>::from_fn(|row| scalar(unknowns[row])), [scalar(input)].into())
+}
+
+/// The position near a case.
+pub fn near<M: Mechanism<V = D<1>>>(case: &Case, m: &M) -> Near<M> {
+    Reached::at(m, coordinates::<M>(&case.before.1, case.before.0))
+}
+
+/// The branch of a case.
+pub fn branch<M: Assembly<V = D<1>>>(case: &Case, m: &M) -> M::Branch {
+    m.branch_of(&near(case, m).pose)
+}
+
+/// A number of the oracle as a scalar.
+pub fn scalar<T: Real>(value: f64) -> T {
+    linkage::nalgebra::convert(value)
 }
 
 /// The solution of a dyad by Cramer's rule, its determinant as the difference of two products.
@@ -38,160 +143,82 @@ pub fn less(right: [f64; 2], column: [f64; 2], rate: f64) -> [f64; 2] {
     [right[0] - column[0] * rate, right[1] - column[1] * rate]
 }
 
-/// Numbers of the oracle as scalars.
-pub fn scalars<T: Real>(values: &[f64]) -> Vec<T> {
-    values.iter().map(|&value| linkage::nalgebra::convert(value)).collect()
-}
-
-/// What is the same for every mechanism: `works()`, each method at each of its points.
+/// What is emitted for every mechanism alike: `works()`, each method at each of its points.
 macro_rules! works {
-    (
-        $Mechanism:ident, $Coordinates:ident, $Pose:ident, $Inputs:ident, $U:literal,
-        $(closed, products $products:ident)? $(newton $steps:literal)?
-    ) => {
-        use std::borrow::Borrow;
-        use std::hint::black_box;
-        use std::rc::Rc;
-
-        use linkage::accuracy::{Method, Newton, Reached, Table};
+    ($Mechanism:ident, $U:literal, $(closed, products $products:ident)? $(newton $steps:literal)?) => {
+        use linkage::accuracy::{Newton, Table};
         use linkage::nalgebra::SVector;
-        use linkage::{Error, Mechanism, Real, linkage};
+        use linkage::{Column, Mechanism, PerUnknown, PositionError, Real, linkage};
         use linkage_double::DoubleDouble;
 
-        use super::methods::{ToTolerance, scalars};
+        use super::methods::{self, Shared, ToTolerance, near};
         use super::oracle::{Case, poses_of};
-        use super::stall::{Point, Work, largest, points};
+        use super::stall::{Work, points};
+
+        type Pose<T> = <$Mechanism<T> as Mechanism>::Pose;
+        type Unknowns<T> = PerUnknown<$Mechanism<T>>;
 
         fn mechanism<T: Real>(case: &Case) -> $Mechanism<T> {
-            let parameters = scalars::<T>(&case.parameters);
-            $Mechanism::from(std::array::from_fn(|index| parameters[index]))
+            $Mechanism::from(std::array::from_fn(|index| methods::scalar(case.parameters[index])))
         }
 
-        fn coordinates<T: Real>(unknowns: &[f64], input: f64) -> $Coordinates<T> {
-            let unknowns = SVector::<T, $U>::from_iterator(scalars::<T>(unknowns));
-            let zero = $Coordinates::from(SVector::from([T::zero(); $U + 1]));
-            let inputs = SVector::<T, 1>::from_iterator(scalars::<T>(&[input]));
-            let all = <$Mechanism<T> as Mechanism<T, $U, 1>>::with_unknowns(&zero, unknowns);
-            <$Mechanism<T> as Mechanism<T, $U, 1>>::with_inputs(&all, inputs)
-        }
-
-        type Rates<T> = fn(&$Mechanism<T>, &$Pose<T>, usize) -> Result<SVector<T, $U>, Error>;
-
-        /// u' or u'' at a pose, as emitted.
+        /// u, u' or u'' at a pose.
         #[inline(always)]
-        fn emitted<T: Real>(m: &$Mechanism<T>, pose: &$Pose<T>, order: usize) -> Result<SVector<T, $U>, Error> {
-            let velocity = m.velocity(pose, T::one())?;
-            let rates = if order == 1 { velocity } else { m.acceleration(pose, &velocity, T::zero())? };
-            Ok(<$Mechanism<T> as Mechanism<T, $U, 1>>::unknowns(&rates))
+        fn emitted<T: Real>(m: &$Mechanism<T>, pose: &Pose<T>, order: usize) -> Result<Unknowns<T>, PositionError> {
+            if order == 0 {
+                return Ok(<$Mechanism<T>>::unknowns(&pose.coordinates()));
+            }
+            let rates = m.velocity(pose, T::one())?;
+            if order == 1 {
+                return Ok(<$Mechanism<T>>::rate_parts(&rates).0);
+            }
+            let all: SVector<T, { $U + 1 }> = m.acceleration(pose, &rates, T::zero())?.into();
+            Ok(Column::from_fn(|row| all[row]))
         }
 
         $(
-            /// The same by products of stored sines and cosines.
-            #[inline(always)]
-            fn in_products(m: &$Mechanism, pose: &$Pose, order: usize) -> Result<SVector<f64, $U>, Error> {
-                let rates = $products(m, pose, &-m.jacobian_inputs(pose).column(0));
-                if order == 1 {
-                    return Ok(rates);
-                }
-                let zero = $Coordinates::from(SVector::from([0.0; $U + 1]));
-                let velocity = <$Mechanism as Mechanism<f64, $U, 1>>::with_unknowns(&zero, rates);
-                let velocity = <$Mechanism as Mechanism<f64, $U, 1>>::with_inputs(&velocity, SVector::from([1.0]));
-                Ok($products(m, pose, &-m.gamma(pose, &velocity)))
-            }
-
-            use linkage::Assembly;
             use linkage::accuracy::ClosedForm;
 
-            fn branch<T: Real>(case: &Case, m: &$Mechanism<T>) -> <$Mechanism<T> as Assembly<T, $U, 1>>::Branch {
-                Assembly::branch_of(m, &near(case, m).pose)
+            use super::methods::branch;
+
+            /// u' or u'' by products of stored sines and cosines.
+            #[inline(always)]
+            fn in_products(m: &$Mechanism, pose: &Pose<f64>, order: usize) -> Result<Unknowns<f64>, PositionError> {
+                Ok(methods::in_products(m, pose, order, |right| $products(m, pose, right)))
             }
         )?
 
-        /// What a work is made of: a case, a mechanism, where the road starts, and the input.
-        type Starts<T, F> = Rc<Vec<(Case, $Mechanism<T>, F, T)>>;
-
-        /// A road to the position, and then rates.
-        fn along<R, T: Real>(method: &'static str, point: Point, starts: &Starts<T, R::From>, rates: Rates<T>) -> Work
-        where
-            R: Method<$Mechanism<T>, T, $U, 1> + 'static,
-        {
-            let order = point.order;
-            let evaluate = move |m: &$Mechanism<T>, from: &R::From, input: T| -> Result<Vec<T>, Error> {
-                let position = R::position(m, from, $Inputs::from(SVector::<T, 1>::new(input)))?;
-                let pose: &$Pose<T> = position.borrow();
-                let unknowns = if order == 0 {
-                    <$Mechanism<T> as Mechanism<T, $U, 1>>::unknowns(&pose.coordinates())
-                } else {
-                    rates(m, pose, order)?
-                };
-                Ok(unknowns.iter().copied().collect())
-            };
-            let error = largest(starts.iter().map(|(case, m, from, input)| {
-                evaluate(m, from, *input).map(|found| case.error(order, &found))
-            }));
-            let (starts, cases) = (Rc::clone(starts), starts.len());
-            let pass = move || {
-                for (_, m, from, input) in starts.iter() {
-                    let input = $Inputs::from(SVector::<T, 1>::new(black_box(*input)));
-                    let Ok(position) = R::position(m, from, input) else { continue };
-                    if order == 0 {
-                        black_box(position);
-                    } else {
-                        let _ = black_box(rates(m, position.borrow(), order));
-                    }
-                }
-            };
-            Work { method, point, error, cases, pass: Box::new(pass) }
-        }
-
-        /// At given angles.
-        fn given<T: Real>(method: &'static str, point: Point, cases: Vec<Case>, rates: Rates<T>) -> Work {
-            let order = point.order;
-            let starts = cases.into_iter().map(|case| (mechanism::<T>(&case), coordinates::<T>(&case.unknowns, case.input), case));
-            let starts: Vec<_> = starts.collect();
-            let error = largest(starts.iter().map(|(m, q, case)| {
-                let found = rates(m, &m.pose_at(q), order)?;
-                Ok(case.error(order, found.as_slice()))
-            }));
-            let cases = starts.len();
-            let pass = move || {
-                for (m, q, _) in &starts {
-                    let pose = m.pose_at(black_box(q));
-                    let _ = black_box(rates(m, &pose, order));
-                }
-            };
-            Work { method, point, error, cases, pass: Box::new(pass) }
-        }
-
-        fn near<T: Real>(case: &Case, m: &$Mechanism<T>) -> Reached<$Coordinates<T>, $Pose<T>> {
-            Reached::at(m, coordinates(&case.before.1, case.before.0))
-        }
-
         pub fn works() -> Vec<Work> {
             let name = module_path!().rsplit("::").next().expect("a module");
-            let starts = |pose: usize| poses_of(name).swap_remove(pose).cases;
+            let cases = |index: usize| poses_of(name).swap_remove(index).cases.into_iter();
             let mut works = Vec::new();
             for (index, poses) in poses_of(name).iter().enumerate() {
                 for point in points(poses) {
                     let at = || point.clone();
                     if poses.angles_given {
-                        works.push(given::<f32>("f32", at(), starts(index), emitted));
-                        works.push(given::<f64>("f64", at(), starts(index), emitted));
-                        works.push(given::<DoubleDouble>("double-double", at(), starts(index), emitted));
+                        macro_rules! given {
+                            ($method:literal, $T:ty, $rates:expr) => {{
+                                let all = cases(index).map(|case| (mechanism::<$T>(&case), case));
+                                works.push(methods::given($method, at(), all.collect(), $rates));
+                            }};
+                        }
+                        given!("f32", f32, emitted);
+                        given!("f64", f64, emitted);
+                        given!("double-double", DoubleDouble, emitted);
                         $({
                             let _ = $products;
-                            works.push(given::<f64>("f64, products", at(), starts(index), in_products));
+                            given!("f64, products", f64, in_products);
                         })?
                         continue;
                     }
                     macro_rules! road {
                         ($method:literal, $R:ty, $T:ty, $from:expr, $rates:expr) => {{
-                            let all = starts(index).into_iter().map(|case| {
+                            let all = cases(index).map(|case| {
                                 let m = mechanism::<$T>(&case);
-                                let (from, input) = ($from(&case, &m), scalars::<$T>(&[case.input])[0]);
-                                (case, m, from, input)
+                                let from = $from(&case, &m);
+                                (case, m, from)
                             });
-                            works.push(along::<$R, $T>($method, at(), &Rc::new(all.collect()), $rates));
+                            works.push(methods::along::<$R, _>($method, at(), all.collect(), $rates));
                         }};
                     }
                     $(
@@ -214,11 +241,11 @@ macro_rules! works {
                     if poses.pose == "benign" {
                         macro_rules! table {
                             ($method:literal, $N:literal) => {{
-                                type Entries = Table<$Coordinates, f64, $U, $N>;
-                                let first = &poses.cases[0];
-                                let start = coordinates(&first.before.1, first.before.0);
-                                let table = Rc::new(Entries::turn(&mechanism::<f64>(first), &start).expect("a whole turn"));
-                                road!($method, Shared<Entries>, f64, |_: &Case, _: &$Mechanism| Rc::clone(&table), emitted);
+                                type Entries = Table<$Mechanism, $N>;
+                                let m = mechanism::<f64>(&poses.cases[0]);
+                                let start = near(&poses.cases[0], &m).coordinates;
+                                let table = std::rc::Rc::new(Entries::turn(&m, &start).expect("a whole turn"));
+                                road!($method, Shared<Entries>, f64, |_: &Case, _: &$Mechanism| table.clone(), emitted);
                             }};
                         }
                         table!("table of 64", 65);
@@ -227,21 +254,6 @@ macro_rules! works {
                 }
             }
             works
-        }
-
-        /// A table that several poses look into.
-        struct Shared<R>(R);
-
-        impl<R> Method<$Mechanism, f64, $U, 1> for Shared<R>
-        where
-            R: Method<$Mechanism, f64, $U, 1, From = R>,
-        {
-            type From = Rc<R>;
-            type Position = R::Position;
-
-            fn position(m: &$Mechanism, from: &Rc<R>, inputs: impl Into<$Inputs>) -> Result<R::Position, Error> {
-                R::position(m, from, inputs)
-            }
         }
     };
 }

@@ -1,6 +1,6 @@
 //! A mechanism's methods, evaluated and timed.
 
-use linkage::Error;
+use linkage::PositionError;
 
 use crate::dominance::dominated;
 use crate::oracle::Poses;
@@ -22,7 +22,7 @@ pub struct Work {
     pub method: &'static str,
     pub point: Point,
     /// The largest error of its cases, or why there is none.
-    pub error: Result<f64, Error>,
+    pub error: Result<f64, PositionError>,
     /// Evaluations per pass.
     pub cases: usize,
     /// All cases once, results thrown away.
@@ -35,15 +35,15 @@ pub struct Stall {
     pub points: Vec<Point>,
     pub prices: Vec<Prices>,
     /// Why there is no price, where a method was tried.
-    pub refusals: Vec<(usize, usize, Error)>,
+    pub refusals: Vec<(usize, usize, PositionError)>,
     /// For each method the one that makes it superfluous on all stalls, if there is one.
     pub dominated: Vec<Option<usize>>,
 }
 
 /// The largest of some errors; a result that is not a number, given without a word, is none.
-pub fn largest(errors: impl Iterator<Item = Result<f64, Error>>) -> Result<f64, Error> {
-    let largest = errors.collect::<Result<Vec<f64>, Error>>()?.into_iter().fold(0.0, f64::max);
-    let silent = Error::NotFinite { mechanism: "the mechanism", quantity: "without a word: a result" };
+pub fn largest(errors: impl Iterator<Item = Result<f64, PositionError>>) -> Result<f64, PositionError> {
+    let largest = errors.collect::<Result<Vec<f64>, PositionError>>()?.into_iter().fold(0.0, f64::max);
+    let silent = PositionError::NotFinite { mechanism: "the mechanism", quantity: "without a word: a result" };
     if largest.is_finite() { Ok(largest) } else { Err(silent) }
 }
 

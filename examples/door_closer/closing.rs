@@ -7,7 +7,7 @@ use linkage::{Elbow, Error};
 use crate::gauss::nodes;
 use crate::machine::{Closing, DoorCloserBranch, DoorCloserCoordinates, DoorCloserInputs};
 
-pub type Moment = State<f64, DoorCloserCoordinates<f64>, 1>;
+pub type Moment = State<Closing>;
 
 /// The relative error allowed of a step.
 const TOLERANCE: f64 = 1e-12;
@@ -48,19 +48,19 @@ impl Run {
             let nodes = nodes([last.t, state.t]);
             for (state, [_, weight]) in motion.at(nodes.map(|[t, _]| t)).zip(nodes) {
                 let state = state?;
-                oil += weight * scene.power(state.t, &state.q, state.rate.door)?.dissipated;
+                oil += weight * scene.power(state.t, &state.q, state.rates.door)?.dissipated;
                 moments.push(state);
             }
             moments.push(state);
             for (_, change) in state.changes() {
-                let before = energy(&state.q, state.rate.door)?;
-                let rebound = if change == Change::Impact { scene.restitution * state.rate.door } else { 0.0 };
+                let before = energy(&state.q, state.rates.door)?;
+                let rebound = if change == Change::Impact { scene.restitution * state.rates.door } else { 0.0 };
                 blows += before - energy(&state.q, rebound)?;
                 impacts.push(state);
             }
             last = state;
         }
-        let energies = moments.iter().map(|state| energy(&state.q, state.rate.door)).collect::<Result<Vec<_>, _>>()?;
+        let energies = moments.iter().map(|state| energy(&state.q, state.rates.door)).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { scene, moments, energies, impacts, oil, blows })
     }
 }

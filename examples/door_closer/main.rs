@@ -32,15 +32,15 @@ fn report(run: &Run) -> Vec<[String; 2]> {
     let joules = |energy: f64| format!("{energy:.9} J");
     let mut rows = vec![["let go at".to_owned(), format!("{:.0}°", run.moments[0].q.door.to_degrees())]];
     for impact in &run.impacts[..5] {
-        let speed = -impact.rate.door;
+        let speed = -impact.rates.door;
         rows.push([format!("hits the frame at {:.6} s", impact.t), format!("with {speed:.6} rad/s")]);
     }
     let rest = run.impacts[run.impacts.len() - 1];
     rows.push(["impacts until it rests".to_owned(), run.impacts.len().to_string()]);
-    rows.push([format!("rests at {:.6} s", rest.t), format!("its last rate {:.1e} rad/s", -rest.rate.door)]);
+    rows.push([format!("rests at {:.6} s", rest.t), format!("its last rate {:.1e} rad/s", -rest.rates.door)]);
     rows.push([
         format!("at {} s", last.t),
-        format!("{:.1e}°, {} rad/s", last.q.door.to_degrees(), last.rate.door.abs()),
+        format!("{:.1e}°, {} rad/s", last.q.door.to_degrees(), last.rates.door.abs()),
     ]);
     let [before, after] = [run.energies[0], run.energies[run.energies.len() - 1]];
     rows.push(["the spring has given".to_owned(), joules(before - after)]);

@@ -1,7 +1,7 @@
 //! The page.
 
 use linkage::drawing::Animation;
-use linkage::nalgebra::vector;
+use linkage::nalgebra::{Point2, point};
 use linkage::simulation::simulate;
 
 use crate::closing::{END, Moment, Run};
@@ -20,7 +20,7 @@ fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
     for state in simulate(&run.scene, (0.0, run.moments[0].q, 0.0), END, 1e-9)?.at(times) {
         let points = closer.points(&closer.pose_at(&state?.q))?;
         picture.frame([
-            ("Hinge", vector![0.0, 0.0]),
+            ("Hinge", Point2::origin()),
             ("Edge", points.edge),
             ("Spindle", points.spindle),
             ("Elbow", points.elbow),
@@ -31,14 +31,14 @@ fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
     picture.link(&["Hinge", "Spindle", "Edge"]).link(&["Spindle", "Elbow"]).link(&["Shoe", "Elbow"]);
     picture.ground("Hinge").ground("Shoe").trace("Elbow");
     for wall in [[-0.2, -gap], [width + gap, width + 0.2]] {
-        picture.ground_line(wall.map(|x| vector![x, 0.0]));
+        picture.ground_line(wall.map(|x| point![x, 0.0]));
     }
     Ok(picture.to_svg()?)
 }
 
 pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::error::Error>> {
     let angle = |state: &Moment| [state.t, state.q.door.to_degrees()];
-    let rate = |state: &Moment| [state.t, state.rate.door];
+    let rate = |state: &Moment| [state.t, state.rates.door];
     let first = run.impacts[0].t;
     let rest = run.impacts[run.impacts.len() - 1].t;
     let near = |state: &&Moment| state.t > first - 0.04 && state.t < rest + 0.1;

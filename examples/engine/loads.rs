@@ -29,32 +29,32 @@ pub struct Loads {
 impl Loads {
     /// # Errors
     /// Those of the scenes.
-    pub fn at(scene: &Running<f64>, Moment { t, q, rate, .. }: &Moment) -> Result<Self, Error> {
-        let [rings] = scene.contacts(*t, q, rate)?;
+    pub fn at(scene: &Running<f64>, Moment { t, q, rates, .. }: &Moment) -> Result<Self, Error> {
+        let [rings] = scene.contacts(*t, q, rates)?;
         let ContactLaw::Friction { limit } = rings.law else { unreachable!("the only contact is a friction") };
-        let drag = if rate.z > 0.0 { -limit } else { limit };
+        let drag = if rates.z > 0.0 { -limit } else { limit };
         // M phi'' = Q and what the rings do by their lever.
-        let lever = rate.z / rate.phi;
+        let lever = rates.z / rates.phi;
         let mass = scene.mass_matrix(q)?[0];
-        let acceleration = (scene.forces(*t, q, rate.phi)?[0] + drag * lever) / mass;
+        let acceleration = (scene.forces(*t, q, rates.phi)?[0] + drag * lever) / mass;
 
         let Running { g, .. } = *scene;
         let measured = Measured {
             mechanism: scene.mechanism.clone(),
             place: q.phi,
-            speed: rate.phi,
+            speed: rates.phi,
             gain: acceleration,
             drag,
             g,
             ..Measured::default()
         };
-        let piston_pin = measured.reactions(0.0, q, rate.phi)?;
-        let [holding] = measured.drive_forces(0.0, q, rate.phi)?;
+        let piston_pin = measured.reactions(0.0, q, rates.phi)?;
+        let [holding] = measured.drive_forces(0.0, q, rates.phi)?;
 
         // Newton's law for rod and crank.
         let m: &Engine<f64> = &scene.mechanism;
         let pose = m.pose_at(q);
-        let velocity = m.velocity(&pose, rate.phi)?;
+        let velocity = m.velocity(&pose, rates.phi)?;
         let points = m.point_accelerations(&pose, &velocity, &m.acceleration(&pose, &velocity, acceleration)?)?;
         let weight = vector![-g, 0.0];
         let crank_pin = (points.rod - weight) * scene.m3 + piston_pin;

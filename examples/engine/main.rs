@@ -55,8 +55,8 @@ fn report(run: &Run) -> Result<Vec<[String; 2]>, Box<dyn Error>> {
         .collect::<Result<_, linkage::Error>>()?;
     let (first, last) = (&cycle[0], &cycle[cycle.len() - 1]);
     let mean = (last.q.phi - first.q.phi) / (last.t - first.t);
-    let (fastest, _) = largest(cycle, |state| state.rate.phi);
-    let (slowest, _) = largest(cycle, |state| -state.rate.phi);
+    let (fastest, _) = largest(cycle, |state| state.rates.phi);
+    let (slowest, _) = largest(cycle, |state| -state.rates.phi);
     let (peak, at) = largest(&pressures, |[_, pressure]| *pressure);
     let swept = 2.0 * engine.r * std::f64::consts::PI / 4.0 * engine.bore.powi(2);
     let [gas, rings] = indicated::work(scene, [0.0, CYCLE])?;
@@ -99,6 +99,6 @@ fn report(run: &Run) -> Result<Vec<[String; 2]>, Box<dyn Error>> {
 
 /// The power that the rings take.
 fn heat_of_rings(scene: &Running<f64>, state: &Moment) -> Result<f64, linkage::Error> {
-    let all = scene.power(state.t, &state.q, state.rate.phi)?.dissipated;
-    Ok(all - scene.brake * state.rate.phi * state.rate.phi)
+    let all = scene.power(state.t, &state.q, state.rates.phi)?.dissipated;
+    Ok(all - scene.brake * state.rates.phi * state.rates.phi)
 }

@@ -1,9 +1,9 @@
 //! The page.
 
 use linkage::drawing::Animation;
-use linkage::nalgebra::{Vector2, vector};
+use linkage::nalgebra::{Point2, Vector2, point, vector};
 use linkage::simulation::simulate;
-use linkage::{Error, Slope};
+use linkage::{PositionError, Slope};
 
 use crate::loads::Loads;
 use crate::machine::{CYCLE, Engine, EngineBranch, EngineCoordinates};
@@ -19,17 +19,17 @@ const CROWN: f64 = 0.022;
 const SKIRT: f64 = 0.018;
 
 /// Upright: x of the engine points up.
-fn up(at: Vector2<f64>) -> Vector2<f64> {
-    vector![-at.y, at.x]
+fn up(at: Point2<f64>) -> Point2<f64> {
+    point![-at.y, at.x]
 }
 
 /// The points at a position.
-fn frame(engine: &Engine<f64>, q: &EngineCoordinates<f64>) -> Result<[(&'static str, Vector2<f64>); 5], Error> {
+fn frame(engine: &Engine<f64>, q: &EngineCoordinates<f64>) -> Result<[(&'static str, Point2<f64>); 5], PositionError> {
     let points = engine.points(&engine.pose_at(q))?;
     let (pin, piston) = (up(points.pin), up(points.piston));
-    let middle = (pin * 2.0 + piston) / 3.0;
+    let middle = pin + (piston - pin) / 3.0;
     let crown = piston + vector![0.0, CROWN];
-    Ok([("O", vector![0.0, 0.0]), ("A", pin), ("G", middle), ("B", piston), ("Crown", crown)])
+    Ok([("O", Point2::origin()), ("A", pin), ("G", middle), ("B", piston), ("Crown", crown)])
 }
 
 /// What is drawn at these points.
@@ -40,7 +40,7 @@ fn draw(picture: &mut Animation, engine: &Engine<f64>) {
     let cylinder = [[wall, foot], [wall, head], [-wall, head], [-wall, foot]];
     let piston = [[-SKIRT, wall], [CROWN, wall], [CROWN, -wall], [-SKIRT, -wall]];
     picture.plate("B", "Crown", piston.map(Vector2::from)).link(&["A", "G", "B"]).ground("O");
-    picture.ground_line(cylinder.map(Vector2::from));
+    picture.ground_line(cylinder.map(Point2::from));
 }
 
 fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
@@ -48,7 +48,7 @@ fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
     let (first, last) = (cycle[0], cycle[cycle.len() - 1]);
     let times = (0..=FRAMES).map(|frame| first.t + (last.t - first.t) * f64::from(frame) / f64::from(FRAMES));
     let mut picture = Animation::new("Engine", SECONDS);
-    for state in simulate(&run.scene, (first.t, first.q, first.rate.phi), last.t, 1e-9)?.at(times) {
+    for state in simulate(&run.scene, (first.t, first.q, first.rates.phi), last.t, 1e-9)?.at(times) {
         picture.frame(frame(&run.scene.mechanism, &state?.q)?);
     }
     draw(&mut picture, &run.scene.mechanism);
@@ -81,14 +81,14 @@ pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::erro
     let plots = [
         (
             Plot::new("Speed", "turns", "rad/s")
-                .curve("", run.moments.iter().map(|state| [state.q.phi / CYCLE * 2.0, state.rate.phi])),
+                .curve("", run.moments.iter().map(|state| [state.q.phi / CYCLE * 2.0, state.rates.phi])),
             "From 200 rad/s until the brake takes what the gas gives. The shaft is faster after each firing.",
         ),
         (
             Plot::new("Speed", crank, "rad/s")
                 .every(180.0)
-                .curve("", cycle.iter().map(|state| [angle(state), state.rate.phi]))
-                .marks("rings change direction", run.ends().filter(turns).map(|state| [angle(state), state.rate.phi])),
+                .curve("", cycle.iter().map(|state| [angle(state), state.rates.phi]))
+                .marks("rings change direction", run.ends().filter(turns).map(|state| [angle(state), state.rates.phi])),
             "The last cycle: the flywheel gives back in three strokes what it got in one.",
         ),
         (

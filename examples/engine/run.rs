@@ -5,9 +5,9 @@ use linkage::integrate::Crossing;
 use linkage::simulation::{State, Then, simulate};
 
 use crate::gauss::nodes;
-use crate::machine::{EngineCoordinates, EngineInputs, KINKS, Running, START};
+use crate::machine::{EngineInputs, KINKS, Running, START};
 
-pub type Moment = State<f64, EngineCoordinates<f64>, 1>;
+pub type Moment = State<Running>;
 
 /// The relative error allowed of a step.
 const TOLERANCE: f64 = 1e-13;
@@ -58,12 +58,12 @@ impl Run {
                 Ok(values)
             },
             |event, state| {
-                let rates = EngineInputs { phi: state.rate.phi };
+                let rates = EngineInputs { phi: state.rates.phi };
                 Ok(if event < KINKS.len() { Then::Restart(rates) } else { Then::Stop })
             },
         )?;
         let energy = |state: &Moment| -> Result<f64, Error> {
-            let energy = scene.energy(&state.q, state.rate.phi)?;
+            let energy = scene.energy(&state.q, state.rates.phi)?;
             Ok(energy.kinetic + energy.potential)
         };
         let mut last = *motion.state();
@@ -77,7 +77,7 @@ impl Run {
             let nodes = nodes([last.t, state.t]);
             for (state, [_, weight]) in motion.at(nodes.map(|[t, _]| t)).zip(nodes) {
                 let state = state?;
-                let power = scene.power(state.t, &state.q, state.rate.phi)?;
+                let power = scene.power(state.t, &state.q, state.rates.phi)?;
                 account.applied += weight * power.applied;
                 account.dissipated += weight * power.dissipated;
                 moments.push(state);

@@ -4,8 +4,9 @@ use std::error::Error;
 use std::f64::consts::TAU;
 
 use linkage::Elbow::Left;
+use linkage::PositionError;
 use linkage::linkage;
-use linkage::nalgebra::Vector2;
+use linkage::nalgebra::{Vector2, vector};
 
 use crate::figure::{Course, Figure, at, polar};
 
@@ -24,11 +25,11 @@ fn turn() -> impl Iterator<Item = f64> {
 fn cam_follower() -> Result<Figure, Box<dyn Error>> {
     let m = CamFollower::default();
     let mut figure = assembled!("Cam follower", CamFollower, m on CamFollowerBranch::new(), from 30.0, |pose, points| {
-        let stem = points.roller + at(0.0, 2.0 * m.height);
-        [("O", at(0.0, 0.0)), ("Nose", polar(m.prime, pose.theta.angle())), ("Stem", stem)]
+        let stem = points.roller + vector![0.0, 2.0 * m.height];
+        [("O", at(0.0, 0.0)), ("Nose", polar(m.prime, pose.theta.angle()).into()), ("Stem", stem)]
     });
-    let profile: Result<Vec<_>, linkage::Error> =
-        turn().map(|theta| Ok(m.points(&m.assemble(theta, CamFollowerBranch {})?)?.profile)).collect();
+    let profile: Result<Vec<_>, PositionError> =
+        turn().map(|theta| Ok(m.points(&m.assemble(theta, CamFollowerBranch {})?)?.profile.coords)).collect();
     figure.picture.plate("O", "Nose", profile?).ground("O").wheel("Roller", "Contact", m.roller);
     figure.picture.link(&["Roller", "Stem"]).slider("Stem");
     Ok(figure.words(
@@ -44,15 +45,15 @@ fn cam_rocker() -> Result<Figure, Box<dyn Error>> {
     let mut figure = assembled!("Cam and rocker", CamRocker, m on CamRockerBranch::new(Left), from 30.0,
     |pose, points| {
         let nose = axis + polar(m.lever, pose.theta.angle());
-        [("O", at(0.0, 0.0)), ("Axis", axis), ("Nose", nose), ("Rim", points.roller + at(roller, 0.0))]
+        [("O", at(0.0, 0.0)), ("Axis", axis), ("Nose", nose), ("Rim", points.roller + vector![roller, 0.0])]
     });
-    let pitch: Result<Vec<Vector2<f64>>, linkage::Error> =
-        turn().map(|theta| Ok(m.points(&m.assemble(theta, CamRockerBranch::new(Left))?)?.pitch)).collect();
+    let pitch: Result<Vec<Vector2<f64>>, PositionError> =
+        turn().map(|theta| Ok(m.points(&m.assemble(theta, CamRockerBranch::new(Left))?)?.pitch.coords)).collect();
     let pitch = pitch?;
     // The profile lies a roller's radius inside the pitch curve, which is passed clockwise.
     let inside = (0..pitch.len()).map(|index| {
         let along = (pitch[(index + 1) % pitch.len()] - pitch[(index + pitch.len() - 1) % pitch.len()]).normalize();
-        pitch[index] + roller * at(along.y, -along.x)
+        pitch[index] + roller * vector![along.y, -along.x]
     });
     figure.picture.plate("Axis", "Nose", inside).ground("Axis").wheel("Roller", "Rim", roller);
     figure.picture.link(&["O", "A", "Roller"]).link(&["A", "B"]).link(&["C", "B"]);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use linkage::derivation::Derivation;
 use linkage::drawing::Animation;
-use linkage::nalgebra::Vector2;
+use linkage::nalgebra::{Point2, Vector2};
 
 /// Steps from the first frame to the last, which is the first again.
 pub const STEPS: u32 = 72;
@@ -88,7 +88,7 @@ impl Figure {
     }
 
     /// A position: its points, and how well it closes, which must be to a few roundings of the sum of its links.
-    pub fn frame(&mut self, residual: f64, size: f64, points: Vec<(&'static str, Vector2<f64>)>) {
+    pub fn frame(&mut self, residual: f64, size: f64, points: Vec<(&'static str, Point2<f64>)>) {
         // In the dwell of a cam nothing is left of either.
         let roundings = if residual == 0.0 { 0.0 } else { residual / (f64::EPSILON * size) };
         assert!(roundings <= 8.0, "{} closes to {roundings} roundings", self.name);
@@ -98,25 +98,25 @@ impl Figure {
 }
 
 /// The point that is so far from one in the direction of another.
-pub fn along(from: Vector2<f64>, towards: Vector2<f64>, distance: f64) -> Vector2<f64> {
+pub fn along(from: Point2<f64>, towards: Point2<f64>, distance: f64) -> Point2<f64> {
     from + (towards - from).normalize() * distance
 }
 
 /// A point by its coordinates.
-pub fn at(x: f64, y: f64) -> Vector2<f64> {
-    Vector2::new(x, y)
+pub fn at(x: f64, y: f64) -> Point2<f64> {
+    Point2::new(x, y)
 }
 
-/// A point at a distance from the origin in a direction.
-pub fn polar(distance: f64, angle: f64) -> Vector2<f64> {
-    at(distance * angle.cos(), distance * angle.sin())
+/// A vector by its length and its direction.
+pub fn polar(length: f64, angle: f64) -> Vector2<f64> {
+    Vector2::new(length * angle.cos(), length * angle.sin())
 }
 
 /// Adds a position to a figure: the mechanism's own points and those that the picture needs besides.
 macro_rules! frame {
     ($figure:ident, $mechanism:ident, $m:expr, $pose:expr, $points:ident => $more:expr) => {{
         let $points = $m.points($pose)?;
-        let own: [linkage::nalgebra::Vector2<f64>; $mechanism::<f64>::DERIVATION.points.len()] = $points.into();
+        let own: [linkage::nalgebra::Point2<f64>; $mechanism::<f64>::DERIVATION.points.len()] = $points.into();
         let names = $mechanism::<f64>::DERIVATION.points.iter().map(|point| point.name);
         let points = names.zip(own).chain($more).collect();
         $figure.frame($m.residual($pose).amax(), $m.closure_sizes($pose).sum(), points);

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use linkage::Elbow::{Left, Right};
 use linkage::Slider::Far;
 use linkage::linkage;
+use linkage::nalgebra::center;
 
 use crate::figure::{Course, Figure};
 
@@ -90,8 +91,8 @@ fn v_twin() -> Result<Figure, Box<dyn Error>> {
     let mut figure = assembled!("V-twin engine", VTwin,
     m on VTwinBranch::new(Far, Far), from 60.0,
     |pose, points| [
-        ("M", (points.pin + points.front) / 2.0),
-        ("N", (points.pin + points.rear) / 2.0),
+        ("M", center(&points.pin, &points.front)),
+        ("N", center(&points.pin, &points.rear)),
     ]);
     figure.picture.link(&["Pin", "M", "Front"]).link(&["Pin", "N", "Rear"]).slider("Front").slider("Rear");
     figure.picture.crank(&["O", "Pin"]).ground("O").trace("M").trace("N");

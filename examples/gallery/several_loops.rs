@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use linkage::Elbow::{self, Left, Right};
+use linkage::nalgebra::center;
 use linkage::{Mechanism, linkage};
 
 use crate::figure::{Course, Figure, STEPS, at};
@@ -79,7 +80,7 @@ fn watt_ii() -> Result<Figure, Box<dyn Error>> {
     let m = WattII::default();
     let mut figure = assembled!("Watt II six-bar", WattII,
         m on WattIIBranch::new(Left, Left), from 60.0,
-        |pose, points| [("M", (points.b + points.c) / 2.0)]);
+        |pose, points| [("M", center(&points.b, &points.c))]);
     figure.picture.crank(&["A", "B"]).link(&["B", "M", "C"]).link(&["D", "C", "P"]).link(&["P", "Q"]);
     figure.picture.link(&["F", "Q"]).ground("A").ground("D").ground("F").trace("M");
     Ok(figure.words(

@@ -5,6 +5,7 @@ use std::error::Error;
 use linkage::Slider::Far;
 use linkage::Slope::Rising;
 use linkage::linkage;
+use linkage::nalgebra::{center, vector};
 
 use crate::figure::{Course, Figure, along, at};
 
@@ -30,7 +31,7 @@ fn offset_slider_crank() -> Result<Figure, Box<dyn Error>> {
     let m = OffsetSliderCrank::default();
     let mut figure = assembled!("Offset slider-crank", OffsetSliderCrank,
         m on OffsetSliderCrankBranch::new(Rising), from 60.0,
-        |pose, points| [("M", (points.a + points.b) / 2.0)]);
+        |pose, points| [("M", center(&points.a, &points.b))]);
     figure.picture.crank(&["O", "A"]).link(&["A", "M", "B"]).slider("B").ground("O").trace("M");
     Ok(figure.words(
         "The slider runs beside the crank's pivot, so that one stroke is slower than the other.",
@@ -57,7 +58,7 @@ fn whitworth() -> Result<Figure, Box<dyn Error>> {
     m on WhitworthBranch::new(Far, Rising), from 60.0,
     |pose, points| [
         ("Tip", along(points.e, points.c, m.arm + m.crank + m.offset + 12.0)),
-        ("M", (points.e + points.ram) / 2.0),
+        ("M", center(&points.e, &points.ram)),
     ]);
     figure.picture.link(&["E", "C", "Tip"]).crank(&["O", "Pin"]).sleeve("Pin", ["E", "C"]);
     figure.picture.link(&["E", "M", "Ram"]).slider("Ram").ground("O").ground("C").trace("M");
@@ -71,7 +72,7 @@ fn crank_shaper() -> Result<Figure, Box<dyn Error>> {
     let m = CrankShaper::default();
     let mut figure = assembled!("Crank shaper", CrankShaper,
         m on CrankShaperBranch::new(Far, Rising), from 60.0,
-        |pose, points| [("M", (points.e + points.ram) / 2.0)]);
+        |pose, points| [("M", center(&points.e, &points.ram))]);
     figure.picture.link(&["C", "E"]).crank(&["O", "Pin"]).sleeve("Pin", ["C", "E"]);
     figure.picture.link(&["E", "M", "Ram"]).slider("Ram").ground("O").ground("C").trace("M");
     Ok(figure.words(
@@ -86,9 +87,9 @@ fn scotch_yoke() -> Result<Figure, Box<dyn Error>> {
     |pose, points| [
         ("O", at(0.0, 0.0)),
         ("Pin", at(m.r * pose.phi.re, m.r * pose.phi.im)),
-        ("Top", points.slider + at(0.0, 1.3 * m.r)),
-        ("Bottom", points.slider - at(0.0, 1.3 * m.r)),
-        ("End", points.slider + at(2.4 * m.r, 0.0)),
+        ("Top", points.slider + vector![0.0, 1.3 * m.r]),
+        ("Bottom", points.slider - vector![0.0, 1.3 * m.r]),
+        ("End", points.slider + vector![2.4 * m.r, 0.0]),
     ]);
     figure.picture.bent(&["Top", "Bottom", "Slider", "End"]).slider("End").crank(&["O", "Pin"]);
     figure.picture.sleeve("Pin", ["Bottom", "Top"]).ground("O").trace("Pin");

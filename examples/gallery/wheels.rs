@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use linkage::Elbow::{self, Left, Right};
 use linkage::Slider::Far;
 use linkage::linkage;
-use linkage::nalgebra::Vector2;
+use linkage::nalgebra::{Point2, Vector2};
 
 use crate::figure::{Course, Figure, STEPS, at, polar};
 
@@ -26,7 +26,7 @@ fn geared_five_bar() -> Result<Figure, Box<dyn Error>> {
     |pose, points| {
         let theta1 = pose.theta1.angle();
         let theta4 = m.ratio * theta1 + m.phase;
-        [("A", at(0.0, 0.0)), ("D", at(m.e, 0.0)), ("B", polar(m.a, theta1)), ("C", at(m.e, 0.0) + polar(m.d, theta4))]
+        [("A", at(0.0, 0.0)), ("D", at(m.e, 0.0)), ("B", polar(m.a, theta1).into()), ("C", at(m.e, 0.0) + polar(m.d, theta4))]
     });
     // Two pitch circles that touch, and turn two to one.
     let pitch = m.e / (1.0 - m.ratio);
@@ -39,7 +39,7 @@ fn geared_five_bar() -> Result<Figure, Box<dyn Error>> {
 fn cardan() -> Result<Figure, Box<dyn Error>> {
     let m = Cardan::default();
     let mut figure = assembled!("Cardan gears", Cardan, m on CardanBranch::new(), from 50.0, |pose, points| []);
-    figure.picture.ground_line((0..=72).map(|step| polar(m.ring, f64::from(step) * TAU / 72.0)));
+    figure.picture.ground_line((0..=72).map(|step| Point2::from(polar(m.ring, f64::from(step) * TAU / 72.0))));
     figure.picture.wheel("Centre", "Rim", m.planet).crank(&["O", "Centre"]).ground("O").trace("Rim").trace("Pen");
     Ok(figure.words(
         "A planet rolls in a ring of twice its size: its rim moves on a diameter, its inner points on ellipses.",
@@ -104,7 +104,7 @@ fn geneva() -> Result<Figure, Box<dyn Error>> {
         figure.branches.get_or_insert([GenevaBranch::all().count(), m.branches(turned).count()]);
         let pose = m.assemble(turned, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
-        frame!(figure, Geneva, m, &pose, points => [("Crank", polar(m.crank, theta))]);
+        frame!(figure, Geneva, m, &pose, points => [("Crank", polar(m.crank, theta).into())]);
     }
     figure.picture.plate("Wheel", "Mouth", cross(&m)).plate("O", "Crank", locking_disc(&m));
     figure.picture.crank(&["O", "Crank"]).ground("O").ground("Wheel").trace("Crank");

@@ -1,27 +1,28 @@
 //! Steps of one length by Kutta's method: ours in the inputs, and the formulations with multipliers.
 
+use std::error::Error;
 use std::rc::Rc;
 
-use linkage::Scene;
-use linkage::nalgebra::{Const, DimMin, SVector};
+use linkage::nalgebra::{Const, DimMin};
 use linkage::simulation::RealTime;
+use linkage::{D, MotionError, Scene};
 
 use super::formulations::{Hold, Multipliers};
 use super::list::{ACCELERATIONS, Outcome, PROJECTED, REAL_TIME, STRONGLY, WEAKLY, Work};
-use super::problem::Problem;
+use super::problem::{Problem, State};
 
 /// Doublings of the number of steps: code that is not optimised is not timed for long.
 const DOUBLINGS: u32 = if cfg!(debug_assertions) { 0 } else { 4 };
 
 /// With so many steps at the least, and Baumgarte's two alphas in 1/s.
-pub fn works<const C: usize, const D: usize, S, const U: usize, const V: usize, const N: usize>(
-    problem: &Rc<Problem<S, U, V, N>>,
+pub fn works<const N: usize, const U: usize, S>(
+    problem: &Rc<Problem<S>>,
     least: u32,
     [weak, strong]: [f64; 2],
 ) -> Vec<Work>
 where
-    S: Scene<f64, U, V, N, 0> + 'static,
-    Const<D>: DimMin<Const<D>, Output = Const<D>>,
+    S: Scene<Scalar = f64, U = D<U>, Contacts = D<0>> + 'static,
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let holds = [
         (REAL_TIME, None),
@@ -38,8 +39,8 @@ where
             let setting = problem.end / f64::from(steps);
             let run = move || {
                 let y = match hold {
-                    None => in_the_inputs(&problem, steps),
-                    Some(hold) => with_multipliers::<C, D, _, U, V, N>(&problem, hold, steps),
+                    None => in_the_inputs(&problem, steps).map_err(Into::into),
+                    Some(hold) => with_multipliers::<N, _, _>(&problem, hold, steps),
                 };
                 let y = y.map_err(|error| error.to_string())?;
                 Ok(Outcome { error: problem.error(&y), gap: problem.gap(&y), evaluations: 4 * steps as usize })
@@ -50,12 +51,9 @@ where
 }
 
 /// The end by `RealTime`.
-pub fn in_the_inputs<S, const U: usize, const V: usize, const N: usize>(
-    problem: &Problem<S, U, V, N>,
-    steps: u32,
-) -> Result<SVector<f64, N>, Box<dyn std::error::Error>>
+fn in_the_inputs<S>(problem: &Problem<S>, steps: u32) -> Result<State<S>, MotionError>
 where
-    S: Scene<f64, U, V, N, 0>,
+    S: Scene<Scalar = f64, Contacts = D<0>>,
 {
     let (q, rates) = S::parts(&problem.start);
     let mut clock = RealTime::new(&problem.scene, (0.0, q, rates), problem.end / f64::from(steps))?;
@@ -66,16 +64,16 @@ where
 }
 
 /// The end by index 1.
-pub fn with_multipliers<const C: usize, const D: usize, S, const U: usize, const V: usize, const N: usize>(
-    problem: &Problem<S, U, V, N>,
+fn with_multipliers<const N: usize, const U: usize, S>(
+    problem: &Problem<S>,
     hold: Hold,
     steps: u32,
-) -> Result<SVector<f64, N>, Box<dyn std::error::Error>>
+) -> Result<State<S>, Box<dyn Error>>
 where
-    S: Scene<f64, U, V, N, 0>,
-    Const<D>: DimMin<Const<D>, Output = Const<D>>,
+    S: Scene<Scalar = f64, U = D<U>>,
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
-    let mut motion = Multipliers::<S, U, V, N, C, D>::new(problem, hold)?;
+    let mut motion = Multipliers::<S, U, N>::new(problem, hold)?;
     let h = problem.end / f64::from(steps);
     for step in 0..steps {
         motion.step(f64::from(step) * h, h)?;

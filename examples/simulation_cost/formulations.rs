@@ -14,9 +14,9 @@
 use std::error::Error;
 
 use linkage::nalgebra::{Const, DimMin, SMatrix, SVector};
-use linkage::{Mechanism, Scene};
+use linkage::{Column, D, Dim, Matrix, Mechanism, PositionError, Scene};
 
-use super::problem::Problem;
+use super::problem::{Problem, State};
 
 /// What holds the closures.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,24 +29,28 @@ pub enum Hold {
     Projection,
 }
 
-/// All coordinates, the unknowns first, and their rates.
+/// A number for each coordinate, those of the unknowns and those of the inputs apart.
+type All<U, V> = (Column<f64, U>, Column<f64, V>);
+
+/// All coordinates and their rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moving<const C: usize> {
-    pub q: SVector<f64, C>,
-    pub rate: SVector<f64, C>,
+pub struct Moving<U: Dim, V: Dim> {
+    pub q: All<U, V>,
+    pub rates: All<U, V>,
 }
 
-impl<const C: usize> Moving<C> {
+impl<U: Dim, V: Dim> Moving<U, V> {
     fn moved(&self, by: &Self, h: f64) -> Self {
-        Self { q: self.q + by.q * h, rate: self.rate + by.rate * h }
+        let plus = |(u, v): All<U, V>, (of_u, of_v): All<U, V>| (u + of_u * h, v + of_v * h);
+        Self { q: plus(self.q, by.q), rates: plus(self.rates, by.rates) }
     }
 }
 
-/// A motion in `C` = `U` + `V` coordinates, with `D` = `C` + `U` unknowns in each system of equations.
-pub struct Multipliers<'a, S, const U: usize, const V: usize, const N: usize, const C: usize, const D: usize> {
-    problem: &'a Problem<S, U, V, N>,
+/// A motion in all coordinates, with `N` unknowns, accelerations and multipliers, in each system of equations.
+pub struct Multipliers<'a, S: Scene<Scalar = f64>, const U: usize, const N: usize> {
+    problem: &'a Problem<S>,
     hold: Hold,
-    pub state: Moving<C>,
+    pub state: Moving<S::U, S::V>,
 }
 
 const DEPENDENT: &str = "the closures are not independent";
@@ -54,72 +58,77 @@ const DEPENDENT: &str = "the closures are not independent";
 /// A projection that takes more steps than this will not end.
 const MOST_ITERATIONS: usize = 8;
 
-impl<'a, S, const U: usize, const V: usize, const N: usize, const C: usize, const D: usize>
-    Multipliers<'a, S, U, V, N, C, D>
+impl<'a, S, const U: usize, const N: usize> Multipliers<'a, S, U, N>
 where
-    S: Scene<f64, U, V, N, 0>,
-    Const<D>: DimMin<Const<D>, Output = Const<D>>,
+    S: Scene<Scalar = f64, U = D<U>>,
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
-    pub fn new(problem: &'a Problem<S, U, V, N>, hold: Hold) -> Result<Self, linkage::Error> {
-        const { assert!(C == U + V && D == C + U) };
+    pub fn new(problem: &'a Problem<S>, hold: Hold) -> Result<Self, PositionError> {
+        const { assert!(N == 2 * U + S::V::COUNT) };
         let mechanism = problem.scene.mechanism();
-        let (q, rates) = S::parts(&problem.start);
-        let (pose, rates) = (mechanism.pose_at(&q), rates.into());
-        let of_unknowns = mechanism.solve_jacobian(&pose, &(mechanism.jacobian_inputs(&pose) * -rates))?;
-        let (unknowns, inputs) = (S::Mechanism::unknowns(&q), S::Mechanism::inputs(&q));
-        let state = Moving { q: joined(&unknowns, &inputs), rate: joined(&of_unknowns, &rates) };
-        Ok(Self { problem, hold, state })
-    }
-
-    /// By name.
-    fn named(&self, all: &SVector<f64, C>) -> <S::Mechanism as Mechanism<f64, U, V>>::Coordinates {
-        let (template, _) = S::parts(&self.problem.start);
-        let inputs = all.fixed_rows::<V>(U).into_owned();
-        S::Mechanism::with_unknowns(&S::Mechanism::with_inputs(&template, inputs), all.fixed_rows::<U>(0).into_owned())
+        let (q, input_rates) = S::parts(&problem.start);
+        let (pose, of_inputs) = (mechanism.pose_at(&q), input_rates.into());
+        let of_unknowns = mechanism.solve_jacobian(&pose, &-(mechanism.jacobian_inputs(&pose) * of_inputs))?;
+        Ok(Self { problem, hold, state: Moving { q: S::Mechanism::parts(&q), rates: (of_unknowns, of_inputs) } })
     }
 
     /// y = (q, v').
-    pub fn y(&self) -> SVector<f64, N> {
-        S::state(&self.named(&self.state.q), &self.state.rate.fixed_rows::<V>(U).into_owned().into())
+    pub fn y(&self) -> State<S> {
+        let Moving { q: (u, v), rates: (_, of_inputs) } = self.state;
+        S::state(&S::Mechanism::coordinates(u, v), &of_inputs.into())
     }
 
-    fn slope(&self, t: f64, at: &Moving<C>) -> Result<Moving<C>, Box<dyn Error>> {
-        let (q, rate) = (self.named(&at.q), self.named(&at.rate));
+    fn slope(
+        &self,
+        t: f64,
+        &Moving { q: (u, v), rates }: &Moving<S::U, S::V>,
+    ) -> Result<Moving<S::U, S::V>, Box<dyn Error>> {
+        let (q, by_name) = (S::Mechanism::coordinates(u, v), S::Mechanism::rates(rates.0, rates.1));
         let mechanism = self.problem.scene.mechanism();
         let pose = mechanism.pose_at(&q);
-        let k = jacobian::<S, U, V, N, C>(mechanism, &pose);
-        let all = self.problem.scene.unreduced(t, &q, &rate)?;
-        let mut matrix = SMatrix::<f64, D, D>::zeros();
-        matrix.fixed_view_mut::<U, U>(0, 0).copy_from(&all.unknowns);
-        matrix.fixed_view_mut::<U, V>(0, U).copy_from(&all.mixed);
-        matrix.fixed_view_mut::<V, U>(U, 0).copy_from(&all.mixed.transpose());
-        matrix.fixed_view_mut::<V, V>(U, U).copy_from(&all.inputs);
-        matrix.fixed_view_mut::<C, U>(0, C).copy_from(&k.transpose());
-        matrix.fixed_view_mut::<U, C>(C, 0).copy_from(&k);
-        let mut closures = -mechanism.gamma(&pose, &rate);
+        let (j, a) = (mechanism.jacobian_unknowns(&pose), mechanism.jacobian_inputs(&pose));
+        let all = self.problem.scene.unreduced(t, &q, &by_name)?;
+        let (inputs, multipliers) = (U, U + S::V::COUNT);
+        let mut matrix = SMatrix::<f64, N, N>::zeros();
+        place(&mut matrix, (0, 0), &all.unknowns);
+        place(&mut matrix, (0, inputs), &all.mixed);
+        place(&mut matrix, (inputs, inputs), &all.inputs);
+        place(&mut matrix, (multipliers, 0), &j);
+        place(&mut matrix, (multipliers, inputs), &a);
+        let mut closures = -mechanism.gamma(&pose, &by_name);
         if let Hold::Baumgarte(alpha) = self.hold {
-            closures -= k * at.rate * (2.0 * alpha) + mechanism.residual(&pose) * (alpha * alpha);
+            closures -= (j * rates.0 + a * rates.1) * (2.0 * alpha) + mechanism.residual(&pose) * (alpha * alpha);
         }
-        let forces = joined::<U, V, C>(&all.unknown_forces, &all.input_forces);
-        let solution = matrix.lu().solve(&joined::<C, U, D>(&forces, &closures)).ok_or(DEPENDENT)?;
-        Ok(Moving { q: at.rate, rate: solution.fixed_rows::<C>(0).into_owned() })
+        let right = all.unknown_forces.iter().chain(&all.input_forces).chain(&closures).copied();
+        let solution = matrix.lu().solve(&SVector::<f64, N>::from_iterator(right)).ok_or(DEPENDENT)?;
+        let accelerations = (Column::from_fn(|row| solution[row]), Column::from_fn(|row| solution[inputs + row]));
+        Ok(Moving { q: rates, rates: accelerations })
     }
 
     /// dq = -K' (K K')^-1 Psi until rounding; then the same of the rates, which K q' = 0 gives at once.
-    fn project(&self, mut at: Moving<C>) -> Result<Moving<C>, Box<dyn Error>> {
+    fn project(
+        &self,
+        Moving { q: (mut u, mut v), rates }: Moving<S::U, S::V>,
+    ) -> Result<Moving<S::U, S::V>, Box<dyn Error>> {
         let mechanism = self.problem.scene.mechanism();
         let mut last = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
-            let pose = mechanism.pose_at(&self.named(&at.q));
-            let k = jacobian::<S, U, V, N, C>(mechanism, &pose);
-            let factors = (k * k.transpose()).cholesky().ok_or(DEPENDENT)?;
-            let step = k.tr_mul(&factors.solve(&mechanism.residual(&pose)));
-            let size = step.amax();
+            let pose = mechanism.pose_at(&S::Mechanism::coordinates(u, v));
+            let (j, a) = (mechanism.jacobian_unknowns(&pose), mechanism.jacobian_inputs(&pose));
+            let square = SMatrix::<f64, U, U>::from(j * j.transpose() + a * a.transpose());
+            let factors = square.cholesky().ok_or(DEPENDENT)?;
+            let shortest = |gap: Column<f64, S::U>| {
+                let multipliers = factors.solve(&SVector::from(gap)).into();
+                (j.tr_mul(&multipliers), a.tr_mul(&multipliers))
+            };
+            let step = shortest(mechanism.residual(&pose));
+            let size = step.0.largest().max(step.1.largest());
             // The steps of Newton's method fall until they are rounding.
             if size == 0.0 || size >= last || last < f64::EPSILON.sqrt() {
-                return Ok(Moving { q: at.q, rate: at.rate - k.tr_mul(&factors.solve(&(k * at.rate))) });
+                let excess = shortest(j * rates.0 + a * rates.1);
+                return Ok(Moving { q: (u, v), rates: (rates.0 - excess.0, rates.1 - excess.1) });
             }
-            at.q -= step;
+            (u, v) = (u - step.0, v - step.1);
             last = size;
         }
         Err("no position is near".into())
@@ -139,20 +148,15 @@ where
     }
 }
 
-/// K = [J A].
-fn jacobian<S: Scene<f64, U, V, N, 0>, const U: usize, const V: usize, const N: usize, const C: usize>(
-    mechanism: &S::Mechanism,
-    pose: &<S::Mechanism as Mechanism<f64, U, V>>::Pose,
-) -> SMatrix<f64, U, C> {
-    let mut k = SMatrix::<f64, U, C>::zeros();
-    k.fixed_view_mut::<U, U>(0, 0).copy_from(&mechanism.jacobian_unknowns(pose));
-    k.fixed_view_mut::<U, V>(0, U).copy_from(&mechanism.jacobian_inputs(pose));
-    k
-}
-
-fn joined<const A: usize, const B: usize, const C: usize>(
-    first: &SVector<f64, A>,
-    second: &SVector<f64, B>,
-) -> SVector<f64, C> {
-    SVector::from_fn(|row, _| if row < A { first[row] } else { second[row - A] })
+/// Gives a block of a symmetric matrix its entries, and its mirror image.
+fn place<const N: usize, R: Dim, C: Dim>(
+    matrix: &mut SMatrix<f64, N, N>,
+    (top, left): (usize, usize),
+    block: &Matrix<f64, R, C>,
+) {
+    for (column, entries) in (left..).zip(block.columns()) {
+        for (row, &entry) in (top..).zip(entries) {
+            (matrix[(row, column)], matrix[(column, row)]) = (entry, entry);
+        }
+    }
 }

@@ -29,13 +29,13 @@ linkage! {
 }
 
 /// The four-bar held by a spring, for 5 s.
-pub fn sprung() -> Problem<Sprung, 2, 1, 4> {
-    Problem::new(Sprung::default(), (START, [6.0]), (5.0, SPRUNG))
+pub fn sprung() -> Problem<Sprung> {
+    Problem::new(Sprung::default(), (START, 6.0), (5.0, SPRUNG))
 }
 
 /// The four-bar under its weight, for 20 s: 44 turns.
-pub fn turning() -> Problem<Turning, 2, 1, 4> {
-    Problem::new(Turning::default(), (START, [12.0]), (20.0, TURNED))
+pub fn turning() -> Problem<Turning> {
+    Problem::new(Turning::default(), (START, 12.0), (20.0, TURNED))
 }
 
 /// On the closures to 16 digits.

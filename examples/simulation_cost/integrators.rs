@@ -4,31 +4,28 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
-use linkage::Scene;
 use linkage::integrate::{Dop853, Dopri5, Integration, Method, Tolerance};
 use linkage::nalgebra::SVector;
 use linkage::simulation::simulate;
+use linkage::{Column, D, MotionError, Scene};
 
 use super::list::{
     DIFFERENTIAL_EQUATIONS_5, DIFFERENTIAL_EQUATIONS_8, INTEGRATE_5, INTEGRATE_8, ODE_SOLVERS_5, ODE_SOLVERS_8,
     Outcome, SIMULATE_5, SIMULATE_8, Work,
 };
-use super::problem::Problem;
+use super::problem::{Problem, State};
 
 /// Steps after which any of them gives up: the bound that ours and `ode_solvers` have by themselves.
 pub const MOST_STEPS: usize = 100_000;
 
 /// The end of a run and the right-hand sides it took, or why there is none.
-pub type End<const N: usize> = Result<(SVector<f64, N>, usize), String>;
+pub type End<S> = Result<(State<S>, usize), String>;
 
 /// From a tolerance to an end.
-type Run<S, const U: usize, const V: usize, const N: usize> = fn(&Problem<S, U, V, N>, f64) -> End<N>;
+type Run<S> = fn(&Problem<S>, f64) -> End<S>;
 
-pub fn works<S, const U: usize, const V: usize, const N: usize>(problem: &Rc<Problem<S, U, V, N>>) -> Vec<Work>
-where
-    S: Scene<f64, U, V, N, 0> + 'static,
-{
-    let methods: [(usize, Run<S, U, V, N>); 8] = [
+pub fn works<S: Scene<Scalar = f64, State = D<N>> + 'static, const N: usize>(problem: &Rc<Problem<S>>) -> Vec<Work> {
+    let methods: [(usize, Run<S>); 8] = [
         (SIMULATE_8, Problem::simulated::<Dop853>),
         (SIMULATE_5, Problem::simulated::<Dopri5>),
         (INTEGRATE_8, Problem::integrated::<Dop853>),
@@ -45,14 +42,11 @@ where
 const MOST_DIGITS: i32 = if cfg!(debug_assertions) { 7 } else { 13 };
 
 /// A method at tolerances from 1e-3 on.
-pub fn by_tolerance<S, const U: usize, const V: usize, const N: usize>(
-    problem: &Rc<Problem<S, U, V, N>>,
+pub fn by_tolerance<S: Scene<Scalar = f64> + 'static>(
+    problem: &Rc<Problem<S>>,
     method: usize,
-    end: impl Fn(&Problem<S, U, V, N>, f64) -> End<N> + Copy + 'static,
-) -> impl Iterator<Item = Work>
-where
-    S: Scene<f64, U, V, N, 0> + 'static,
-{
+    end: impl Fn(&Problem<S>, f64) -> End<S> + Copy + 'static,
+) -> impl Iterator<Item = Work> {
     (3..=MOST_DIGITS).map(move |digits| {
         let (problem, setting) = (Rc::clone(problem), 10.0_f64.powi(-digits));
         let run = move || {
@@ -63,35 +57,37 @@ where
     })
 }
 
-impl<S: Scene<f64, U, V, N, 0>, const U: usize, const V: usize, const N: usize> Problem<S, U, V, N> {
-    fn simulated<M: Method>(&self, tolerance: f64) -> End<N> {
+impl<S: Scene<Scalar = f64>> Problem<S> {
+    fn simulated<M: Method>(&self, tolerance: f64) -> End<S> {
         let end = || {
             let (q, rates) = S::parts(&self.start);
             let mut motion = simulate(&self.scene, (0.0, q, rates), self.end, tolerance)?.method::<M>()?;
             motion.finish(|_, _| true)?;
             Ok((S::state(&motion.state().q, &rates), motion.counts().evaluations))
         };
-        end().map_err(|error: linkage::Error| error.to_string())
+        end().map_err(|error: MotionError| error.to_string())
     }
 
-    fn integrated<M: Method>(&self, tolerance: f64) -> End<N> {
+    fn integrated<M: Method>(&self, tolerance: f64) -> End<S> {
         let end = || {
-            let rate = |t: f64, y: &SVector<f64, N>| self.scene.derivative(t, y);
-            let tolerance = Tolerance::new(tolerance, [1.0; N])?;
-            let mut motion = Integration::<M, _, f64, N, 0>::new(rate, (0.0, self.start), self.end, tolerance)?;
+            let rate = |t: f64, y: &State<S>| self.scene.derivative(t, y);
+            let tolerance = Tolerance::new(tolerance, Column::repeat(1.0))?;
+            let mut motion = Integration::<_, M>::new(rate, (0.0, self.start), self.end, tolerance)?;
             motion.finish(|_, _| true)?;
             Ok((*motion.state(), motion.counts().evaluations))
         };
-        end().map_err(|error: linkage::Error| error.to_string())
+        end().map_err(|error: MotionError| error.to_string())
     }
 
     /// y', or what is not a number where there is none, for integrators that know no failure.
     #[inline]
-    pub fn rate(&self, t: f64, y: &SVector<f64, N>) -> SVector<f64, N> {
-        self.scene.derivative(t, y).unwrap_or_else(|_| SVector::repeat(f64::NAN))
+    pub fn rate(&self, t: f64, y: &State<S>) -> State<S> {
+        self.scene.derivative(t, y).unwrap_or_else(|_| Column::repeat(f64::NAN))
     }
+}
 
-    fn by_ode_solvers<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<N> {
+impl<S: Scene<Scalar = f64, State = D<N>>, const N: usize> Problem<S> {
+    fn by_ode_solvers<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<S> {
         let calls = Cell::new(0);
         let start = ode_solvers::SVector::<f64, N>::from(<[f64; N]>::from(self.start));
         let called = Called(self, &calls);
@@ -109,30 +105,29 @@ impl<S: Scene<f64, U, V, N, 0>, const U: usize, const V: usize, const N: usize> 
         Ok((<[f64; N]>::from(last).into(), calls.get()))
     }
 
-    fn by_differential_equations<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<N> {
+    fn by_differential_equations<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<S> {
         let calls = Cell::new(0);
         let system = |t: f64, y: &SVector<f64, N>, slope: &mut SVector<f64, N>| {
             calls.set(calls.get() + 1);
-            *slope = self.rate(t, y);
+            *slope = self.rate(t, &(*y).into()).into();
         };
-        let motion = IVP::ode_from_fn(system, 0.0, self.end, self.start);
+        let motion = IVP::ode_from_fn(system, 0.0, self.end, SVector::from(self.start));
         let solution = if IS_EIGHT {
             motion.method(ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
         } else {
             motion.method(ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
         };
         let solution = solution.map_err(|error| format!("{error:?}"))?;
-        Ok((*solution.y.last().ok_or("no state")?, calls.get()))
+        Ok(((*solution.y.last().ok_or("no state")?).into(), calls.get()))
     }
 }
 
 /// The right-hand side and how often it is called.
-struct Called<'a, S, const U: usize, const V: usize, const N: usize>(&'a Problem<S, U, V, N>, &'a Cell<usize>);
+struct Called<'a, S: Scene<Scalar = f64>>(&'a Problem<S>, &'a Cell<usize>);
 
-impl<S, const U: usize, const V: usize, const N: usize> ode_solvers::System<f64, ode_solvers::SVector<f64, N>>
-    for Called<'_, S, U, V, N>
+impl<S, const N: usize> ode_solvers::System<f64, ode_solvers::SVector<f64, N>> for Called<'_, S>
 where
-    S: Scene<f64, U, V, N, 0>,
+    S: Scene<Scalar = f64, State = D<N>>,
 {
     #[inline]
     fn system(&self, t: f64, y: &ode_solvers::SVector<f64, N>, slope: &mut ode_solvers::SVector<f64, N>) {

@@ -11,14 +11,14 @@ include!("../../tests/mechanisms/two_windows.rs");
 include!("../../tests/source/andrews_motion.rs");
 
 /// Andrews' squeezing mechanism.
-pub fn squeezer() -> Problem<Squeezing, 6, 1, 8> {
-    Problem::new(Squeezing::default(), (START, [0.0]), (0.03, END))
+pub fn squeezer() -> Problem<Squeezing> {
+    Problem::new(Squeezing::default(), (START, 0.0), (0.03, END))
 }
 
 /// The N-four-bar of the benchmark library of IFToMM (problem A02, lim.ii.udc.es/mbsbenchmark) with two windows, to
 /// 10 s: ten times all bars are in line. Its end by elliptic integrals with 34 digits.
-pub fn windows() -> Problem<TwoFalling, 4, 1, 6> {
+pub fn windows() -> Problem<TwoFalling> {
     let at = |phi: f64| TwoWindowsCoordinates { phi0: phi, psi1: 0.0, phi1: phi, psi2: 0.0, phi2: phi };
     let end = at(FRAC_PI_2 - 31.750_597_186_986_1);
-    Problem::new(TwoFalling::default(), (at(FRAC_PI_2), [-1.0]), (10.0, end))
+    Problem::new(TwoFalling::default(), (at(FRAC_PI_2), -1.0), (10.0, end))
 }

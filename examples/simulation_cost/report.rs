@@ -9,10 +9,10 @@ use super::{chart, fixed_steps, four_bars, integrators, page, problems, reading}
 
 /// The squeezer, the windows, the sprung four-bar and the turning one.
 pub struct Problems {
-    pub squeezer: Rc<Problem<problems::Squeezing, 6, 1, 8>>,
-    pub windows: Rc<Problem<problems::TwoFalling, 4, 1, 6>>,
-    pub sprung: Rc<Problem<four_bars::Sprung, 2, 1, 4>>,
-    pub turning: Rc<Problem<four_bars::Turning, 2, 1, 4>>,
+    pub squeezer: Rc<Problem<problems::Squeezing>>,
+    pub windows: Rc<Problem<problems::TwoFalling>>,
+    pub sprung: Rc<Problem<four_bars::Sprung>>,
+    pub turning: Rc<Problem<four_bars::Turning>>,
 }
 
 impl Problems {
@@ -34,10 +34,10 @@ impl Problems {
             integrators::works(sprung),
             integrators::works(turning),
         ];
-        works[0].extend(fixed_steps::works::<7, 13, _, 6, 1, 8>(squeezer, 250, [1e3, 1e4]));
-        works[1].extend(fixed_steps::works::<5, 9, _, 4, 1, 6>(windows, 2500, [5.0, 50.0]));
-        works[2].extend(fixed_steps::works::<3, 5, _, 2, 1, 4>(sprung, 1250, [5.0, 50.0]));
-        works[3].extend(fixed_steps::works::<3, 5, _, 2, 1, 4>(turning, 5000, [5.0, 50.0]));
+        works[0].extend(fixed_steps::works::<13, _, _>(squeezer, 250, [1e3, 1e4]));
+        works[1].extend(fixed_steps::works::<9, _, _>(windows, 2500, [5.0, 50.0]));
+        works[2].extend(fixed_steps::works::<5, _, _>(sprung, 1250, [5.0, 50.0]));
+        works[3].extend(fixed_steps::works::<5, _, _>(turning, 5000, [5.0, 50.0]));
         works
     }
 }

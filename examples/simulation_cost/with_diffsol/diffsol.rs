@@ -4,32 +4,25 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
-use linkage::Scene;
-use linkage::nalgebra::SVector;
+use linkage::{Column, Dim, Scene};
 
 use crate::integrators::{End, MOST_STEPS, by_tolerance};
 use crate::list::{METHODS, Work};
 use crate::problem::Problem;
 
-pub fn works<S, const U: usize, const V: usize, const N: usize>(problem: &Rc<Problem<S, U, V, N>>) -> Vec<Work>
-where
-    S: Scene<f64, U, V, N, 0> + 'static,
-{
+pub fn works<S: Scene<Scalar = f64> + 'static>(problem: &Rc<Problem<S>>) -> Vec<Work> {
     let method = METHODS.iter().position(|method| method.name.starts_with("diffsol")).expect("a method of the list");
     by_tolerance(problem, method, |problem, tolerance| end(problem, tolerance)).collect()
 }
 
-fn end<S, const U: usize, const V: usize, const N: usize>(problem: &Problem<S, U, V, N>, tolerance: f64) -> End<N>
-where
-    S: Scene<f64, U, V, N, 0>,
-{
+fn end<S: Scene<Scalar = f64>>(problem: &Problem<S>, tolerance: f64) -> End<S> {
     let calls = Cell::new(0);
     let rhs = |y: &[f64], _: &[f64], t: f64, slope: &mut [f64]| {
         calls.set(calls.get() + 1);
-        slope.copy_from_slice(problem.rate(t, &SVector::from_column_slice(y)).as_slice());
+        slope.copy_from_slice(problem.rate(t, &Column::from_fn(|row| y[row])).as_slice());
     };
     let init = |_: &[f64], _: f64, y: &mut [f64]| y.copy_from_slice(problem.start.as_slice());
-    let motion = OdeBuilder::<NalgebraMat<f64>>::new().rtol(tolerance).atol([tolerance]).rhs(rhs).init(init, N).build();
+    let motion = OdeBuilder::<NalgebraMat<f64>>::new().rtol(tolerance).atol([tolerance]).rhs(rhs).init(init, S::State::COUNT).build();
     let motion = motion.map_err(|error| error.to_string())?;
     let mut solver = motion.tsit45().map_err(|error| error.to_string())?;
     solver.set_stop_time(problem.end).map_err(|error| error.to_string())?;
@@ -41,6 +34,6 @@ where
             break;
         }
     }
-    let y = SVector::from_iterator((0..N).map(|component| solver.state().y[component]));
+    let y = Column::from_fn(|component| solver.state().y[component]);
     Ok((y, calls.get()))
 }
