@@ -289,8 +289,9 @@ impl<T: Real, R: Dim> Neg for Column<T, R> {
     type Output = Self;
 
     #[inline]
-    fn neg(self) -> Self {
-        self.map(|entry| -entry)
+    fn neg(mut self) -> Self {
+        self.iter_mut().for_each(|entry| *entry = -*entry);
+        self
     }
 }
 
@@ -298,8 +299,9 @@ impl<T: Real, R: Dim> Mul<T> for Column<T, R> {
     type Output = Self;
 
     #[inline]
-    fn mul(self, factor: T) -> Self {
-        self.map(|entry| entry * factor)
+    fn mul(mut self, factor: T) -> Self {
+        self *= factor;
+        self
     }
 }
 
@@ -315,21 +317,21 @@ impl<T: Real, R: Dim> Div<T> for Column<T, R> {
 impl<T: Real, R: Dim> AddAssign for Column<T, R> {
     #[inline]
     fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
+        self.iter_mut().zip(&other).for_each(|(entry, &other)| *entry += other);
     }
 }
 
 impl<T: Real, R: Dim> SubAssign for Column<T, R> {
     #[inline]
     fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
+        self.iter_mut().zip(&other).for_each(|(entry, &other)| *entry -= other);
     }
 }
 
 impl<T: Real, R: Dim> MulAssign<T> for Column<T, R> {
     #[inline]
     fn mul_assign(&mut self, factor: T) {
-        *self = *self * factor;
+        self.iter_mut().for_each(|entry| *entry *= factor);
     }
 }
 
