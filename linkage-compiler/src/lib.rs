@@ -36,12 +36,12 @@ pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
     expand_within(input, &Facade::complete(root), &Budget::default())
 }
 
-/// The `linkage` crate that an expansion stands on.
+/// The `linkage` crate that emitted code calls.
 #[derive(Debug, Clone)]
 pub struct Facade {
     /// Its path.
     pub path: TokenStream,
-    /// Whether it has the feature `dynamics`.
+    /// True if its feature `dynamics` is on: scenes need it.
     pub has_dynamics: bool,
 }
 

@@ -20,7 +20,7 @@ pub fn files(root: &Path) -> (Vec<(String, String)>, usize) {
         count += wrappers.len();
         let wrappers = wrappers.concat();
         let text = functions + &prettyplease::unparse(&emitted);
-        // Wrappers have the names of types in theirs.
+        // The names of wrappers hold those of types, which are not in snake case; `emitted_source` lints emitted code.
         writeln!(library, "#[allow(warnings)] pub mod {module};").unwrap();
         let text = format!("{text}\npub mod wrappers {{ use super::*; use ::linkage::__rt;\n{wrappers}}}\n");
         files.push((format!("{module}.rs"), text));
