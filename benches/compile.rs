@@ -2,23 +2,16 @@
 //!
 //! `cargo bench --profile dev --bench compile` times it as cargo builds macros, unoptimised.
 
-#[path = "../tests/source/families.rs"]
-mod families;
-#[path = "../tests/source/hopeless.rs"]
-mod hopeless;
-
 use std::time::{Duration, Instant};
 
-use families::{chain, dense};
-use hopeless::{nested, wide};
 use linkage_compiler::Expansion;
+use linkage_gallery::families::{chain, dense, nested, wide};
+use linkage_gallery::source;
 use proc_macro2::TokenStream;
 
 /// The four-bar of the tests, with its five points and an output.
 fn four_bar(_: usize) -> String {
-    let file = include_str!("../tests/mechanisms/four_bar.rs");
-    let (open, close) = (file.find('{').map_or(0, |at| at + 1), file.rfind('}').unwrap_or(file.len()));
-    file[open..close].to_owned()
+    source::tokens_of("four_bar").to_string()
 }
 
 struct Measured {

@@ -18,7 +18,7 @@ use linkage::{Column, D, Mode, MotionError, PerInput, Scene, linkage};
 use linkage_compiler::program::Operations;
 use work::{Work, work};
 
-include!("../tests/mechanisms/four_bar_effects.rs");
+use linkage_gallery::four_bar_effects::*;
 
 /// q, v'.
 type State = Column<f64, D<4>>;
@@ -90,9 +90,7 @@ impl Row {
 }
 
 fn main() {
-    let file: syn::File = syn::parse_str(include_str!("../tests/mechanisms/four_bar_effects.rs")).expect("a mechanism");
-    let [syn::Item::Macro(item)] = file.items.as_slice() else { panic!("one linkage! and nothing else") };
-    let work = work(item.mac.tokens.clone());
+    let work = work(linkage_gallery::source::tokens_of("four_bar_effects"));
     let mut rows = [
         Row::smooth("bare: inertia", Bare::default()),
         Row::smooth("+ gravity", Weighed::default()),

@@ -5,9 +5,9 @@
 
 use std::hint::black_box;
 
-use linkage::{Column, D, MotionError, PositionError, Real, Scene, linkage};
+use linkage::{Column, D, MotionError, PositionError, Real, Scene};
 
-include!("../tests/mechanisms/four_bar_effects.rs");
+include!("../dev/gallery/src/mechanisms/four_bar_effects.rs");
 
 /// The same mechanism with nothing beside the one scene.
 mod bare {

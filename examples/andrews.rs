@@ -5,11 +5,10 @@
 use std::time::Instant;
 
 use linkage::integrate::{Dop853, Dopri5, Method};
-use linkage::linkage;
 use linkage::simulation::simulate;
 
-include!("../tests/mechanisms/andrews_scene.rs");
-include!("../tests/source/andrews_motion.rs");
+use linkage_gallery::andrews_motion::{END, START};
+use linkage_gallery::andrews_scene::*;
 
 /// Repetitions, of which the fastest counts.
 const REPETITIONS: usize = 50;

@@ -30,7 +30,7 @@ fn main() {
     for (file, text) in program::files(root, Some(&CHOSEN)) {
         fs::write(Path::new(&written).join(file), text).unwrap();
     }
-    for read in ["tests/invalid_numbers", "tests/mechanisms", "tests/source/cam_laws.rs", "tests/source/every.rs"] {
+    for read in ["tests/invalid_numbers", "dev/gallery/src", "tests/source/every.rs"] {
         println!("cargo::rerun-if-changed={}", root.join(read).display());
     }
 }

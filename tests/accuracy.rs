@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::accuracy::{ClosedForm, Newton, PositionMethod, Reached, Table};
 use linkage::nalgebra::SVector;
-use linkage::{Assembly, Column, InputError, Mechanism, PositionError, Real, linkage};
+use linkage::{Assembly, Column, InputError, Mechanism, PositionError, Real};
 use linkage_double::DoubleDouble;
 
 #[path = "../examples/accuracy_cost/dominance.rs"]
@@ -20,10 +20,10 @@ use dominance::dominated;
 use frontier::{Price, cheapest, frontier};
 use oracle::{Case, poses_of};
 
-include!("mechanisms/double_butterfly.rs");
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/geared_five_bar.rs");
-include!("mechanisms/jansen.rs");
+use linkage_gallery::double_butterfly::*;
+use linkage_gallery::four_bar::*;
+use linkage_gallery::geared_five_bar::*;
+use linkage_gallery::jansen::*;
 
 fn scalars<T: Real, const N: usize>(values: &[f64]) -> [T; N] {
     std::array::from_fn(|index| linkage::nalgebra::convert(values[index]))

@@ -5,12 +5,11 @@
 use linkage::Elbow::Left;
 use linkage::Slope::Rising;
 use linkage::drawing::{Animation, DrawingError};
-use linkage::linkage;
 use linkage::nalgebra::{Point2, Rotation2, Vector2, point, vector};
 use roxmltree::{Document, Node};
 
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/offset_slider_crank.rs");
+use linkage_gallery::four_bar::*;
+use linkage_gallery::offset_slider_crank::*;
 
 const STEPS: u32 = 72;
 

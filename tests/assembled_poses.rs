@@ -7,9 +7,9 @@ use nalgebra::{DMatrix, DVector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-include!("mechanisms/multiples.rs");
-include!("mechanisms/slider_named_first.rs");
-include!("mechanisms/three_together.rs");
+use linkage_gallery::multiples::*;
+use linkage_gallery::slider_named_first::*;
+use linkage_gallery::three_together::*;
 
 linkage! {
     /// Each equation determines the unknown of its neighbour: two exchanges of columns, which cancel.

@@ -1,14 +1,14 @@
 //! Position in closed form: what cannot be assembled, what must not matter, and what a branch is.
 
-use linkage::{Elbow, PositionError, Slider, Slope, linkage};
+use linkage::{Elbow, PositionError, Slider, Slope};
 
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/six_bar.rs");
-include!("mechanisms/jansen.rs");
-include!("mechanisms/offset_slider_crank.rs");
-include!("mechanisms/introductory.rs");
-include!("mechanisms/inverted_slider_crank.rs");
-include!("mechanisms/v_twin.rs");
+use linkage_gallery::four_bar::*;
+use linkage_gallery::introductory::*;
+use linkage_gallery::inverted_slider_crank::*;
+use linkage_gallery::jansen::*;
+use linkage_gallery::offset_slider_crank::*;
+use linkage_gallery::six_bar::*;
+use linkage_gallery::v_twin::*;
 
 fn branch(theta3_theta4: Elbow) -> FourBarBranch {
     FourBarBranch::new(theta3_theta4)

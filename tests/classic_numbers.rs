@@ -1,11 +1,9 @@
 //! Numbers that others published for classic mechanisms, to every digit they give.
 
-use linkage::linkage;
-
-include!("mechanisms/andrews.rs");
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/norton_four_bar.rs");
-include!("mechanisms/offset_slider_crank.rs");
+use linkage_gallery::andrews::*;
+use linkage_gallery::four_bar::*;
+use linkage_gallery::norton_four_bar::*;
+use linkage_gallery::offset_slider_crank::*;
 
 /// Agrees to the last of the digits given, whose unit is 10^-`decimals`.
 #[track_caller]

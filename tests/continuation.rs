@@ -3,15 +3,15 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Along, AlongCoordinates, AlongRates, Direction, Event, Options, Path, PathStep};
-use linkage::{Column, Elbow, Mechanism, PathError, PositionError, linkage};
+use linkage::{Column, Elbow, Mechanism, PathError, PositionError};
 use nalgebra::{SVector, vector};
 
-include!("mechanisms/coupled_wheels.rs");
-include!("mechanisms/double_butterfly.rs");
-include!("mechanisms/five_bar.rs");
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/offset_slider_crank.rs");
-include!("mechanisms/slider_crank.rs");
+use linkage_gallery::coupled_wheels::*;
+use linkage_gallery::double_butterfly::*;
+use linkage_gallery::five_bar::*;
+use linkage_gallery::four_bar::*;
+use linkage_gallery::offset_slider_crank::*;
+use linkage_gallery::slider_crank::*;
 
 #[track_caller]
 fn close(found: f64, expected: f64, error: f64) {

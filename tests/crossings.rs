@@ -14,10 +14,10 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-include!("mechanisms/coupled_wheels.rs");
-include!("mechanisms/hart.rs");
-include!("mechanisms/peaucellier.rs");
-include!("mechanisms/two_windows.rs");
+use linkage_gallery::coupled_wheels::*;
+use linkage_gallery::hart::*;
+use linkage_gallery::peaucellier::*;
+use linkage_gallery::two_windows::*;
 
 linkage! {
     /// Two dyads that push one slider.

@@ -1,25 +1,22 @@
 //! The derivations as documents: what the Maple sheet and the lecture notes print, exactly.
 
+use linkage::Document;
 use linkage::derivation::{Derivation, Equation, Formula};
-use linkage::{Document, linkage};
 
-#[path = "source/cam_laws.rs"]
-mod cam_laws;
-
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/introductory.rs");
-include!("mechanisms/slider_crank.rs");
-include!("mechanisms/rrr.rs");
-include!("mechanisms/rpr.rs");
-include!("mechanisms/six_bar.rs");
-include!("mechanisms/geared_five_bar.rs");
-include!("mechanisms/jansen.rs");
-include!("mechanisms/cam_follower.rs");
-include!("mechanisms/cam_rocker.rs");
-include!("mechanisms/norton_four_bar.rs");
-include!("mechanisms/five_bar.rs");
-include!("mechanisms/five_bar_scenes.rs");
-include!("mechanisms/slider_crank_scenes.rs");
+use linkage_gallery::cam_follower::*;
+use linkage_gallery::cam_rocker::*;
+use linkage_gallery::five_bar::*;
+use linkage_gallery::five_bar_scenes::*;
+use linkage_gallery::four_bar::*;
+use linkage_gallery::geared_five_bar::*;
+use linkage_gallery::introductory::*;
+use linkage_gallery::jansen::*;
+use linkage_gallery::norton_four_bar::*;
+use linkage_gallery::rpr::*;
+use linkage_gallery::rrr::*;
+use linkage_gallery::six_bar::*;
+use linkage_gallery::slider_crank::*;
+use linkage_gallery::slider_crank_scenes::*;
 
 macro_rules! snapshot {
     ($name:ident, $value:expr) => {

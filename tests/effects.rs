@@ -1,12 +1,13 @@
 //! Pay only for what is declared: the operations of scenes, and of those of the same mechanism with less beside them.
 
-mod source;
+use linkage_gallery::source;
 #[path = "source/work.rs"]
 mod work;
 
 use std::collections::BTreeSet;
 
 use linkage_compiler::program::Operations;
+use proc_macro2::TokenStream;
 use work::{Work, work};
 
 const SCENES: [&str; 13] = [
@@ -29,23 +30,15 @@ const SCENES: [&str; 13] = [
 const WITH_NUMBERS: [&str; 4] = ["Twisted", "Stopped", "Smooth", "Everything"];
 
 /// `four_bar_effects` with those of its scenes that `keep` accepts, and with the parameters that these need.
-fn with_scenes(keep: impl Fn(&str) -> bool) -> syn::File {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/four_bar_effects.rs");
-    let text = std::fs::read_to_string(path).unwrap();
-    let second = |line: &str| line.split_whitespace().nth(1).unwrap_or_default().to_owned();
-    let kept = |line: &&str| !line.trim().starts_with("scene ") || keep(&second(line));
-    let lines: Vec<&str> = text.lines().filter(kept).collect();
-    let is_parameter = |line: &str| line.trim().starts_with("param ");
-    let others = lines.iter().filter(|line| !is_parameter(line));
-    let words: BTreeSet<&str> = others.flat_map(|line| line.split(|c: char| !c.is_alphanumeric())).collect();
-    let needed = lines.iter().filter(|line| !is_parameter(line) || words.contains(second(line).as_str()));
-    let source: Vec<&str> = needed.copied().collect();
-    syn::parse_str(&source.join("\n")).unwrap()
-}
-
-fn tokens(file: &syn::File) -> proc_macro2::TokenStream {
-    let [syn::Item::Macro(item)] = file.items.as_slice() else { panic!("one linkage! and nothing else") };
-    item.mac.tokens.clone()
+fn with_scenes(keep: impl Fn(&str) -> bool) -> TokenStream {
+    let second = |statement: &str| statement.split_whitespace().nth(1).unwrap_or_default().to_owned();
+    let all = source::tokens_of("four_bar_effects");
+    let is_kept = |statement: &str| !statement.starts_with("scene ") || keep(&second(statement));
+    let kept = source::with_statements(all, is_kept);
+    let others = source::with_statements(kept.clone(), |statement| !statement.starts_with("param ")).to_string();
+    let words: BTreeSet<&str> = others.split(|c: char| !c.is_alphanumeric()).collect();
+    let is_needed = |statement: &str| !statement.starts_with("param ") || words.contains(second(statement).as_str());
+    source::with_statements(kept, is_needed)
 }
 
 fn of<'a>(work: &'a Work, name: &'a str) -> impl Iterator<Item = (&'a str, Operations)> {
@@ -60,7 +53,7 @@ fn of<'a>(work: &'a Work, name: &'a str) -> impl Iterator<Item = (&'a str, Opera
 fn what_other_scenes_declare_costs_nothing() {
     let all = work(source::tokens_of("four_bar_effects"));
     for scene in SCENES {
-        let alone = work(tokens(&with_scenes(|name| name == scene)));
+        let alone = work(with_scenes(|name| name == scene));
         for name in [scene, "FourBar"] {
             let (found, expected): (Vec<_>, Vec<_>) = (of(&all, name).collect(), of(&alone, name).collect());
             assert!(expected.len() > 1, "{name} of {scene}");
@@ -78,8 +71,8 @@ fn what_other_scenes_declare_costs_nothing() {
 }
 
 /// The names of the fields of a struct.
-fn fields(source: &syn::File, name: &str) -> Vec<String> {
-    let expansion = linkage_compiler::expand(tokens(source), &"::linkage".parse().unwrap());
+fn fields(source: &TokenStream, name: &str) -> Vec<String> {
+    let expansion = linkage_compiler::expand(source.clone(), &"::linkage".parse().unwrap());
     let file: syn::File = syn::parse2(expansion).unwrap();
     let found = file.items.iter().find_map(|item| match item {
         syn::Item::Struct(item) if item.ident == name => Some(item),

@@ -1,42 +1,10 @@
 //! Emitted code as if somebody had written it: a crate made of the expansions alone must pass clippy's
 //! pedantic lints, without the standard library, without unsafe code, and with every item documented.
 
-#[path = "source/families.rs"]
-mod families;
-mod source;
-
+use linkage_gallery::{FILES, families, source};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
-
-const MECHANISMS: [&str; 26] = [
-    "andrews_scene",
-    "belt",
-    "block",
-    "cam_follower",
-    "cam_rocker",
-    "components",
-    "double_butterfly",
-    "elliptic_trammel",
-    "every_function",
-    "five_bar",
-    "five_bar_contacts",
-    "five_bar_scenes",
-    "four_bar",
-    "four_bar_scenes",
-    "geared_five_bar",
-    "introductory",
-    "jansen",
-    "norton_four_bar",
-    "offset_slider_crank",
-    "rpr",
-    "rrr",
-    "scotch_yoke",
-    "six_bar",
-    "slider_crank",
-    "slider_crank_contacts",
-    "slider_crank_scenes",
-];
 
 const MANIFEST: &str = r#"
 [package]
@@ -92,7 +60,7 @@ fn succeeds(folder: &Path, command: &str) {
 #[test]
 fn passes_pedantic_lints() {
     let (folder, root) = (crate_called("emitted"), env!("CARGO_MANIFEST_DIR"));
-    fs::copy(Path::new(root).join("tests/source/cam_laws.rs"), folder.join("src/cam_laws.rs")).unwrap();
+    fs::copy(Path::new(root).join("dev/gallery/src/cam_laws.rs"), folder.join("src/cam_laws.rs")).unwrap();
     let mut library = String::from("//! Expansions of the mechanisms under test.\n#![no_std]\n\npub mod cam_laws;\n");
     // Sensitivities with few entries, and points that need nothing of a block that is factorised.
     let orders = |family: String| {
@@ -100,8 +68,8 @@ fn passes_pedantic_lints() {
         format!("pub {derived}").replace("+ b0_0@t0;", ";").parse().unwrap()
     };
     let families = [("chain", orders(families::chain(3))), ("dense", orders(families::dense(2)))];
-    let files = MECHANISMS.map(|mechanism| (mechanism, source::tokens_of(mechanism)));
-    for (mechanism, tokens) in files.into_iter().chain(families) {
+    let files = FILES.iter().map(|&file| (file, source::tokens_of(file)));
+    for (mechanism, tokens) in files.chain(families) {
         let tokens = linkage_compiler::expand(tokens, &"::linkage".parse().unwrap());
         let text = prettyplease::unparse(&syn::parse2(tokens).unwrap());
         fs::write(folder.join(format!("src/{mechanism}.rs")), format!("//! `{mechanism}`.\n\n{text}")).unwrap();

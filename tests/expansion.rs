@@ -3,8 +3,7 @@
 //! The types differ little from one mechanism to the next and are shown once; of the other mechanisms
 //! the functions that say most are shown.
 
-mod source;
-
+use linkage_gallery::source;
 use proc_macro2::TokenStream;
 
 /// Expands a mechanism of `tests/mechanisms` and pretty-prints the items that `keep` accepts.
@@ -134,21 +133,8 @@ snapshot!(
 
 /// The statements of `four_bar_scenes` that `keep` accepts, and its expansion without white space by items.
 fn part_of_scenes(keep: impl Fn(&str) -> bool) -> Vec<String> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/four_bar_scenes.rs");
-    let source = std::fs::read_to_string(path).unwrap();
-    // Statements stand at eight columns.
-    let (mut text, mut kept) = (String::new(), true);
-    for line in source.lines() {
-        let statement = line.strip_prefix("        ").filter(|rest| !rest.starts_with([' ', '}', '/']));
-        kept = statement.map_or(kept, &keep);
-        if kept || line.len() < 8 {
-            text += line;
-            text.push('\n');
-        }
-    }
-    let parsed: syn::File = syn::parse_str(&text).unwrap();
-    let [syn::Item::Macro(item)] = parsed.items.as_slice() else { panic!("{text}") };
-    let expansion = linkage_compiler::expand(item.mac.tokens.clone(), &"::linkage".parse().unwrap());
+    let kept = source::with_statements(source::tokens_of("four_bar_scenes"), keep);
+    let expansion = linkage_compiler::expand(kept, &"::linkage".parse().unwrap());
     let file: syn::File = syn::parse2(expansion).unwrap();
     let alone = |item: &syn::Item| prettyplease::unparse(&syn::File { items: vec![item.clone()], ..file.clone() });
     file.items.iter().map(alone).collect()

@@ -14,11 +14,7 @@ use linkage::{Elbow, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-#[path = "oracle/precise.rs"]
-#[expect(dead_code, reason = "`forty_digits` uses what is not used here: it evaluates whole graphs")]
-mod precise;
-
-use precise::{Big, Scalar, big, direction};
+use linkage_oracle::precise::{Big, Scalar, big, direction};
 
 /// The promises, in ulp times condition number.
 const EXACT: f64 = 2.0;

@@ -1,17 +1,16 @@
 //! The lecture notes (chapter 1, "Analisi cinematica di velocità per meccanismi articolati piani"): each
 //! formula in the book's letters, written by hand, beside what was emitted, at random poses.
 
-use linkage::linkage;
 use nalgebra::{Matrix2, Vector2, matrix, vector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-include!("mechanisms/introductory.rs");
-include!("mechanisms/slider_crank.rs");
-include!("mechanisms/rrr.rs");
-include!("mechanisms/rpr.rs");
-include!("mechanisms/five_bar.rs");
-include!("mechanisms/six_bar.rs");
+use linkage_gallery::five_bar::*;
+use linkage_gallery::introductory::*;
+use linkage_gallery::rpr::*;
+use linkage_gallery::rrr::*;
+use linkage_gallery::six_bar::*;
+use linkage_gallery::slider_crank::*;
 
 /// Rounding of a handful of operations, beside the largest entry.
 const TOLERANCE: f64 = 1e-13;

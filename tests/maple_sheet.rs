@@ -4,9 +4,9 @@
 //! four-bar l = (80, 20, 50, 70) at theta2 = 20 deg, 400 rpm. The sheet's arithmetic has ten digits; the
 //! references below are the same formulas in 40-digit arithmetic.
 
-use linkage::{PointMotion, linkage, position};
+use linkage::{PointMotion, position};
 
-include!("mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 /// A result agrees with exact arithmetic to this.
 const EXACT: f64 = 1e-13;

@@ -8,7 +8,6 @@
 mod expanded;
 #[path = "source/mutants.rs"]
 mod mutants;
-mod source;
 
 use std::path::Path;
 use std::process::Command;
@@ -16,6 +15,7 @@ use std::{env, fs};
 
 use expanded::{expanded, is_refused, parsed};
 use linkage_compiler::budget::{Budget, MOST_STEPS};
+use linkage_gallery::source;
 use mutants::{Mutator, corpus};
 use proc_macro2::TokenStream;
 use rand::SeedableRng;
@@ -132,7 +132,7 @@ fn accepted_mutants_compile() {
     fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
     // The versions under test are those of this workspace.
     fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    fs::copy(Path::new(root).join("tests/source/cam_laws.rs"), folder.join("src/cam_laws.rs")).unwrap();
+    fs::copy(Path::new(root).join("dev/gallery/src/cam_laws.rs"), folder.join("src/cam_laws.rs")).unwrap();
     let (mut mutator, path) = (mutator(), "::linkage".parse().unwrap());
     let mut written = 0;
     while written < count {

@@ -1,17 +1,13 @@
 //! How much work the emitted kernels are: counts of operations, which no machine's mood changes.
 
-#[path = "source/families.rs"]
-mod families;
-mod source;
-
-use linkage::linkage;
 use linkage_compiler::derivation::{Derivation, Form, Step};
 use linkage_compiler::ids::Table;
 use linkage_compiler::lower::schedule;
 use linkage_compiler::program::{Given, Operations};
+use linkage_gallery::{families, source};
 
-include!("mechanisms/five_bar.rs");
-include!("mechanisms/norton_four_bar.rs");
+use linkage_gallery::five_bar::*;
+use linkage_gallery::norton_four_bar::*;
 
 fn derivation(file: &str) -> Derivation {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);

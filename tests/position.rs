@@ -1,9 +1,9 @@
 //! Newton's honesty: what cannot be assembled is said to be so, with the residual, and never as NaN.
 
-use linkage::{PositionError, linkage};
+use linkage::PositionError;
 
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/six_bar.rs");
+use linkage_gallery::four_bar::*;
+use linkage_gallery::six_bar::*;
 
 fn guess() -> FourBarCoordinates {
     FourBarCoordinates { theta2: 0.35, theta3: 1.2, theta4: -0.9 }

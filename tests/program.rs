@@ -1,8 +1,7 @@
 //! Programs as text, one line a statement, as snapshots: what each function computes, checks and calls, before a printer
 //! makes a language of it.
 
-mod source;
-
+use linkage_gallery::source;
 /// The lowered program of the first mechanism of a file, as far as its functions have one of these names.
 fn program(file: &str, names: &[&str]) -> String {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);

@@ -1,35 +1,29 @@
 //! The macro never panics, never hangs and never floods: broken, huge and deep inputs.
 
-#[path = "source/families.rs"]
-mod families;
-#[path = "source/hopeless.rs"]
-mod hopeless;
-mod source;
-
-use std::time::{Duration, Instant};
-
+use linkage_compiler::Facade;
+use linkage_compiler::budget::Budget;
+use linkage_gallery::{families, source};
 use proc_macro2::{TokenStream, TokenTree};
 
-/// An input that keeps the macro longer than this hangs. What a hopeless input takes is shown by the
-/// bench `compile`; here the machine may be busy.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// The expansion, whose work is within the budget or an error.
+fn expansion(tokens: TokenStream) -> TokenStream {
+    let budget = Budget::default();
+    let facade = Facade::complete(&"::linkage".parse().unwrap());
+    let expansion = linkage_compiler::expand_within(tokens, &facade, &budget);
+    assert!(!expansion.is_empty());
+    assert!(!budget.is_spent() || expansion.to_string().contains("compile_error"));
+    expansion
+}
 
 fn messages(source: &str) -> Vec<String> {
-    let start = Instant::now();
-    let result = linkage_compiler::read(source.parse().unwrap());
-    let expansion = linkage_compiler::expand(source.parse().unwrap(), &"::linkage".parse().unwrap());
-    assert!(!expansion.is_empty());
-    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
-    result.err().unwrap_or_default()
+    expansion(source.parse().unwrap());
+    linkage_compiler::read(source.parse().unwrap()).err().unwrap_or_default()
 }
 
 /// The messages of the `compile_error!`s of an expansion.
 fn expansion_messages(source: &str) -> Vec<String> {
     let tokens: TokenStream = source.parse().unwrap();
-    let start = Instant::now();
-    let expansion = linkage_compiler::expand(tokens, &"::linkage".parse().unwrap());
-    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
-    let file: syn::File = syn::parse2(expansion).unwrap();
+    let file: syn::File = syn::parse2(expansion(tokens)).unwrap();
     let macros = file.items.into_iter().filter_map(|item| match item {
         syn::Item::Macro(item) => syn::parse2::<syn::LitStr>(item.mac.tokens).ok(),
         _ => None,
@@ -87,7 +81,7 @@ fn long_chains_are_only_long() {
 fn deep_names_need_no_deep_stack() {
     for (depth, message) in [(200, ""), (8000, "the derivatives of `M` take"), (12_000, "the derivatives of `M` take")]
     {
-        let source = hopeless::nested(depth);
+        let source = families::nested(depth);
         let thread = std::thread::Builder::new().stack_size(1 << 20);
         let found = thread.spawn(move || expansion_messages(&source)).unwrap().join().unwrap();
         assert_eq!(found.len(), usize::from(!message.is_empty()), "{found:?}");
@@ -100,9 +94,9 @@ fn deep_names_need_no_deep_stack() {
 fn higher_orders_of_hopeless_inputs() {
     let asking = |source: String| source.replacen('{', "{ derive jerk, velocity_ratio_derivatives, sensitivity;", 1);
     for (source, refused) in [
-        (hopeless::nested(20), false),
-        (hopeless::nested(3000), true),
-        (hopeless::wide(300), false),
+        (families::nested(20), false),
+        (families::nested(3000), true),
+        (families::wide(300), false),
         (families::chain(8), false),
         (families::dense(3), false),
         (families::chain(64), true),
@@ -118,7 +112,7 @@ fn more_than_anybody_waits_for_is_refused() {
     for (terms, message) in
         [(900, ""), (10_000, "`M` takes 30004 expressions"), (200_000, "longer than 100000 words and signs")]
     {
-        let found = expansion_messages(&hopeless::wide(terms));
+        let found = expansion_messages(&families::wide(terms));
         assert_eq!(found.len(), usize::from(!message.is_empty()), "{found:?}");
         assert!(found.iter().all(|found| found.starts_with(message)), "{found:?}");
     }

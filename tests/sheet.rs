@@ -2,18 +2,15 @@
 
 #![cfg(feature = "sheet")]
 
+use linkage::Document;
 use linkage::derivation::{Entry, Formula, FormulaMatrix};
 use linkage::sheet::Sheet;
-use linkage::{Document, linkage};
 
-#[path = "source/cam_laws.rs"]
-mod cam_laws;
-
-include!("mechanisms/cam_follower.rs");
-include!("mechanisms/cam_rocker.rs");
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/norton_four_bar.rs");
-include!("mechanisms/slider_crank_scenes.rs");
+use linkage_gallery::cam_follower::*;
+use linkage_gallery::cam_rocker::*;
+use linkage_gallery::four_bar::*;
+use linkage_gallery::norton_four_bar::*;
+use linkage_gallery::slider_crank_scenes::*;
 
 const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 4 3\"><script>alert(1)</script>\
                    <path d=\"M0 0L3 2\" stroke=\"#b00\"/></svg>";

@@ -4,18 +4,18 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-use linkage::{Dim, Mechanism, PositionError, Slope, linkage, singularity};
+use linkage::{Dim, Mechanism, PositionError, Slope, singularity};
 use nalgebra::{DMatrix, vector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-include!("mechanisms/double_butterfly.rs");
-include!("mechanisms/five_bar.rs");
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/rpr.rs");
-include!("mechanisms/rrr.rs");
-include!("mechanisms/six_bar.rs");
-include!("mechanisms/slider_crank.rs");
+use linkage_gallery::double_butterfly::*;
+use linkage_gallery::five_bar::*;
+use linkage_gallery::four_bar::*;
+use linkage_gallery::rpr::*;
+use linkage_gallery::rrr::*;
+use linkage_gallery::six_bar::*;
+use linkage_gallery::slider_crank::*;
 
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 

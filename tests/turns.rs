@@ -9,10 +9,10 @@ use linkage::continuation::{Direction, Path};
 use linkage::simulation::simulate;
 use linkage::{Assembly, D, Elbow, InputError, Mechanism, PositionError, Slider, Slope, linkage};
 
-include!("mechanisms/drag_link_drive.rs");
-include!("mechanisms/four_bar.rs");
-include!("mechanisms/geared_five_bar.rs");
-include!("mechanisms/pin_and_slot.rs");
+use linkage_gallery::drag_link_drive::*;
+use linkage_gallery::four_bar::*;
+use linkage_gallery::geared_five_bar::*;
+use linkage_gallery::pin_and_slot::*;
 
 linkage! {
     /// A rack behind an angle group, half an angle in a loop, and a law of the user in a number.

@@ -1,14 +1,14 @@
 //! Inertia and forces in all coordinates: what W makes of them are the mass matrix and the forces that are emitted.
 
 use linkage::nalgebra::SMatrix;
-use linkage::{Column, D, Matrix, Mechanism, MotionError, Scene, linkage};
+use linkage::{Column, D, Matrix, Mechanism, MotionError, Scene};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-include!("mechanisms/andrews_scene.rs");
-include!("mechanisms/five_bar_scenes.rs");
-include!("mechanisms/four_bar_scenes.rs");
-include!("mechanisms/slider_crank_scenes.rs");
+use linkage_gallery::andrews_scene::*;
+use linkage_gallery::five_bar_scenes::*;
+use linkage_gallery::four_bar_scenes::*;
+use linkage_gallery::slider_crank_scenes::*;
 
 /// Poses a scene that can be assembled.
 const POSES: usize = 200;

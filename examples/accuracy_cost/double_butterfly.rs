@@ -2,4 +2,4 @@
 
 works!(DoubleButterfly, 6, newton 4);
 
-include!("../../tests/mechanisms/double_butterfly.rs");
+use linkage_gallery::double_butterfly::*;

@@ -2,7 +2,7 @@
 
 works!(FourBar, 2, closed, products by_products);
 
-include!("../../tests/mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 fn by_products(m: &FourBar, pose: &FourBarPose, right: &Unknowns<f64>) -> Unknowns<f64> {
     let columns = [methods::turned(m.l3, pose.theta3), methods::turned(m.l4, pose.theta4)];

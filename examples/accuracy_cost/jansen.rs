@@ -2,7 +2,7 @@
 
 works!(Jansen, 10, closed, products by_products);
 
-include!("../../tests/mechanisms/jansen.rs");
+use linkage_gallery::jansen::*;
 
 /// Dyad after dyad.
 fn by_products(m: &Jansen, pose: &JansenPose, right: &Unknowns<f64>) -> Unknowns<f64> {

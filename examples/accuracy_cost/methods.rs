@@ -148,7 +148,7 @@ macro_rules! works {
     ($Mechanism:ident, $U:literal, $(closed, products $products:ident)? $(newton $steps:literal)?) => {
         use linkage::accuracy::{Newton, Table};
         use linkage::nalgebra::SVector;
-        use linkage::{Column, Mechanism, PerUnknown, PositionError, Real, linkage};
+        use linkage::{Column, Mechanism, PerUnknown, PositionError, Real};
         use linkage_double::DoubleDouble;
 
         use super::methods::{self, Shared, ToTolerance, near};

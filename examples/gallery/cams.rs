@@ -5,13 +5,12 @@ use std::f64::consts::TAU;
 
 use linkage::Elbow::Left;
 use linkage::PositionError;
-use linkage::linkage;
 use linkage::nalgebra::{Vector2, vector};
 
 use crate::figure::{Course, Figure, at, polar};
 
-include!("../../tests/mechanisms/cam_follower.rs");
-include!("../../tests/mechanisms/cam_rocker.rs");
+use linkage_gallery::cam_follower::*;
+use linkage_gallery::cam_rocker::*;
 
 pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![cam_follower()?, cam_rocker()?])

@@ -5,17 +5,16 @@ use std::f64::consts::TAU;
 
 use linkage::Elbow::{Left, Right};
 use linkage::Slider::Far;
-use linkage::linkage;
 use linkage::nalgebra::center;
 
 use crate::figure::{Course, Figure};
 
-include!("../../tests/mechanisms/andrews.rs");
-include!("../../tests/mechanisms/jansen.rs");
-include!("../../tests/mechanisms/klann.rs");
-include!("../../tests/mechanisms/pantograph.rs");
-include!("../../tests/mechanisms/v_twin.rs");
-include!("../../tests/mechanisms/wiper.rs");
+use linkage_gallery::andrews::*;
+use linkage_gallery::jansen::*;
+use linkage_gallery::klann::*;
+use linkage_gallery::pantograph::*;
+use linkage_gallery::v_twin::*;
+use linkage_gallery::wiper::*;
 
 pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![jansen()?, klann()?, pantograph()?, wiper()?, v_twin()?, andrews()?])

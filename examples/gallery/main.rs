@@ -6,8 +6,6 @@
 
 use std::error::Error;
 
-#[path = "../../tests/source/cam_laws.rs"]
-mod cam_laws;
 #[macro_use]
 mod figure;
 mod page;

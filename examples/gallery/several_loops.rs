@@ -3,19 +3,19 @@
 use std::error::Error;
 
 use linkage::Elbow::{self, Left, Right};
+use linkage::Mechanism;
 use linkage::nalgebra::center;
-use linkage::{Mechanism, linkage};
 
 use crate::figure::{Course, Figure, STEPS, at};
 
-include!("../../tests/mechanisms/double_butterfly.rs");
-include!("../../tests/mechanisms/five_bar.rs");
-include!("../../tests/mechanisms/four_bar.rs");
-include!("../../tests/mechanisms/stephenson_i.rs");
-include!("../../tests/mechanisms/stephenson_ii.rs");
-include!("../../tests/mechanisms/stephenson_iii.rs");
-include!("../../tests/mechanisms/watt_i.rs");
-include!("../../tests/mechanisms/watt_ii.rs");
+use linkage_gallery::double_butterfly::*;
+use linkage_gallery::five_bar::*;
+use linkage_gallery::four_bar::*;
+use linkage_gallery::stephenson_i::*;
+use linkage_gallery::stephenson_ii::*;
+use linkage_gallery::stephenson_iii::*;
+use linkage_gallery::watt_i::*;
+use linkage_gallery::watt_ii::*;
 
 pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![

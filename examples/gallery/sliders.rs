@@ -4,17 +4,16 @@ use std::error::Error;
 
 use linkage::Slider::Far;
 use linkage::Slope::Rising;
-use linkage::linkage;
 use linkage::nalgebra::{center, vector};
 
 use crate::figure::{Course, Figure, along, at};
 
-include!("../../tests/mechanisms/crank_shaper.rs");
-include!("../../tests/mechanisms/elliptic_trammel.rs");
-include!("../../tests/mechanisms/inverted_slider_crank.rs");
-include!("../../tests/mechanisms/offset_slider_crank.rs");
-include!("../../tests/mechanisms/scotch_yoke.rs");
-include!("../../tests/mechanisms/whitworth.rs");
+use linkage_gallery::crank_shaper::*;
+use linkage_gallery::elliptic_trammel::*;
+use linkage_gallery::inverted_slider_crank::*;
+use linkage_gallery::offset_slider_crank::*;
+use linkage_gallery::scotch_yoke::*;
+use linkage_gallery::whitworth::*;
 
 pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![

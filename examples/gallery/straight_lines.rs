@@ -3,16 +3,15 @@
 use std::error::Error;
 
 use linkage::Elbow::{Left, Right};
-use linkage::linkage;
 
 use crate::figure::{Course, Figure};
 
-include!("../../tests/mechanisms/chebyshev.rs");
-include!("../../tests/mechanisms/hart.rs");
-include!("../../tests/mechanisms/hoecken.rs");
-include!("../../tests/mechanisms/peaucellier.rs");
-include!("../../tests/mechanisms/roberts.rs");
-include!("../../tests/mechanisms/watt_line.rs");
+use linkage_gallery::chebyshev::*;
+use linkage_gallery::hart::*;
+use linkage_gallery::hoecken::*;
+use linkage_gallery::peaucellier::*;
+use linkage_gallery::roberts::*;
+use linkage_gallery::watt_line::*;
 
 pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![watt_line()?, roberts()?, chebyshev()?, hoecken()?, peaucellier()?, hart()?])

@@ -5,15 +5,14 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use linkage::Elbow::{self, Left, Right};
 use linkage::Slider::Far;
-use linkage::linkage;
 use linkage::nalgebra::{Point2, Vector2};
 
 use crate::figure::{Course, Figure, STEPS, at, polar};
 
-include!("../../tests/mechanisms/cardan.rs");
-include!("../../tests/mechanisms/coupled_wheels.rs");
-include!("../../tests/mechanisms/geared_five_bar.rs");
-include!("../../tests/mechanisms/geneva.rs");
+use linkage_gallery::cardan::*;
+use linkage_gallery::coupled_wheels::*;
+use linkage_gallery::geared_five_bar::*;
+use linkage_gallery::geneva::*;
 
 pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![geared_five_bar()?, cardan()?, parallelogram()?, antiparallelogram()?, geneva()?])

@@ -2,13 +2,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use linkage::linkage;
-
 use super::problem::Problem;
 
-include!("../../tests/mechanisms/andrews_scene.rs");
-include!("../../tests/mechanisms/two_windows.rs");
-include!("../../tests/source/andrews_motion.rs");
+use linkage_gallery::andrews_motion::{END, START};
+pub use linkage_gallery::andrews_scene::*;
+pub use linkage_gallery::two_windows::*;
 
 /// Andrews' squeezing mechanism.
 pub fn squeezer() -> Problem<Squeezing> {

@@ -1,12 +1,10 @@
 //! The mechanisms, and where they begin.
 
-use linkage::linkage;
-
-include!("../mechanisms/block.rs");
-include!("../mechanisms/belt.rs");
-include!("../mechanisms/yoke.rs");
-include!("../mechanisms/slider_crank_contacts.rs");
-include!("../mechanisms/five_bar_contacts.rs");
+pub use linkage_gallery::belt::*;
+pub use linkage_gallery::block::*;
+pub use linkage_gallery::five_bar_contacts::*;
+pub use linkage_gallery::slider_crank_contacts::*;
+pub use linkage_gallery::yoke::*;
 
 pub(super) fn block(x: f64) -> BlockCoordinates {
     BlockCoordinates { x, y: x }

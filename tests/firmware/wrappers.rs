@@ -12,7 +12,7 @@ use crate::every::{self, Expansion};
 
 /// The files of the library by name, and how many functions of emitted code are wrapped in them.
 pub fn files(root: &Path) -> (Vec<(String, String)>, usize) {
-    let laws = root.join("tests/source/cam_laws.rs");
+    let laws = root.join("dev/gallery/src/cam_laws.rs");
     let mut library = format!("#![no_std]\n#[path = {laws:?}] mod cam_laws;\n{PLANTED}\n");
     let (mut files, mut count) = (Vec::new(), 0);
     for Expansion { module, functions, emitted } in every::expansions(root, None) {

@@ -3,15 +3,16 @@
 use linkage_compiler::derivation::{Coordinate, Derivation};
 use linkage_compiler::graph::{External, NodeId, Number, SymbolId};
 use linkage_compiler::ids::{ColumnId, Id};
-use linkage_compiler::model::{Kind, Mechanism};
+use linkage_compiler::model::Mechanism;
+use linkage_gallery::{Fixture, source};
+use linkage_oracle::laws;
+use linkage_oracle::precise::{Big, Scalar, big, direction};
+use linkage_oracle::tape::Tape;
 use nalgebra::{DMatrix, DVector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use super::laws;
-use super::precise::{Big, Scalar, big, direction};
-use super::source;
-use super::tape::Tape;
+use super::dimensions;
 
 /// What a pose is made from.
 #[derive(Clone)]
@@ -47,9 +48,10 @@ pub(super) struct Judge {
 }
 
 impl Judge {
-    pub(super) fn new(file: &str) -> Self {
-        let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);
-        let mut derivation = linkage_compiler::derive(&mechanism).remove(0);
+    pub(super) fn new<F: Fixture>() -> Self {
+        let mechanism = linkage_compiler::read(source::tokens_of(F::FILE)).expect(F::FILE).remove(0);
+        let driver = mechanism.drivers.iter().position(|driver| driver.name == F::NAME).expect(F::NAME);
+        let mut derivation = linkage_compiler::derive(&mechanism).remove(driver);
         let parameters: Vec<SymbolId> = mechanism.parameters.iter().map(|parameter| parameter.symbol).collect();
         let d = &mut derivation;
         let symbols = |of: &[ColumnId]| -> [Vec<SymbolId>; 3] {
@@ -214,31 +216,24 @@ impl Judge {
         (of_unknowns.as_slice().to_vec(), of_points.as_slice().to_vec())
     }
 
-    /// Which parameters, and which coordinates in the order of q, are lengths.
-    pub(super) fn lengths(&self) -> Vec<bool> {
-        let parameters = self.mechanism.parameters.iter().map(|p| match p.name.field.as_str() {
-            // Numbers that multiply a length, and lengths that no vector is made of.
-            "part" | "ratio" => false,
-            "height" | "prime" | "roller" | "offset" | "r" => true,
-            _ => p.kind == Kind::Length,
-        });
-        let kind = |name: &str| self.mechanism.coordinates.iter().find(|c| c.name.field == name).map(|c| c.kind);
-        let coordinates =
-            self.derivation.coordinates.iter().map(|c| c.name == "x" || kind(&c.name) == Some(Kind::Length));
-        parameters.chain(coordinates).collect()
+    /// The powers of a length that the parameters and the coordinates in the order of q are, with or without the points;
+    /// None if a length is written as a number.
+    pub(super) fn powers_of_length(&self, with_points: bool) -> Option<Vec<f64>> {
+        let d = &self.derivation;
+        let points = d.points.iter().filter(|_| with_points).flat_map(|point| point.value.clone());
+        let powers = dimensions::powers_of_length(&self.mechanism, d, &points.collect::<Vec<_>>())?;
+        let parameters = self.mechanism.parameters.iter().map(|parameter| parameter.symbol);
+        let symbols = parameters.chain(d.coordinates.iter().map(|coordinate| coordinate.value));
+        Some(symbols.map(|symbol| powers.get(&symbol).copied().unwrap_or(0.0)).collect())
     }
 
     /// The same in another unit of length.
-    pub(super) fn scaled(&self, data: &Data, is_length: &[bool], scale: f64) -> Data {
-        let (of_parameters, of_coordinates) = is_length.split_at(data.parameters.len());
-        let times = |values: &[f64], is_length: &[bool]| -> Vec<f64> {
-            values
-                .iter()
-                .zip(is_length)
-                .map(|(value, is_length)| if *is_length { value * scale } else { *value })
-                .collect()
+    pub(super) fn scaled(&self, data: &Data, powers: &[f64], scale: f64) -> Data {
+        let (of_parameters, of_coordinates) = powers.split_at(data.parameters.len());
+        let times = |values: &[f64], powers: &[f64]| -> Vec<f64> {
+            values.iter().zip(powers).map(|(value, &power)| value * scale.powf(power)).collect()
         };
-        let of_inputs: Vec<bool> = self.derivation.inputs.iter().map(|&place| of_coordinates[place.index()]).collect();
+        let of_inputs: Vec<f64> = self.derivation.inputs.iter().map(|&place| of_coordinates[place.index()]).collect();
         Data {
             parameters: times(&data.parameters, of_parameters),
             inputs: times(&data.inputs, &of_inputs),
@@ -247,6 +242,13 @@ impl Judge {
             branch: data.branch,
             coordinates: [0, 1, 2].map(|order| times(&data.coordinates[order], of_coordinates)),
         }
+    }
+
+    /// |det J| relative to the product of the norms of its columns.
+    pub(super) fn regularity(&self, data: &Data, found: &[f64]) -> f64 {
+        let n = found.len() / 3;
+        let j = DMatrix::from_row_slice(n, n, &self.evaluate(&self.jacobian, data, found));
+        j.determinant().abs() / j.column_iter().map(|column| column.norm()).product::<f64>()
     }
 
     pub(super) fn data(&self, random: &mut SmallRng, branches: usize) -> Data {

@@ -39,115 +39,52 @@
 //! POSES=100000 cargo test --release --all-features --test forty_digits -- --nocapture
 //! ```
 
-#[path = "../source/cam_laws.rs"]
-mod cam_laws;
+mod dimensions;
 mod judge;
-#[path = "../oracle/laws.rs"]
-mod laws;
-#[path = "../oracle/precise.rs"]
-mod precise;
-#[path = "../source/mod.rs"]
-mod source;
-#[path = "../oracle/tape.rs"]
-mod tape;
 mod verdict;
 
-/// One mechanism of the gallery: how its emitted code is run.
-macro_rules! gallery {
-    ($($file:ident $Driver:ident $Coordinates:ident $Inputs:ident $Branch:ident $Points:ident $how:ident;)*) => {$(
+use judge::{Data, Motion};
+use linkage_gallery::{Fixture, all_mechanisms};
+use verdict::{ULPS, judge, unit_of_length};
+
+/// The motion that the emitted code finds for some data.
+fn run<F: Fixture>(data: &Data) -> Option<Motion> {
+    let m = F::with_parameters(&data.parameters);
+    let inputs = |order: usize| F::inputs_of(&data.coordinates[order]);
+    let pose = m.position(&data.coordinates[0], data.branch).ok()?;
+    let velocity = m.velocity(&pose, &inputs(1)).ok()?;
+    let acceleration = m.acceleration(&pose, &velocity, &inputs(2)).ok()?;
+    let points = [
+        m.points(&pose).ok()?,
+        m.point_velocities(&pose, &velocity).ok()?,
+        m.point_accelerations(&pose, &velocity, &acceleration).ok()?,
+    ];
+    Some(Motion { coordinates: [F::listed(&pose), velocity, acceleration], points })
+}
+
+fn eight_ulps<F: Fixture>() {
+    for worst in judge::<F>() {
+        assert!(worst.error <= ULPS, "{} ulp x condition: {}", worst.error, worst.place);
+    }
+}
+
+macro_rules! tests {
+    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
         mod $file {
-            use linkage::linkage;
-            use linkage::nalgebra::SVector;
+            use linkage_gallery::$file::{$($Mechanism),+};
 
-            use super::judge::{Data, Motion};
-            use super::verdict::{ULPS, judge, unit_of_length};
-
-            include!(concat!("../mechanisms/", stringify!($file), ".rs"));
-
-            const COORDINATES: usize = $Coordinates::<()>::NAMES.len();
-            const POINTS: usize = $Points::<()>::NAMES.len();
-
-            fn flat<P: Into<[f64; 2]>>(points: $Points<P>) -> Vec<f64> {
-                let points: [P; POINTS] = points.into();
-                points.into_iter().flat_map(Into::into).collect()
-            }
-
-            fn array(q: impl Into<SVector<f64, COORDINATES>>) -> Vec<f64> {
-                q.into().as_slice().to_vec()
-            }
-
-            fn run(data: &Data) -> Option<Motion> {
-                let m = $Driver::from(std::array::from_fn(|index| data.parameters[index]));
-                let q = |order: usize| $Coordinates::from(SVector::<f64, COORDINATES>::from_column_slice(&data.coordinates[order]));
-                let inputs = |order: usize| $Inputs::from(&q(order));
-                let pose = gallery!($how m data q inputs $Branch);
-                let velocity = m.velocity(&pose, inputs(1)).ok()?;
-                let acceleration = m.acceleration(&pose, &velocity, inputs(2)).ok()?;
-                Some(Motion {
-                    coordinates: [array(pose.coordinates()), array(velocity), array(acceleration)],
-                    points: [
-                        flat(m.points(&pose).ok()?),
-                        flat(m.point_velocities(&pose, &velocity).ok()?),
-                        flat(m.point_accelerations(&pose, &velocity, &acceleration).ok()?),
-                    ],
-                })
-            }
-
-            /// The unit of length changes exponents and no bit else.
+            /// The unit of length changes exponents and no other bit.
             #[test]
             fn scale_free() {
-                unit_of_length(stringify!($file), gallery!(branches $how $Branch), run);
+                $(super::unit_of_length::<$Mechanism>();)+
             }
 
             #[test]
             fn eight_ulps() {
-                for worst in judge(stringify!($file), gallery!(branches $how $Branch), run) {
-                    assert!(worst.error <= ULPS, "{} ulp x condition: {}", worst.error, worst.place);
-                }
+                $(super::eight_ulps::<$Mechanism>();)+
             }
         }
     )*};
-    (closed $m:ident $data:ident $q:ident $inputs:ident $Branch:ident) => {
-        $m.assemble($inputs(0), $Branch::all().nth($data.branch)?).ok()?
-    };
-    (newton $m:ident $data:ident $q:ident $inputs:ident $Branch:ident) => {
-        $m.pose_at(&$m.solve(&$q(0)).ok()?.coordinates)
-    };
-    (branches closed $Branch:ident) => { $Branch::all().count() };
-    (branches newton $Branch:ident) => { 1 };
 }
 
-gallery! {
-    andrews Andrews AndrewsCoordinates AndrewsInputs AndrewsBranch AndrewsPoints closed;
-    cam_follower CamFollower CamFollowerCoordinates CamFollowerInputs CamFollowerBranch CamFollowerPoints closed;
-    cam_rocker CamRocker CamRockerCoordinates CamRockerInputs CamRockerBranch CamRockerPoints closed;
-    cardan Cardan CardanCoordinates CardanInputs CardanBranch CardanPoints closed;
-    chebyshev ChebyshevRocker ChebyshevCoordinates ChebyshevRockerInputs ChebyshevRockerBranch ChebyshevPoints closed;
-    coupled_wheels CoupledWheels CoupledWheelsCoordinates CoupledWheelsInputs CoupledWheelsBranch CoupledWheelsPoints closed;
-    crank_shaper CrankShaper CrankShaperCoordinates CrankShaperInputs CrankShaperBranch CrankShaperPoints closed;
-    double_butterfly DoubleButterfly DoubleButterflyCoordinates DoubleButterflyInputs DoubleButterflyBranch DoubleButterflyPoints newton;
-    elliptic_trammel EllipticTrammel EllipticTrammelCoordinates EllipticTrammelInputs EllipticTrammelBranch EllipticTrammelPoints closed;
-    five_bar FiveBar FiveBarCoordinates FiveBarInputs FiveBarBranch FiveBarPoints closed;
-    four_bar FourBar FourBarCoordinates FourBarInputs FourBarBranch FourBarPoints closed;
-    geared_five_bar GearedFiveBar GearedFiveBarCoordinates GearedFiveBarInputs GearedFiveBarBranch GearedFiveBarPoints closed;
-    geneva Geneva GenevaCoordinates GenevaInputs GenevaBranch GenevaPoints closed;
-    hart Hart HartCoordinates HartInputs HartBranch HartPoints closed;
-    hoecken Hoecken HoeckenCoordinates HoeckenInputs HoeckenBranch HoeckenPoints closed;
-    inverted_slider_crank InvertedSliderCrank InvertedSliderCrankCoordinates InvertedSliderCrankInputs InvertedSliderCrankBranch InvertedSliderCrankPoints closed;
-    jansen Jansen JansenCoordinates JansenInputs JansenBranch JansenPoints closed;
-    klann Klann KlannCoordinates KlannInputs KlannBranch KlannPoints closed;
-    offset_slider_crank OffsetSliderCrank OffsetSliderCrankCoordinates OffsetSliderCrankInputs OffsetSliderCrankBranch OffsetSliderCrankPoints closed;
-    pantograph Pantograph PantographCoordinates PantographInputs PantographBranch PantographPoints closed;
-    peaucellier Peaucellier PeaucellierCoordinates PeaucellierInputs PeaucellierBranch PeaucellierPoints closed;
-    roberts Roberts RobertsCoordinates RobertsInputs RobertsBranch RobertsPoints closed;
-    scotch_yoke ScotchYoke ScotchYokeCoordinates ScotchYokeInputs ScotchYokeBranch ScotchYokePoints closed;
-    stephenson_i StephensonI StephensonICoordinates StephensonIInputs StephensonIBranch StephensonIPoints closed;
-    stephenson_ii StephensonII StephensonIICoordinates StephensonIIInputs StephensonIIBranch StephensonIIPoints newton;
-    stephenson_iii StephensonIII StephensonIIICoordinates StephensonIIIInputs StephensonIIIBranch StephensonIIIPoints closed;
-    v_twin VTwin VTwinCoordinates VTwinInputs VTwinBranch VTwinPoints closed;
-    watt_i WattI WattICoordinates WattIInputs WattIBranch WattIPoints closed;
-    watt_ii WattII WattIICoordinates WattIIInputs WattIIBranch WattIIPoints closed;
-    watt_line WattLine WattLineCoordinates WattLineInputs WattLineBranch WattLinePoints closed;
-    whitworth Whitworth WhitworthCoordinates WhitworthInputs WhitworthBranch WhitworthPoints closed;
-    wiper Wiper WiperCoordinates WiperInputs WiperBranch WiperPoints closed;
-}
+all_mechanisms!(tests);

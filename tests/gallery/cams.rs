@@ -2,13 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::linkage;
-
 use super::course::{degrees, turn};
 use super::exactness::{close, exact};
 
-include!("../mechanisms/cam_follower.rs");
-include!("../mechanisms/cam_rocker.rs");
+use linkage_gallery::cam_follower::*;
+use linkage_gallery::cam_rocker::*;
 
 /// Peak velocity and acceleration of the 3-4-5 polynomial are 1.875 h / beta and 5.7735 h / beta^2, those of
 /// cycloidal motion 2 h / beta and 2 pi h / beta^2: R. L. Norton, *Design of Machinery*, chapter 8, factors for peak

@@ -2,13 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::linkage;
-
 use super::course::{STEPS, degrees, turn};
 use super::exactness::{close, exact};
 
-include!("../mechanisms/five_bar.rs");
-include!("../mechanisms/geared_five_bar.rs");
+use linkage_gallery::five_bar::*;
+use linkage_gallery::geared_five_bar::*;
 
 /// Equal cranks that move as in a mirror keep the pen on the line of symmetry.
 #[test]

@@ -2,13 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use linkage::linkage;
-
 use super::course::{degrees, turn};
 use super::exactness::{close, exact};
 
-include!("../mechanisms/four_bar.rs");
-include!("../mechanisms/wiper.rs");
+use linkage_gallery::four_bar::*;
+use linkage_gallery::wiper::*;
 
 #[test]
 fn four_bar_on_both_branches() {

@@ -2,13 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::linkage;
-
 use super::course::{degrees, turn};
 use super::exactness::{close, exact};
 
-include!("../mechanisms/jansen.rs");
-include!("../mechanisms/klann.rs");
+use linkage_gallery::jansen::*;
+use linkage_gallery::klann::*;
 
 fn jansen_start() -> JansenCoordinates<f64> {
     JansenCoordinates {

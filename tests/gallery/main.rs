@@ -1,8 +1,6 @@
 //! The gallery of classic mechanisms, each followed through its whole motion and held against what is known
 //! of it without any table: links that stay rigid, lines that are straight, strokes, ratios and sweeps.
 
-#[path = "../source/cam_laws.rs"]
-mod cam_laws;
 #[macro_use]
 mod exactness;
 mod cams;
@@ -15,6 +13,4 @@ mod parallelograms;
 mod pistons;
 mod six_bars;
 mod slotted;
-#[path = "../source/mod.rs"]
-mod source;
 mod straight_lines;

@@ -2,13 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use linkage::linkage;
-
 use super::course::{STEPS, degrees, follow};
 use super::exactness::{ROUNDINGS, close, exact};
 
-include!("../mechanisms/coupled_wheels.rs");
-include!("../mechanisms/pantograph.rs");
+use linkage_gallery::coupled_wheels::*;
+use linkage_gallery::pantograph::*;
 
 /// The pen draws what the tracer draws, `ratio` times as large.
 #[test]

@@ -2,15 +2,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use linkage::linkage;
-
 use super::course::{degrees, turn};
 use super::exactness::{close, exact};
 
-include!("../mechanisms/elliptic_trammel.rs");
-include!("../mechanisms/offset_slider_crank.rs");
-include!("../mechanisms/scotch_yoke.rs");
-include!("../mechanisms/v_twin.rs");
+use linkage_gallery::elliptic_trammel::*;
+use linkage_gallery::offset_slider_crank::*;
+use linkage_gallery::scotch_yoke::*;
+use linkage_gallery::v_twin::*;
 
 #[test]
 fn offset_slider_crank() {

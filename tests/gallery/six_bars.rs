@@ -2,16 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use linkage::linkage;
-
 use super::course::{degrees, turn};
 
-include!("../mechanisms/double_butterfly.rs");
-include!("../mechanisms/stephenson_i.rs");
-include!("../mechanisms/stephenson_ii.rs");
-include!("../mechanisms/stephenson_iii.rs");
-include!("../mechanisms/watt_i.rs");
-include!("../mechanisms/watt_ii.rs");
+use linkage_gallery::double_butterfly::*;
+use linkage_gallery::stephenson_i::*;
+use linkage_gallery::stephenson_ii::*;
+use linkage_gallery::stephenson_iii::*;
+use linkage_gallery::watt_i::*;
+use linkage_gallery::watt_ii::*;
 
 #[test]
 fn watt_i() {

@@ -2,15 +2,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use linkage::linkage;
-
 use super::course::{STEPS, degrees, follow, turn};
 use super::exactness::{close, exact};
 
-include!("../mechanisms/crank_shaper.rs");
-include!("../mechanisms/geneva.rs");
-include!("../mechanisms/inverted_slider_crank.rs");
-include!("../mechanisms/whitworth.rs");
+use linkage_gallery::crank_shaper::*;
+use linkage_gallery::geneva::*;
+use linkage_gallery::inverted_slider_crank::*;
+use linkage_gallery::whitworth::*;
 
 #[test]
 fn inverted_slider_crank() {

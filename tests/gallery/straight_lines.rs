@@ -2,18 +2,16 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use linkage::linkage;
-
 use super::course::{STEPS, degrees, follow, turn};
 use super::exactness::{close, exact};
 
-include!("../mechanisms/cardan.rs");
-include!("../mechanisms/chebyshev.rs");
-include!("../mechanisms/hart.rs");
-include!("../mechanisms/hoecken.rs");
-include!("../mechanisms/peaucellier.rs");
-include!("../mechanisms/roberts.rs");
-include!("../mechanisms/watt_line.rs");
+use linkage_gallery::cardan::*;
+use linkage_gallery::chebyshev::*;
+use linkage_gallery::hart::*;
+use linkage_gallery::hoecken::*;
+use linkage_gallery::peaucellier::*;
+use linkage_gallery::roberts::*;
+use linkage_gallery::watt_line::*;
 
 /// How far Hoecken's and Chebyshev's lines rise, in cranks of Hoecken: from intersecting circles in 40-digit
 /// arithmetic.

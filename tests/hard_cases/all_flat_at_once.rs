@@ -1,11 +1,11 @@
 //! Hart's inversor at the end of its range: both dyads are flat there at once, so that motions cross where the input
 //! turns back. Known to fail: followers that take a crossing for a way on, which here comes back to it for ever.
 
+use linkage::PathError;
 use linkage::continuation::{Direction, Path};
-use linkage::{PathError, linkage};
 
-include!("../mechanisms/four_bar.rs");
-include!("../mechanisms/hart.rs");
+use linkage_gallery::four_bar::*;
+use linkage_gallery::hart::*;
 
 #[test]
 fn the_end_of_the_range_is_a_dead_point() {

@@ -1,9 +1,9 @@
 //! Numbers that make no sense: each is refused with a typed error, and nothing runs for ever.
 
 use linkage::continuation::{Direction, Event, Options, Path};
-use linkage::{Elbow, InputError, PathError, PositionError, linkage};
+use linkage::{Elbow, InputError, PathError, PositionError};
 
-include!("../mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 

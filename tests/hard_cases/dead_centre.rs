@@ -3,10 +3,10 @@
 //! Known to fail: the crank angle by the law of cosines, acos, which loses half its digits there, and Newton's method
 //! at a given stroke, which takes 199 steps at delta = 1e-13 and may come out on either side of the dead centre.
 
+use linkage::PathError;
 use linkage::continuation::{Direction, Event, Path};
-use linkage::{PathError, linkage};
 
-include!("../mechanisms/slider_crank.rs");
+use linkage_gallery::slider_crank::*;
 
 const R: f64 = 0.15;
 const L: f64 = 0.3;

@@ -4,11 +4,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use linkage::{PositionError, Slope, linkage, singularity};
+use linkage::{PositionError, Slope, singularity};
 
-use super::precise::{Scalar, big};
+use linkage_oracle::precise::{Scalar, big};
 
-include!("../mechanisms/slider_crank.rs");
+use linkage_gallery::slider_crank::*;
 
 const SLOPES: [Slope; 2] = [Slope::Rising, Slope::Falling];
 

@@ -2,11 +2,11 @@
 //! "Design of Machinery", eq. 4.10b): where one root passes pi, A passes zero, and the other root loses all digits
 //! though nothing is special about it.
 
-use linkage::{Elbow, linkage};
+use linkage::Elbow;
 
-use super::precise::{Big, Scalar, big};
+use linkage_oracle::precise::{Big, Scalar, big};
 
-include!("../mechanisms/norton_four_bar.rs");
+use linkage_gallery::norton_four_bar::*;
 
 /// Directions of the output link by the half angle, in either precision.
 fn half_angle<S: Clone>(

@@ -3,9 +3,9 @@
 //! Known to fail: programs that look at det J alone, which say that the mechanism is singular but not where.
 
 use linkage::continuation::{Direction, Event, Path};
-use linkage::{Elbow, PathError, PositionError, linkage};
+use linkage::{Elbow, PathError, PositionError};
 
-include!("../mechanisms/six_bar.rs");
+use linkage_gallery::six_bar::*;
 
 fn six_bar() -> SixBar {
     SixBar { f: 3.4, g: 3.4, ..SixBar::default() }

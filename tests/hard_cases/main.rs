@@ -6,9 +6,9 @@ mod bad_input;
 mod coincident_joints;
 mod dead_centre;
 mod equal_link_slider_crank;
+mod extreme_inputs;
 mod freudenstein_half_angle;
 mod freudenstein_roth;
-mod hostile_numbers;
 mod locked_second_group;
 mod many_turns;
 mod near_change_point;
@@ -25,14 +25,7 @@ mod three_sides_to_an_angle;
 mod turns;
 mod wrong_side;
 
-#[path = "../source/cam_laws.rs"]
-mod cam_laws;
-
-#[path = "../oracle/precise.rs"]
-#[expect(dead_code, reason = "`forty_digits` uses what is not used here: it evaluates whole graphs")]
-mod precise;
-
-use precise::{Big, Scalar, big};
+use linkage_oracle::precise::{Big, Scalar, big};
 
 /// |found - expected| / |expected|.
 fn relative(found: f64, expected: &Big) -> f64 {

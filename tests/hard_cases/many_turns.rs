@@ -5,10 +5,10 @@
 
 use std::f64::consts::TAU;
 
+use linkage::Elbow;
 use linkage::continuation::{Direction, Path};
-use linkage::{Elbow, linkage};
 
-include!("../mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 const BRANCH: FourBarBranch = FourBarBranch::new(Elbow::Left);
 

@@ -6,9 +6,9 @@
 use std::f64::consts::PI;
 
 use linkage::continuation::{Direction, Event, Path};
-use linkage::{Elbow, linkage, position};
+use linkage::{Elbow, position};
 
-include!("../mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 /// Ground 3, crank 1, coupler 3, rocker 1 + epsilon: they are nearly in line where the crank points away.
 fn near(epsilon: f64) -> FourBar {

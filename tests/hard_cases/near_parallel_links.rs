@@ -12,16 +12,15 @@
 //! difference's and comes to 6.5e-16. The accelerations have the squares of the velocities, so that correctly rounded
 //! velocities alone leave 5.9e-16. The same code in double-double arithmetic loses nothing but the last rounding.
 
-use linkage::linkage;
 use linkage_double::DoubleDouble;
 use nalgebra::vector;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use super::precise::{Big, big};
 use super::relative;
+use linkage_oracle::precise::{Big, big};
 
-include!("../mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 /// theta3' and theta4', theta3'' and theta4'' at angles that are doubles.
 fn exact(m: &FourBar, q: &FourBarCoordinates, rate: f64, acceleration: f64) -> [[Big; 2]; 2] {

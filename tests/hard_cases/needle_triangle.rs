@@ -4,9 +4,9 @@
 
 use linkage::Elbow;
 
-use super::precise::{Scalar, big};
 use super::relative;
 use super::triangle::{Triangle, TriangleBranch, TriangleInputs};
+use linkage_oracle::precise::{Scalar, big};
 
 /// Sides, and the least relative error of Heron's formula.
 const NEEDLES: [([f64; 3], f64); 6] = [

@@ -4,7 +4,7 @@
 
 use linkage::{Slider, linkage};
 
-use super::precise::{Scalar, big};
+use linkage_oracle::precise::{Scalar, big};
 
 linkage! {
     /// A slider-crank whose guide is tilted; it passes the crank's pivot at the distance `c`.

@@ -6,11 +6,11 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{AtChangePoint, Direction, Event, Options, Path};
-use linkage::{Error, PathError, linkage, position};
+use linkage::{Error, PathError, position};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-include!("../mechanisms/coupled_wheels.rs");
+use linkage_gallery::coupled_wheels::*;
 
 const DEGREES: [f64; 8] = [25.0, 20.0, 15.0, 10.0, 7.0, 5.0, 3.0, 2.0];
 const STARTS: usize = 40;

@@ -6,45 +6,11 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Options, Path};
-use linkage::nalgebra::SVector;
-use linkage::{Assembly, D, Dim, Elbow, Mechanism, PathError, linkage};
-use nalgebra::vector;
+use linkage::{D, Dim, Elbow, Mechanism, PathError, PerInput};
+use linkage_gallery::four_bar::{FourBar, FourBarBranch};
+use linkage_gallery::{ClosedForm, Fixture, all_mechanisms};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
-
-include!("../mechanisms/andrews.rs");
-include!("../mechanisms/cam_follower.rs");
-include!("../mechanisms/cam_rocker.rs");
-include!("../mechanisms/cardan.rs");
-include!("../mechanisms/chebyshev.rs");
-include!("../mechanisms/coupled_wheels.rs");
-include!("../mechanisms/crank_shaper.rs");
-include!("../mechanisms/double_butterfly.rs");
-include!("../mechanisms/elliptic_trammel.rs");
-include!("../mechanisms/five_bar.rs");
-include!("../mechanisms/four_bar.rs");
-include!("../mechanisms/geared_five_bar.rs");
-include!("../mechanisms/geneva.rs");
-include!("../mechanisms/hart.rs");
-include!("../mechanisms/hoecken.rs");
-include!("../mechanisms/inverted_slider_crank.rs");
-include!("../mechanisms/jansen.rs");
-include!("../mechanisms/klann.rs");
-include!("../mechanisms/offset_slider_crank.rs");
-include!("../mechanisms/pantograph.rs");
-include!("../mechanisms/peaucellier.rs");
-include!("../mechanisms/roberts.rs");
-include!("../mechanisms/scotch_yoke.rs");
-include!("../mechanisms/six_bar.rs");
-include!("../mechanisms/stephenson_i.rs");
-include!("../mechanisms/stephenson_ii.rs");
-include!("../mechanisms/stephenson_iii.rs");
-include!("../mechanisms/v_twin.rs");
-include!("../mechanisms/watt_i.rs");
-include!("../mechanisms/watt_ii.rs");
-include!("../mechanisms/watt_line.rs");
-include!("../mechanisms/whitworth.rs");
-include!("../mechanisms/wiper.rs");
 
 /// What came of some steps.
 #[derive(Debug, Default, Clone, Copy)]
@@ -179,93 +145,100 @@ fn by_short_steps<M: Mechanism<Scalar = f64, V = D<1>>>(
     }
 }
 
-/// Walks of a mechanism with one input, positions by closed form.
-macro_rules! closed {
-    ($M:ident, $Branch:ident, $steps:expr, $random:expr) => {{
-        let m = $M::default();
-        let at = |input: f64, branch| m.assemble(input, branch).ok().map(|pose| pose.coordinates());
-        let starts = |input: f64, _: &mut SmallRng| $Branch::all().filter_map(|branch| at(input, branch)).collect();
-        let expected = |start: &_, _: &_, input| at(input, m.branch_of(&m.pose_at(start)));
-        walk(&m, starts, expected, $steps, $random)
-    }};
+/// Walks by the number of inputs: those of several all follow one parameter.
+trait Inputs: Dim {
+    fn closed<M: ClosedForm<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
+    fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
 }
 
-/// Walks of a mechanism without closed form.
-macro_rules! newton {
-    ($M:ident, $Coordinates:ident, $steps:expr, $random:expr) => {{
-        let m = $M::default();
+impl Inputs for D<1> {
+    fn closed<M: ClosedForm<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+        let at = |input: f64, branch| m.assemble(PerInput::<M>::from([input]).into(), branch).ok();
+        let starts = |input: f64, _: &mut SmallRng| {
+            M::all_branches().into_iter().filter_map(|branch| Some(M::coordinates_of(&at(input, branch)?))).collect()
+        };
+        // In the turns that are nearest to the last position.
+        let expected = |start: &M::Coordinates, before: &M::Coordinates, input: f64| {
+            let guess = M::with_inputs(before, [input].into());
+            Some(M::coordinates_of(&m.assemble_near(&guess, m.branch_of(&m.pose_at(start))).ok()?))
+        };
+        walk(&m, starts, expected, steps, random)
+    }
+
+    fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
         let starts = |input: f64, random: &mut SmallRng| {
-            let mut q = $Coordinates::from(SVector::from_fn(|_, _| random.random_range(-PI..PI)));
-            q = <$M as Mechanism>::with_inputs(&q, [input].into());
-            m.solve(&q).ok().map(|solution| solution.coordinates).into_iter().collect()
+            let guess: Vec<f64> = (0..M::U::COUNT + 1).map(|_| random.random_range(-PI..PI)).collect();
+            let guess = M::with_inputs(&M::named(&guess), [input].into());
+            let listed = M::listed(&m.pose_at(&guess));
+            m.solved(&listed).map(|q| M::named(&q)).into_iter().collect()
         };
-        walk(&m, starts, |_: &_, before: &_, input| by_short_steps(&m, before, input), $steps, $random)
-    }};
+        walk(&m, starts, |_: &_, before: &_, input| by_short_steps(&m, before, input), steps, random)
+    }
 }
 
-/// Walks of a mechanism with two inputs that both follow one parameter.
-macro_rules! along {
-    ($M:ident, $Branch:ident, $inputs:expr, $steps:expr, $random:expr) => {{
-        let m = Along { mechanism: $M::default(), inputs: $inputs };
-        let at = |parameter: f64, branch| {
-            let pose = Assembly::assemble(&m.mechanism, (m.inputs)(parameter)[0].into(), branch).ok()?;
-            Some(AlongCoordinates { q: pose.coordinates(), parameter })
-        };
-        let starts = |s: f64, _: &mut SmallRng| $Branch::all().filter_map(|branch| at(s, branch)).collect();
-        let expected = |start: &AlongCoordinates<_>, _: &AlongCoordinates<_>, s| {
-            at(s, m.mechanism.branch_of(&m.mechanism.pose_at(&m.position(start))))
-        };
-        walk(&m, starts, expected, $steps, $random)
-    }};
+macro_rules! several_inputs {
+    ($($count:literal)*) => {$(
+        impl Inputs for D<$count> {
+            fn closed<M: ClosedForm<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+                let scale = m.parameters().into_iter().fold(0.0, f64::max);
+                let m = Along { mechanism: m, inputs: move |s| round::<M>(scale, s) };
+                let at = |parameter: f64, branch| {
+                    let pose = m.mechanism.assemble((m.inputs)(parameter)[0].into(), branch).ok()?;
+                    Some(AlongCoordinates { q: M::coordinates_of(&pose), parameter })
+                };
+                let starts = |s: f64, _: &mut SmallRng| {
+                    M::all_branches().into_iter().filter_map(|branch| at(s, branch)).collect()
+                };
+                let expected = |start: &AlongCoordinates<_>, _: &AlongCoordinates<_>, s| {
+                    at(s, m.mechanism.branch_of(&m.mechanism.pose_at(&m.position(start))))
+                };
+                walk(&m, starts, expected, steps, random)
+            }
+
+            fn newton<M: Fixture<V = Self>>(_: M, _: usize, _: &mut SmallRng) -> Count {
+                unimplemented!("{}: random steps of several inputs need a closed form", M::NAME)
+            }
+        }
+    )*};
 }
 
-fn gallery(steps: usize) -> Count {
-    let random = &mut SmallRng::seed_from_u64(7);
-    let mut count = Count::default();
-    count += closed!(Andrews, AndrewsBranch, steps, random);
-    // Lost at times on the return: there the law is what is left of a difference, and has fewer digits than its size
-    // says, which the follower of a closure does not take for rounding.
-    count += closed!(CamFollower, CamFollowerBranch, steps, random);
-    count += closed!(CamRocker, CamRockerBranch, steps, random);
-    count += closed!(Cardan, CardanBranch, steps, random);
-    count += closed!(ChebyshevCoupler, ChebyshevCouplerBranch, steps, random);
-    count += closed!(ChebyshevRocker, ChebyshevRockerBranch, steps, random);
-    count += closed!(CoupledWheels, CoupledWheelsBranch, steps, random);
-    count += closed!(CrankShaper, CrankShaperBranch, steps, random);
-    count += closed!(EllipticTrammel, EllipticTrammelBranch, steps, random);
-    count += closed!(FourBar, FourBarBranch, steps, random);
-    count += closed!(GearedFiveBar, GearedFiveBarBranch, steps, random);
-    count += closed!(Geneva, GenevaBranch, steps, random);
-    count += closed!(Hart, HartBranch, steps, random);
-    count += closed!(Hoecken, HoeckenBranch, steps, random);
-    count += closed!(InvertedSliderCrank, InvertedSliderCrankBranch, steps, random);
-    count += closed!(Jansen, JansenBranch, steps, random);
-    count += closed!(Klann, KlannBranch, steps, random);
-    count += closed!(OffsetSliderCrank, OffsetSliderCrankBranch, steps, random);
-    count += closed!(Peaucellier, PeaucellierBranch, steps, random);
-    count += closed!(Roberts, RobertsBranch, steps, random);
-    count += closed!(ScotchYoke, ScotchYokeBranch, steps, random);
-    count += closed!(SixBar, SixBarBranch, steps, random);
-    count += closed!(StephensonI, StephensonIBranch, steps, random);
-    count += closed!(StephensonIII, StephensonIIIBranch, steps, random);
-    count += closed!(VTwin, VTwinBranch, steps, random);
-    count += closed!(WattI, WattIBranch, steps, random);
-    count += closed!(WattII, WattIIBranch, steps, random);
-    count += closed!(WattLine, WattLineBranch, steps, random);
-    count += closed!(Whitworth, WhitworthBranch, steps, random);
-    count += closed!(Wiper, WiperBranch, steps, random);
-    count += newton!(DoubleButterfly, DoubleButterflyCoordinates, steps, random);
-    count += newton!(StephensonII, StephensonIICoordinates, steps, random);
-    // The cranks of the five-bar geared, the tracer of the pantograph round a circle that leaves what it reaches.
-    let geared = |s: f64| [vector![s, 0.7 * s + 1.0], vector![1.0, 0.7], vector![0.0, 0.0]];
-    count += along!(FiveBar, FiveBarBranch, geared, steps, random);
-    let circle = |s: f64| {
-        let (sine, cosine) = s.sin_cos();
-        [vector![3.6 + 3.5 * cosine, 3.5 * sine], 3.5 * vector![-sine, cosine], -3.5 * vector![cosine, sine]]
+several_inputs!(2 4);
+
+/// Inputs with their first two derivatives by the parameter: angles at different rates, lengths round circles or ellipses
+/// that leave what the mechanism reaches.
+fn round<M: Mechanism<Scalar = f64>>(scale: f64, s: f64) -> [PerInput<M>; 3] {
+    let parts = |index: usize| {
+        let place = index as f64;
+        let (sine, cosine) = (s - place * PI / 2.0).sin_cos();
+        if M::INPUT_ANGLES[index] {
+            let rate = 1.0 - 0.3 * place;
+            [rate * s + place, rate, 0.0]
+        } else {
+            let radius = 0.9 * scale / (1 + index / 2) as f64;
+            [radius * (cosine + f64::from(u8::from(index % 2 == 0))), -radius * sine, -radius * cosine]
+        }
     };
-    count += along!(Pantograph, PantographBranch, circle, steps, random);
-    count
+    [0, 1, 2].map(|order| PerInput::<M>::from_fn(|index| parts(index)[order]))
 }
+
+macro_rules! walks {
+    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
+        /// Walks of all mechanisms.
+        fn gallery(steps: usize) -> Count {
+            let random = &mut SmallRng::seed_from_u64(7);
+            let mut count = Count::default();
+            $($(count += {
+                type M = linkage_gallery::$file::$Mechanism;
+                <M as Mechanism>::V::$method(M::default(), steps, random)
+            };)+)*
+            count
+        }
+    };
+}
+
+// `cam_follower` is lost at times on the return: the law there is a difference of nearly equal numbers and has fewer digits
+// than its scale says, which the follower does not take for rounding error.
+all_mechanisms!(walks);
 
 /// Four-bars of random lengths, followed by arc length through whatever they have.
 fn four_bars(steps: usize) -> Count {

@@ -5,9 +5,9 @@
 
 use linkage::{Elbow, linkage};
 
-use super::precise::{Scalar, big};
+use linkage_oracle::precise::{Scalar, big};
 
-include!("../mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 const BRANCH: FourBarBranch = FourBarBranch::new(Elbow::Left);
 

@@ -4,12 +4,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use linkage::{Slider, linkage};
+use linkage::Slider;
 
-use super::precise::big;
 use super::relative;
+use linkage_oracle::precise::big;
 
-include!("../mechanisms/inverted_slider_crank.rs");
+use linkage_gallery::inverted_slider_crank::*;
 
 fn branch(theta4_b: Slider) -> InvertedSliderCrankBranch {
     InvertedSliderCrankBranch::new(theta4_b)

@@ -3,9 +3,9 @@
 
 use linkage::Elbow;
 
-use super::precise::{Scalar, big};
 use super::relative;
 use super::triangle::{Triangle, TriangleBranch, TriangleInputs};
+use linkage_oracle::precise::{Scalar, big};
 
 const BRANCH: TriangleBranch = TriangleBranch { alpha_beta: Elbow::Left };
 

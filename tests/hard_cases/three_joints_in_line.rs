@@ -3,9 +3,9 @@
 //! Known to fail: every program that begins by solving J u' = -A v'.
 
 use linkage::continuation::{Direction, Path};
-use linkage::{Elbow, PathError, PositionError, linkage};
+use linkage::{Elbow, PathError, PositionError};
 
-include!("../mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 /// The crank stands upright: 3, 4 and 2 + 3 are the sides of a right triangle.
 fn stretched() -> (FourBar, FourBarCoordinates) {

@@ -4,9 +4,9 @@
 
 use linkage::Elbow;
 
-use super::precise::{Big, Scalar, big};
 use super::relative;
 use super::triangle::{Triangle, TriangleBranch, TriangleInputs};
+use linkage_oracle::precise::{Big, Scalar, big};
 
 /// The angle between sides p and q across d.
 fn exact(p: f64, q: f64, d: f64) -> Big {
@@ -46,7 +46,7 @@ fn stretched() {
         let (p, q) = (3.0, 4.0);
         let d = p + q - 10_f64.powi(-digits);
         let beyond = |angle: f64| std::f64::consts::PI - angle;
-        let expected = super::precise::pi() - exact(p, q, d);
+        let expected = linkage_oracle::precise::pi() - exact(p, q, d);
         // What is left of the angle to pi, where its double has no digits any more, is in the determinant.
         let m = Triangle { p, q };
         let pose = m.assemble(TriangleInputs { x: d, y: 0.0 }, TriangleBranch { alpha_beta: Elbow::Left }).unwrap();

@@ -3,11 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use linkage::{Elbow, linkage};
+use linkage::Elbow;
 
-use super::precise::{Big, Scalar, big};
+use linkage_oracle::precise::{Big, Scalar, big};
 
-include!("../mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 /// The direction of l3 on the left: V . D and D x V as of two circles.
 fn exact(m: &FourBar, theta2: f64) -> Big {

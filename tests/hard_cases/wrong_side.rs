@@ -3,9 +3,9 @@
 //! Known to fail: solvers that give what they find: of these guesses a part comes out mirrored.
 
 use linkage::continuation::{Direction, Path};
-use linkage::{PathError, PositionError, linkage, position};
+use linkage::{PathError, PositionError, position};
 
-include!("../mechanisms/four_bar.rs");
+use linkage_gallery::four_bar::*;
 
 #[test]
 fn never_mirrored_silently() {

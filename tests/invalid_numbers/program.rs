@@ -28,7 +28,7 @@ pub fn files(root: &Path, chosen: Option<&[&str]>) -> Vec<(String, String)> {
         files.push((format!("{module}.rs"), text));
     }
     let harness = root.join("tests/invalid_numbers/harness/mod.rs");
-    let laws = root.join("tests/source/cam_laws.rs");
+    let laws = root.join("dev/gallery/src/cam_laws.rs");
     files.push((
         "subjects.rs".to_owned(),
         format!(

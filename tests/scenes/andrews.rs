@@ -1,10 +1,8 @@
 //! Andrews' squeezing mechanism as it is published.
 
-use linkage::linkage;
-
 use super::virtual_work::close;
 
-include!("../mechanisms/andrews_scene.rs");
+use linkage_gallery::andrews_scene::*;
 
 /// Andrews' mechanism: at the start as the Test Set for IVP Solvers (F. Mazzia, C. Magherini) gives it, in motion
 /// W' M W with the mass matrix of the seven coordinates that the Test Set prints.

@@ -1,12 +1,12 @@
 //! The mechanisms, and what position says of them.
 
-use linkage::{Real, linkage};
+use linkage::Real;
 
 use super::virtual_work::{Placed, Positions, constant};
 
-include!("../mechanisms/five_bar_scenes.rs");
-include!("../mechanisms/four_bar_scenes.rs");
-include!("../mechanisms/slider_crank_scenes.rs");
+pub use linkage_gallery::five_bar_scenes::*;
+pub use linkage_gallery::four_bar_scenes::*;
+pub use linkage_gallery::slider_crank_scenes::*;
 
 pub(super) const FOUR_BAR: LoadedFourBarBranch = LoadedFourBarBranch::new(linkage::Elbow::Left);
 

@@ -2,11 +2,10 @@
 //! (2008), problem "andrews"; the constants are those of the scene.
 
 use linkage::integrate::{Dop853, Dopri5, Method};
-use linkage::linkage;
 use linkage::simulation::{State, simulate};
 
-include!("../mechanisms/andrews_scene.rs");
-include!("../source/andrews_motion.rs");
+use linkage_gallery::andrews_motion::{END, START};
+use linkage_gallery::andrews_scene::*;
 
 /// The rates then, found with the angles.
 const END_RATES: SqueezerRates = SqueezerRates {

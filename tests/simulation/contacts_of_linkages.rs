@@ -6,7 +6,7 @@ use linkage::{Mode, linkage};
 
 use super::contacts::close;
 
-include!("../mechanisms/five_bar_contacts.rs");
+use linkage_gallery::five_bar_contacts::*;
 
 linkage! {
     /// An engine with friction, that crank or piston may drive.

@@ -5,11 +5,12 @@
 //! elliptic integral, whose values were computed with 34 digits; for N = 2 the published figures of the multibody code
 //! EXUDYN come to them as its step falls. Energy is the same on all branches, so that only positions tell.
 
-use linkage::linkage;
 use linkage::simulation::{AtSingularity, simulate};
 use linkage::{MotionError, PositionError};
 
-include!("../mechanisms/windows.rs");
+use linkage_gallery::five_windows::*;
+use linkage_gallery::one_window::*;
+use linkage_gallery::two_windows::*;
 
 const UP: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -45,7 +46,7 @@ macro_rules! falls {
 falls!(
     one_window,
     OneFalling,
-    OneWindowsCoordinates,
+    OneWindowCoordinates,
     [phi0, phi1],
     [psi1],
     21,
@@ -73,14 +74,14 @@ falls!(
 #[test]
 fn a_policy_ends_the_motion_where_the_input_no_longer_drives() {
     let scene = OneFalling::default();
-    let start = OneWindowsCoordinates { phi0: UP, psi1: 0.0, phi1: UP };
+    let start = OneWindowCoordinates { phi0: UP, psi1: 0.0, phi1: UP };
     let motion = simulate(&scene, (0.0, start, -1.0), 20.0, 1e-12).unwrap();
     let mut motion = motion.at_singularity(AtSingularity::Stop);
     let error = motion.finish(|_, _| true).unwrap_err();
     assert!(
         matches!(
             error,
-            MotionError::Position(PositionError::Singular { mechanism: "OneWindows", group: "psi1, phi1", .. })
+            MotionError::Position(PositionError::Singular { mechanism: "OneWindow", group: "psi1, phi1", .. })
         ),
         "{error}"
     );

@@ -11,7 +11,8 @@ use syn::{Expr, Item, Stmt};
 const REQUESTS: [&str; 4] = ["limits", "jerk", "velocity_ratio_derivatives", "sensitivity"];
 
 /// Folders and files with mechanisms.
-const SOURCES: [&str; 3] = ["tests/mechanisms", "examples/engine/machine.rs", "examples/door_closer/machine.rs"];
+const SOURCES: [&str; 3] =
+    ["dev/gallery/src/mechanisms", "examples/engine/machine.rs", "examples/door_closer/machine.rs"];
 
 /// One `linkage!`.
 pub struct Expansion {

@@ -1,0 +1,141 @@
+//! Lengths and inputs that no mechanism has: infinite, not numbers, zero, negative, at the ends of the range. A
+//! position is an error, or every number of it is finite.
+
+use linkage::{Dim, Elbow, PerInput, PositionError};
+use linkage_gallery::four_bar::{FourBar, FourBarBranch};
+use linkage_gallery::{ClosedForm, Kinematics, all_mechanisms};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+
+const EXTREME: [f64; 13] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    0.0,
+    -0.0,
+    f64::MAX,
+    f64::MIN_POSITIVE,
+    5e-324,
+    1e-160,
+    1e155,
+    1e300,
+    -1.0,
+    -1e308,
+];
+
+/// Trials of each mechanism.
+const TRIALS: usize = 1000;
+
+/// How many positions there were, and how many errors.
+#[derive(Default)]
+struct Found {
+    positions: usize,
+    errors: usize,
+}
+
+/// Every number that can be got out of a position is finite.
+fn assert_finite<M: Kinematics<T>, T: linkage::Real + std::fmt::Debug>(
+    m: &M,
+    pose: &M::Pose,
+    at: &impl std::fmt::Debug,
+) {
+    let numbers =
+        [M::listed(pose), m.block_determinants(pose).iter().copied().collect(), m.points(pose).unwrap_or_default()];
+    let is_finite = numbers.iter().flatten().all(|number| number.is_finite());
+    assert!(is_finite && M::is_finite(pose), "{} {at:?}: {numbers:?}", M::NAME);
+}
+
+/// Assembles a mechanism of which some parameters and inputs are extreme.
+fn assembles_or_says_why<M: ClosedForm<Scalar = f64> + Kinematics<f64> + Default>(
+    random: &mut SmallRng,
+    found: &mut Found,
+) {
+    let defaults = M::default().parameters();
+    for _ in 0..TRIALS {
+        let mut parameters = defaults.clone();
+        let mut inputs = PerInput::<M>::from_fn(|_| random.random_range(-3.0..3.0));
+        for _ in 0..random.random_range(1..=3) {
+            let place = random.random_range(0..parameters.len() + M::V::COUNT);
+            // Or a number of any size.
+            let bad = match EXTREME.get(random.random_range(0..2 * EXTREME.len())) {
+                Some(&bad) => bad,
+                None => random.random_range(-2.0..2.0) * 2_f64.powi(random.random_range(-540..540)),
+            };
+            match parameters.get_mut(place) {
+                Some(parameter) => *parameter = bad,
+                None => inputs[place - parameters.len()] = bad,
+            }
+        }
+        let m = M::with_parameters(&parameters);
+        for branch in M::all_branches() {
+            match m.assemble(inputs.into(), branch) {
+                Ok(pose) => {
+                    found.positions += 1;
+                    assert_finite(&m, &pose, &(&parameters, &inputs));
+                }
+                Err(
+                    PositionError::NotFinite { .. }
+                    | PositionError::Unbuildable { .. }
+                    | PositionError::Undetermined { .. },
+                ) => {
+                    found.errors += 1;
+                }
+                Err(error) => panic!("{parameters:?} {inputs:?}: {error}"),
+            }
+        }
+    }
+}
+
+/// Triangles of all shapes and sizes, in both precisions: what a well-conditioned triangle gives is not checked again.
+#[test]
+fn dyads_of_every_size() {
+    let random = &mut SmallRng::seed_from_u64(5);
+    let mut positions = 0;
+    for _ in 0..200_000 {
+        let most = [3, 30, 70, 300, 540][random.random_range(0..5)];
+        let mut length = || random.random_range(1.0..2.0) * 2_f64.powi(random.random_range(-most..=most));
+        let (ground, crank, p, gap) = (length(), length(), length(), length());
+        // Nearly equal links, so that the line between their joints may be anything.
+        let m = FourBar::new(ground, crank, p, p + gap);
+        let single = m.clone().map(|length| length as f32);
+        for branch in [Elbow::Left, Elbow::Right].map(FourBarBranch::new) {
+            let theta2 = random.random_range(-3.0..3.0);
+            if let Ok(pose) = m.assemble(theta2, branch) {
+                positions += 1;
+                assert_finite(&m, &pose, &(&m, theta2));
+            }
+            if let Ok(pose) = single.assemble(theta2 as f32, branch) {
+                positions += 1;
+                assert_finite(&single, &pose, &(&single, theta2));
+            }
+        }
+    }
+    assert!(positions > 100_000, "{positions} positions");
+}
+
+macro_rules! of_method {
+    (closed $Mechanism:ty, $random:ident, $found:ident) => {
+        assembles_or_says_why::<$Mechanism>($random, $found);
+    };
+    // Newton's method on such numbers is a matter of `tests/invalid_numbers`.
+    (newton $Mechanism:ty, $random:ident, $found:ident) => {};
+}
+
+macro_rules! all {
+    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
+        fn all(random: &mut SmallRng, found: &mut Found) {
+            $($(of_method!($method linkage_gallery::$file::$Mechanism, random, found);)+)*
+        }
+    };
+}
+
+all_mechanisms!(all);
+
+#[test]
+fn a_position_is_an_error_or_finite() {
+    let (random, mut found) = (&mut SmallRng::seed_from_u64(3), Found::default());
+    all(random, &mut found);
+    let Found { positions, errors } = found;
+    println!("{positions} positions, {errors} errors");
+    assert!(positions > 30_000 && errors > 150_000, "{positions} positions, {errors} errors");
+}
