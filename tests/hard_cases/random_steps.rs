@@ -215,7 +215,7 @@ fn round<M: Mechanism<Scalar = f64>>(scale: f64, s: f64) -> [PerInput<M>; 3] {
             [rate * s + place, rate, 0.0]
         } else {
             let radius = 0.9 * scale / (1 + index / 2) as f64;
-            [radius * (cosine + f64::from(u8::from(index % 2 == 0))), -radius * sine, -radius * cosine]
+            [radius * (cosine + f64::from(u8::from(index.is_multiple_of(2)))), -radius * sine, -radius * cosine]
         }
     };
     [0, 1, 2].map(|order| PerInput::<M>::from_fn(|index| parts(index)[order]))
