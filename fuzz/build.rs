@@ -6,8 +6,8 @@ use std::{env, fs};
 #[path = "../tests/invalid_numbers/program.rs"]
 mod program;
 
-/// One of each kind, since coverage is slow to build: groups of two unknowns and of more, gears, belts, slots and cams,
-/// limits and change points, scenes with every effect, stops and friction.
+/// One mechanism of each kind, since the code for coverage is slow to build: groups of two unknowns and of more, gears,
+/// belts, slots and cams, limits and change points, scenes with every effect, stops and friction.
 const CHOSEN: [&str; 13] = [
     "belt",
     "cam_follower",

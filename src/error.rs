@@ -1,4 +1,4 @@
-//! Why there is no result, whatever was attempted.
+//! The error type for functions that do several things.
 
 use core::fmt;
 
@@ -6,14 +6,13 @@ use core::fmt;
 use linkage_dynamics::MotionError;
 use linkage_runtime::{InputError, PathError, PositionError};
 
-/// Why there is no result, whatever was attempted: what `?` makes of the other errors, for functions that attempt several
-/// things.
+/// Any error of this crate: `?` converts the other errors to it, in functions that do several things.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A number or a setting cannot be used.
+    /// A number or a setting is invalid.
     Input(InputError),
-    /// There is no position, velocity or force.
+    /// A position, velocity or force cannot be computed.
     Position(PositionError),
     /// A path cannot be followed.
     Path(PathError),

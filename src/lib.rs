@@ -28,7 +28,7 @@ pub use linkage_runtime::{
     derivation, limits, nalgebra, position, real, singularity,
 };
 
-/// A mechanism under forces: the position is solved for within the rate, the last one being the guess.
+/// A mechanism under forces: the rate function solves for the position, with the last position as the guess.
 ///
 /// ```
 /// use linkage::integrate::{Tolerance, dop853};
@@ -65,13 +65,13 @@ pub use linkage_runtime::{
 #[cfg(all(feature = "dynamics", any(feature = "std", feature = "libm")))]
 pub use linkage_dynamics::integrate;
 
-/// Mechanisms from their closure equations.
+/// Defines mechanisms by their loop equations.
 ///
-/// The manual of the language is that of the [procedural macro](__private::linkage).
+/// The manual of the language is the documentation of the [procedural macro](__private::linkage).
 #[macro_export]
 macro_rules! linkage {
     ($($mechanisms:tt)*) => {
-        // The crate hands its own path on, so that it may be renamed or re-exported.
+        // The path of the crate is an argument, so that the crate may be renamed or re-exported.
         $crate::__private::linkage! { $crate $($mechanisms)* }
     };
 }
@@ -83,7 +83,7 @@ pub mod __private {
     pub use linkage_macros::linkage;
 }
 
-/// What emitted code names; not part of the interface.
+/// The names used by emitted code; not part of the interface.
 #[doc(hidden)]
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod __rt {

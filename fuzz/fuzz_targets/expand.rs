@@ -1,5 +1,5 @@
-//! Mutants of all mechanisms and scenes: the macro never panics, never gives nothing, stays within its budget, and what
-//! it gives is Rust.
+//! Mutants of all mechanisms and scenes: the macro never panics, never emits nothing, stays within its budget, and what
+//! it emits is Rust.
 #![no_main]
 
 #[path = "../../tests/source/expanded.rs"]

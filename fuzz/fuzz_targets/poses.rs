@@ -1,5 +1,5 @@
-//! Parameters, poses and arguments of the public functions of mechanisms and scenes: no `Ok` holds a number that is not
-//! finite, no call takes more than a stated number of evaluations, none panics.
+//! Calls of the public functions of mechanisms and scenes: no `Ok` contains a number that is not finite, no call takes
+//! more than a stated number of evaluations, none panics.
 #![no_main]
 
 use harness::{Source, Tally, listen};

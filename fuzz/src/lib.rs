@@ -7,14 +7,15 @@
 //!
 //! Without `-len_control=0` the fuzzer waits for many runs before it makes inputs longer than a few bytes.
 //!
-//! `expand` makes the mutants of `tests/mutants.rs`, `poses` the calls of `tests/invalid_numbers`; there a seeded
-//! generator chooses, here the fuzzer. No crate here has unsafe code, so a sanitizer has nothing to look for.
+//! `expand` makes the mutants of `tests/mutants.rs`, `poses` the calls of `tests/invalid_numbers`, with the choices
+//! made by the fuzzer instead of a seeded generator. No crate here has unsafe code, so a sanitizer has nothing to look
+//! for.
 
 use rand::rngs::SmallRng;
 use rand::{RngCore, SeedableRng};
 
-/// A generator that gives the bytes that a fuzzer chose, and after them pseudorandom ones: with zeros every later choice
-/// would be the first alternative.
+/// A generator that returns the bytes chosen by a fuzzer, and pseudorandom ones after them: zeros would always choose
+/// the first alternative.
 pub struct Bytes {
     given: std::vec::IntoIter<u8>,
     after: SmallRng,
@@ -27,7 +28,7 @@ impl Bytes {
     }
 }
 
-/// Choices among a few are made by the leading bits, so half of the bytes suffice, and inputs are half as long.
+/// Choices among a few alternatives use the leading bits, so half of the bytes suffice, and inputs are half as long.
 impl RngCore for Bytes {
     fn next_u32(&mut self) -> u32 {
         let mut leading = [0; 2];

@@ -1,4 +1,4 @@
-//! What nalgebra asks of a real scalar.
+//! The traits that nalgebra requires of a real scalar.
 
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};
 use nalgebra::{ComplexField, Field, RealField, SimdValue};
@@ -27,7 +27,7 @@ impl One for DoubleDouble {
 impl Num for DoubleDouble {
     type FromStrRadixErr = <f64 as Num>::FromStrRadixErr;
 
-    /// The double that is written.
+    /// Parses a double.
     fn from_str_radix(text: &str, radix: u32) -> Result<Self, Self::FromStrRadixErr> {
         f64::from_str_radix(text, radix).map(Self::from)
     }
@@ -57,7 +57,7 @@ impl Signed for DoubleDouble {
 
 impl FromPrimitive for DoubleDouble {
     fn from_i64(n: i64) -> Option<Self> {
-        // Each half is a double, exactly.
+        // Each half is exactly a double.
         Some(Self::sum((n >> 32) as f64 * 4_294_967_296.0, (n & 0xffff_ffff) as f64))
     }
 
@@ -103,7 +103,7 @@ impl UlpsEq for DoubleDouble {
     }
 }
 
-/// One lane.
+/// A SIMD value of one lane.
 impl SimdValue for DoubleDouble {
     const LANES: usize = 1;
     type Element = Self;
@@ -238,7 +238,7 @@ impl ComplexField for DoubleDouble {
         -functions::floor(-self)
     }
 
-    /// Halves away from zero.
+    /// Rounds halves away from zero.
     fn round(self) -> Self {
         (self + RealField::copysign(Self::from(0.5), self)).trunc()
     }

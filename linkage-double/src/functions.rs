@@ -1,4 +1,4 @@
-//! The elementary functions, to all digits but the last few.
+//! The elementary functions, accurate to all digits but the last few.
 
 use core::f64::consts::{FRAC_2_PI, LN_2};
 
@@ -18,7 +18,7 @@ pub(super) const TWO_BY_ROOT_PI: DoubleDouble = constant(core::f64::consts::FRAC
 /// pi/2 in three doubles, to 2^-161.
 const HALF_PI: [f64; 3] = [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
-/// 1/n!; (pi/4)^29/29! is 2^-113.
+/// 1/n!; the first omitted term, (pi/4)^29/29!, is 2^-113.
 const INVERSE_FACTORIALS: [DoubleDouble; 28] = {
     let mut inverse = [ONE; 28];
     let mut n = 1;
@@ -29,7 +29,7 @@ const INVERSE_FACTORIALS: [DoubleDouble; 28] = {
     inverse
 };
 
-/// Beyond it a double does not tell its quarters of a turn apart.
+/// 2^51: beyond it a double does not hold the number of quarter turns exactly.
 const LARGEST_ANGLE: f64 = 2_251_799_813_685_248.0;
 
 const fn constant(high: f64, low: f64) -> DoubleDouble {
@@ -50,13 +50,14 @@ fn scaled(x: DoubleDouble, exponent: i32) -> DoubleDouble {
     constant(x.high * a * b, x.low * a * b)
 }
 
-/// The integer that an integral double within the range of `i32` is.
+/// Converts an integral double in the range of `i32` to an integer.
 fn integer(x: f64) -> Option<i32> {
     let integer = x as i32;
     (f64::from(integer) == x).then_some(integer)
 }
 
-/// The sum of x^n/n! from n = `first` in steps of `step`, signs alternating if `sign` is -1, beside x^first.
+/// The sum of x^n/n! from n = `first` in steps of `step`, with alternating signs if `sign` is -1, divided by x^first;
+/// `power` is x^step.
 fn series(power: DoubleDouble, first: usize, step: usize, last: usize, sign: f64) -> DoubleDouble {
     let terms = INVERSE_FACTORIALS[first..=last].iter().step_by(step).rev();
     terms.fold(ZERO, |sum, &term| term + sum * power * DoubleDouble::from(sign))
@@ -79,7 +80,7 @@ pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     }
 }
 
-/// From the angle in doubles, by the rotation that is left.
+/// The angle in doubles, corrected by the tangent of the remaining rotation.
 pub(super) fn atan2(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble {
     let angle = DoubleDouble::from(RealField::atan2(y.high, x.high));
     if (y.high == 0.0 && x.high >= 0.0) || !angle.high.is_finite() {
@@ -101,7 +102,7 @@ pub(super) fn acos(x: DoubleDouble) -> DoubleDouble {
     atan2(((ONE - x) * (ONE + x)).root(), x)
 }
 
-/// e^x - 1 for |x| <= 0.35: a sixteenth of it by its series, then doubled four times.
+/// e^x - 1 for |x| <= 0.35: the series at x / 16, then four doublings of the argument.
 fn small_exp_m1(x: DoubleDouble) -> DoubleDouble {
     let part = scaled(x, -4);
     (0..4).fold(part * series(part, 1, 1, 18, 1.0), |m, _| m * (m + 2.0.into()))
@@ -123,7 +124,7 @@ pub(super) fn exp_m1(x: DoubleDouble) -> DoubleDouble {
     if x.high.abs() <= 0.35 { small_exp_m1(x) } else { exp(x) - ONE }
 }
 
-/// From the logarithm in doubles, by one step of Newton's method of second order.
+/// The logarithm in doubles, corrected by q - q^2/2 for ln(1 + q).
 fn logarithm(near: f64, quotient: impl FnOnce(DoubleDouble) -> DoubleDouble) -> DoubleDouble {
     if !near.is_finite() {
         return near.into();
@@ -161,7 +162,7 @@ pub(super) fn powi(x: DoubleDouble, n: i32) -> DoubleDouble {
     if n < 0 { ONE / power } else { power }
 }
 
-/// Of an integer exponent exactly as by multiplication.
+/// x^exponent; for an integer exponent by multiplication.
 pub(super) fn powf(x: DoubleDouble, exponent: DoubleDouble) -> DoubleDouble {
     match integer(exponent.high) {
         Some(n) if exponent.low == 0.0 => powi(x, n),

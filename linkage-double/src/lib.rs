@@ -1,14 +1,14 @@
-//! Numbers of some 31 digits: the unevaluated sum of two doubles.
+//! Numbers of about 31 digits: the unevaluated sum of two doubles.
 //!
-//! T. J. Dekker, "A floating-point technique for extending the available precision" (1971); sum, product and quotient as
-//! in M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
-//! arithmetic" (2017). No operation needs a fused multiplication and addition: every target computes the same bits.
+//! T. J. Dekker, "A floating-point technique for extending the available precision" (1971); sum, product and quotient
+//! as in M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
+//! arithmetic" (2017). No operation needs a fused multiply-add: every target computes the same bits.
 //!
-//! The type is a scalar of nalgebra's and its functions keep all digits but the last bit or two; of the kept crates of this
-//! kind none has both.
+//! The type is a scalar of nalgebra, and its functions are accurate to the last bit or two; no other maintained crate
+//! of this kind has both.
 
 #![cfg_attr(not(feature = "std"), no_std)]
-// Without elementary functions there is nothing; `linkage` says so.
+// The crate is empty without elementary functions; `linkage` reports the missing feature.
 #![cfg(any(feature = "std", feature = "libm"))]
 #![warn(missing_docs)]
 
@@ -21,12 +21,12 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAss
 
 use nalgebra::ComplexField;
 
-/// A real number as the sum of two doubles, good for 31 digits; a scalar of nalgebra as `f64` is, so that every
-/// mechanism computes with it: `FourBar<DoubleDouble>`.
+/// A real number as the sum of two doubles, accurate to 31 digits. It is a scalar of nalgebra, so that every mechanism
+/// can compute with it: `FourBar<DoubleDouble>`.
 ///
-/// Its range is that of `f64` but for the last factors of 2^27 at the large end, and digits are lost below 1e-290. What
-/// is beyond the range is infinite or not a number, never wrong. Numbers of a mechanism's text, such as the 0.1 of
-/// `0.1 * l2`, are the doubles next to them.
+/// Its range is that of `f64` up to 2^-27 times the largest; digits are lost below 1e-290. A result beyond the range is
+/// infinite or NaN, never wrong. Constants in the text of a mechanism, such as the 0.1 of `0.1 * l2`, are rounded to
+/// doubles.
 ///
 /// ```
 /// use linkage_double::DoubleDouble;
@@ -61,13 +61,13 @@ impl DoubleDouble {
         Self { high, low: ((a * b - high) + a * d + c * b) + c * d }
     }
 
-    /// The double nearest to it.
+    /// The nearest double.
     #[must_use]
     pub const fn high(self) -> f64 {
         self.high
     }
 
-    /// What the double nearest to it leaves.
+    /// The remainder, the number less its nearest double.
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low
@@ -98,7 +98,7 @@ impl DoubleDouble {
         Self::ordered(first, second).plus(Self { high: rest.high / other.high, low: 0.0 })
     }
 
-    /// By Heron's rule from the root of the nearest double.
+    /// The square root: one step of Heron's method from the root of the nearest double.
     fn root(self) -> Self {
         let root = ComplexField::sqrt(self.high);
         if root == 0.0 || !ComplexField::is_finite(&root) {
@@ -109,7 +109,7 @@ impl DoubleDouble {
     }
 }
 
-/// The upper 26 bits of a double and the others: products of such halves are exact.
+/// Splits a double into its upper 26 bits and the rest: products of such halves are exact.
 const fn halves(a: f64) -> (f64, f64) {
     let scaled = 134_217_729.0 * a;
     let high = scaled - (scaled - a);
@@ -131,7 +131,7 @@ impl PartialOrd for DoubleDouble {
     }
 }
 
-/// Both parts, each with the digits that tell it from its neighbours.
+/// Writes both parts, each with as many digits as identify it.
 impl fmt::Display for DoubleDouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {:+e}", self.high, self.low)

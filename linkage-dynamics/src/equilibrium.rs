@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::MotionError;
-use linkage_runtime::__shared::{Closures, Factorization, all_finite, beside_columns, product_of_pivots, search};
+use linkage_runtime::__shared::{Constraints, Factorization, all_finite, hadamard_ratio, product_of_pivots, search};
 use linkage_runtime::{Column, D, Matrix, PositionError, Real, real};
 
 /// Positions close to rounding only, and forces are no better than positions: a sum of forces is zero beside this
@@ -58,7 +58,7 @@ struct Forces<'a, T: Real, Q, F, const N: usize> {
     position: PhantomData<Q>,
 }
 
-impl<T, Q, F, const N: usize> Closures for Forces<'_, T, Q, F, N>
+impl<T, Q, F, const N: usize> Constraints for Forces<'_, T, Q, F, N>
 where
     T: Real,
     F: Fn([T; N]) -> Result<(Q, Balance<T, N>), MotionError>,
@@ -91,7 +91,7 @@ where
 
     fn regularity(&self, point: &Self::Point) -> f64 {
         point.as_ref().map_or(0.0, |(_, balance)| {
-            beside_columns(product_of_pivots(balance.slopes), &Matrix::from(balance.slopes))
+            hadamard_ratio(product_of_pivots(balance.slopes), &Matrix::from(balance.slopes))
         })
     }
 

@@ -1,4 +1,5 @@
-//! The names that emitted kinematics uses, so that no name of the user's is taken. Not part of the interface.
+//! The names used by emitted code, in one module so that they cannot collide with names in the user's crate. Not part
+//! of the interface.
 
 pub use core::convert::Into;
 pub use core::iter::Iterator;
@@ -22,12 +23,12 @@ pub use crate::{
     Real, Slider, Slope, Solution, newton, newton_any_branch, real,
 };
 
-/// The names that derivations are written with.
+/// The types of emitted derivations.
 pub mod derivation {
     pub use crate::derivation as prelude;
 }
 
-/// The traits whose functions emitted code calls as methods, without their names.
+/// Traits imported without a name, for the methods that emitted code calls.
 pub mod prelude {
     pub use core::convert::{From as _, Into as _};
     pub use core::iter::Iterator as _;

@@ -1,13 +1,13 @@
-//! What `linkage-dynamics` shares with this crate. Not part of the interface.
+//! Internal functions that `linkage-dynamics` uses. Not part of the interface.
 
 pub use crate::error::{all_finite, finite};
 pub use crate::linear::{Factorization, product_of_pivots, same_signs};
-pub use crate::newton::{Closures, search};
-pub use crate::position::beside_columns;
+pub use crate::newton::{Constraints, search};
+pub use crate::position::hadamard_ratio;
 pub use crate::scalar::{arithmetic, larger, largest, smallest, to_f64};
 
-/// `Clone`, `Copy`, `PartialEq` and `Debug` by the fields of a struct whose parameter names their types: `derive` would ask
-/// the same of the parameter itself.
+/// Implements `Clone`, `Copy`, `PartialEq` and `Debug` field by field for a struct whose fields have associated types
+/// of its parameter: `derive` would require the traits of the parameter itself.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __by_fields {

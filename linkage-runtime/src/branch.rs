@@ -1,10 +1,10 @@
-//! The two solutions of an Assur group, named for what they mean.
+//! The two solutions of an Assur group, named by their geometry.
 
 use crate::linear::power_of_two_below;
 use crate::scalar::to_f64;
 use crate::{PositionError, Real, real};
 
-/// One of the two solutions of a group, which are the two signs of a root.
+/// The choice between the two solutions of a group, which differ in the sign of a square root.
 pub trait Side: Copy + PartialEq {
     /// The solution of the positive root.
     const OF_POSITIVE_ROOT: Self;
@@ -30,10 +30,10 @@ macro_rules! choices {
     )*};
 }
 
-// Each changes only where its group is singular: it is the sign of the determinant of the group's part of
-// J, up to the order of its columns and rows.
+// The choice is the sign of the determinant of the group's block of J, up to the order of its rows and columns: it
+// changes only where the group is singular.
 choices! {
-    /// Where the middle joint of a dyad of two links (RRR) stands.
+    /// The side on which the middle joint of a dyad of two links (RRR) lies.
     ///
     /// The line runs from the outer joint of the link that the group names first to the outer joint of
     /// the other.
@@ -43,24 +43,24 @@ choices! {
         /// Right of the line.
         Right
     }
-    /// Where a slider stands on its guide (RRP, RPR).
+    /// The position of a slider on its guide (RRP, RPR).
     Slider {
         /// The larger of the two moduli.
         Far,
         /// The smaller of the two moduli.
         Near
     }
-    /// Which of two angles solves a scalar closure a cos(phi) + b sin(phi) = h.
+    /// The choice between the two angles that solve a scalar equation a cos(phi) + b sin(phi) = h.
     Slope {
-        /// Left side minus right side of the closure grows with the angle.
+        /// The left side minus the right side increases with the angle.
         Rising,
-        /// Left side minus right side of the closure falls as the angle grows.
+        /// The left side minus the right side decreases as the angle increases.
         Falling
     }
 }
 
-/// The positions that exist among these branches, each with its branch. A branch with no position is left out, and so is
-/// one with infinitely many.
+/// Assembles each of these branches and returns the positions with their branches. A branch with no position, or with
+/// infinitely many, is left out.
 pub fn existing<B: Copy, P>(
     branches: impl Iterator<Item = B>,
     mut assemble: impl FnMut(B) -> Result<P, PositionError>,
@@ -71,23 +71,24 @@ pub fn existing<B: Copy, P>(
     })
 }
 
-/// A factor below zero by at most this many epsilons of its scale is zero: links that just touch, in line.
+/// A negative factor of at most this many ulps of its scale counts as zero: the links are in line.
 ///
-/// Brackets of limits are off by up to 1.9 ulp times their condition number with it, by up to 3.2 with 1.5 and by up to 4.0
-/// with 2 (`tests/limits_to_forty_digits.rs`); with none, links whose lengths are rounded decimals do not touch.
-const TOUCHING: f64 = 1.0;
+/// Limits of an input are then off by up to 1.9 ulp times their condition number; with 1.5 by up to 3.2, with 2 by up
+/// to 4.0 (`tests/limits_to_forty_digits.rs`). With 0, links in line whose lengths are rounded decimals do not reach
+/// each other.
+const TOUCHING_ULPS: f64 = 1.0;
 
-/// A distance below this many epsilons of the sum of the magnitudes of its terms is zero. The gallery's joints are right to
-/// three ulp of such terms times their condition number (`tests/forty_digits`): with none, joints that coincide but for a
-/// rounding error count as apart; with more, positions are refused that have digits left.
-const COINCIDENT: f64 = 8.0;
+/// A distance of at most this many ulps of the sum of the magnitudes of its terms counts as zero. The joints of the
+/// gallery are accurate to three ulp of that sum times their condition number (`tests/forty_digits`). With 0, joints
+/// that coincide up to rounding error count as apart; with more, positions that still have correct digits are rejected.
+const COINCIDENT_ULPS: f64 = 8.0;
 
-/// The root of the product of the factors n - h and n + h, `size` = n, with the sign of a side. `scales` are the sums of
-/// the magnitudes of the terms that n and h are made of.
+/// ±sqrt((n - h) (n + h)), with the sign of `side`: the half chord of a group. `factors` are n - h and n + h, `size` is
+/// n, `scales` are the sums of the magnitudes of the terms of n and of h.
 ///
 /// # Errors
-/// [`PositionError::Unbuildable`] if there is none, [`PositionError::Undetermined`] if n and h are both zero, [`PositionError::NotFinite`] if a
-/// number is not finite.
+/// [`PositionError::Unbuildable`] if the product is negative, [`PositionError::Undetermined`] if n and h are both zero,
+/// [`PositionError::NotFinite`] if a number is not finite.
 #[inline]
 pub fn chord<T: Real, S: Side>(
     mechanism: &'static str,
@@ -99,7 +100,7 @@ pub fn chord<T: Real, S: Side>(
 ) -> Result<T, PositionError> {
     let [low, high] = factors;
     let radicand = low * high;
-    // Both factors cannot be negative.
+    // At most one factor is negative.
     let root = if is_in_range(radicand) {
         radicand.sqrt()
     } else {
@@ -108,7 +109,7 @@ pub fn chord<T: Real, S: Side>(
     Ok(if side == S::OF_POSITIVE_ROOT { root } else { -root })
 }
 
-/// [`chord`] where n is a distance between joints, or another sum that may vanish by rounding alone.
+/// Computes the [`chord`] where n is a distance between joints, or another sum that may vanish up to rounding error.
 ///
 /// # Errors
 /// Those of [`chord`].
@@ -121,18 +122,18 @@ pub fn reach_chord<T: Real, S: Side>(
     scales: [T; 2],
     side: S,
 ) -> Result<T, PositionError> {
-    if size <= real::<T>(COINCIDENT) * T::default_epsilon() * scales[0] {
+    if size <= real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scales[0] {
         touching_chord(mechanism, group, factors[0], factors[1], size, scales)?;
     }
     chord(mechanism, group, factors, size, scales, side)
 }
 
-/// Refuses a group of linear unknowns whose determinant is zero. Of each unknown, `numerators` are what Cramer's rule
-/// divides by the determinant, `scales` the sums of the magnitudes of their terms.
+/// Returns an error if the determinant of a group of linear unknowns is zero. `numerators` are those of Cramer's rule,
+/// `scales` the sums of the magnitudes of their terms.
 ///
 /// # Errors
-/// [`PositionError::Undetermined`] if the numerators are zero as well, else [`PositionError::Unbuildable`]; [`PositionError::NotFinite`] if a
-/// numerator is not finite.
+/// [`PositionError::Undetermined`] if the numerators are zero as well, else [`PositionError::Unbuildable`];
+/// [`PositionError::NotFinite`] if a numerator is not finite.
 #[inline]
 pub fn solvable<T: Real, const N: usize>(
     mechanism: &'static str,
@@ -141,7 +142,7 @@ pub fn solvable<T: Real, const N: usize>(
     numerators: [T; N],
     scales: [T; N],
 ) -> Result<(), PositionError> {
-    // What is not a number has its own error, at the end of the chain.
+    // A determinant that is NaN makes the position NaN, which is reported when the position is complete.
     if determinant.is_zero() { Err(unsolvable(mechanism, group, &numerators, &scales)) } else { Ok(()) }
 }
 
@@ -149,8 +150,8 @@ pub fn solvable<T: Real, const N: usize>(
 #[inline(never)]
 fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators: &[T], scales: &[T]) -> PositionError {
     let gaps = numerators.iter().zip(scales).map(|(numerator, scale)| relative(numerator.abs(), *scale));
-    let tolerance = COINCIDENT * to_f64(T::default_epsilon());
-    // Not by `max`, which loses what is not a number.
+    let tolerance = COINCIDENT_ULPS * to_f64(T::default_epsilon());
+    // `max` would drop NaN.
     let gap = gaps.fold(0.0, |most: f64, gap| if gap <= most { most } else { gap });
     if !numerators.iter().all(T::is_finite) {
         PositionError::NotFinite { mechanism, quantity: POSITION }
@@ -161,10 +162,10 @@ fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators:
     }
 }
 
-/// The quantity that errors of positions name.
+/// The quantity named in errors of this module.
 const POSITION: &str = "the position";
 
-/// A magnitude relative to a scale.
+/// magnitude / scale, where 0 / 0 = 0.
 fn relative<T: Real>(magnitude: T, scale: T) -> f64 {
     if magnitude.is_zero() {
         0.0
@@ -175,8 +176,7 @@ fn relative<T: Real>(magnitude: T, scale: T) -> f64 {
     }
 }
 
-/// Whether a product of squares of lengths is far from the ends of its range. That of huge or tiny lengths is taken in
-/// other units.
+/// True if a product of squared lengths is far from overflow and underflow. If not, [`root`] computes in other units.
 #[inline]
 fn is_in_range<T: Real>(product: T) -> bool {
     let epsilon = T::default_epsilon();
@@ -184,12 +184,12 @@ fn is_in_range<T: Real>(product: T) -> bool {
     product > tiny && product < T::one() / tiny
 }
 
-/// Where a factor is less than this part of the squares that it is the difference of, they are subtracted
-/// without rounding.
+/// If a factor is less than this part of the squares whose difference it is, the difference is computed without
+/// rounding error.
 const CANCELLATION: f64 = 1.0 / 16.0;
 
-/// Two links of lengths p and q between joints whose line is (x, y), D^2 = x^2 + y^2. A length may be negative, and counts
-/// by its magnitude.
+/// The triangle of two links of lengths p and q whose outer joints are (x, y) apart, D^2 = x^2 + y^2. Only the
+/// magnitude of a length counts.
 #[derive(Debug, Clone, Copy)]
 pub struct Triangle<T> {
     /// p and q.
@@ -206,21 +206,20 @@ pub struct Triangle<T> {
     pub factors: [T; 2],
 }
 
-/// The half chord of a triangle, twice: the root of ((p + q)^2 - D^2) (D^2 - (p - q)^2), with the sign of a side.
+/// ±sqrt(((p + q)^2 - D^2) (D^2 - (p - q)^2)), with the sign of `side`: twice the half chord of a triangle.
 ///
-/// Besides, whether the triangle is plain: open, and of a size at which no step from here to the directions of the links
-/// can leave the range of the scalar. With s = p + q, then D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16, so that neither link
-/// is shorter than s/32; and since D^2 / s^2, s^2 D^2 and 1 / s are in range, so are the links' components, which are
-/// less than 2 s before any rounding or after it.
+/// The flag returned is true if the triangle is far from flat and of moderate size, so that no step from here to the
+/// directions of the links can overflow or underflow. With s = p + q, then D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16,
+/// so that neither link is shorter than s/32; and since D^2 / s^2, s^2 D^2 and 1 / s are in range, so are the links'
+/// components, which are less than 2 s even after rounding errors.
 ///
-/// Near a dead point a factor is a difference of nearly equal squares. It is then computed from the lengths and
-/// the line themselves as if nothing was rounded before the end, so that the chord is right to a few roundings
-/// however flat the triangle: T. J. Dekker, "A floating-point technique for extending the available precision",
-/// Numerische Mathematik 18, 1971.
+/// Near a dead point a factor is a difference of nearly equal squares. It is then computed in extended precision, so
+/// that the chord is accurate to a few ulp however flat the triangle is: T. J. Dekker, "A floating-point technique for
+/// extending the available precision", Numerische Mathematik 18, 1971.
 ///
 /// # Errors
-/// [`PositionError::Unbuildable`] if there is none, [`PositionError::Undetermined`] if the joints coincide and the links are equally long
-/// or if a link has no length, [`PositionError::NotFinite`] if a number is not finite.
+/// [`PositionError::Unbuildable`] if there is no such triangle, [`PositionError::Undetermined`] if the joints coincide
+/// and the links are equally long or if a link has no length, [`PositionError::NotFinite`] if a number is not finite.
 #[inline]
 pub fn elbow_chord<T: Real, S: Side>(
     mechanism: &'static str,
@@ -246,9 +245,9 @@ pub fn elbow_chord<T: Real, S: Side>(
     Ok((if side == S::OF_POSITIVE_ROOT { root } else { -root }, is_plain))
 }
 
-/// The chord of a triangle that is not plain.
+/// The chord of a triangle that is nearly flat, does not exist, or is very large or small.
 ///
-/// Scalars come and go in registers: arrays would be stored by callers that never come here, too.
+/// Scalars instead of arrays: arrays would be stored in memory even by callers that do not reach this function.
 #[cold]
 #[inline(never)]
 fn flat_chord<T: Real>(
@@ -265,7 +264,7 @@ fn flat_chord<T: Real>(
     if !(sum.is_finite() && distance.is_finite()) {
         return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
     }
-    let coincident = real::<T>(COINCIDENT) * epsilon;
+    let coincident = real::<T>(COINCIDENT_ULPS) * epsilon;
     let difference = (p - q).abs();
     if line <= coincident * scale {
         let gap = relative(difference, p + q);
@@ -276,13 +275,13 @@ fn flat_chord<T: Real>(
             PositionError::Unbuildable { mechanism, group, gap: gap * gap }
         });
     }
-    let (low, high) = exactly(p, q, x, y, sum, distance);
-    // The sums of the magnitudes of the terms of both factors, each as often as it counts.
+    let (low, high) = exact_factors(p, q, x, y, sum, distance);
+    // The sums of the magnitudes of the terms of both factors, with their multiplicities.
     let two = real::<T>(2.0);
     let of_line = line * scale;
     let scales = [two * (sum + of_line), two * (difference * (p + q) + of_line)];
     let least = if low < high { low } else { high };
-    let tolerance = real::<T>(TOUCHING) * epsilon * if low < high { scales[0] } else { scales[1] };
+    let tolerance = real::<T>(TOUCHING_ULPS) * epsilon * if low < high { scales[0] } else { scales[1] };
     let root = if least > T::zero() {
         root(low, high, sum)
     } else if -least <= tolerance {
@@ -290,15 +289,15 @@ fn flat_chord<T: Real>(
     } else {
         return Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, sum) });
     };
-    // The angle of a link without length is any.
+    // A link of length zero can have any angle.
     if p.is_zero() || q.is_zero() { Err(PositionError::Undetermined { mechanism, group }) } else { Ok(root) }
 }
 
-/// (p + q)^2 - D^2 and D^2 - (p - q)^2 of the lengths and the line as they are. What is less than one rounding of the
-/// squares is zero: lengths such as 33.3 and 66.7 are no nearer to what was meant.
+/// (p + q)^2 - D^2 and D^2 - (p - q)^2, without rounding error. A result below one ulp of the squares is set to zero,
+/// because lengths such as 33.3 and 66.7 are themselves rounded to that precision.
 ///
-/// In a scalar without fused multiplication, such as double-double, the squares' own roundings stay.
-fn exactly<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
+/// In a scalar without fused multiply-add, such as double-double, the rounding errors of the squares remain.
+fn exact_factors<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
     let (low, high) = (beyond(two_sum(p, q), [x, y]), -beyond(two_sum(p, -q), [x, y]));
     let touching = |factor: T, size: T| if factor.abs() <= T::default_epsilon() * size { T::zero() } else { factor };
     (touching(low, sum), touching(high, distance))
@@ -307,27 +306,27 @@ fn exactly<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
 /// (a + b)^2 - x^2 - y^2 for a sum a and its rounding error b.
 fn beyond<T: Real>((a, b): (T, T), [x, y]: [T; 2]) -> T {
     let ([a2, e], [x2, f], [y2, g]) = (two_product(a), two_product(x), two_product(y));
-    // The larger difference last, so that it is one of numbers of the same size.
+    // The larger square is subtracted first, so that the other difference is one of similar numbers.
     let (large, small) = if x2 < y2 { (y2, x2) } else { (x2, y2) };
     let (first, h) = two_sum(a2, -large);
     let (second, i) = two_sum(first, -small);
     second + (h + i + (e - f - g) + (a + a + b) * b)
 }
 
-/// a + b and what its rounding lost: D. E. Knuth.
+/// a + b and its rounding error: D. E. Knuth.
 fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// a^2 and what its rounding lost.
+/// a^2 and its rounding error.
 fn two_product<T: Real>(a: T) -> [T; 2] {
     let square = a * a;
     [square, a.mul_add(a, -square)]
 }
 
-/// The chord of a group that is not in range, or touches, or does not exist.
+/// The chord of a group that is in line or does not exist, or whose factors overflow or underflow.
 #[cold]
 #[inline(never)]
 fn touching_chord<T: Real>(
@@ -343,8 +342,8 @@ fn touching_chord<T: Real>(
     }
     let (scale, epsilon) = (of_size + of_rest, T::default_epsilon());
     let least = if low < high { low } else { high };
-    let vanishes = size <= real::<T>(COINCIDENT) * epsilon * of_size;
-    let tolerance = real::<T>(if vanishes { COINCIDENT } else { TOUCHING }) * epsilon * scale;
+    let vanishes = size <= real::<T>(COINCIDENT_ULPS) * epsilon * of_size;
+    let tolerance = real::<T>(if vanishes { COINCIDENT_ULPS } else { TOUCHING_ULPS }) * epsilon * scale;
     if least > T::zero() && !vanishes {
         Ok(root(low, high, size))
     } else if -least > tolerance {
@@ -352,20 +351,19 @@ fn touching_chord<T: Real>(
     } else if vanishes {
         Err(PositionError::Undetermined { mechanism, group })
     } else {
-        // Zero has the sign of the side, not of a factor.
+        // The caller gives the zero the sign of the side.
         Ok(T::zero())
     }
 }
 
-/// The root of a product of positive factors in units of a power of two: the same bits as those of lengths near 1.
+/// sqrt(`low` `high`) of positive factors, computed in units of a power of two: the same digits as for lengths near 1.
 #[cold]
 fn root<T: Real>(low: T, high: T, size: T) -> T {
     let unit = power_of_two_below(size);
     ((low / unit) * (high / unit)).sqrt() * unit
 }
 
-/// The side that a root with this sign belongs to: at a dead point, where it is zero, the sign of the
-/// zero tells.
+/// Returns the side of a root by its sign bit: at a dead point, where the root is zero, by the sign of the zero.
 #[must_use]
 pub fn side_of<T: Real, S: Side>(root: T) -> S {
     if root.is_sign_positive() { S::OF_POSITIVE_ROOT } else { S::OF_NEGATIVE_ROOT }

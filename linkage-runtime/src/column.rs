@@ -1,4 +1,4 @@
-//! Columns: one entry for each of a number of things.
+//! Columns whose length is a type.
 
 use core::fmt::{self, Debug};
 use core::iter::Sum;
@@ -9,21 +9,21 @@ use nalgebra::SVector;
 use crate::scalar::largest;
 use crate::{D, Dim, Real};
 
-/// One entry for each of [`R::COUNT`](Dim::COUNT) things; of numbers a vector.
+/// A column of [`R::COUNT`](Dim::COUNT) entries; a vector if they are numbers.
 ///
-/// It is nalgebra's [`SVector`] where the length is a type: each becomes the other by `into`.
+/// It converts to and from nalgebra's [`SVector`] by `into`.
 #[derive(Clone, Copy)]
 pub struct Column<X: Copy + Debug, R: Dim>(R::Array<X>);
 
 impl<X: Copy + Debug, R: Dim> Column<X, R> {
-    /// The column of these entries.
+    /// Builds the column whose entry at index i is `entry(i)`.
     #[inline]
     #[must_use]
     pub fn from_fn(entry: impl FnMut(usize) -> X) -> Self {
         Self(R::array(entry))
     }
 
-    /// The same entry everywhere.
+    /// Builds a column of equal entries.
     #[inline]
     #[must_use]
     pub fn repeat(entry: X) -> Self {
@@ -37,33 +37,33 @@ impl<X: Copy + Debug, R: Dim> Column<X, R> {
         self.0.as_ref()
     }
 
-    /// The entries.
+    /// The entries, mutable.
     #[inline]
     #[must_use]
     pub fn as_mut_slice(&mut self) -> &mut [X] {
         self.0.as_mut()
     }
 
-    /// The entries one after the other.
+    /// Iterates over the entries.
     #[inline]
     pub fn iter(&self) -> core::slice::Iter<'_, X> {
         self.as_slice().iter()
     }
 
-    /// The entries one after the other.
+    /// Iterates over the entries, mutable.
     #[inline]
     pub fn iter_mut(&mut self) -> core::slice::IterMut<'_, X> {
         self.as_mut_slice().iter_mut()
     }
 
-    /// A function of each entry.
+    /// Applies a function to each entry.
     #[inline]
     #[must_use]
     pub fn map<Y: Copy + Debug>(&self, f: impl FnMut(X) -> Y) -> Column<Y, R> {
         Column(R::map(self.0, f))
     }
 
-    /// A function of the entries of two columns, one by one.
+    /// Combines two columns entry by entry.
     #[inline]
     #[must_use]
     pub fn zip_map<Y: Copy + Debug>(&self, other: &Column<Y, R>, mut f: impl FnMut(X, Y) -> X) -> Self {
@@ -76,7 +76,7 @@ impl<X: Copy + Debug, R: Dim> Column<X, R> {
 }
 
 impl<T: Real, R: Dim> Column<T, R> {
-    /// The column of these entries, zero where there are no more.
+    /// Builds the column of these entries, padded with zeros.
     #[inline]
     #[must_use]
     pub fn from_iterator(entries: impl IntoIterator<Item = T>) -> Self {
@@ -87,35 +87,35 @@ impl<T: Real, R: Dim> Column<T, R> {
         column
     }
 
-    /// Zero.
+    /// The zero vector.
     #[inline]
     #[must_use]
     pub fn zeros() -> Self {
         Self::repeat(T::zero())
     }
 
-    /// An entry; zero where there is none. Unlike an index it cannot panic, whatever the compiler proves.
+    /// Returns an entry, or zero beyond the end; unlike indexing it cannot panic.
     #[inline]
     #[must_use]
     pub fn part(&self, place: usize) -> T {
         self.as_slice().get(place).copied().unwrap_or_else(T::zero)
     }
 
-    /// 1 at a place, and zero elsewhere.
+    /// The unit vector with its 1 at this index.
     #[inline]
     #[must_use]
     pub fn unit(at: usize) -> Self {
         Self::from_fn(|place| if place == at { T::one() } else { T::zero() })
     }
 
-    /// The sum of the products of the entries.
+    /// The dot product.
     #[inline]
     #[must_use]
     pub fn dot(&self, other: &Self) -> T {
         self.iter().zip(other).fold(T::zero(), |sum, (&one, &other)| sum + one * other)
     }
 
-    /// The root of the sum of the squares.
+    /// The Euclidean norm.
     #[inline]
     #[must_use]
     pub fn norm(&self) -> T {
@@ -129,42 +129,42 @@ impl<T: Real, R: Dim> Column<T, R> {
         self.iter().fold(T::zero(), |sum, &entry| sum + entry)
     }
 
-    /// The magnitudes.
+    /// The magnitudes of the entries.
     #[inline]
     #[must_use]
     pub fn abs(&self) -> Self {
         self.map(|entry| entry.abs())
     }
 
-    /// The largest magnitude; not a number if an entry is none.
+    /// The largest magnitude; NaN if an entry is NaN.
     #[inline]
     #[must_use]
     pub fn largest(&self) -> T {
         largest(self.iter().copied())
     }
 
-    /// The place of the largest magnitude, of equal ones the first.
+    /// The index of the largest magnitude, the first of equal ones.
     #[inline]
     #[must_use]
     pub fn leading(&self) -> usize {
         (0..R::COUNT).fold(0, |leading, place| if self[place].abs() > self[leading].abs() { place } else { leading })
     }
 
-    /// The products of the entries, one by one.
+    /// The entrywise product.
     #[inline]
     #[must_use]
     pub fn component_mul(&self, other: &Self) -> Self {
         self.zip_map(other, |one, other| one * other)
     }
 
-    /// The quotients of the entries, one by one.
+    /// The entrywise quotient.
     #[inline]
     #[must_use]
     pub fn component_div(&self, other: &Self) -> Self {
         self.zip_map(other, |one, other| one / other)
     }
 
-    /// Whether every entry is finite.
+    /// True if every entry is finite.
     #[inline]
     #[must_use]
     pub fn is_finite(&self) -> bool {

@@ -1,23 +1,23 @@
 //! Numbers of coordinates as types.
 //!
-//! A generic algorithm names how many unknowns and inputs a mechanism has by the types [`Mechanism::U`] and
-//! [`Mechanism::V`] and not by constant parameters, so that a struct of it has the mechanism for its only parameter.
+//! Generic algorithms take the numbers of unknowns and inputs from the types [`Mechanism::U`] and [`Mechanism::V`]
+//! instead of const parameters, so that the mechanism is the only parameter of their structs.
 //!
 //! [`Mechanism::U`]: crate::Mechanism::U
 //! [`Mechanism::V`]: crate::Mechanism::V
 
 use core::fmt::Debug;
 
-/// A number of things as a type, and the array of that length.
+/// A number as a type, with the array type of that length.
 pub trait Dim: Copy + Debug + Eq + 'static {
     /// The number.
     const COUNT: usize;
     /// `[X; COUNT]`.
     type Array<X: Copy + Debug>: Copy + Debug + AsRef<[X]> + AsMut<[X]> + IntoIterator<Item = X>;
 
-    /// The array of these entries.
+    /// Builds the array whose entry at index i is `entry(i)`.
     fn array<X: Copy + Debug>(entry: impl FnMut(usize) -> X) -> Self::Array<X>;
-    /// A function of each entry of an array: without a place that could be beyond its end.
+    /// Applies a function to each entry, without bounds checks.
     fn map<X: Copy + Debug, Y: Copy + Debug>(entries: Self::Array<X>, f: impl FnMut(X) -> Y) -> Self::Array<Y>;
 }
 

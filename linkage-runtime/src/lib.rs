@@ -1,16 +1,17 @@
-//! What the kinematics emitted by `linkage!` stands on.
+//! The runtime library of the kinematics emitted by `linkage!`.
 //!
-//! - [`Mechanism`]: the trait that general algorithms take;
-//! - [`position`]: Newton's method with damping and honest failure;
-//! - [`mod@limits`]: how far an input can go;
-//! - [`continuation`]: a mechanism followed along its motion, through dead points and change points;
-//! - [`accuracy`]: roads to the position by type, and what their digits cost;
-//! - [`PositionError`], [`PathError`], [`InputError`]: which mechanism, what residual, how near singular;
-//! - [`singularity`]: singular configurations, and how accurate a position can be;
+//! - [`Mechanism`]: the trait that every emitted mechanism implements;
+//! - [`position`]: damped Newton's method, which returns an error if it does not converge;
+//! - [`mod@limits`]: the range of an input on one assembly branch;
+//! - [`continuation`]: path following through dead points and change points;
+//! - [`accuracy`]: position solvers selected by type, with their accuracy and time;
+//! - [`PositionError`], [`PathError`], [`InputError`]: the errors, with mechanism, residual and distance from a
+//!   singularity;
+//! - [`singularity`]: singular configurations, and the attainable accuracy of a position;
 //! - [`derivation`]: the formulas behind the code, as data.
 
 #![cfg_attr(not(feature = "std"), no_std)]
-// Without elementary functions there is nothing; `linkage` says so.
+// The crate is empty without elementary functions; `linkage` reports the missing feature.
 #![cfg(any(feature = "std", feature = "libm"))]
 #![warn(missing_docs)]
 

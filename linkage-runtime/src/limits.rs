@@ -1,9 +1,9 @@
-//! How far an input can go: the interval about a position in which a mechanism can be assembled.
+//! Limits of an input: the interval about a position in which a mechanism can be assembled.
 //!
 //! A group that depends on the input alone, or through linear equations solved before it, can be assembled where one or
-//! two functions of it are not negative: a + b cos(k v) + c sin(k v) or a + b v + c v^2. Their zeros are known in closed
-//! form. Groups that depend on other groups are searched: in steps, with a closer look wherever the determinant of a
-//! group is smallest. An input at which a group is undetermined ([`PositionError::Undetermined`]) stops no search.
+//! two functions of the input are not negative: a + b cos(k v) + c sin(k v) or a + b v + c v^2. Their zeros have a
+//! closed form. Groups that depend on other groups are searched in steps, refined wherever the determinant of a group
+//! is smallest. A search passes inputs at which a group is undetermined ([`PositionError::Undetermined`]).
 
 use crate::linear::power_of_two_below;
 use crate::{PositionError, Real, real};
@@ -11,41 +11,42 @@ use crate::{PositionError, Real, real};
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits<T> {
-    /// Where it ends towards smaller inputs.
+    /// The end towards smaller inputs.
     pub lower: Limit<T>,
-    /// Where it ends towards larger inputs.
+    /// The end towards larger inputs.
     pub upper: Limit<T>,
 }
 
 /// An end of an interval of inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Limit<T> {
-    /// There is none: an angle can turn all the way, a length can take any value. Where groups had to be
-    /// searched, none was found within a turn, or within four times the lengths of all links together.
+    /// No limit: an angle can turn fully, a length can have any value. If groups were searched, no limit was found
+    /// within a turn, or within four times the sum of the lengths of all links.
     Unlimited,
-    /// In closed form: right to two ulp times the condition number, the sum of what a relative change of each length
-    /// does to it. There the links are in line; a later group may be undetermined ([`PositionError::Undetermined`]).
+    /// A limit in closed form, accurate to two ulp times its condition number, the sum of its changes by a relative
+    /// change of each length. The links are in line there; a later group may be undetermined
+    /// ([`PositionError::Undetermined`]).
     Exact {
         /// The last input at which the mechanism can be assembled.
         input: T,
         /// The unknowns of the group whose links are in line there.
         group: &'static str,
     },
-    /// By search: between two inputs that are next to each other, or between which a group is undetermined. Links that
-    /// miss each other by a rounding error count as in line, so the true limit lies between the two widened by three
-    /// ulp times its condition number.
+    /// A limit found by search, between two neighbouring inputs, or between two inputs where a group is undetermined.
+    /// Links that miss each other by a rounding error count as in line, so the true limit lies between the two inputs,
+    /// widened by three ulp times its condition number.
     Bracketed {
         /// The last input found at which the mechanism can be assembled.
         assembled: T,
-        /// An input beyond at which it cannot.
+        /// An input beyond the limit at which it cannot.
         unbuildable: T,
-        /// The unknowns of the group that stops it.
+        /// The unknowns of the group that cannot be assembled beyond the limit.
         group: &'static str,
     },
 }
 
 impl<T: Copy> Limit<T> {
-    /// The last input at which the mechanism is known to assemble; none if there is no limit.
+    /// Returns the last input at which the mechanism is known to assemble; none if there is no limit.
     pub fn input(&self) -> Option<T> {
         match *self {
             Self::Unlimited => None,
@@ -55,51 +56,53 @@ impl<T: Copy> Limit<T> {
     }
 }
 
-/// What must not be negative for a group to be assembled.
+/// A function of an input that is not negative where a group can be assembled.
 #[derive(Debug, Clone, Copy)]
 pub enum Bound<T> {
-    /// a + b cos(k v) + c sin(k v) of an input v, and k.
+    /// a + b cos(k v) + c sin(k v) of an input v: a, b and c, then k.
     Angle(Block, [T; 3], T),
     /// a + b v + c v^2 of an input v.
     Length(Block, [T; 3]),
 }
 
-/// A group: its place among the determinants, and its unknowns.
+/// A group: its index among the determinants, and its unknowns.
 pub type Block = (usize, &'static str);
 
-/// How the groups that have no [`Bound`] are searched.
+/// The range in which groups that have no [`Bound`] are searched.
 #[derive(Debug, Clone, Copy)]
 pub enum Search<T> {
-    /// There are none.
+    /// No group is searched: all have bounds.
     ClosedFormOnly,
-    /// As far as a turn.
+    /// One turn to either side.
     Turn,
-    /// As far as this on either side.
+    /// This distance to either side.
     Length(T),
 }
 
-/// Steps of a search, of a degree where the input is an angle that nothing else limits. A group that turns forty times as
-/// fast as the input is seen at nine places of its turn; with a tenth of the steps it is not followed, twice as many
-/// cost twice as much.
+/// Steps of a search, one degree each for an angle without other limits. A group that turns forty times as fast as the
+/// input is then sampled nine times in its turn. With a tenth of the steps it is lost; twice as many take twice the
+/// time.
 const STEPS: u32 = 360;
 
-/// Narrowings of an interval: a bracket of a turn by halves, or a minimum by the golden section, to rounding.
+/// The most narrowings of an interval to rounding error, by bisection over a turn or by golden section at a minimum.
 const NARROWINGS: usize = 80;
 
-/// The distance from a limit in closed form at which a search looks for other groups, relative to that of the start. One
-/// that stops the mechanism nearer to it than this may pass for undetermined there; half of it loses digits of the positions.
-const BESIDE: f64 = 1e-12;
+/// The distance from a limit in closed form at which other groups are tested, relative to that of the start. A group
+/// that stops the mechanism nearer to the limit than this may count as undetermined there; half the distance loses
+/// digits of the positions.
+const INSET: f64 = 1e-12;
 
-/// Secants towards a limit: one where its closed form is right, and up to a dozen where the coefficients cancel to a
-/// digit; with half as many those are not all found.
+/// The most secant steps towards a limit: one where its closed form is accurate, up to a dozen where the coefficients
+/// cancel to a digit. With half as many, some of those are not found.
 const SECANTS: usize = 16;
 
-/// Doublings of an ulp by which a limit in closed form is drawn back to where the mechanism can be assembled: up to what a
-/// thousand turns of an angle leave of its digits. Where another group stops it before, it stays.
+/// The most doublings of the step, one ulp at first, by which a limit in closed form is moved inward until the
+/// mechanism can be assembled: enough for the digits that an angle loses in a thousand turns. If another group stops
+/// the mechanism before, the limit is not moved.
 const ULPS_INWARD: usize = 10;
 
-/// The limits about the input `start`, at which the mechanism stands in `position`; `assemble` gives the
-/// position at another input from one nearby, `determinants` those of its blocks.
+/// Computes the limits about the input `start` of `position`. `assemble` computes the position at an input from one
+/// nearby, `determinants` those of its blocks.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if a number is not finite.
@@ -150,22 +153,22 @@ fn tighter<T: Copy>(
 }
 
 impl<T: Real> Bound<T> {
-    /// The nearest zeros on either side of an input at which the function is not negative, or by rounding just is;
-    /// none if a number is not finite.
+    /// The nearest zeros on either side of `start`, where the function is not negative up to rounding error; none if a
+    /// number is not finite.
     fn about(&self, start: T) -> Option<[Option<(T, Block)>; 2]> {
         let (block, [lower, upper]) = match *self {
             Self::Angle(block, coefficients, rate) => (block, of_angle(coefficients, rate, start)?),
             Self::Length(block, coefficients) => (block, of_length(coefficients, start)?),
         };
         let is_finite = lower.into_iter().chain(upper).all(|input| input.is_finite());
-        // At a limit rounding may be on either side of it.
+        // At a limit a rounding error may put the zero on the other side of `start`.
         let lower = lower.map(|input| if input < start { input } else { start });
         let upper = upper.map(|input| if input > start { input } else { start });
         is_finite.then(|| [lower, upper].map(|input| Some((input?, block))))
     }
 }
 
-/// The end of an interval to either side, where there is one.
+/// The ends of an interval, where they exist.
 type Ends<T> = [Option<T>; 2];
 
 /// The interval about `start` in which a + b cos(k v) + c sin(k v) is not negative.
@@ -173,12 +176,12 @@ fn of_angle<T: Real>(coefficients: [T; 3], rate: T, start: T) -> Option<Ends<T>>
     if rate.is_zero() {
         return Some([None; 2]);
     }
-    let [a, b, c] = of_one_size(coefficients)?;
+    let [a, b, c] = normalised(coefficients)?;
     let r = b.hypot(c);
     if a >= r || r.is_zero() {
         return Some([None; 2]);
     }
-    // The width by its tangent: a cosine says nothing near 0 and pi. Where links just touch, a may be less than -r.
+    // atan2 gives the half width: acos loses digits near 0 and pi. Where links just touch, a may be less than -r.
     let sine = ((r - a) / r * ((r + a) / r)).max(T::zero()).sqrt();
     let (width, middle) = (sine.atan2(-a / r), c.atan2(b));
     let turns = ((rate * start - middle) / T::two_pi()).round() * T::two_pi();
@@ -189,10 +192,10 @@ fn of_angle<T: Real>(coefficients: [T; 3], rate: T, start: T) -> Option<Ends<T>>
 
 /// The interval about `start` in which a + b v + c v^2 is not negative.
 fn of_length<T: Real>([a, b, c]: [T; 3], start: T) -> Option<Ends<T>> {
-    // In a unit in which a and c are of one size, v^2 does not leave the range.
+    // In a unit in which a and c are of similar magnitude, v^2 does not overflow.
     let root = |value: T| if value.is_zero() { T::one() } else { power_of_two_below(value.abs().sqrt()) };
     let unit = if a.is_zero() || c.is_zero() { T::one() } else { root(a) / root(c) };
-    let [a, b, c] = of_one_size([a, b * unit, c * unit * unit])?;
+    let [a, b, c] = normalised([a, b * unit, c * unit * unit])?;
     let half = b / real::<T>(2.0);
     if c.is_zero() {
         let end = (!b.is_zero()).then(|| -a / b * unit);
@@ -200,12 +203,12 @@ fn of_length<T: Real>([a, b, c]: [T; 3], start: T) -> Option<Ends<T>> {
     }
     let radicand = half * half - a * c;
     let [low, high] = if radicand > T::zero() {
-        // Neither is a difference of near numbers.
+        // Neither root is a difference of nearly equal numbers.
         let q = -(half + radicand.sqrt().copysign(half));
         let [one, other] = [q / c, a / q];
         if one < other { [one, other] } else { [other, one] }
     } else if c < T::zero() {
-        // Links that just touch, at one input: rounding may say nowhere.
+        // Links that just touch, at one input: a rounding error may make the radicand negative.
         [-half / c; 2]
     } else {
         return Some([None; 2]);
@@ -220,8 +223,8 @@ fn of_length<T: Real>([a, b, c]: [T; 3], start: T) -> Option<Ends<T>> {
     })
 }
 
-/// Coefficients divided by a power of two near the largest; none if one is not finite.
-fn of_one_size<T: Real>(coefficients: [T; 3]) -> Option<[T; 3]> {
+/// Divides coefficients by a power of two near the largest; none if one is not finite.
+fn normalised<T: Real>(coefficients: [T; 3]) -> Option<[T; 3]> {
     let largest = coefficients.iter().fold(T::zero(), |most, part| if part.abs() > most { part.abs() } else { most });
     if !coefficients.iter().all(T::is_finite) {
         None
@@ -242,33 +245,34 @@ struct Searched<A, D> {
 enum Found<S> {
     /// A position.
     Assembled(S),
-    /// A position that cannot be told from others: it is passed.
+    /// A group is undetermined here: the search passes the input.
     Undetermined,
-    /// The unknowns of a group that has no position.
+    /// A group has no position: its unknowns.
     Stopped(&'static str),
 }
 
-/// A position on the way, with the magnitudes of its determinants.
-struct Stop<T, P, const N: usize> {
+/// A position evaluated by the search, with the magnitudes of its determinants.
+struct Sample<T, P, const N: usize> {
     input: T,
     position: P,
     determinants: [T; N],
 }
 
-impl<T: Real, P, const N: usize> Stop<T, P, N> {
-    /// The determinant of a block; there is one at each place that is asked for.
+impl<T: Real, P, const N: usize> Sample<T, P, N> {
+    /// The determinant of a block; zero for an invalid index.
     fn determinant(&self, place: usize) -> T {
         self.determinants.get(place).copied().unwrap_or_else(T::zero)
     }
 }
 
 impl<A, D> Searched<A, D> {
-    /// An end in closed form without the rounding errors of its coefficients, which cancel where lengths are nearly equal.
+    /// Corrects a limit in closed form for the rounding errors of its coefficients, which cancel where lengths are
+    /// nearly equal.
     ///
-    /// The square of the determinant of its group vanishes there in proportion to the distance: a secant through its values
-    /// at two inputs before the end, which are the nearer the less it moves the end. Of second order it is off by four
-    /// squares of their distance, relative to that of the next zero: at `NEAREST` that is nothing, and three digits of the
-    /// distance are left, of which an end that is this near needs one.
+    /// The square of the determinant of the group is proportional to the distance from the limit. Its zero is found by
+    /// a secant through its values at two inputs before the limit, which approach it as the corrections become smaller.
+    /// The relative error of the secant is four times the square of their distance, relative to that of the next zero:
+    /// at `NEAREST` it is negligible, and the distance has three digits left, of which a limit this near needs one.
     fn corrected<T: Real, P, const N: usize>(
         &self,
         start: T,
@@ -281,7 +285,7 @@ impl<A, D> Searched<A, D> {
         D: Fn(&P) -> [T; N],
     {
         const NEAREST: i32 = 40;
-        // Where a later group coincides, the links are in line to rounding: there is nothing to correct.
+        // If a later group is undetermined, the links are in line up to rounding error: the limit needs no correction.
         if matches!(self.at(position, end)?, Found::Undetermined) {
             return Ok(end);
         }
@@ -296,7 +300,7 @@ impl<A, D> Searched<A, D> {
                 let ratio = one.determinant(place) / other.determinant(place);
                 let part = ratio * ratio;
                 let secant = ((near - input) - part * (far - input)) / (T::one() - part);
-                // From farther away the two determinants differ by too few digits.
+                // From farther away the two determinants differ in too few digits.
                 by = (secant.abs() <= step.abs() * real::<T>(1000.0)).then_some(secant);
             }
             match by {
@@ -306,7 +310,7 @@ impl<A, D> Searched<A, D> {
                         continue;
                     }
                     if exponent == NEAREST {
-                        // Where nothing cancels the closed form is right to the last digit.
+                        // Without cancellation the closed form is accurate to the last digit.
                         let is_right = (input - end).abs() <= real::<T>(2.0) * T::default_epsilon() * end.abs();
                         return Ok(if is_right { end } else { input });
                     }
@@ -320,7 +324,7 @@ impl<A, D> Searched<A, D> {
         Ok(end)
     }
 
-    /// The last input at which no group stops the mechanism, next to a limit that is rounded.
+    /// Moves a rounded limit inward to the last input at which no group stops the mechanism.
     fn last<T: Real, P, const N: usize>(&self, start: T, position: &P, end: T) -> Result<T, PositionError>
     where
         A: Fn(&P, T) -> Result<P, PositionError>,
@@ -338,7 +342,7 @@ impl<A, D> Searched<A, D> {
         Ok(end)
     }
 
-    /// The first limit on the way to one that is known, or to `beyond` if none is.
+    /// Searches for the first limit between `start` and a known limit, or `beyond` if there is none.
     fn toward<T: Real, P, const N: usize>(
         &self,
         start: T,
@@ -352,7 +356,7 @@ impl<A, D> Searched<A, D> {
     {
         let end = known.input().unwrap_or(beyond);
         let step = (end - start) / real::<T>(f64::from(STEPS));
-        let mut last: [Option<Stop<T, P, N>>; 2] = [None, None];
+        let mut last: [Option<Sample<T, P, N>>; 2] = [None, None];
         for index in 1..=STEPS {
             let input = if index == STEPS { end } else { start + step * real::<T>(f64::from(index)) };
             let [before, here] = &last;
@@ -366,9 +370,10 @@ impl<A, D> Searched<A, D> {
                     return self.between(from, at, input, group);
                 }
                 _ => {
-                    // On a limit in closed form, where rounding may be on either side and a later group undetermined, the
-                    // inputs next to it tell whether another group stops before.
-                    let inside = end + (start - end) * real::<T>(BESIDE);
+                    // At a limit in closed form the mechanism may not assemble because of rounding errors, or a later
+                    // group may be undetermined; an input just inside shows whether another group stops the mechanism
+                    // before.
+                    let inside = end + (start - end) * real::<T>(INSET);
                     return match self.at(from, inside)? {
                         Found::Stopped(group) => self.between(from, at, inside, group),
                         _ => Ok(known),
@@ -392,8 +397,8 @@ impl<A, D> Searched<A, D> {
         Ok(known)
     }
 
-    /// The position at an input, or the group that stops it.
-    fn at<T: Real, P, const N: usize>(&self, from: &P, input: T) -> Result<Found<Stop<T, P, N>>, PositionError>
+    /// Computes the position at an input, or finds the group that stops it.
+    fn at<T: Real, P, const N: usize>(&self, from: &P, input: T) -> Result<Found<Sample<T, P, N>>, PositionError>
     where
         A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
@@ -401,7 +406,7 @@ impl<A, D> Searched<A, D> {
         match (self.assemble)(from, input) {
             Ok(position) => {
                 let determinants = (self.determinants)(&position).map(|determinant| determinant.abs());
-                Ok(Found::Assembled(Stop { input, position, determinants }))
+                Ok(Found::Assembled(Sample { input, position, determinants }))
             }
             Err(
                 PositionError::Unbuildable { group, .. }
@@ -414,7 +419,7 @@ impl<A, D> Searched<A, D> {
         }
     }
 
-    /// The limit between an input at which the mechanism assembles and one at which a group does not.
+    /// Bisects between an input at which the mechanism assembles and one at which a group does not.
     fn between<T: Real, P, const N: usize>(
         &self,
         from: &P,
@@ -426,21 +431,21 @@ impl<A, D> Searched<A, D> {
         A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
     {
-        let mut nearest: Option<Stop<T, P, N>> = None;
+        let mut nearest: Option<Sample<T, P, N>> = None;
         for _ in 0..NARROWINGS {
             let mut middle = assembled + (unbuildable - assembled) / real::<T>(2.0);
             if middle == assembled || middle == unbuildable {
                 break;
             }
-            let from = nearest.as_ref().map_or(from, |stop| &stop.position);
+            let from = nearest.as_ref().map_or(from, |sample| &sample.position);
             let mut found = self.at(from, middle)?;
             if matches!(found, Found::Undetermined) {
-                // Most often at this input alone: one nearer by says on which side of it the limit lies.
+                // Usually only this input is undetermined: one nearby shows on which side of it the limit lies.
                 middle = assembled + (middle - assembled) / real::<T>(2.0);
                 found = self.at(from, middle)?;
             }
             match found {
-                Found::Assembled(stop) => (assembled, nearest) = (middle, Some(stop)),
+                Found::Assembled(sample) => (assembled, nearest) = (middle, Some(sample)),
                 Found::Stopped(other) => (unbuildable, group) = (middle, other),
                 Found::Undetermined => break,
             }
@@ -448,11 +453,11 @@ impl<A, D> Searched<A, D> {
         Ok(Limit::Bracketed { assembled, unbuildable, group })
     }
 
-    /// A limit where the determinant of a block is smallest between two positions, if it cannot be assembled
+    /// Minimises the determinant of a block between two positions, and returns the limit if it cannot be assembled
     /// there.
     fn lowest<T: Real, P, const N: usize>(
         &self,
-        from: &Stop<T, P, N>,
+        from: &Sample<T, P, N>,
         to: T,
         block: usize,
     ) -> Result<Option<Limit<T>>, PositionError>
@@ -464,7 +469,7 @@ impl<A, D> Searched<A, D> {
         let (mut a, mut b) = (from.input, to);
         let look = |input: T| -> Result<Result<T, Limit<T>>, PositionError> {
             Ok(match self.at(&from.position, input)? {
-                Found::Assembled(stop) => Ok(stop.determinant(block)),
+                Found::Assembled(sample) => Ok(sample.determinant(block)),
                 Found::Undetermined => Ok(T::zero()),
                 Found::Stopped(group) => Err(self.between(&from.position, from.input, input, group)?),
             })

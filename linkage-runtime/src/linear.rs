@@ -1,13 +1,13 @@
-//! The verdict on a Jacobian, and the factorisation of blocks of more than two unknowns.
+//! The regularity test of a Jacobian, and the LU factorisation of blocks of more than two unknowns.
 
 use core::mem;
 
-use crate::jacobian::rounding::{CLOSED, roundings};
+use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::scalar::{largest, smallest, to_f64};
 use crate::{PositionError, Real, real};
 
-/// Refuses the determinant of a group of unknowns that is zero beside `size`, the largest value that
-/// its formula could take, whose sign does not matter.
+/// Returns an error if the determinant of a group of unknowns is zero relative to `scale`, the largest value that its
+/// formula could take; the sign of `scale` does not matter.
 ///
 /// # Errors
 /// [`PositionError::Singular`], or [`PositionError::NotFinite`] if either is not a finite number.
@@ -16,25 +16,25 @@ pub fn regular<T: Real>(
     mechanism: &'static str,
     group: &'static str,
     determinant: T,
-    size: T,
+    scale: T,
 ) -> Result<(), PositionError> {
-    if determinant.abs() > roundings::<T>(CLOSED) * size.abs() && determinant.is_finite() {
+    if determinant.abs() > ulps::<T>(ZERO_ULPS) * scale.abs() && determinant.is_finite() {
         return Ok(());
     }
-    Err(singular(mechanism, group, determinant, size))
+    Err(singular(mechanism, group, determinant, scale))
 }
 
-/// Whether numbers have the same signs, one by one; zero counts as positive.
+/// True if numbers have the same signs, pair by pair; zero counts as positive.
 #[inline]
 pub fn same_signs<T: Real>(these: &[T], those: &[T]) -> bool {
     these.iter().zip(those).all(|(this, that)| (*this >= T::zero()) == (*that >= T::zero()))
 }
 
 #[cold]
-fn singular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, size: T) -> PositionError {
-    if determinant.is_finite() && size.is_finite() {
-        // A formula that vanishes with its own size is singular through and through.
-        let regularity = if size.is_zero() { 0.0 } else { to_f64((determinant / size).abs()) };
+fn singular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, scale: T) -> PositionError {
+    if determinant.is_finite() && scale.is_finite() {
+        // A determinant of scale zero is singular.
+        let regularity = if scale.is_zero() { 0.0 } else { to_f64((determinant / scale).abs()) };
         PositionError::Singular { mechanism, group, regularity }
     } else {
         PositionError::NotFinite { mechanism, quantity: "the Jacobian" }
@@ -50,10 +50,10 @@ pub struct Factorization<T: Real, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Factorization<T, N> {
-    /// Factorises the matrix of these columns, whose rows are of these sizes.
+    /// Factorises the matrix of these columns; `scales` are those of its rows.
     ///
-    /// Rows are divided by the sizes of their closures and columns by their largest entry, so that
-    /// neither the unit of a closure nor that of an unknown has a say in the pivots or the verdict.
+    /// Rows are divided by the scales of their residuals and columns by their largest entry, so that neither the pivots
+    /// nor the test for singularity depend on units.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if the smallest pivot is no larger than its rounding error,
@@ -62,9 +62,9 @@ impl<T: Real, const N: usize> Factorization<T, N> {
         mechanism: &'static str,
         group: &'static str,
         mut columns: [[T; N]; N],
-        sizes: [T; N],
+        scales: [T; N],
     ) -> Result<Self, PositionError> {
-        let row_factors = sizes.map(unit_of);
+        let row_factors = scales.map(unit_of);
         let mut column_factors = [T::one(); N];
         for (column, column_factor) in columns.iter_mut().zip(&mut column_factors) {
             for (entry, factor) in column.iter_mut().zip(&row_factors) {
@@ -80,14 +80,14 @@ impl<T: Real, const N: usize> Factorization<T, N> {
         }
         let factors = Factors::of(columns);
         let smallest = smallest(factors.pivots());
-        if smallest > roundings(CLOSED * real_count(N)) {
+        if smallest > ulps(ZERO_ULPS * real_count(N)) {
             Ok(Self { factors, rows: row_factors, columns: column_factors })
         } else {
             Err(PositionError::Singular { mechanism, group, regularity: to_f64(smallest) })
         }
     }
 
-    /// The x of J x = `right`.
+    /// Solves J x = `right`.
     #[must_use]
     pub fn solve(&self, mut right: [T; N]) -> [T; N] {
         for (entry, factor) in right.iter_mut().zip(&self.rows) {
@@ -101,8 +101,7 @@ impl<T: Real, const N: usize> Factorization<T, N> {
     }
 }
 
-/// P A = L U by elimination with partial pivoting. Parts of slices instead of indices: nothing here can panic, whatever
-/// the compiler proves.
+/// P A = L U with partial pivoting. Parts of slices instead of indices, so that nothing can panic.
 #[derive(Debug, Clone)]
 struct Factors<T, const N: usize> {
     rows: [Row<T, N>; N],
@@ -110,7 +109,7 @@ struct Factors<T, const N: usize> {
     sign: T,
 }
 
-/// A row of L before the diagonal, whose entries are 1, and of U from there on.
+/// A row of L before the diagonal, where L is 1, and of U from the diagonal on.
 #[derive(Debug, Clone, Copy)]
 struct Row<T, const N: usize> {
     entries: [T; N],
@@ -165,7 +164,7 @@ impl<T: Real, const N: usize> Factors<T, N> {
         self.rows.iter().enumerate().map(|(k, row)| part(&row.entries, k))
     }
 
-    /// The x of A x = `right`, where no pivot is zero.
+    /// Solves A x = `right`, where no pivot is zero.
     fn solve(&self, right: &[T; N]) -> [T; N] {
         let mut x = [T::zero(); N];
         for (k, row) in self.rows.iter().enumerate() {
@@ -183,21 +182,21 @@ impl<T: Real, const N: usize> Factors<T, N> {
     }
 }
 
-/// An entry; there is one at each place that is asked for.
+/// An entry; zero for an invalid index.
 fn part<T: Real, const N: usize>(entries: &[T; N], place: usize) -> T {
     entries.get(place).copied().unwrap_or_else(T::zero)
 }
 
-/// What makes a size a number near 1: 1 if there is no size.
-fn unit_of<T: Real>(size: T) -> T {
-    if size > T::zero() { power_of_two_below(size).recip() } else { T::one() }
+/// The power of two that scales `scale` to a number near 1; 1 if `scale` is not positive.
+fn unit_of<T: Real>(scale: T) -> T {
+    if scale > T::zero() { power_of_two_below(scale).recip() } else { T::one() }
 }
 
 fn real_count(count: usize) -> f64 {
     u32::try_from(count).map_or(f64::MAX, f64::from)
 }
 
-/// A power of two near `value`: scaling by it rounds nothing.
+/// A power of two near `value`; scaling by it is exact.
 pub(crate) fn power_of_two_below<T: Real>(value: T) -> T {
     let two = real::<T>(2.0);
     let exponent = value.log2().floor();

@@ -10,28 +10,28 @@ use crate::{D, Dim, Real};
 
 /// A matrix of [`R::COUNT`](Dim::COUNT) rows and `C::COUNT` columns.
 ///
-/// It is nalgebra's [`SMatrix`] where the numbers are types: each becomes the other by `into`.
+/// It converts to and from nalgebra's [`SMatrix`] by `into`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Matrix<T: Real, R: Dim, C: Dim>(Column<Column<T, R>, C>);
 
 impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
-    /// The matrix of these entries, by row and column.
+    /// Builds the matrix whose entry at row i and column j is `entry(i, j)`.
     #[inline]
     #[must_use]
     pub fn from_fn(mut entry: impl FnMut(usize, usize) -> T) -> Self {
         Self(Column::from_fn(|column| Column::from_fn(|row| entry(row, column))))
     }
 
-    /// The matrix of these columns.
+    /// Builds the matrix of these columns.
     #[inline]
     #[must_use]
     pub fn from_columns(columns: Column<Column<T, R>, C>) -> Self {
         Self(columns)
     }
 
-    /// The matrix of these columns, zero where there are no more.
+    /// Builds the matrix of these columns, padded with zeros.
     ///
-    /// Where columns are mapped, this is several times as fast as a map of arrays.
+    /// It is several times as fast as mapping an array of columns.
     #[inline]
     fn from_iterator(columns: impl IntoIterator<Item = Column<T, R>>) -> Self {
         let mut matrix = Self::zeros();
@@ -41,7 +41,7 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
         matrix
     }
 
-    /// Zero.
+    /// The zero matrix.
     #[inline]
     #[must_use]
     pub fn zeros() -> Self {
@@ -55,42 +55,42 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
         &self.0
     }
 
-    /// The columns.
+    /// The columns, mutable.
     #[inline]
     #[must_use]
     pub fn columns_mut(&mut self) -> &mut Column<Column<T, R>, C> {
         &mut self.0
     }
 
-    /// An entry; zero where there is none. Unlike an index it cannot panic, whatever the compiler proves.
+    /// Returns an entry, or zero outside the matrix; unlike indexing it cannot panic.
     #[inline]
     #[must_use]
     pub fn part(&self, row: usize, column: usize) -> T {
         self.0.as_slice().get(column).map_or_else(T::zero, |column| column.part(row))
     }
 
-    /// An entry, if there is one.
+    /// Returns an entry, mutable, or `None` outside the matrix.
     #[inline]
     #[must_use]
     pub fn get_mut(&mut self, row: usize, column: usize) -> Option<&mut T> {
         self.0.as_mut_slice().get_mut(column)?.as_mut_slice().get_mut(row)
     }
 
-    /// A column.
+    /// Returns a column.
     #[inline]
     #[must_use]
     pub fn column(&self, column: usize) -> Column<T, R> {
         self.0[column]
     }
 
-    /// A row.
+    /// Returns a row.
     #[inline]
     #[must_use]
     pub fn row(&self, row: usize) -> Column<T, C> {
         self.0.map(|column| column[row])
     }
 
-    /// Gives a column other entries.
+    /// Replaces a column.
     #[inline]
     pub fn set_column(&mut self, column: usize, entries: Column<T, R>) {
         self.0[column] = entries;
@@ -110,7 +110,7 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
         }
     }
 
-    /// Takes `factor` times another row from a row.
+    /// Subtracts `factor` times the row `other` from a row.
     #[inline]
     pub fn take_row(&mut self, row: usize, other: usize, factor: T) {
         for column in &mut self.0 {
@@ -127,21 +127,21 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
         self.0[column] *= factor;
     }
 
-    /// A function of each entry.
+    /// Applies a function to each entry.
     #[inline]
     #[must_use]
     pub fn map(&self, mut f: impl FnMut(T) -> T) -> Self {
         Self::from_iterator(self.0.iter().map(|column| column.map(&mut f)))
     }
 
-    /// The magnitudes.
+    /// The magnitudes of the entries.
     #[inline]
     #[must_use]
     pub fn abs(&self) -> Self {
         self.map(|entry| entry.abs())
     }
 
-    /// The matrix with rows and columns exchanged.
+    /// The transposed matrix.
     #[inline]
     #[must_use]
     pub fn transpose(&self) -> Matrix<T, C, R> {
@@ -162,14 +162,14 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
         Matrix::from_iterator(other.0.iter().map(|column| self.tr_mul(column)))
     }
 
-    /// The largest magnitude; not a number if an entry is none.
+    /// The largest magnitude; NaN if an entry is NaN.
     #[inline]
     #[must_use]
     pub fn largest(&self) -> T {
         largest(self.iter().copied())
     }
 
-    /// Whether every entry is finite.
+    /// True if every entry is finite.
     #[inline]
     #[must_use]
     pub fn is_finite(&self) -> bool {
@@ -178,14 +178,14 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
 }
 
 impl<T: Real, N: Dim> Matrix<T, N, N> {
-    /// The matrix that changes nothing.
+    /// The identity matrix.
     #[inline]
     #[must_use]
     pub fn identity() -> Self {
         Self(Column::from_fn(Column::unit))
     }
 
-    /// The entries whose row is their column.
+    /// The diagonal.
     #[inline]
     #[must_use]
     pub fn diagonal(&self) -> Column<T, N> {

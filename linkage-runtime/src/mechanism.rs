@@ -1,4 +1,4 @@
-//! The trait that general algorithms take.
+//! The trait that every emitted mechanism implements.
 
 use core::fmt::Debug;
 
@@ -9,27 +9,27 @@ use crate::{Column, Dim, Matrix, PositionError, Real};
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Group {
-    /// The unknowns by name, as errors give them.
+    /// The unknowns by name, as in error messages.
     pub name: &'static str,
-    /// The closures that determine them: rows of J.
+    /// The constraints that determine them: rows of J.
     pub equations: &'static [usize],
     /// The unknowns: columns of J.
     pub unknowns: &'static [usize],
 }
 
-/// A number for each dependent coordinate of a mechanism, or for each closure.
+/// A number for each dependent coordinate of a mechanism, or for each constraint.
 pub type PerUnknown<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::U>;
 
 /// A number for each independent coordinate of a mechanism.
 pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
 
-/// A mechanism whose dependent coordinates u follow its independent coordinates v: it closes where Psi(q) = 0, with
-/// q = (u, v).
+/// A mechanism with constraints Psi(q) = 0, q = (u, v), which determine its dependent coordinates u from its
+/// independent coordinates v.
 ///
-/// `linkage!` implements it for every mechanism and every driver of one. The functions without `Result` refuse nothing:
-/// their results of numbers that are not finite are not finite either, or mean nothing.
+/// `linkage!` implements it for every mechanism and every driver of one. Functions that do not return a `Result` check
+/// nothing: for numbers that are not finite their results are not finite or have no meaning.
 pub trait Mechanism {
-    /// The number that a length or an angle is.
+    /// The type of lengths and angles.
     type Scalar: Real;
     /// The number of dependent coordinates.
     type U: Dim;
@@ -41,39 +41,39 @@ pub trait Mechanism {
     type Coordinates: Copy + Debug + PartialEq;
     /// Their rates q' by name.
     type Rates: Copy + Debug + PartialEq;
-    /// The independent coordinates v by name, and their rates and accelerations.
+    /// The independent coordinates v by name, and the type of their rates and accelerations.
     type Inputs: Copy + Debug + PartialEq + Into<PerInput<Self>> + From<PerInput<Self>>;
-    /// A position ready for use.
+    /// A position with all that is computed from its coordinates.
     type Pose;
 
-    /// The name of the mechanism, as errors give it.
+    /// The name of the mechanism, as in error messages.
     const NAME: &'static str;
     /// The names of the dependent coordinates u, in the order of the columns of J.
     const UNKNOWNS: &'static [&'static str];
     /// The names of the independent coordinates v, in the order of the columns of A.
     const INPUTS: &'static [&'static str];
-    /// Which unknowns are angles.
+    /// True for each unknown that is an angle.
     const UNKNOWN_ANGLES: &'static [bool];
-    /// Which inputs are angles.
+    /// True for each input that is an angle.
     const INPUT_ANGLES: &'static [bool];
     /// The groups, in the order in which they are solved.
     const GROUPS: &'static [Group];
 
-    /// q of u and v.
+    /// Combines u and v to q.
     fn coordinates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Coordinates;
-    /// u and v of q.
+    /// Splits q into u and v.
     fn parts(q: &Self::Coordinates) -> (PerUnknown<Self>, PerInput<Self>);
-    /// q' of u' and v'.
+    /// Combines u' and v' to q'.
     fn rates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Rates;
-    /// u' and v' of q'.
+    /// Splits q' into u' and v'.
     fn rate_parts(rates: &Self::Rates) -> (PerUnknown<Self>, PerInput<Self>);
-    /// The position at these coordinates.
+    /// Computes the pose at these coordinates.
     fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose;
-    /// True if every number of a position is finite.
+    /// True if every number of a pose is finite.
     fn is_finite(pose: &Self::Pose) -> bool;
-    /// Psi.
+    /// The residuals Psi of the constraints.
     fn residual(&self, pose: &Self::Pose) -> PerUnknown<Self>;
-    /// The sum of the magnitudes of the terms of each closure.
+    /// The sum of the magnitudes of the terms of each residual.
     fn closure_sizes(&self, pose: &Self::Pose) -> PerUnknown<Self>;
     /// J, the derivative of Psi by u.
     fn jacobian_unknowns(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
@@ -85,22 +85,22 @@ pub trait Mechanism {
     fn jacobian_inputs_sizes(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
     /// det J.
     fn determinant(&self, pose: &Self::Pose) -> Self::Scalar;
-    /// The determinant of each block of J: of each group.
+    /// The determinant of the block of J of each group.
     fn block_determinants(&self, pose: &Self::Pose) -> Column<Self::Scalar, Self::G>;
     /// The quadratic velocity term (Psi_q q')_q q'.
     fn gamma(&self, pose: &Self::Pose, rates: &Self::Rates) -> PerUnknown<Self>;
-    /// The x of J x = `right`.
+    /// Solves J x = `right`.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] where J has no inverse, [`PositionError::NotFinite`] if the solution is not finite.
+    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the solution is not finite.
     fn solve_jacobian(&self, pose: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError>;
 
-    /// u, taken out of q.
+    /// The unknowns u of q.
     #[inline]
     fn unknowns(q: &Self::Coordinates) -> PerUnknown<Self> {
         Self::parts(q).0
     }
-    /// v, taken out of q.
+    /// The inputs v of q.
     #[inline]
     fn inputs(q: &Self::Coordinates) -> PerInput<Self> {
         Self::parts(q).1
@@ -115,8 +115,8 @@ pub trait Mechanism {
     fn with_inputs(q: &Self::Coordinates, inputs: PerInput<Self>) -> Self::Coordinates {
         Self::coordinates(Self::unknowns(q), inputs)
     }
-    /// Whether the determinant of each block of J has the same sign at both positions: if not, they
-    /// belong to different assembly branches. One that is not a number counts as negative.
+    /// True if the determinant of each block of J has the same sign at both positions: if not, they belong to different
+    /// assembly branches. NaN counts as negative.
     #[inline]
     fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
         same_signs(self.block_determinants(pose).as_slice(), self.block_determinants(other).as_slice())
@@ -127,17 +127,17 @@ pub trait Mechanism {
 ///
 /// `linkage!` implements it where all groups have one; of the others some are found by Newton's method.
 pub trait Assembly: Mechanism {
-    /// Which solution is meant of each group that has two.
+    /// The assembly branch: the choice between the two solutions of each group that has two.
     type Branch: Copy + Debug + Eq;
 
-    /// The position at these inputs on this branch.
+    /// Computes the position at these inputs on this branch.
     ///
     /// # Errors
-    /// [`PositionError::Unbuildable`] if a group does not reach, [`PositionError::Undetermined`] if it can stand anywhere,
-    /// [`PositionError::NotFinite`] if a number is not finite.
+    /// [`PositionError::Unbuildable`] if a group cannot be assembled, [`PositionError::Undetermined`] if it has
+    /// infinitely many positions, [`PositionError::NotFinite`] if a number is not finite.
     fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, PositionError>;
-    /// The position at the inputs of a guess on this branch; where the numbers of angles matter, in the turns that are
-    /// nearest to the guess instead of those of the branch.
+    /// Computes the position at the inputs of a guess on this branch. If the full turns of an angle matter, as with
+    /// gears, those nearest to the guess are used instead of those of the branch.
     ///
     /// # Errors
     /// Those of [`assemble`](Self::assemble), and [`InputError::OutOfRange`](crate::InputError::OutOfRange) if a guess is
@@ -145,11 +145,11 @@ pub trait Assembly: Mechanism {
     fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError> {
         self.assemble(Self::inputs(guess).into(), branch)
     }
-    /// The branch that a position belongs to: `assemble` on it gives the position back.
+    /// Returns the branch of a position: `assemble` on it reproduces the position.
     fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
 }
 
-/// Refuses coordinates and their pose if a number of them is infinite or not a number.
+/// Returns an error if a number of the coordinates or of their pose is infinite or NaN.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`].
@@ -163,7 +163,7 @@ pub(crate) fn finite_position<M: Mechanism>(q: &M::Coordinates, pose: &M::Pose) 
     }
 }
 
-/// Refuses coordinates of which one is infinite or not a number.
+/// Returns an error if a coordinate is infinite or NaN.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`].
@@ -173,7 +173,7 @@ pub(crate) fn finite_coordinates<M: Mechanism>(q: &M::Coordinates) -> Result<(),
     all_finite(M::NAME, "the position", unknowns.iter().chain(inputs.iter()))
 }
 
-/// The name of the first group whose determinant changes its sign from one position to another.
+/// Returns the name of the first group whose determinant changes its sign from one position to another.
 pub(crate) fn other_group<M: Mechanism>(mechanism: &M, pose: &M::Pose, other: &M::Pose) -> &'static str {
     let [these, those] = [pose, other].map(|pose| mechanism.block_determinants(pose));
     let mut pairs = these.iter().zip(&those).zip(M::GROUPS);

@@ -5,29 +5,29 @@ use nalgebra::{Point2, SMatrix, Scalar, Vector2};
 use crate::error::all_finite;
 use crate::{PositionError, Real};
 
-/// A point in motion.
+/// The motion of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointMotion<T: Scalar = f64> {
-    /// Where it is.
+    /// The position.
     pub position: Point2<T>,
-    /// Its velocity.
+    /// The velocity.
     pub velocity: Vector2<T>,
-    /// Its acceleration.
+    /// The acceleration.
     pub acceleration: Vector2<T>,
 }
 
-/// A scalar quantity in motion.
+/// The motion of a scalar quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutputMotion<T = f64> {
-    /// Its value.
+    /// The value.
     pub value: T,
-    /// Its rate.
+    /// The rate.
     pub velocity: T,
-    /// The rate of its rate.
+    /// The second derivative.
     pub acceleration: T,
 }
 
-/// Points by name, from their components in order.
+/// Checks points and converts their components, in order, to points by name.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
@@ -41,7 +41,7 @@ pub fn finite_points<T: Real, G: From<[Point2<T>; N]>, const N: usize>(
     Ok(G::from(points.map(Point2::from)))
 }
 
-/// Velocities or accelerations of points by name, from their components in order.
+/// Checks velocities or accelerations of points and converts their components, in order, to vectors by name.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
@@ -55,7 +55,7 @@ pub fn finite_vectors<T: Real, G: From<[Vector2<T>; N]>, const N: usize>(
     Ok(G::from(vectors.map(Vector2::from)))
 }
 
-/// Outputs or their rates by name, in order.
+/// Checks outputs or their rates and converts them, in order, to outputs by name.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
@@ -69,7 +69,7 @@ pub fn finite_outputs<T: Real, G: From<[T; N]>, const N: usize>(
     Ok(G::from(outputs))
 }
 
-/// Derivatives of points or outputs by name, each a matrix of R rows by its C columns.
+/// Checks derivatives of points or outputs and converts them to matrices by name, each of R rows and C columns.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
@@ -86,7 +86,7 @@ where
     Ok(G::from(matrices.map(SMatrix::from)))
 }
 
-/// Points in motion by name: position, velocity and acceleration of each in order.
+/// Checks the motions of points, each position, velocity and acceleration, and converts them to motions by name.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with this name.
@@ -102,7 +102,7 @@ pub fn point_motions<T: Real, G: From<[PointMotion<T>; N]>, const N: usize>(
     })))
 }
 
-/// Outputs in motion by name: value, rate and the rate of the rate of each in order.
+/// Checks the motions of outputs, each value, rate and second derivative, and converts them to motions by name.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with this name.

@@ -1,72 +1,72 @@
-//! Newton's method: u <- u - J^-1 Psi, damped, with honest failure.
+//! Damped Newton's method, u <- u - J^-1 Psi, which returns an error if it does not converge.
 
-use crate::jacobian::rounding::{CLOSED, roundings};
+use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
 use crate::{Column, Dim, Matrix, PositionError, Real, real};
 
-/// Newton steps before the search is given up; from a fair guess it takes four or five.
+/// The most Newton steps of a search; from a good guess it takes four or five.
 const MOST_ITERATIONS: usize = 60;
 
-/// Halvings of one step before it is given up: a step 2^-40 of its length no longer moves anything.
+/// The most halvings of one step: 2^-40 of a step no longer changes the unknowns.
 const MOST_HALVINGS: usize = 40;
 
-/// Closures in some unknowns.
-pub trait Closures {
-    /// The number that an unknown is.
+/// A system of constraints Psi(u) = 0.
+pub trait Constraints {
+    /// The type of an unknown.
     type Scalar: Real;
     /// The number of unknowns.
     type N: Dim;
-    /// All that follows from values of the unknowns.
+    /// The quantities computed from values of the unknowns.
     type Point;
-    /// What follows from these values.
+    /// Computes these quantities.
     fn at(&self, unknowns: &Unknowns<Self>) -> Self::Point;
-    /// Psi, and the sum of the magnitudes of the terms of each closure.
+    /// Psi, and the sum of the magnitudes of the terms of each constraint.
     fn residual(&self, point: &Self::Point) -> (Unknowns<Self>, Unknowns<Self>);
     /// J^-1 `right`.
     fn solve(&self, point: &Self::Point, right: &Unknowns<Self>) -> Result<Unknowns<Self>, PositionError>;
     /// J, row by column.
     fn jacobian(&self, point: &Self::Point) -> Matrix<Self::Scalar, Self::N, Self::N>;
-    /// How regular J is, without a verdict.
+    /// The regularity of J, for error messages.
     fn regularity(&self, point: &Self::Point) -> f64;
-    /// The mechanism, and the group if it is one alone.
+    /// The name of the mechanism, and of the group if only one is solved.
     fn names(&self) -> (&'static str, Option<&'static str>);
 }
 
-/// A number for each unknown or closure.
-type Unknowns<C> = Column<<C as Closures>::Scalar, <C as Closures>::N>;
+/// A number for each unknown or constraint.
+type Unknowns<C> = Column<<C as Constraints>::Scalar, <C as Constraints>::N>;
 
-/// Where a search is or ends.
-pub struct Iterate<C: Closures + ?Sized> {
+/// An iterate of a search.
+pub struct Iterate<C: Constraints + ?Sized> {
     /// The unknowns.
     pub unknowns: Unknowns<C>,
-    /// All that follows from them.
+    /// The quantities computed from them.
     pub point: C::Point,
     residual: Unknowns<C>,
     /// The largest relative residual; not finite if a number of the iterate is not.
     pub size: C::Scalar,
 }
 
-/// What a search finds from `start`, and the steps it took.
+/// Searches for a solution near `start`; returns it with the number of steps taken.
 ///
-/// Steps are halved until the residual falls. The search ends at a residual that rounding explains,
-/// after one more step that removes what the last one left.
-pub fn search<C: Closures>(closures: &C, start: Unknowns<C>) -> Result<(Iterate<C>, usize), PositionError> {
-    let enough = roundings::<C::Scalar>(CLOSED);
-    let mut here = iterate(closures, start);
+/// Steps are halved until the residual decreases. The search ends at a residual within rounding error, after one more
+/// step that reduces it further.
+pub fn search<C: Constraints>(constraints: &C, start: Unknowns<C>) -> Result<(Iterate<C>, usize), PositionError> {
+    let enough = ulps::<C::Scalar>(ZERO_ULPS);
+    let mut here = iterate(constraints, start);
     if !here.size.is_finite() {
-        return Err(PositionError::NotFinite { mechanism: closures.names().0, quantity: "the residual" });
+        return Err(PositionError::NotFinite { mechanism: constraints.names().0, quantity: "the residual" });
     }
     let mut iterations = 0;
     while iterations < MOST_ITERATIONS {
         let arrived = here.size <= enough;
-        let step = match closures.solve(&here.point, &here.residual) {
+        let step = match constraints.solve(&here.point, &here.residual) {
             Ok(step) => step,
             Err(_) if arrived => break,
-            Err(error) => return Err(failure(closures, iterations, here.size, &error)),
+            Err(error) => return Err(failure(constraints, iterations, here.size, &error)),
         };
-        let next = if arrived { iterate_at(closures, &here, step) } else { damped(closures, &here, step) };
-        // Within rounding a step may help or not; what is better stays.
+        let next = if arrived { iterate_at(constraints, &here, step) } else { damped(constraints, &here, step) };
+        // Within rounding error a step may not reduce the residual; the better iterate is kept.
         let Some(next) = next.filter(|next| next.size < here.size) else { break };
         here = next;
         iterations += 1;
@@ -74,19 +74,20 @@ pub fn search<C: Closures>(closures: &C, start: Unknowns<C>) -> Result<(Iterate<
             break;
         }
     }
-    if here.size <= enough || is_rounding(closures, &here, &start) {
+    if here.size <= enough || is_rounding_error(constraints, &here, &start) {
         Ok((here, iterations))
     } else {
-        Err(stopped(closures, iterations, &here))
+        Err(stopped(constraints, iterations, &here))
     }
 }
 
-/// True if what is left of Psi is what one rounding error of unknowns as large as at the start leaves, |Psi| <= epsilon
+/// True if |Psi| <= epsilon |J| |u|, u at the start: the residual is that of one rounding error of the unknowns. An
+/// angle of many turns is less accurate than its sine.
 /// |J| |u|: the sine of an angle of many turns is known better than the angle.
-fn is_rounding<C: Closures>(closures: &C, at: &Iterate<C>, start: &Unknowns<C>) -> bool {
-    let (_, sizes) = closures.residual(&at.point);
-    let of_unknowns = closures.jacobian(&at.point).abs() * start.abs();
-    let enough = sizes * real::<C::Scalar>(CLOSED);
+fn is_rounding<C: Constraints>(constraints: &C, at: &Iterate<C>, start: &Unknowns<C>) -> bool {
+    let (_, scales) = constraints.residual(&at.point);
+    let of_unknowns = constraints.jacobian(&at.point).abs() * start.abs();
+    let enough = scales * real::<C::Scalar>(ZERO_ULPS);
     let bounds = of_unknowns.zip_map(&enough, |one, other| if one > other { one } else { other });
     at.residual
         .iter()
@@ -94,26 +95,26 @@ fn is_rounding<C: Closures>(closures: &C, at: &Iterate<C>, start: &Unknowns<C>) 
         .all(|(psi, bound)| bound.is_finite() && psi.abs() <= *bound * C::Scalar::default_epsilon())
 }
 
-fn iterate<C: Closures>(closures: &C, unknowns: Unknowns<C>) -> Iterate<C> {
-    let point = closures.at(&unknowns);
-    let (residual, sizes) = closures.residual(&point);
-    let residuals = residual.iter().zip(sizes.iter()).map(|(&psi, &size)| relative(psi, size));
-    // A residual may be finite at infinite unknowns, too.
+fn iterate<C: Constraints>(constraints: &C, unknowns: Unknowns<C>) -> Iterate<C> {
+    let point = constraints.at(&unknowns);
+    let (residual, scales) = constraints.residual(&point);
+    let residuals = residual.iter().zip(scales.iter()).map(|(&psi, &size)| relative(psi, size));
+    // A residual may be finite although an unknown is infinite.
     let unknown = unknowns.iter().map(|&unknown| unknown * C::Scalar::zero());
     let size = largest(residuals.chain(unknown));
     Iterate { unknowns, point, residual, size }
 }
 
-fn iterate_at<C: Closures>(closures: &C, from: &Iterate<C>, step: Unknowns<C>) -> Option<Iterate<C>> {
-    let next = iterate(closures, from.unknowns - step);
+fn iterate_at<C: Constraints>(constraints: &C, from: &Iterate<C>, step: Unknowns<C>) -> Option<Iterate<C>> {
+    let next = iterate(constraints, from.unknowns - step);
     next.size.is_finite().then_some(next)
 }
 
-/// The longest of the steps 1, 1/2, 1/4, … that lowers the residual.
-fn damped<C: Closures>(closures: &C, from: &Iterate<C>, step: Unknowns<C>) -> Option<Iterate<C>> {
+/// The longest of the steps 1, 1/2, 1/4, … that reduces the residual.
+fn damped<C: Constraints>(constraints: &C, from: &Iterate<C>, step: Unknowns<C>) -> Option<Iterate<C>> {
     let mut fraction = C::Scalar::one();
     for _ in 0..MOST_HALVINGS {
-        let next = iterate_at(closures, from, step * fraction);
+        let next = iterate_at(constraints, from, step * fraction);
         if next.as_ref().is_some_and(|next| next.size < from.size) {
             return next;
         }
@@ -122,9 +123,9 @@ fn damped<C: Closures>(closures: &C, from: &Iterate<C>, step: Unknowns<C>) -> Op
     None
 }
 
-/// A search that ends where J has no inverse.
-fn failure<C: Closures>(closures: &C, iterations: usize, size: C::Scalar, why: &PositionError) -> PositionError {
-    let (mechanism, _) = closures.names();
+/// The error of a search that ends where J is singular.
+fn failure<C: Constraints>(constraints: &C, iterations: usize, size: C::Scalar, why: &PositionError) -> PositionError {
+    let (mechanism, _) = constraints.names();
     match *why {
         PositionError::Singular { group, regularity, .. } => PositionError::NotConverged {
             mechanism,
@@ -137,8 +138,8 @@ fn failure<C: Closures>(closures: &C, iterations: usize, size: C::Scalar, why: &
     }
 }
 
-fn stopped<C: Closures>(closures: &C, iterations: usize, at: &Iterate<C>) -> PositionError {
-    let (mechanism, group) = closures.names();
-    let (residual, regularity) = (to_f64(at.size), closures.regularity(&at.point));
+fn stopped<C: Constraints>(constraints: &C, iterations: usize, at: &Iterate<C>) -> PositionError {
+    let (mechanism, group) = constraints.names();
+    let (residual, regularity) = (to_f64(at.size), constraints.regularity(&at.point));
     PositionError::NotConverged { mechanism, group, iterations, residual, regularity }
 }

@@ -1,46 +1,46 @@
-//! Position by Newton's method: of a mechanism as a whole, and of one group of it.
+//! Positions by Newton's method, for a mechanism as a whole and for one of its groups.
 
 use core::marker::PhantomData;
 
 use crate::error::all_finite;
 use crate::jacobian::Blocks;
 use crate::jacobian::correction;
-use crate::jacobian::rounding::weak;
+use crate::jacobian::ulp::weak;
 use crate::linear::{Factorization, product_of_pivots, same_signs};
 use crate::mechanism::finite_coordinates;
-use crate::newton::{Closures, Iterate, search};
+use crate::newton::{Constraints, Iterate, search};
 use crate::scalar::to_f64;
 use crate::{Column, D, Dim, Matrix, Mechanism, PerUnknown, PositionError, Real};
 
-/// A position on the branch of its guess, and how it was found.
+/// A position on the branch of its guess, with the effort and the residual of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solution<Q> {
     /// The position.
     pub coordinates: Q,
     /// Newton steps taken.
     pub iterations: usize,
-    /// The largest residual left, beside the sum of the magnitudes of its terms.
+    /// The largest residual, divided by the sum of the magnitudes of its terms.
     pub residual: f64,
 }
 
-/// A position on whatever branch it was found, and how.
+/// A position on any branch, with the effort and the residual of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnyBranch<Q> {
     /// The position.
     pub coordinates: Q,
     /// Newton steps taken.
     pub iterations: usize,
-    /// The largest residual left, beside the sum of the magnitudes of its terms.
+    /// The largest residual, divided by the sum of the magnitudes of its terms.
     pub residual: f64,
-    /// Whether the determinant of each block of J has the sign it had at the guess: if not, the
-    /// position belongs to another assembly branch than the guess, or the guess lay beyond a dead point.
+    /// True if the determinant of each block of J has the sign it had at the guess: if not, the position belongs to
+    /// another assembly branch than the guess, or the guess was beyond a dead point.
     pub same_branch: bool,
 }
 
-/// One step of Newton's method without damping: q with u - J^-1 Psi in place of u.
+/// One undamped Newton step: q with u - J^-1 Psi in place of u.
 ///
 /// # Errors
-/// [`PositionError::Singular`] where J has no inverse, [`PositionError::NotFinite`] if the step is not finite.
+/// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the step is not finite.
 pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M::Coordinates, PositionError> {
     let pose = mechanism.pose_at(q);
     let step = correction(mechanism, &pose)?;
@@ -49,15 +49,15 @@ pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M:
     Ok(next)
 }
 
-/// The position near `guess` whose inputs are those of `guess`, on the branch of `guess`; all unknowns together.
+/// Finds the position near `guess` at the inputs of `guess`, on the branch of `guess`, for all unknowns together.
 ///
-/// Steps are halved until the residual falls. The search ends at a residual that rounding explains,
-/// after one more step that removes what the last one left.
+/// Steps are halved until the residual decreases. The search ends at a residual within rounding error, after one more
+/// step that reduces it further.
 ///
 /// # Errors
-/// [`PositionError::NotConverged`] if the residual stays, [`PositionError::OtherBranch`] if the determinant of a group has
-/// another sign than at the guess, [`PositionError::NotFinite`] if a number is not finite. Where the group is singular
-/// but for the root of a rounding, at the guess or at the position, its sign says nothing.
+/// [`PositionError::NotConverged`] if the residual does not vanish, [`PositionError::OtherBranch`] if the determinant
+/// of a group has another sign than at the guess, [`PositionError::NotFinite`] if a number is not finite. If the
+/// regularity of the group is below 16 sqrt(epsilon) at the guess or at the position, the sign is not compared.
 pub fn newton<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Solution<M::Coordinates>, PositionError> {
     let (found, start, end) = searched(mechanism, guess)?;
     let AnyBranch { coordinates, iterations, residual, same_branch } = found;
@@ -67,8 +67,8 @@ pub fn newton<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Sol
     }
 }
 
-/// The first group whose determinant has another sign at the end than at the start and is larger than nothing at both: a
-/// position at a dead point is known to the root of a rounding.
+/// The first group whose determinant has another sign at the end than at the start and is not zero at either: a
+/// position at a dead point is accurate to sqrt(epsilon) only.
 fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Option<&'static str> {
     let ends = [Blocks::of(mechanism, start), Blocks::of(mechanism, end)];
     let [before, after] = ends.each_ref().map(Blocks::determinants);
@@ -77,11 +77,11 @@ fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Op
     left.and_then(|(place, _)| M::GROUPS.get(place)).map(|group| group.name)
 }
 
-/// The position near `guess` whose inputs are those of `guess`, on any branch: as [`newton`], which says what the search
-/// does.
+/// Finds the position near `guess` at the inputs of `guess`, on any branch, by the search of [`newton`].
 ///
 /// # Errors
-/// [`PositionError::NotConverged`] if the residual stays, [`PositionError::NotFinite`] if a number is not finite.
+/// [`PositionError::NotConverged`] if the residual does not vanish, [`PositionError::NotFinite`] if a number is not
+/// finite.
 pub fn newton_any_branch<M: Mechanism>(
     mechanism: &M,
     guess: &M::Coordinates,
@@ -89,11 +89,11 @@ pub fn newton_any_branch<M: Mechanism>(
     searched(mechanism, guess).map(|(found, ..)| found)
 }
 
-/// A position, and the poses of the guess and of what was found.
+/// A position, and the poses of the guess and of the position.
 type Searched<M> = (AnyBranch<<M as Mechanism>::Coordinates>, <M as Mechanism>::Pose, <M as Mechanism>::Pose);
 
 fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searched<M>, PositionError> {
-    // An input may be in no closure.
+    // An input may occur in no constraint.
     all_finite(M::NAME, "the input", M::inputs(guess).iter())?;
     let (Iterate { unknowns, point, size, .. }, iterations) = search(&Whole { mechanism, guess }, M::unknowns(guess))?;
     let start = mechanism.pose_at(guess);
@@ -106,14 +106,14 @@ fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searc
     Ok((found, start, point))
 }
 
-/// The unknowns of one group, by their names in `group`, near `start`; the groups before it are solved.
+/// Solves for the unknowns of one group, named by `group`, near `start`; the groups before it are solved.
 ///
-/// `evaluate` gives the closures of the group, the sums of the magnitudes of their terms, and their derivatives
-/// by the unknowns, column by column. The search is that of [`newton`].
+/// `evaluate` returns the residuals of the group, the sums of the magnitudes of their terms, and their derivatives by
+/// the unknowns, column by column. The search is that of [`newton`].
 ///
 /// # Errors
-/// [`PositionError::NotConverged`] if the residual stays, [`PositionError::OtherBranch`] if the group is singular somewhere
-/// between the start and what was found, [`PositionError::NotFinite`] if a number is not finite.
+/// [`PositionError::NotConverged`] if the residual does not vanish, [`PositionError::OtherBranch`] if the group is
+/// singular between the start and the position found, [`PositionError::NotFinite`] if a number is not finite.
 pub fn newton_group<T, const N: usize>(
     mechanism: &'static str,
     group: &'static str,
@@ -133,7 +133,7 @@ where
     }
 }
 
-/// Psi, the sizes of its terms, and the columns of J.
+/// Psi, the sums of the magnitudes of its terms, and the columns of J.
 type Evaluated<T, const N: usize> = ([T; N], [T; N], [[T; N]; N]);
 
 /// A mechanism whose inputs are those of a guess.
@@ -142,7 +142,7 @@ struct Whole<'a, M: Mechanism> {
     guess: &'a M::Coordinates,
 }
 
-impl<M: Mechanism> Closures for Whole<'_, M> {
+impl<M: Mechanism> Constraints for Whole<'_, M> {
     type Scalar = M::Scalar;
     type N = M::U;
     type Point = M::Pose;
@@ -164,7 +164,7 @@ impl<M: Mechanism> Closures for Whole<'_, M> {
     }
 
     fn regularity(&self, pose: &M::Pose) -> f64 {
-        beside_columns(self.mechanism.determinant(pose), &self.mechanism.jacobian_unknowns(pose))
+        hadamard_ratio(self.mechanism.determinant(pose), &self.mechanism.jacobian_unknowns(pose))
     }
 
     fn names(&self) -> (&'static str, Option<&'static str>) {
@@ -180,7 +180,7 @@ struct Part<T, F, const N: usize> {
     scalar: PhantomData<T>,
 }
 
-impl<T, F, const N: usize> Closures for Part<T, F, N>
+impl<T, F, const N: usize> Constraints for Part<T, F, N>
 where
     T: Real,
     F: Fn([T; N]) -> Evaluated<T, N>,
@@ -193,16 +193,16 @@ where
         (self.evaluate)((*unknowns).into())
     }
 
-    fn residual(&self, (residual, sizes, _): &Self::Point) -> (Column<T, D<N>>, Column<T, D<N>>) {
-        (Column::from(*residual), Column::from(*sizes))
+    fn residual(&self, (residual, scales, _): &Self::Point) -> (Column<T, D<N>>, Column<T, D<N>>) {
+        (Column::from(*residual), Column::from(*scales))
     }
 
     fn solve(
         &self,
-        (_, sizes, columns): &Self::Point,
+        (_, scales, columns): &Self::Point,
         right: &Column<T, D<N>>,
     ) -> Result<Column<T, D<N>>, PositionError> {
-        let factors = Factorization::new(self.mechanism, self.group, *columns, *sizes)?;
+        let factors = Factorization::new(self.mechanism, self.group, *columns, *scales)?;
         Ok(Column::from(factors.solve((*right).into())))
     }
 
@@ -211,7 +211,7 @@ where
     }
 
     fn regularity(&self, (_, _, columns): &Self::Point) -> f64 {
-        beside_columns(product_of_pivots(*columns), &Matrix::from(*columns))
+        hadamard_ratio(product_of_pivots(*columns), &Matrix::from(*columns))
     }
 
     fn names(&self) -> (&'static str, Option<&'static str>) {
@@ -219,8 +219,8 @@ where
     }
 }
 
-/// |det J| beside the product of the sizes of its columns.
-pub fn beside_columns<T: Real, N: Dim>(determinant: T, jacobian: &Matrix<T, N, N>) -> f64 {
+/// |det J| divided by the product of the norms of its columns: Hadamard's ratio.
+pub fn hadamard_ratio<T: Real, N: Dim>(determinant: T, jacobian: &Matrix<T, N, N>) -> f64 {
     let product = jacobian.columns().iter().fold(T::one(), |product, column| product * column.norm());
     if product > T::zero() { to_f64(determinant.abs() / product) } else { 0.0 }
 }

@@ -1,4 +1,4 @@
-//! The scalars of emitted code.
+//! Scalar types of emitted code.
 
 use core::any::Any;
 
@@ -6,19 +6,19 @@ use nalgebra::{Complex, RealField, Unit, UnitComplex};
 
 use crate::sine;
 
-/// A real scalar that is copied: `f32`, `f64`, dual numbers. Implemented for all that qualify.
+/// A real scalar that is `Copy`: `f32`, `f64`, dual numbers. It is implemented for all such types.
 pub trait Real: RealField + Copy {
     /// The sine and cosine of an angle in radians: for `f64` up to 1e5 inlined and within 0.85 ulp, else
     /// the scalar's own.
     #[inline(always)]
     #[must_use]
     fn sine_cosine(self) -> (Self, Self) {
-        // Which type this is, is known when the code is compiled: nothing of the question is left in it.
+        // The type is known at compile time, so that this test costs nothing.
         let Some(&x) = (&self as &dyn Any).downcast_ref::<f64>() else { return self.sin_cos() };
         sine::sin_cos(x).map_or_else(|| beyond(self), |(sine, cosine)| (real(sine), real(cosine)))
     }
 
-    /// The sine alone, as `sine_cosine` gives it.
+    /// The sine alone, equal to that of `sine_cosine`.
     #[inline(always)]
     #[must_use]
     fn sine(self) -> Self {
@@ -26,7 +26,7 @@ pub trait Real: RealField + Copy {
         sine::sin(x).map_or_else(|| beyond(self).0, real)
     }
 
-    /// The cosine alone, as `sine_cosine` gives it.
+    /// The cosine alone, equal to that of `sine_cosine`.
     #[inline(always)]
     #[must_use]
     fn cosine(self) -> Self {
@@ -34,7 +34,7 @@ pub trait Real: RealField + Copy {
         sine::cos(x).map_or_else(|| beyond(self).1, real)
     }
 
-    /// The sines and cosines of several angles, as `sine_cosine` gives them, side by side in vector operations.
+    /// The sines and cosines of several angles, equal to those of `sine_cosine`, computed by vector instructions.
     #[inline(always)]
     #[must_use]
     fn sines_cosines<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
@@ -48,22 +48,21 @@ pub trait Real: RealField + Copy {
 
 impl<T: RealField + Copy> Real for T {}
 
-/// The library's sine and cosine, apart: inlined, a loop that is turned into vectors calls them for every angle.
+/// The standard library's sine and cosine. It is not inlined: a vectorised loop would call them for every angle.
 #[cold]
 #[inline(never)]
 fn beyond<T: Real>(angle: T) -> (T, T) {
     angle.sin_cos()
 }
 
-/// The traits whose functions are those of a scalar that is an associated type: of such a one they are known only where
-/// they are imported.
+/// Traits to import for the functions of a scalar that is an associated type.
 pub mod arithmetic {
     pub use approx::AbsDiffEq as _;
     pub use nalgebra::{ComplexField as _, RealField as _};
     pub use num_traits::{One as _, Zero as _};
 }
 
-/// A constant of the formula as a scalar.
+/// Converts a constant to a scalar.
 #[inline]
 #[must_use]
 pub fn real<T: Real>(value: f64) -> T {
@@ -77,7 +76,7 @@ pub fn unit<T: Real>(cosine: T, sine: T) -> UnitComplex<T> {
     Unit::new_unchecked(Complex { re: cosine, im: sine })
 }
 
-/// The larger of two numbers; not a number if one of them is none, which `max` and a comparison lose.
+/// The larger of two numbers; NaN if one of them is, unlike `max`.
 #[inline]
 pub fn larger<T: Real>(a: T, b: T) -> T {
     if a >= b {
@@ -89,14 +88,14 @@ pub fn larger<T: Real>(a: T, b: T) -> T {
     }
 }
 
-/// The largest magnitude; not a number if one of the values is none, which nalgebra's `amax` loses.
+/// The largest magnitude; NaN if one of the values is, unlike nalgebra's `amax`.
 #[inline]
 pub fn largest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
     values.into_iter().fold(T::zero(), |most, value| larger(most, value.abs()))
 }
 
-/// The smallest magnitude, of no values the largest number there is; not a number if one of the values is none, which
-/// nalgebra's `amin` loses.
+/// The smallest magnitude, or the largest number of the type if there are no values; NaN if one of the values is,
+/// unlike nalgebra's `amin`.
 #[inline]
 pub fn smallest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
     let none = T::max_value().unwrap_or_else(T::one);
@@ -112,16 +111,16 @@ pub fn smallest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
     })
 }
 
-/// A value relative to its size: zero where both are, and not a number where the size is not finite. Relative to an
-/// infinite size everything would be zero.
+/// `value` / `scale`, where 0 / 0 = 0; NaN if the scale is not finite, since any value divided by infinity would be
+/// zero.
 #[inline]
-pub(crate) fn relative<T: Real>(value: T, size: T) -> T {
-    // Infinity times zero is not a number.
-    let none = size * T::zero();
-    if value.is_zero() { none } else { value / size + none }
+pub(crate) fn relative<T: Real>(value: T, scale: T) -> T {
+    // Infinity times zero is NaN.
+    let none = scale * T::zero();
+    if value.is_zero() { none } else { value / scale + none }
 }
 
-/// The scalar as it is reported.
+/// Converts a scalar to `f64` for reports; NaN if it has no such value.
 pub fn to_f64<T: Real>(value: T) -> f64 {
     value.to_subset().unwrap_or(f64::NAN)
 }

@@ -1,38 +1,38 @@
-//! Sine and cosine of doubles: one or both of them inlined, or those of several angles side by side.
+//! Sine and cosine of doubles: inlined for one angle, or for several angles by vector instructions.
 //!
-//! The argument is reduced as in Cody and Waite, *Software Manual for the Elementary Functions* (1980); what it
-//! rounds off goes into the polynomials as in fdlibm (Sun Microsystems, 1993). No fused multiplication is used,
-//! so that every target computes the same bits. sin(-x) = -sin x and cos(-x) = cos x to the bit.
+//! The argument is reduced as in Cody and Waite, *Software Manual for the Elementary Functions* (1980); the error of
+//! the reduction enters the polynomials as in fdlibm (Sun Microsystems, 1993). No fused multiply-add is used, so that
+//! every target computes the same bits. sin(-x) = -sin x and cos(-x) = cos x to the bit.
 //!
 //! Largest errors found by `tests/sine.rs`, in ulp:
 //!
-//! | 2e7 arguments, 191 000 the last | sine | cosine |
+//! | 2e7 arguments, last row 191 000  | sine | cosine |
 //! |---------------------------------|------|--------|
 //! | 0 to pi/4, evenly               | 0.77 | 0.76   |
 //! | 0 to 10                         | 0.79 | 0.80   |
 //! | 0 to 1000                       | 0.81 | 0.81   |
 //! | 0 to 1e5                        | 0.83 | 0.80   |
-//! | about every multiple of pi/2    | 0.50 | 0.50   |
+//! | near every multiple of pi/2     | 0.50 | 0.50   |
 //!
-//! r - t, the reduced argument, is within 2^-63 of itself at the doubles next to every multiple of pi/2.
+//! The reduced argument r - t has a relative error below 2^-63 at the doubles next to every multiple of pi/2.
 
-/// The largest magnitude that is reduced here.
+/// The largest |x| that is computed here; the standard library computes the others.
 const LIMIT: f64 = 1e5;
 
-/// pi/2 in three parts: the first two of 35 bits, so that k times them is exact for k < 2^18, and what is
-/// left to the nearest double. Their sum is pi/2 to 2^-130.
+/// pi/2 in three parts: the first two of 35 bits, so that k times them is exact for k < 2^18, the third the double
+/// nearest to the remainder. Their sum is pi/2 to 2^-130.
 const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3ff9_21fb_5444_0000),
     f64::from_bits(0x3d86_8c23_4c4c_0000),
     f64::from_bits(0x3b29_8a2e_0370_7345),
 ];
 
-/// Added to a double below 2^51, rounds it to the nearest integer, ties to even, and leaves that integer in
-/// the lowest bits.
+/// 3 * 2^51. Added to a double below 2^51, it rounds it to the nearest integer, ties to even, and leaves that integer
+/// in the lowest bits.
 const SHIFT: f64 = 6_755_399_441_055_744.0;
 
-/// (r - sin r) / r^3 in powers of r^2 for |r| <= pi/4: by Remez's exchange, the largest relative error of sin r
-/// being 2^-57.9.
+/// (r - sin r) / r^3 in powers of r^2 for |r| <= pi/4, by the Remez algorithm; the largest relative error of sin r is
+/// 2^-57.9.
 const SINE: [f64; 6] = [
     0.166_666_666_666_666_3,
     -0.008_333_333_333_321_84,
@@ -42,7 +42,7 @@ const SINE: [f64; 6] = [
     -1.589_543_297_362_344_5e-10,
 ];
 
-/// (1 - r^2/2 - cos r) / r^4 in powers of r^2 for |r| <= pi/4: likewise, to 2^-63.9.
+/// (1 - r^2/2 - cos r) / r^4 in powers of r^2 for |r| <= pi/4, by the Remez algorithm; the largest error is 2^-63.9.
 const COSINE: [f64; 6] = [
     -0.041_666_666_666_666_595,
     0.001_388_888_888_887_334_2,
@@ -70,7 +70,7 @@ pub(crate) fn cos(x: f64) -> Option<f64> {
     (x.abs() <= LIMIT).then(|| one(x, 1))
 }
 
-/// sin x and cos x of several angles, if all are up to `LIMIT`: to the bit what each gives alone.
+/// sin x and cos x of several angles, if all are up to `LIMIT`; bit for bit equal to those of each alone.
 #[inline(always)]
 pub(crate) fn sines_cosines<const N: usize>(angles: &[f64; N]) -> Option<[(f64, f64); N]> {
     angles.iter().fold(true, |within, x| within & (x.abs() <= LIMIT)).then(|| {
@@ -99,13 +99,13 @@ fn columns<const LANES: usize>([sines, cosines]: [[f64; LANES]; 2]) -> [(f64, f6
     values
 }
 
-/// Apart, so that the loop becomes vector operations whatever surrounds the call; the angles in registers.
+/// Two angles. It is not inlined, so that the loop is vectorised in every caller; the angles are passed in registers.
 #[inline(never)]
 fn two(a: f64, b: f64) -> [[f64; 2]; 2] {
     lanes([a, b])
 }
 
-/// As `two`.
+/// Four angles, as in `two`.
 #[inline(never)]
 fn four(a: f64, b: f64, c: f64, d: f64) -> [[f64; 4]; 2] {
     lanes([a, b, c, d])
@@ -132,7 +132,7 @@ fn both(x: f64) -> (f64, f64) {
     (f64::from_bits(sine.to_bits() ^ swap ^ sine_sign), f64::from_bits(cosine.to_bits() ^ swap ^ cosine_sign))
 }
 
-/// sin(x + n pi/2), |x| <= `LIMIT`: to the bit what `both` gives, by one of the two polynomials.
+/// sin(x + n pi/2), |x| <= `LIMIT`; bit for bit equal to `both`, by one of the two polynomials.
 #[inline(always)]
 fn one(x: f64, n: u64) -> f64 {
     let Reduced { quadrant, head, tail } = Reduced::new(x);
@@ -154,8 +154,8 @@ impl Reduced {
     fn new(x: f64) -> Self {
         let shifted = x * core::f64::consts::FRAC_2_PI + SHIFT;
         let k = shifted - SHIFT;
-        // Both terms of `near` are exact, and so is `far`; what `head` rounds off is in `tail`, and its zero
-        // has no sign: that of x stays.
+        // `near` and `far` are exact; the rounding error of `head` is in `tail`. If that is zero it is positive, so
+        // that sin x keeps the sign of x = -0.
         let [large, middle, small] = HALF_PI;
         let near = x - k * large;
         let far = k * middle;
@@ -165,14 +165,14 @@ impl Reduced {
     }
 }
 
-/// sin(r - t) and cos(r - t), |t| below the last place of r or 2^-54.
+/// sin(r - t) and cos(r - t), where |t| is below an ulp of r or 2^-54.
 #[inline(always)]
 fn kernel(r: f64, t: f64) -> (f64, f64) {
     let z = r * r;
     let w = z * z;
     let half = 0.5 * z;
     let rest = 1.0 - half;
-    // Both polynomials in the same order of operations: a pair of them is one vector operation.
+    // Both polynomials use the same order of operations, so that each pair is one vector instruction.
     let both = |[s, t]: [f64; 2], [c, d]: [f64; 2]| [s + z * t, c + z * d];
     let ([s0, s1, s2, s3, s4, s5], [c0, c1, c2, c3, c4, c5]) = (SINE, COSINE);
     let ([a, d], [b, e], [c, f]) = (both([s0, s1], [c0, c1]), both([s2, s3], [c2, c3]), both([s4, s5], [c4, c5]));

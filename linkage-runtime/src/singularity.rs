@@ -1,4 +1,4 @@
-//! Singular configurations: where the inputs cannot drive the mechanism, and what moves there instead.
+//! Singular configurations, in which the inputs cannot drive the mechanism, and the rates that are possible there.
 //!
 //! The velocities solve J u' = -A v'. A configuration is singular where det J = 0: the rank of J is less than the
 //! number of unknowns, so that
@@ -9,17 +9,17 @@
 //! - whether it is singular depends on which coordinate drives: another may drive where this one cannot
 //!   ([`Singularity::drivers`]).
 //!
-//! A slider-crank driven by its slider is singular where crank and rod are aligned, in its dead centres; driven by its
-//! crank only where the rod stands across the guide, which takes a rod as long as the crank. Source: lecture notes
-//! "Analisi cinematica di velocità per meccanismi articolati piani", section 1.2, "Le configurazioni singolari".
+//! A slider-crank driven by its slider is singular in its dead centres, where crank and rod are aligned; driven by its
+//! crank only where the rod is perpendicular to the guide, which takes a rod as long as the crank. Source: lecture
+//! notes "Analisi cinematica di velocità per meccanismi articolati piani", section 1.2, "Le configurazioni singolari".
 //!
 //! # Measures
 //!
-//! J mixes lengths with pure numbers, so its singular values mean nothing by themselves. Here every row is divided by
-//! the size of its closure, the sum of the magnitudes of its terms, and every column by the largest magnitude that an
-//! entry of it could then have. sigma min is the smallest singular value of what is left: between 0 and the root of
-//! the number of unknowns, the same in every unit of length. A relative error `eps` of the closures moves the unknowns
-//! by `eps / sigma_min` of what the columns were divided by: [`accuracy`].
+//! J mixes lengths with pure numbers, so its singular values depend on units. Therefore every row is divided by the
+//! scale of its residual, the sum of the magnitudes of its terms, and every column by the largest magnitude that an
+//! entry of it could then have. sigma min is the smallest singular value of this equilibrated J: between 0 and the root
+//! of the number of unknowns, the same in every unit of length. A relative error `eps` of the residuals moves the
+//! unknowns, multiplied by the divisors of their columns, by `eps / sigma_min`: [`accuracy`].
 //!
 //! ```
 //! use linkage::{linkage, singularity};
@@ -40,7 +40,7 @@
 //! let found = singularity::report(&engine, &pose).unwrap();
 //! assert!(found.is_singular());
 //! assert_eq!(found.rank(), 1);
-//! // The piston must stand still; the crank may turn, the rod a third as fast the other way.
+//! // The piston must rest; the crank may turn, the rod a third as fast the other way.
 //! assert_eq!(found.admissible().count(), 0);
 //! let free = found.free().next().unwrap();
 //! assert!((free[0] / free[1] + 3.0).abs() < 1e-15);
@@ -61,45 +61,45 @@ mod decomposition;
 use core::fmt;
 
 use crate::error::{all_finite, finite};
-use crate::jacobian::rounding::{CLOSED, roundings};
+use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::jacobian::{Blocks, largest_entries, positive};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
 use crate::{Column, Dim, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real, real};
 use decomposition::Decomposition;
 
-/// How near a position is to a singular configuration, and what is special about it.
+/// The distance of a position from a singular configuration, and the rates that are possible at it.
 pub struct Singularity<M: Mechanism> {
     determinant: M::Scalar,
     rank: usize,
     sigma_min: M::Scalar,
     groups: Column<GroupMeasure<M::Scalar>, M::G>,
     rank_with_inputs: usize,
-    /// The last U - rank columns.
+    /// Null vectors of J: the last U - rank columns.
     free: Matrix<M::Scalar, M::U, M::U>,
-    /// The last `admissible_count` columns.
+    /// Admissible rates of the inputs: the last `admissible_count` columns.
     admissible: Matrix<M::Scalar, M::V, M::V>,
     admissible_count: usize,
-    /// sigma min with an input in place of an unknown, where that is regular.
+    /// sigma min with an input in place of an unknown; zero if that is singular.
     exchanges: Matrix<M::Scalar, M::U, M::V>,
 }
 
 crate::__by_fields!([M: Mechanism] Singularity<M> { determinant, rank, sigma_min, groups, rank_with_inputs, free, admissible, admissible_count, exchanges });
 
-/// How near one group of unknowns is to being singular.
+/// The distance of one group of unknowns from a singularity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroupMeasure<T> {
     /// The unknowns by name.
     pub name: &'static str,
     /// The determinant of the group's block of J, in the units of the mechanism.
     pub determinant: T,
-    /// A pure number, 0 where the group is singular: of one and two unknowns the determinant beside the largest
-    /// product of entries that it could be made of (of a dyad RRR |sin| of the angle between its links, of a slider
-    /// on a guide |cos| of the pressure angle), of more unknowns the smallest pivot of the equilibrated block.
+    /// Nondimensional, 0 if the group is singular. For one and two unknowns the determinant divided by the largest
+    /// product of entries that it could be made of (for a dyad RRR |sin| of the angle between its links, for a slider
+    /// on a guide |cos| of the pressure angle), for more unknowns the smallest pivot of the equilibrated block.
     pub regularity: T,
     /// The smallest singular value of the equilibrated block.
     pub sigma_min: T,
-    /// Whether the block has full rank.
+    /// True if the block has full rank.
     pub is_regular: bool,
 }
 
@@ -114,9 +114,9 @@ pub struct Exchange<T> {
     pub sigma_min: T,
 }
 
-/// What the residual and the singular values say of a position.
+/// The residual of a position, and the accuracy that a position can have there.
 pub struct Accuracy<M: Mechanism> {
-    /// The largest residual beside the sum of the magnitudes of its terms.
+    /// The largest residual divided by the sum of the magnitudes of its terms.
     pub residual: M::Scalar,
     /// The smallest singular value of the equilibrated J.
     pub sigma_min: M::Scalar,
@@ -127,67 +127,68 @@ pub struct Accuracy<M: Mechanism> {
 crate::__by_fields!([M: Mechanism] Accuracy<M> { residual, sigma_min, scales });
 
 impl<M: Mechanism> Accuracy<M> {
-    /// eps / sigma min: the relative error that rounding the closures once explains. Infinite in a singular
-    /// configuration, where the position is a double root and right to about the root of eps.
+    /// eps / sigma min: the relative error caused by one rounding error of the residuals. It is infinite in a singular
+    /// configuration, where the position is a double root, accurate to about sqrt(eps).
     #[must_use]
     pub fn attainable(&self) -> M::Scalar {
         M::Scalar::default_epsilon() / self.sigma_min
     }
 
-    /// The same of each unknown by itself, in radians and lengths.
+    /// The attainable error of each unknown, in radians and lengths.
     #[must_use]
     pub fn unknowns(&self) -> PerUnknown<M> {
         self.scales.map(|scale| self.attainable() / scale)
     }
 }
 
-/// J and A with rows and columns of comparable sizes.
+/// The equilibrated J and A.
 struct Equilibrated<M: Mechanism> {
     unknowns: Matrix<M::Scalar, M::U, M::U>,
     inputs: Matrix<M::Scalar, M::U, M::V>,
-    sizes: PerUnknown<M>,
-    /// What the columns of J and of A were divided by.
+    residual_scales: PerUnknown<M>,
+    /// The divisors of the columns of J and of A.
     unknown_scales: PerUnknown<M>,
     input_scales: PerInput<M>,
 }
 
 impl<M: Mechanism> Equilibrated<M> {
     fn of(mechanism: &M, pose: &M::Pose) -> Result<Self, PositionError> {
-        let sizes = mechanism.closure_sizes(pose);
-        let divisors = sizes.map(positive);
+        let residual_scales = mechanism.closure_sizes(pose);
+        let divisors = residual_scales.map(positive);
         let (unknowns, unknown_scales) =
             equilibrated(&divisors, &mechanism.jacobian_unknowns(pose), &mechanism.jacobian_unknowns_sizes(pose));
         let (inputs, input_scales) =
             equilibrated(&divisors, &mechanism.jacobian_inputs(pose), &mechanism.jacobian_inputs_sizes(pose));
-        // Divided by infinite sizes everything would be zero.
-        let scales = sizes.iter().chain(unknown_scales.iter()).chain(input_scales.iter());
+        // Divided by infinite scales, everything would be zero.
+        let scales = residual_scales.iter().chain(unknown_scales.iter()).chain(input_scales.iter());
         all_finite(M::NAME, "the Jacobian", unknowns.iter().chain(inputs.iter()).chain(scales))?;
-        Ok(Self { unknowns, inputs, sizes, unknown_scales, input_scales })
+        Ok(Self { unknowns, inputs, residual_scales, unknown_scales, input_scales })
     }
 }
 
-/// A matrix with its rows divided, and its columns by the largest entry that they could then have.
+/// Divides the rows of a matrix by `divisors`, and its columns by the largest entry that they could then have.
 ///
-/// These are not the sizes of [`Scales`](crate::jacobian::Scales): a row is divided by what its rounding is in proportion
-/// to, the sum of the magnitudes of its terms here, and the column of an angle is divided like any other, so that sigma min
-/// says how the closures determine the unknowns and not how far a unit of an angle moves something.
+/// These divisors are not those of [`Scales`](crate::jacobian::Scales): a row is divided by the sum of the magnitudes
+/// of its terms here, to which its rounding error is proportional, and the column of an angle is divided like any
+/// other, so that sigma min measures how well the constraints determine the unknowns, independently of the unit of an
+/// angle.
 fn equilibrated<T: Real, R: Dim, C: Dim>(
     divisors: &Column<T, R>,
     matrix: &Matrix<T, R, C>,
-    sizes: &Matrix<T, R, C>,
+    largest: &Matrix<T, R, C>,
 ) -> (Matrix<T, R, C>, Column<T, C>) {
-    let scales = largest_entries(sizes, divisors).map(positive);
+    let scales = largest_entries(largest, divisors).map(positive);
     let columns = matrix.columns().zip_map(&scales, |column, scale| column.component_div(divisors).map(|x| x / scale));
     (Matrix::from_columns(columns), scales)
 }
 
-/// Below this a singular value of `count` unknowns is zero.
+/// The threshold up to which a singular value of `count` unknowns is zero.
 fn threshold<T: Real>(count: usize) -> T {
-    roundings(CLOSED * u32::try_from(count).map_or(f64::MAX, f64::from))
+    ulps(ZERO_ULPS * u32::try_from(count).map_or(f64::MAX, f64::from))
 }
 
-/// All that can be said of a position as to singularity. It takes a singular value decomposition for each pair of an
-/// unknown and an input: a report, not a part of an inner loop.
+/// Analyses a position for singularity. It takes a singular value decomposition for each pair of an unknown and an
+/// input, too slow for an inner loop.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if an entry of the Jacobian, a determinant or a rate is not a finite number.
@@ -197,7 +198,7 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
     let zero = threshold::<M::Scalar>(M::U::COUNT);
     let right = Decomposition::of(*j);
     let rank = right.rank(zero);
-    // l J = 0: what is left of the closures where no unknown can answer, (l A) v' = 0.
+    // The left null vectors l, l J = 0, restrict the inputs to (l A) v' = 0.
     let left = Decomposition::of(j.transpose()).vectors;
     let mut conditions = left.tr_mul_matrix(a);
     for row in 0..rank {
@@ -233,7 +234,7 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
     })
 }
 
-/// sigma min of a position by itself.
+/// Computes sigma min of a position only.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if an entry of the Jacobian is not a finite number.
@@ -243,21 +244,22 @@ pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scala
     Ok(sigma_min)
 }
 
-/// The residual of a position and how accurate a position can be there: eps / sigma min.
+/// Computes the residual of a position and the accuracy that it can have, eps / sigma min.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if a residual or an entry of the Jacobian is not a finite number.
 pub fn accuracy<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<M>, PositionError> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let residual = mechanism.residual(pose);
-    let residual = largest(residual.iter().zip(equilibrated.sizes.iter()).map(|(&psi, &size)| relative(psi, size)));
+    let residual =
+        largest(residual.iter().zip(equilibrated.residual_scales.iter()).map(|(&psi, &scale)| relative(psi, scale)));
     finite(M::NAME, "the residual", [residual])?;
     let sigma_min = Decomposition::of(equilibrated.unknowns).least();
     finite(M::NAME, "a singular value", [sigma_min])?;
     Ok(Accuracy { residual, sigma_min, scales: equilibrated.unknown_scales })
 }
 
-/// Vectors of the equilibrated system as rates, the entry that counts most there being 1.
+/// Converts vectors of the equilibrated system to rates; the rate of the largest entry is 1.
 fn in_units<T: Real, N: Dim>(vectors: Matrix<T, N, N>, scales: &Column<T, N>) -> Matrix<T, N, N> {
     Matrix::from_columns(vectors.columns().map(|vector| {
         let leading = vector.leading();
@@ -268,7 +270,7 @@ fn in_units<T: Real, N: Dim>(vectors: Matrix<T, N, N>, scales: &Column<T, N>) ->
 
 fn measure<M: Mechanism>(blocks: &Blocks<M>, group: usize) -> GroupMeasure<M::Scalar> {
     let block = &M::GROUPS[group];
-    // The block in the corner of a diagonal that is larger than any singular value of it.
+    // The rest of the diagonal is larger than any singular value of the block.
     let count = u32::try_from(M::U::COUNT).map_or(f64::MAX, f64::from);
     let sigma_min = Decomposition::of(blocks.equilibrated(block, real(count))).least();
     let is_regular = sigma_min > threshold(block.unknowns.len());
@@ -289,14 +291,14 @@ impl<M: Mechanism> Singularity<M> {
         self.rank
     }
 
-    /// Whether the rank of J is less than the number of unknowns: the inputs cannot drive the mechanism.
+    /// True if the rank of J is less than the number of unknowns: the inputs cannot drive the mechanism.
     #[must_use]
     pub fn is_singular(&self) -> bool {
         self.rank < M::U::COUNT
     }
 
-    /// The rank of J and A together. Where it is less than the number of unknowns, no choice of inputs is regular:
-    /// branches of motion meet here, as in a flat parallelogram.
+    /// The rank of [J A]. If it is less than the number of unknowns, the mechanism is singular for every choice of
+    /// inputs: motions cross here, as in a flat parallelogram.
     #[must_use]
     pub fn rank_with_inputs(&self) -> usize {
         self.rank_with_inputs
@@ -313,18 +315,18 @@ impl<M: Mechanism> Singularity<M> {
         self.groups.iter()
     }
 
-    /// A basis of the rates u' that are possible while the inputs stand still; none where J is regular. In each
-    /// the rate that matters most is 1.
+    /// A basis of the rates u' that are possible while the inputs rest; empty if J is regular. The rate of the largest
+    /// entry of each is 1.
     pub fn free(&self) -> impl Iterator<Item = PerUnknown<M>> {
         (self.rank..M::U::COUNT).map(|column| self.free.column(column))
     }
 
-    /// A basis of the input rates v' that are possible: as many as there are inputs where J is regular.
+    /// A basis of the possible rates v' of the inputs: as many as there are inputs if J is regular.
     pub fn admissible(&self) -> impl Iterator<Item = PerInput<M>> {
         (M::V::COUNT - self.admissible_count..M::V::COUNT).map(|column| self.admissible.column(column))
     }
 
-    /// The exchanges of one input for one unknown with which J is regular.
+    /// The exchanges of one input for one unknown that make J regular.
     pub fn drivers(&self) -> impl Iterator<Item = Exchange<M::Scalar>> {
         let pairs = (0..M::V::COUNT).flat_map(|input| (0..M::U::COUNT).map(move |unknown| (unknown, input)));
         pairs.filter_map(|(unknown, input)| {
@@ -337,10 +339,10 @@ impl<M: Mechanism> Singularity<M> {
 
 impl<M: Mechanism> fmt::Display for Singularity<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let verdict = if self.is_singular() { "singular" } else { "regular" };
+        let kind = if self.is_singular() { "singular" } else { "regular" };
         writeln!(
             f,
-            "{} is {verdict}: det J = {:.3e}, rank {} of {}, sigma min {:.1e}",
+            "{} is {kind}: det J = {:.3e}, rank {} of {}, sigma min {:.1e}",
             M::NAME,
             to_f64(self.determinant),
             self.rank,
@@ -349,7 +351,7 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
         )?;
         for group in self.groups() {
             let (regularity, sigma_min) = (to_f64(group.regularity), to_f64(group.sigma_min));
-            writeln!(f, "- {}: regular to {regularity:.1e}, sigma min {sigma_min:.1e}", group.name)?;
+            writeln!(f, "- {}: regularity {regularity:.1e}, sigma min {sigma_min:.1e}", group.name)?;
         }
         for free in self.free() {
             write!(f, "free:")?;

@@ -1,20 +1,20 @@
-//! The turn of an angle: which of the numbers, 2 pi apart, that share one direction.
+//! Full turns of an angle: the choice among values 2 pi apart, which have the same direction.
 //!
-//! A group solved in closed form gives the direction of an angle. Where its number matters, as that of a wheel that
-//! drives another, the number is the principal value, between -pi and pi, and a number of turns.
+//! A group solved in closed form determines the direction of an angle. If its value matters, as for a gear that drives
+//! another, the value is the principal value, between -pi and pi, plus a number of turns.
 
 use core::cell::Cell;
 
 use crate::scalar::to_f64;
 use crate::{InputError, PositionError, Real, real};
 
-/// The choice of the turns of a mechanism's angles, each of which has a place.
+/// A choice of turns for the angles of a mechanism, each of which has an index.
 pub trait Turn<T: Real> {
-    /// The number of the angle at this place.
+    /// Returns the value of the angle with this index.
     fn number(&self, place: usize, principal: T) -> T;
 }
 
-/// Turns by their number; 0 is the principal value.
+/// Numbers of turns; 0 is the principal value.
 #[derive(Debug, Clone, Copy)]
 pub struct Turns<const N: usize>(pub [i32; N]);
 
@@ -25,7 +25,7 @@ impl<T: Real, const N: usize> Turn<T> for Turns<N> {
     }
 }
 
-/// The turns in which angles are nearest to given numbers.
+/// The turns in which angles are nearest to given values.
 #[derive(Debug, Clone)]
 pub struct NearestTurns<T, const N: usize> {
     near: [T; N],
@@ -33,13 +33,13 @@ pub struct NearestTurns<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> NearestTurns<T, N> {
-    /// The turns nearest to these numbers; a number beyond 2^31 turns counts as the last turn there is.
+    /// Takes the turns nearest to these values; a value beyond 2^31 turns gets the largest number of turns.
     #[must_use]
     pub fn new(near: [T; N]) -> Self {
         Self { near, turns: Cell::new(near.map(whole_turns)) }
     }
 
-    /// The turns that were found; of an angle that was not come to, those of a direction of zero.
+    /// The turns chosen; for an angle not computed yet, those of direction zero.
     #[must_use]
     pub fn turns(&self) -> [i32; N] {
         self.turns.get()
@@ -50,7 +50,7 @@ impl<T: Real, const N: usize> Turn<T> for NearestTurns<T, N> {
     #[inline]
     fn number(&self, place: usize, principal: T) -> T {
         let mut all = self.turns.get();
-        // There is an angle at each place that is asked for.
+        // Emitted code passes valid indices only.
         let (Some(near), Some(turns)) = (self.near.get(place), all.get_mut(place)) else { return principal };
         *turns = whole_turns(*near - principal);
         let number = turned(principal, *turns);
@@ -68,11 +68,11 @@ fn turned<T: Real>(principal: T, turns: i32) -> T {
 /// The number of turns nearest to an angle.
 #[inline]
 fn whole_turns<T: Real>(angle: T) -> i32 {
-    // Beyond the range of the integer the conversion gives its end.
+    // The conversion saturates.
     to_f64((angle / T::two_pi()).round()) as i32
 }
 
-/// Refuses guesses of angles that are not numbers, or so many turns away that a branch could not count them.
+/// Returns an error if the guess of an angle is infinite or NaN, or if a branch cannot count its turns.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`], [`InputError::OutOfRange`].

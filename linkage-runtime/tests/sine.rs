@@ -1,7 +1,7 @@
 //! The error of `Real::sine_cosine`, `sine` and `cosine`, against a reference in pairs of doubles.
 //!
-//! `cargo test --release -p linkage-runtime --test sine -- --ignored --nocapture` measures what the
-//! documentation of the module says.
+//! `cargo test --release -p linkage-runtime --test sine -- --ignored --nocapture` measures the errors that the
+//! documentation of the module lists.
 
 #![cfg(feature = "std")]
 
@@ -10,10 +10,10 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use linkage_runtime::Real;
 use num_dual::{Dual2_64, Dual64};
 
-/// What is promised, in units of the last place.
+/// The largest documented error, in units of the last place.
 const ULPS: f64 = 0.85;
 
-/// The largest magnitude that is not left to the library.
+/// The largest |x| that is not left to the standard library.
 const LIMIT: f64 = 1e5;
 
 /// An unevaluated sum, the second below half an ulp of the first.
@@ -54,8 +54,8 @@ fn over([a, c]: Pair, b: f64) -> Pair {
     two_sum(quotient, ((a - product) - error + c) / b)
 }
 
-/// The terms of the exponential series from r^n / n!, every other one, with changing signs: the first that is
-/// left out is below 2^-112.
+/// The terms of the exponential series from r^n / n!, every other one, with alternating signs: the first omitted one is
+/// below 2^-112.
 fn series(first: Pair, square: Pair, n: u32) -> Pair {
     let mut terms = vec![first];
     for m in (n..27).step_by(2) {
@@ -65,9 +65,9 @@ fn series(first: Pair, square: Pair, n: u32) -> Pair {
     terms.iter().rev().fold([0.0; 2], |sum, &[a, c]| plus(plus(sum, c), a))
 }
 
-/// sin x and cos x for |x| <= 1e5. pi/2 is taken to 2^-160 and its multiples are exact, so that no rounding
-/// exceeds 2^-140 there, where r is above 2^-61; each of the fourteen terms of the series rounds at 2^-102. The
-/// relative error is below 2^-79.
+/// sin x and cos x for |x| <= 1e5. pi/2 is accurate to 2^-160 and its multiples are exact, so that no rounding error
+/// exceeds 2^-140 there, where r is above 2^-61; each of the fourteen terms of the series has a rounding error of
+/// 2^-102. The relative error is below 2^-79.
 fn reference(x: f64) -> [Pair; 2] {
     let half_pi = [FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
     let k = (x / FRAC_PI_2).round();
@@ -86,7 +86,7 @@ fn reference(x: f64) -> [Pair; 2] {
 /// The error in units of the last place of the exact value.
 fn ulps(found: f64, [value, rest]: Pair) -> f64 {
     let size = value.abs();
-    // Just below a power of two the places are half as wide.
+    // Just below a power of two an ulp is half as large.
     let below = size.next_down();
     let place =
         if size.to_bits().trailing_zeros() >= 52 && value * rest < 0.0 { size - below } else { size.next_up() - size };
@@ -107,7 +107,7 @@ impl Largest {
                 *largest = (error, x);
             }
         }
-        // Odd and even, alone and together, bit for bit.
+        // sin is odd and cos even, alone and together, bit for bit.
         let expected = bits((sine, cosine));
         let (negative, same) = (-x).sine_cosine();
         assert_eq!(bits((-negative, same)), expected, "{x:e}");
@@ -132,7 +132,7 @@ fn random(seed: u64) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Evenly over the first eighth of a turn, at random in a few turns and over the whole range, and about every
+/// Samples evenly over the first eighth of a turn, at random in a few turns and over the whole range, and about every
 /// multiple of pi/2 whose number is a multiple of `stride`.
 fn sweep(samples: usize, stride: usize) {
     let mut largest = Largest::default();
@@ -150,12 +150,12 @@ fn sweep(samples: usize, stride: usize) {
         let nearest = f64::from(k) * FRAC_PI_2;
         [nearest.next_down(), nearest, nearest.next_up()].into_iter().for_each(|x| largest.at(x));
     }
-    // The double nearest to a multiple of pi/2, 29 of them, and its multiples: 2^-60.5 and so on.
+    // The double nearest of all to a multiple of pi/2, 29 of them, and its doubles: distances 2^-60.5 and so on.
     (0..12).for_each(|power| largest.at(45.553_093_477_052 * 2f64.powi(power)));
     largest.check("about multiples of pi/2");
 }
 
-/// To forty digits by mpmath, rounded to pairs of doubles.
+/// Values of forty digits by mpmath, rounded to pairs of doubles.
 #[test]
 fn reference_is_right() {
     let known = [
@@ -199,7 +199,7 @@ fn bits((sine, cosine): (f64, f64)) -> [u64; 2] {
     [sine.to_bits(), cosine.to_bits()]
 }
 
-/// Whatever stands beside it, an angle gives the same bits.
+/// An angle gives the same bits alone and with others.
 #[test]
 fn together_as_alone() {
     fn check<const N: usize>(angles: &[f64]) {

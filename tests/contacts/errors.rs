@@ -26,7 +26,7 @@ fn errors_name_the_friction_or_the_stop() {
     let beyond = InputError::BeyondStop { scene: "Bouncing", stop: "stop on height", gap: 0.5 };
     let scene = bouncing(-1.0, 1.0, 0.5);
     assert_eq!(scene.start(0.0, &block(0.75), &0.0.into()), Err(beyond.into()));
-    assert_eq!(beyond.to_string(), "Bouncing begins beyond the stop on height: by 5.0e-1");
+    assert_eq!(beyond.to_string(), "Bouncing starts 5.0e-1 beyond the stop on height");
     // Rounding is no reason to refuse.
     assert!(scene.start(0.0, &block(0.5 + 1e-16), &0.0.into()).is_ok());
     let broken = Jointed { r2: f64::INFINITY, ..Jointed::default() };

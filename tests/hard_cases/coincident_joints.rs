@@ -172,7 +172,7 @@ fn a_cell_at_the_ends_of_its_range() {
     cell!(Cell, CellBranch, "Cell");
     assert_eq!(
         PositionError::Undetermined { mechanism: "Cell", group: "up2, down2" }.to_string(),
-        "Cell is undetermined at this input: the outer joints of group up2, down2 coincide"
+        "Cell is undetermined at this input: group up2, down2 has infinitely many positions"
     );
 }
 

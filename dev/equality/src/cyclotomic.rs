@@ -11,7 +11,7 @@ pub(super) struct Cyclotomic {
 }
 
 impl Cyclotomic {
-    /// The order is a multiple of four, so that i is among the powers.
+    /// Builds the powers; the order is a multiple of four, so that i is among them.
     pub(super) fn new(order: u32) -> Self {
         let minimal = minimal_polynomial(order as usize);
         let degree = minimal.len() - 1;

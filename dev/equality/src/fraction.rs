@@ -1,7 +1,7 @@
 //! Fractions whose denominators stay factored.
 //!
-//! Sums over one denominator then add numerators only, and a power of a denominator is an
-//! exponent. Factors have their units taken out, so that b - a and a - b are one factor.
+//! Sums over one denominator then add numerators only, and a power of a denominator is an exponent. Units are taken out
+//! of factors, so that b - a and a - b are one factor.
 
 use std::collections::BTreeMap;
 
@@ -26,8 +26,8 @@ impl From<Polynomial> for Fraction {
 }
 
 impl Fraction {
-    /// The sum of coefficient * fraction: numerators over one denominator first, then over the
-    /// least common multiple of the factored denominators.
+    /// The sum of coefficient * fraction: numerators over one denominator first, then over the least common multiple of
+    /// the factored denominators.
     pub(super) fn sum<'a>(ring: &Ring, items: impl IntoIterator<Item = (Polynomial, &'a Self)>) -> Outcome<Self> {
         let mut numerators: BTreeMap<&Denominator, Polynomial> = BTreeMap::new();
         for (coefficient, fraction) in items {
@@ -58,7 +58,7 @@ impl Fraction {
         factors: impl IntoIterator<Item = (&'a Self, i32)>,
     ) -> Outcome<Self> {
         let mut product = Self::from(coefficient);
-        // What stands above the line, multiplied out only when all that stands below is known.
+        // The factors of the numerator, multiplied out only when the whole denominator is known.
         let mut above: Denominator = Denominator::new();
         for (base, exponent) in factors {
             let times = exponent.unsigned_abs();

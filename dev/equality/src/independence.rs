@@ -1,9 +1,8 @@
-//! The values of a difference that is not zero formally.
+//! Decides whether a difference that is not zero formally is zero in value.
 //!
-//! Functions of the symbols are independent without exception (Ax). Constants are known to be so
-//! only in part: pi alone (Lindemann), or exponentials of algebraic numbers alone (Lindemann and
-//! Weierstrass). A coefficient that mixes them is not zero if its value in floats is far enough
-//! from zero for rounding errors to be no excuse.
+//! Functions of the symbols are always independent (Ax). For constants this is known only in part: for pi alone
+//! (Lindemann), or for exponentials of algebraic numbers alone (Lindemann and Weierstrass). A coefficient that contains
+//! both is not zero if its numerical value is larger than rounding errors explain.
 
 use std::collections::BTreeMap;
 
@@ -12,8 +11,8 @@ use crate::normal_form::NormalForms;
 use crate::polynomial::{Polynomial, Powers};
 use crate::{Answer, Reason};
 
-/// A sum of terms is not zero if it exceeds this part of their absolute sum: rounding errors are
-/// many orders of magnitude smaller.
+/// A sum of terms is not zero if it exceeds this part of the sum of their magnitudes: rounding errors are many orders
+/// of magnitude smaller.
 const MARGIN: f64 = 1e-6;
 
 /// Exponents of e up to this magnitude keep the digits that [`MARGIN`] relies on.
@@ -81,8 +80,8 @@ pub(super) fn answer(forms: &NormalForms, difference: &Fraction) -> Answer {
     }
 }
 
-/// True if a polynomial with terms is certainly not zero: one coefficient of the functions of the
-/// symbols is not.
+/// True if a polynomial with terms is certainly not zero: one of its coefficients, as a polynomial in functions of the
+/// symbols, is not.
 fn is_nonzero(forms: &NormalForms, polynomial: &Polynomial) -> bool {
     let mut coefficients: BTreeMap<Powers, Coefficient> = BTreeMap::new();
     for (monomial, factor) in polynomial.terms() {
@@ -108,7 +107,7 @@ fn is_nonzero(forms: &NormalForms, polynomial: &Polynomial) -> bool {
     coefficients.values().any(Coefficient::is_nonzero)
 }
 
-/// The sum of terms that differ by constants only: which constants occur, and the value in floats.
+/// The sum of terms that differ by constants only: the kinds of constants, and the numerical value.
 #[derive(Default)]
 struct Coefficient {
     pi: bool,

@@ -1,4 +1,4 @@
-//! From the graph to fractions of polynomials in symbols and exponentials.
+//! Conversion of the graph to fractions of polynomials in symbols and exponentials.
 
 use std::collections::BTreeMap;
 
@@ -26,9 +26,9 @@ enum Meaning {
 /// The properties of a variable.
 pub(super) struct Variable {
     meaning: Meaning,
-    /// Why nothing can be said of a difference that holds it.
+    /// The reason why a difference that contains it is undecided.
     pub(super) outside: Option<Reason>,
-    /// The constant that it is, if it depends on no symbol.
+    /// Its constant, if it depends on no symbol.
     pub(super) constant: Option<Constant>,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct NormalForms<'g> {
 }
 
 impl<'g> NormalForms<'g> {
-    /// The forms of all that the roots are made of, with roots of unity of this order.
+    /// Computes the forms of all nodes that the roots depend on, with roots of unity of this order.
     pub(super) fn new(graph: &'g Graph, roots: &[NodeId], order: u32) -> Outcome<Self> {
         let (variables, indices, fractions) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
         let mut forms = Self { graph, ring: Ring::new(order, graph.budget()), variables, indices, fractions };
@@ -60,8 +60,8 @@ impl<'g> NormalForms<'g> {
     fn node(&mut self, id: NodeId) -> Outcome<Fraction> {
         match self.graph.node(id) {
             Node::Constant(value) => Ok(self.number(*value)?.into()),
-            Node::Pi => Ok(self.letter(Meaning::Pi)?.into()),
-            Node::Symbol(symbol) => Ok(self.letter(Meaning::Symbol(*symbol))?.into()),
+            Node::Pi => Ok(self.variable(Meaning::Pi)?.into()),
+            Node::Symbol(symbol) => Ok(self.variable(Meaning::Symbol(*symbol))?.into()),
             Node::Sum { constant, terms } => {
                 let mut coefficients = Vec::new();
                 for (coefficient, term) in terms {
@@ -89,13 +89,13 @@ impl<'g> NormalForms<'g> {
     fn number(&mut self, value: Number) -> Outcome<Polynomial> {
         match value {
             Number::Ratio(n, d) => Ok(Polynomial::constant(Ratio::new(n.into(), d.into())?)),
-            Number::Float(value) if value.is_finite() => self.letter(Meaning::Inexact(value.to_bits())),
-            // Only a division by zero or an overflow makes a number that is not finite.
+            Number::Float(value) if value.is_finite() => self.variable(Meaning::Inexact(value.to_bits())),
+            // A number is not finite only after a division by zero or an overflow.
             Number::Float(_) => Err(Reason::Undefined.into()),
         }
     }
 
-    /// A call of a function outside the class: the letter of an earlier one with equal arguments, or its own.
+    /// A call of a function outside the class: the variable of an earlier call with equal arguments, or a new one.
     fn opaque(&mut self, id: NodeId, arguments: &[NodeId]) -> Outcome<Fraction> {
         for (index, variable) in (0..).zip(&self.variables) {
             if let Meaning::Call(earlier) = variable.meaning
@@ -111,7 +111,7 @@ impl<'g> NormalForms<'g> {
                 }
             }
         }
-        Ok(self.letter(Meaning::Call(id))?.into())
+        Ok(self.variable(Meaning::Call(id))?.into())
     }
 
     /// The arguments of `earlier`, if both are calls of one function.
@@ -166,7 +166,7 @@ impl<'g> NormalForms<'g> {
         Err(crate::Halt::Order(u32::try_from(multiple).unwrap_or(u32::MAX)))
     }
 
-    fn letter(&mut self, meaning: Meaning) -> Outcome<Polynomial> {
+    fn variable(&mut self, meaning: Meaning) -> Outcome<Polynomial> {
         self.index(meaning).map(Polynomial::variable)
     }
 
@@ -208,7 +208,7 @@ impl<'g> NormalForms<'g> {
                 });
                 (self.outside(&monomial.powers).or(mixed.then_some(Reason::Constants)), constant)
             }
-            // Such angles may depend on each other: 1 / (x + 1) + x / (x + 1) = 1.
+            // Such angles may be dependent: 1 / (x + 1) + x / (x + 1) = 1.
             Meaning::Exponential(monomial, denominator) => {
                 let inner = denominator.keys().flat_map(|factor| factor.terms().map(|(monomial, _)| monomial));
                 let reason = inner.chain([monomial]).find_map(|monomial| self.outside(&monomial.powers));
@@ -217,7 +217,7 @@ impl<'g> NormalForms<'g> {
         }
     }
 
-    /// Why nothing can be said of a product of powers that is not zero formally.
+    /// The reason why a product of powers is undecided, if it is.
     pub(super) fn outside(&self, powers: &Powers) -> Option<Reason> {
         powers.iter().find_map(|(variable, _)| self.variables[variable as usize].outside.clone())
     }

@@ -1,8 +1,8 @@
 //! Laurent polynomials with rational exponents over the rationals and a root of unity.
 //!
-//! A term is coefficient * zeta^root * product of variable^exponent with `root` below phi(N): the
-//! powers of zeta form a basis, so a polynomial is zero iff it has no term. Exponents of
-//! exponentials are fractions, exp(i x / 2) being the root of exp(i x); those of symbols are integers.
+//! A term is coefficient * zeta^root * product of variable^exponent with `root` below phi(N): the powers of zeta form a
+//! basis, so a polynomial is zero iff it has no term. Exponents of exponentials are fractions, exp(i x / 2) being the
+//! square root of exp(i x); those of symbols are integers.
 
 use std::cell::Cell;
 use std::cmp::Ordering;
@@ -78,7 +78,7 @@ impl Powers {
         self.scale(Ratio::integer(-1))
     }
 
-    /// The powers of the variables that are wanted, and the others.
+    /// Splits into the powers of the wanted variables and the others.
     pub(super) fn partition(&self, wanted: impl Fn(Index) -> bool) -> (Self, Self) {
         let (ours, theirs) = self.iter().partition(|(variable, _)| wanted(*variable));
         (Self(ours), Self(theirs))
@@ -179,7 +179,7 @@ impl Polynomial {
         Ok(())
     }
 
-    /// The largest power product and what it is multiplied by.
+    /// The largest power product and its coefficient.
     fn leading(&self) -> (Powers, Self) {
         let Some((first, _)) = self.0.last_key_value() else { return (Powers::default(), Self::default()) };
         let terms = self.terms().rev().take_while(|(monomial, _)| monomial.powers == first.powers);
@@ -203,7 +203,7 @@ impl Polynomial {
     }
 }
 
-/// A polynomial = unit * factor, where the factor is the same for all that differ by a unit only.
+/// A polynomial = unit * factor; polynomials that differ by a unit only have the same factor.
 pub(super) struct Split {
     pub(super) unit: Polynomial,
     /// 1 / unit.
@@ -212,7 +212,7 @@ pub(super) struct Split {
     pub(super) factor: Polynomial,
 }
 
-/// The arithmetic: the roots of unity, and how much work is left.
+/// The arithmetic: the roots of unity, and the remaining work.
 pub(super) struct Ring {
     pub(super) roots: Cyclotomic,
     work: Cell<usize>,
@@ -282,7 +282,7 @@ impl Ring {
     }
 
     pub(super) fn power(&self, base: &Polynomial, exponent: u32) -> Outcome<Polynomial> {
-        // A single term at once: x^1000000 is no work.
+        // A single term needs no loop: x^1000000 is no work.
         if let (1, Some((monomial, coefficient))) = (base.0.len(), base.terms().next()) {
             let powers = monomial.powers.scale(Ratio::integer(i128::from(exponent)))?;
             let root = u64::from(monomial.root) * u64::from(exponent) % u64::from(self.roots.order());
@@ -291,7 +291,7 @@ impl Ring {
         let mut product = Polynomial::one();
         for _ in 0..exponent {
             product = self.multiply(&product, base)?;
-            // Zero and one cost nothing, so that the work alone would not end this.
+            // Zero and one cost no work, so that the limit of work would not end the loop.
             if product.is_zero() {
                 break;
             }
@@ -303,7 +303,7 @@ impl Ring {
     pub(super) fn split(&self, polynomial: &Polynomial) -> Outcome<Split> {
         let content = polynomial.content()?;
         let (_, lead) = polynomial.leading();
-        // Where the leading coefficient is too hard to invert, its own leading coefficient will do.
+        // If the leading coefficient is too hard to invert, its own leading coefficient is used.
         let (lead, inverse) = match self.invert(&lead) {
             Ok(inverse) => (lead, inverse),
             Err(_) => {

@@ -1,4 +1,4 @@
-//! Exact ratios with a sign, which report an overflow instead of rounding.
+//! Exact signed ratios; an overflow is an error.
 
 use std::cmp::Ordering;
 
@@ -70,8 +70,8 @@ impl Ratio {
     }
 }
 
-// By continued fractions: whole parts first, then the reciprocals of what is left the other way
-// round. Nothing is multiplied, so nothing overflows.
+// By continued fractions: integer parts first, then the reciprocals of the remainders, in reverse order. There is no
+// multiplication, so no overflow.
 impl Ord for Ratio {
     fn cmp(&self, other: &Self) -> Ordering {
         let ([mut a, mut b], [mut c, mut d]) =

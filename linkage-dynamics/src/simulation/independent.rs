@@ -67,7 +67,7 @@ impl<T: Real, U: Dim, V: Dim> Factors<T, U, V> {
 
     /// The changes of the dependent coordinates that change the closures by `right`.
     pub(super) fn solve(&self, right: &Column<T, U>) -> Vector<T, U, V> {
-        self.elimination.solve(&right.component_div(&self.scales.closures)).scaled(&self.scales.coordinates)
+        self.elimination.solve(&right.component_div(&self.scales.residuals)).scaled(&self.scales.coordinates)
     }
 
     /// The basis N of the motions that the closures allow, q' = N z': its rows of the unknowns and of the inputs.

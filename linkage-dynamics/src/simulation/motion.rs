@@ -113,7 +113,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
 
     /// The largest of changes beside the sizes of their coordinates; of rates it is an angular frequency.
     pub(super) fn size_of(&self, change: &Change<S>) -> S::Scalar {
-        change.beside(&self.scales.coordinates).largest()
+        change.relative_to(&self.scales.coordinates).largest()
     }
 
     /// u' and v'.

@@ -5,7 +5,7 @@ use super::motion::Motion;
 use crate::{Coordinates, MotionError, Scene};
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Blocks;
-use linkage_runtime::jacobian::rounding::weak;
+use linkage_runtime::jacobian::ulp::weak;
 use linkage_runtime::{Column, Mechanism, PathError, PositionError};
 
 impl<S: Scene, W> Motion<'_, S, W> {

@@ -1,19 +1,20 @@
-//! Roads to the position, asked for by type, and what their digits cost.
+//! Position solvers selected by type, with their accuracy and time.
 //!
-//! | type | what | starts from |
+//! | type | method | starts from |
 //! |---|---|---|
 //! | [`ClosedForm`] | `assemble`, group by group | the branch |
 //! | [`Newton<K>`](Newton) | the prediction of the velocity ratios, then `K` Newton steps | a position nearby |
 //! | [`Table<M, N>`](Table) | cubics between `N` positions | the table, one input |
 //!
-//! and each of them in the scalar that the mechanism is made of: `f32`, `f64`, or the `DoubleDouble` of 31 digits that
-//! the feature `double-double` brings.
+//! Each computes in the scalar of the mechanism: `f32`, `f64`, or `DoubleDouble` with 31 digits (feature
+//! `double-double`).
 //!
-//! # The price list
+//! # Accuracy and time
 //!
-//! Largest error at benign poses against 45 digits (position in radians, velocity relative), and nanoseconds for position
-//! and for position with velocity, from the input, on two cores of 2026; Newton's method from one degree away. The example
-//! `accuracy_cost` prints all of it, with acceleration and the poses near a dead point, for the machine that it runs on.
+//! Largest error against 45-digit arithmetic at poses far from dead points (position in radians, velocity relative),
+//! and time for the position and for position with velocity, from the input, on two cores in 2026. Newton's method
+//! starts one degree away. The example `accuracy_cost` measures all of it on the machine that it runs on, with
+//! acceleration and poses near a dead point.
 //!
 //! | | four-bar | | Jansen leg | | double butterfly | |
 //! |---|---|---|---|---|---|---|
@@ -26,18 +27,25 @@
 //! | `Newton<3>` | 3e-16, 4e-16 | 192, 200 ns | 8e-16, 9e-16 | 611, 633 ns | 4e-16, 4e-16 | 2.7, 3.3 µs |
 //! | `Table`, 1024 intervals | 4e-12, 4e-12 | 58, 63 ns | 5e-10, 9e-10 | 145, 168 ns | 3e-12, 3e-12 | 0.09, 0.66 µs |
 //!
-//! Read honestly: closed form in `f64` is the default because nothing offers its digits for less, and its velocity costs
-//! next to nothing on top. `f32` halves the memory, hardly the time. A table saves a quarter of the four-bar's time, a
-//! tenth of the leg's, and of the butterfly's, which is found by Newton's method, all but a twentieth; what is left are the
-//! sines of the pose, so that 64 intervals are hardly faster than 1024, only smaller, and four digits worse. Newton's
-//! method is for groups without closed form: from a degree away two steps reach rounding on four-bar and butterfly, three
-//! on the leg. The checks on the way to a tolerance cost a quarter to three quarters more; they buy the verdict of
-//! [`newton`](crate::newton), not digits. Near a dead point no road in doubles helps: the input alone leaves the angles
-//! uncertain by a rounding over the sine of the transmission angle, velocity by its square, acceleration by its cube, and
-//! closed form in `f64` refuses at a sine of 1e-9, where 31 digits still give seven of the acceleration. At *given* angles
-//! it is another matter: determinants as sines of differences keep every digit down to 1e-9, where products of stored sines
-//! have lost nine and are no faster. The butterfly's determinant has no such form: there a digit goes with each digit of it.
-//! Products, and Newton's method to a tolerance, are beaten in error or time everywhere and are not offered here.
+//! Closed form in `f64` is the default: no other method is as accurate in less time, and the velocity adds almost
+//! nothing. `f32` halves the memory, hardly the time. A table saves a quarter of the four-bar's time, a tenth of the
+//! leg's, and all but a twentieth of the butterfly's, which otherwise takes Newton's method. The remaining time is
+//! spent on the sines of the pose, so that 64 intervals are hardly faster than 1024, only smaller, and four digits less
+//! accurate.
+//!
+//! Newton's method serves groups without closed form: from one degree away two steps reach rounding error on four-bar
+//! and butterfly, three on the leg. [`newton`](crate::newton) to convergence takes a quarter to three quarters longer.
+//! That pays for its checks and adds no digits.
+//!
+//! Near a dead point no method in doubles is accurate: the rounding error of the input alone causes errors of eps /
+//! sin(mu) in the angles, eps / sin^2(mu) in the velocity and eps / sin^3(mu) in the acceleration, where mu is the
+//! transmission angle. Closed form in `f64` returns an error at sin(mu) = 1e-9, where 31 digits still give seven of the
+//! acceleration. At *given* angles, determinants as sines of differences keep every digit down to 1e-9, where products
+//! of stored sines have lost nine digits and are no faster. The butterfly's determinant has no such form and loses as
+//! many digits as it is small.
+//!
+//! Products of stored sines, and Newton's method to a tolerance, are inferior in error or time everywhere and are not
+//! offered here.
 
 mod newton;
 mod table;
@@ -49,14 +57,13 @@ pub use table::Table;
 
 use crate::{Assembly, Mechanism, PositionError};
 
-/// A road to the position of mechanisms `M`, asked for by its type: which one is known when the code is compiled, and the
-/// call is the direct call.
+/// A position solver for mechanisms `M`, selected by its type at compile time.
 ///
 /// ```
 /// use linkage_runtime::accuracy::{ClosedForm, PositionMethod};
 /// use linkage_runtime::{Assembly, D, PositionError};
 ///
-/// /// The velocity ratio of the first unknown, whatever the road to the position.
+/// /// The velocity ratio of the first unknown, by any position solver.
 /// fn ratio<M, R>(m: &M, from: &R::From, input: M::Inputs) -> Result<M::Scalar, PositionError>
 /// where
 ///     M: Assembly<V = D<1>>,
@@ -68,15 +75,15 @@ use crate::{Assembly, Mechanism, PositionError};
 /// }
 /// ```
 pub trait PositionMethod<M: Mechanism> {
-    /// What it starts from.
+    /// The starting data: a branch, a position or a table.
     type From;
-    /// What it finds: a pose, or a pose with its coordinates.
+    /// The result: a pose, or a pose with its coordinates.
     type Position: Borrow<M::Pose>;
 
-    /// The position at these inputs.
+    /// Computes the position at these inputs.
     ///
     /// # Errors
-    /// Those of the road; never a position of another branch than the one it starts from.
+    /// Those of the solver. A position on another branch than that of `from` is an error.
     fn position(
         mechanism: &M,
         from: &Self::From,
@@ -84,7 +91,7 @@ pub trait PositionMethod<M: Mechanism> {
     ) -> Result<Self::Position, PositionError>;
 }
 
-/// Position in closed form, group by group, from the branch: the `assemble` of a mechanism.
+/// Closed form, group by group, on a given branch: [`Assembly::assemble`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ClosedForm;
 
@@ -98,17 +105,17 @@ impl<M: Assembly> PositionMethod<M> for ClosedForm {
     }
 }
 
-/// A position that was found as coordinates, with what follows from them.
+/// Coordinates and their pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reached<Q, P> {
-    /// The coordinates; angles go on from turn to turn.
+    /// The coordinates; angles are continuous over full turns.
     pub coordinates: Q,
-    /// The position at these coordinates, ready for use.
+    /// The pose at these coordinates.
     pub pose: P,
 }
 
 impl<Q, P> Reached<Q, P> {
-    /// The position at these coordinates; nothing is refused, as of [`Mechanism::pose_at`].
+    /// Computes the pose at these coordinates, which are not checked (see [`Mechanism::pose_at`]).
     pub fn at<M: Mechanism<Coordinates = Q, Pose = P>>(mechanism: &M, coordinates: Q) -> Self {
         Self { pose: mechanism.pose_at(&coordinates), coordinates }
     }

@@ -1,16 +1,15 @@
-//! A number of Newton steps that is known beforehand.
+//! Newton's method with a fixed number of steps.
 
 use super::{PositionMethod, Reached};
 use crate::jacobian::correction;
 use crate::mechanism::{finite_position, other_group};
 use crate::{Mechanism, PerInput, PositionError};
 
-/// `K` steps of Newton's method from a position nearby, predicted by its velocity ratios: u + W (v' - v), then `K` times
-/// u - J^-1 Psi.
+/// u + W (v' - v), then `K` times u - J^-1 Psi: `K` Newton steps after a prediction by the velocity ratios at a
+/// position nearby.
 ///
-/// Nothing is measured on the way: a step of the input by h leaves an error of the order of h^(2^(`K` + 1)). The branch
-/// is kept or [`PositionError::OtherBranch`] tells. [`newton`](crate::newton) goes on until the closures are closed to
-/// rounding.
+/// Convergence is not checked: an input step h leaves an error of order h^(2^(`K` + 1)). A change of branch is a
+/// [`PositionError::OtherBranch`]. [`newton`](crate::newton) iterates until the residual is within rounding error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Newton<const K: usize>;
 

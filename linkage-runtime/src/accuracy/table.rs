@@ -1,20 +1,20 @@
-//! Position from a table.
+//! Position by interpolation in a table.
 
 use super::newton::predicted;
 use super::{PositionMethod, Reached};
 use crate::error::{all_finite, finite};
 use crate::jacobian::correction;
-use crate::jacobian::rounding::roundings;
+use crate::jacobian::ulp::ulps;
 use crate::mechanism::{finite_position, other_group};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
 use crate::{Column, D, InputError, Mechanism, PerInput, PerUnknown, PositionError, newton_any_branch, real};
 
-/// Positions of a mechanism with one input at `N` of its values, evenly spaced, and between them the cubics that have
-/// its velocity ratios as slopes (Hermite); no memory but its own 2 `U` `N` numbers.
+/// Positions of a mechanism with one input at `N` evenly spaced inputs, interpolated by cubic Hermite polynomials whose
+/// slopes are the velocity ratios. The table stores 2 `U` `N` numbers.
 ///
-/// Between two entries h apart a cubic is off by h^4/384 times the fourth derivative: twice as many entries, a
-/// sixteenth of the error. What it is, is measured when the table is made: [`Table::error`].
+/// The interpolation error is h^4/384 times the fourth derivative for entries h apart: doubling their number divides it
+/// by 16. It is measured when the table is built: [`Table::error`].
 ///
 /// ```text
 /// u = u0 + t (s0 + t (3 d - 2 s0 - s1 + t (s0 + s1 - 2 d))),   d = u1 - u0, s = h W, t = (v - v0)/h
@@ -23,26 +23,28 @@ pub struct Table<M: Mechanism, const N: usize> {
     input: M::Scalar,
     step: M::Scalar,
     inverse_step: M::Scalar,
-    /// u and h W.
+    /// u and h W of each entry.
     entries: [[PerUnknown<M>; 2]; N],
-    /// What a turn adds to u, if the table is one.
+    /// The change of u in one turn of the input, if the table covers a turn.
     advance: Option<PerUnknown<M>>,
     error: M::Scalar,
 }
 
 crate::__by_fields!([M: Mechanism, const N: usize] Table<M, N> { input, step, inverse_step, entries, advance, error });
 
-/// Parts into which the way from entry to entry is divided when it is followed.
+/// Positions solved for from one entry to the next while the table is built.
 const PARTS: u32 = 8;
 
-/// A turn adds whole turns to each angle and nothing to a length, to this many roundings of what is added.
-const WHOLE: f64 = 1e4;
+/// The tolerance, in ulps of 1 plus the largest coordinate, for a turn of the input to change each unknown by a
+/// multiple of 2 pi.
+const WHOLE_TURN_ULPS: f64 = 1e4;
 
 impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
-    /// Over a whole turn of the input, from these coordinates, which close the mechanism; outside it the turn repeats.
+    /// Tabulates one turn of the input from the position near `start`. Inputs outside this turn are reduced to it.
     ///
     /// # Errors
-    /// [`InputError::NotPeriodic`] if a turn does not lead back; those of [`Table::between`].
+    /// [`InputError::NotPeriodic`] if the mechanism does not return to its start after a turn; those of
+    /// [`Table::between`].
     pub fn turn(mechanism: &M, start: &M::Coordinates) -> Result<Self, PositionError> {
         let [input] = M::inputs(start).into();
         let mut table = Self::between(mechanism, start, input + M::Scalar::two_pi())?;
@@ -50,8 +52,8 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         let turns = (ends[1] - ends[0]).map(|way| (way / M::Scalar::two_pi()).round() * M::Scalar::two_pi());
         let rest = (ends[1] - ends[0] - turns).largest();
         let size = M::Scalar::one() + larger(ends[0].largest(), ends[1].largest());
-        // What is not a number is no whole turn.
-        let is_whole = rest <= roundings::<M::Scalar>(WHOLE) * size;
+        // False for NaN.
+        let is_whole = rest <= ulps::<M::Scalar>(WHOLE_TURN_ULPS) * size;
         if !is_whole {
             return Err(InputError::NotPeriodic { mechanism: M::NAME }.into());
         }
@@ -59,13 +61,13 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         Ok(table)
     }
 
-    /// From these coordinates, which close the mechanism, to another value of the input.
+    /// Tabulates the inputs from that of the position near `start` to `end`.
     ///
     /// # Errors
-    /// [`PositionError::OtherBranch`], [`PositionError::Singular`] or [`PositionError::NotConverged`] if there is a dead
-    /// point on the way, [`PositionError::NotFinite`] if a number is not finite.
+    /// [`PositionError::OtherBranch`], [`PositionError::Singular`] or [`PositionError::NotConverged`] if there is a
+    /// dead point between, [`PositionError::NotFinite`] if a number is not finite.
     pub fn between(mechanism: &M, start: &M::Coordinates, end: M::Scalar) -> Result<Self, PositionError> {
-        const { assert!(N >= 2, "a table has two entries at least") };
+        const { assert!(N >= 2, "a table needs at least two entries") };
         let [input] = M::inputs(start).into();
         let intervals = real::<M::Scalar>(count(N - 1));
         let step = (end - input) / intervals;
@@ -92,13 +94,13 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         Ok(table)
     }
 
-    /// The largest error of an unknown half way between two entries, where that of a cubic is largest.
+    /// Returns the largest error of an unknown midway between two entries, where the error of a cubic is largest.
     #[must_use]
     pub fn error(&self) -> M::Scalar {
         self.error
     }
 
-    /// From the entry before `index` to that one.
+    /// Solves for the position of entry `index`, starting from the entry before.
     fn follow(
         &self,
         mechanism: &M,
@@ -113,7 +115,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         Ok(here)
     }
 
-    /// As much as a Newton step corrects half way between entries.
+    /// Measures the interpolation error by the Newton correction midway between entries.
     fn measured(&self, mechanism: &M) -> Result<M::Scalar, PositionError> {
         (0..N - 1).try_fold(M::Scalar::zero(), |most, index| {
             let unknowns = self.cubic(index, real(0.5));
@@ -123,7 +125,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         })
     }
 
-    /// u at the fraction `t` of the way from an entry to the next.
+    /// Interpolates u at the fraction `t` between an entry and the next.
     #[inline]
     fn cubic(&self, index: usize, t: M::Scalar) -> PerUnknown<M> {
         let ([u0, s0], [u1, s1]) = (&self.entries[index], &self.entries[index + 1]);
@@ -140,7 +142,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
     type Position = Reached<M::Coordinates, M::Pose>;
 
     /// # Errors
-    /// [`InputError::OutOfRange`] if the table does not go as far as this input.
+    /// [`InputError::OutOfRange`] if the input is outside the table.
     #[inline]
     fn position(mechanism: &M, table: &Self, inputs: impl Into<M::Inputs>) -> Result<Self::Position, PositionError> {
         let [input]: [M::Scalar; 1] = Into::<PerInput<M>>::into(inputs.into()).into();
@@ -156,7 +158,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
         } else if place < M::Scalar::zero() || place > intervals {
             return Err(table.outside(input).into());
         }
-        // What is not a number is found before it is an index.
+        // NaN would be converted to index 0.
         let whole = to_f64(place);
         if !whole.is_finite() {
             return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the input" });
@@ -182,13 +184,13 @@ impl<M: Mechanism, const N: usize> Table<M, N> {
     }
 }
 
-/// An index as a number.
+/// Converts an index to a number.
 #[inline]
 fn count(index: usize) -> f64 {
     index as f64
 }
 
-/// The closed position at another input, near one.
+/// Solves for the position at a nearby input, on the same branch.
 fn closed<M: Mechanism<V = D<1>>>(
     mechanism: &M,
     from: Reached<M::Coordinates, M::Pose>,

@@ -1,11 +1,11 @@
-//! A mechanism with several inputs along a path of them.
+//! A mechanism with several inputs, driven along a path of its inputs.
 
 use crate::{Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real};
 
-/// A mechanism whose inputs v(s) are functions of one parameter, which is then its only input.
+/// A mechanism whose inputs are functions v(s) of one parameter, its only input.
 ///
-/// The function gives v, dv/ds and d2v/ds2, each as the inputs by name, or as a vector or an array of them in their
-/// order. The parameter counts as an angle does: one that changes by 1/4 is a step.
+/// The function returns v, dv/ds and d2v/ds2, each as inputs by name, or as a vector or array in the order of the
+/// inputs. The parameter is treated as an angle: by default a step changes it by at most 1/4.
 #[derive(Debug, Clone, Copy)]
 pub struct Along<M, F> {
     /// The mechanism.
@@ -17,7 +17,7 @@ pub struct Along<M, F> {
 /// Coordinates of a mechanism and the parameter of its inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AlongCoordinates<Q, T = f64> {
-    /// The coordinates of the mechanism. Their inputs mean nothing: [`Along::position`] has those of the parameter.
+    /// The coordinates of the mechanism. Their inputs are unused: [`Along::position`] returns those at the parameter.
     pub q: Q,
     /// The parameter s.
     pub parameter: T,
@@ -26,13 +26,13 @@ pub struct AlongCoordinates<Q, T = f64> {
 /// Rates of the coordinates of a mechanism and of the parameter of its inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AlongRates<R, T = f64> {
-    /// The rates of the coordinates. Those of the inputs mean nothing: they are dv/ds s'.
+    /// The rates of the coordinates. Those of the inputs are unused: they are dv/ds s'.
     pub rates: R,
     /// s'.
     pub parameter: T,
 }
 
-/// A pose of the mechanism, and dv/ds and d2v/ds2 there.
+/// A pose of the mechanism, with dv/ds and d2v/ds2 there.
 #[derive(Debug, Clone, Copy)]
 pub struct AlongPose<P, T: Real, V: Dim> {
     pose: P,
@@ -41,7 +41,7 @@ pub struct AlongPose<P, T: Real, V: Dim> {
 }
 
 impl<M, F> Along<M, F> {
-    /// The coordinates of the mechanism with the inputs of the parameter.
+    /// Returns the coordinates of the mechanism, with the inputs at the parameter.
     pub fn position<I>(&self, at: &AlongCoordinates<M::Coordinates, M::Scalar>) -> M::Coordinates
     where
         M: Mechanism,
@@ -132,7 +132,7 @@ where
         self.mechanism.block_determinants(&at.pose)
     }
 
-    // v' = dv/ds s', and dv/ds turns by d2v/ds2 s'.
+    // v' = dv/ds s'; v'' = d2v/ds2 s'^2 if s'' = 0.
     fn gamma(&self, at: &Self::Pose, along: &Self::Rates) -> PerUnknown<M> {
         let rates = M::rates(M::rate_parts(&along.rates).0, at.slope * along.parameter);
         let bend = at.bend * (along.parameter * along.parameter);

@@ -1,31 +1,33 @@
-//! Change points: where [J A] loses rank and curves cross.
+//! Change points, where [J A] loses rank and curves cross.
 //!
-//! Let n1 .. nk span the null space of [J A] and let the rows of L span what takes [J A] to zero from the left: k - 1 of
-//! them. The crossing is where the slopes of L Psi along n1 .. nk vanish (H. B. Keller, "Lectures on Numerical Methods in
-//! Bifurcation Problems", 1987, section 5): where one row is open that is a saddle of it, a regular root of its slopes
-//! however near it is, so that Newton's method finds it to rounding; where more are open there are more slopes than
-//! directions, which agree at a crossing, and the method is that of Gauss and Newton. The height of L Psi there tells a
-//! change point from curves that only come near each other. The tangents are the zeros of the quadratic forms L Psi_qq.
+//! Let n1 .. nk span the null space of [J A], and let the k - 1 rows of L span its left null space. At a crossing the
+//! slopes of L Psi along n1 .. nk vanish (H. B. Keller, "Lectures on Numerical Methods in Bifurcation Problems", 1987,
+//! section 5). If L has one row, the crossing is a saddle point of L Psi: a regular root of the slopes, which Newton's
+//! method finds to rounding error even if [J A] is only nearly singular. If L has more rows, there are more slopes than
+//! directions, and the Gauss-Newton method is used. At a change point L Psi is zero there; where curves only come close
+//! to each other it is not. The tangents are the common zeros of the quadratic forms L Psi_qq.
+//!
+//! The elimination of [J A] leaves k - 1 rows open, that is without a pivot: they are the rows of L.
 
 use super::cone::{Cone, DIMENSIONS, Form};
 use super::curve::{Curve, Linear};
 use super::groups::Groups;
 use super::tangents::MOST_TANGENTS;
-use crate::jacobian::rounding::{SAME, roundings, weak};
+use crate::jacobian::ulp::{EQUAL_ULPS, ulps, weak};
 use crate::jacobian::{Cholesky, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::largest;
 use crate::{Column, D, Dim, Matrix, Mechanism, PathError, PerUnknown, real};
 
-/// Newton steps: from where a follower stands it takes three to five.
+/// The most Newton steps; a search from the path takes three to five.
 const MOST_ITERATIONS: usize = 12;
 
-/// A crossing and its tangents, of length 1, each either way.
+/// A change point and its unit tangents, each in either direction.
 pub(super) struct Crossing<M: Mechanism> {
     pub(super) q: M::Coordinates,
     tangents: [Vector<M>; MOST_TANGENTS],
     count: usize,
-    /// True if these are all.
+    /// True if `tangents` holds all of them.
     pub(super) is_complete: bool,
     /// The number of pivots of [J A] that are zero.
     pub(super) defect: usize,
@@ -46,7 +48,7 @@ impl<M: Mechanism> Crossing<M> {
         &self.tangents[..self.count]
     }
 
-    /// Puts the tangent nearest to a direction first, its way.
+    /// Moves the tangent nearest to a direction to the front, and gives it that direction.
     pub(super) fn followed(&mut self, direction: &Vector<M>) {
         let nearness = |tangent: &Vector<M>| tangent.dot(direction).abs();
         for place in 1..self.count {
@@ -64,8 +66,8 @@ impl<M> Curve<'_, M>
 where
     M: Mechanism<V = D<1>>,
 {
-    /// The crossing within `reach` of `guess`, if there is one. Of a whole family of tangents that nearest to
-    /// `direction` stands for all.
+    /// Finds the change point within `reach` of `guess`, if there is one. If its tangents form a continuous family,
+    /// only the one nearest to `direction` is returned.
     pub(super) fn crossing(
         &self,
         guess: &M::Coordinates,
@@ -79,7 +81,7 @@ where
             let at = self.linear(&q)?;
             let defect = Elimination::<M>::new(at.jacobian).defect(weak());
             if defect > open {
-                // One of several open rows has led here.
+                // The null space is larger than assumed: the search is repeated with all open rows.
                 let Some(better) = self.degenerate(&q, weak(), defect)? else { continue };
                 q = better;
             }
@@ -90,7 +92,7 @@ where
         Ok(None)
     }
 
-    /// The place within `reach` of `guess` where the slopes of so many open rows vanish.
+    /// Finds the position within `reach` of `guess` where the slopes of `open` open rows vanish.
     fn degenerate(
         &self,
         guess: &M::Coordinates,
@@ -113,19 +115,19 @@ where
                 return Ok(None);
             }
             q = next;
-            if step.norm() <= self.rounding(&q) * real(SAME) {
+            if step.norm() <= self.rounding_error(&q) * real(EQUAL_ULPS) {
                 return Ok(Some(q));
             }
         }
         Ok(None)
     }
 
-    /// The step along the two directions that one open row leaves, to where its slopes after `part` are zero.
+    /// The Newton step in the two-dimensional null space of one open row, to where its slopes are zero after `part`.
     fn saddle_step(&self, q: &M::Coordinates, elimination: &Elimination<M>, part: &Vector<M>) -> Option<Vector<M>> {
         let mut free = elimination.free();
         let columns = [free.next()?, free.next()?];
         let [one, two] = columns.map(|column| elimination.null(column));
-        // One row is open, and the others are zero.
+        // Only the open row is not zero.
         let form = |x: &Vector<M>, y: &Vector<M>| self.mixed(q, elimination, x, y).sum();
         let [h11, h12, h22] = [form(&one, &one), form(&one, &two), form(&two, &two)];
         let slope_one = elimination.slope(columns[0]).sum() + form(part, &one);
@@ -141,8 +143,8 @@ where
         )
     }
 
-    /// The step along all directions that several open rows leave, to where the squares of their slopes after `part`
-    /// are least.
+    /// The Gauss-Newton step in the null space of several open rows: it minimises the squares of their slopes after
+    /// `part`.
     fn least_slopes_step(
         &self,
         q: &M::Coordinates,
@@ -176,7 +178,7 @@ where
         Some(parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null(column) * part))
     }
 
-    /// The crossing at a place without slopes, if the place lies on the curve.
+    /// Computes the crossing at a position where the slopes vanish, if Psi = 0 there.
     fn tangents(
         &self,
         q: M::Coordinates,
@@ -186,7 +188,8 @@ where
         let at = self.linear(&q)?;
         let elimination = Elimination::<M>::all_but(defect, at.jacobian);
         let (height, noise) = (elimination.left(&at.residual), elimination.left_of_noise(&at.noise));
-        let is_on_curve = height.iter().zip(noise.iter()).all(|(height, noise)| height.abs() <= *noise * real(SAME));
+        let is_on_curve =
+            height.iter().zip(noise.iter()).all(|(height, noise)| height.abs() <= *noise * real(EQUAL_ULPS));
         let is_flat = elimination.free().all(|column| elimination.slope(column).largest() <= weak());
         if !(is_on_curve && is_flat) {
             return Ok(None);
@@ -203,10 +206,10 @@ where
                 count += 1;
             }
         }
-        // Of more than are told, that of the motion which is followed.
+        // If not all tangents are found, that of the followed motion is added.
         if !is_complete && let Some(nearest) = self.nearest_tangent(&q, &at, &elimination, direction) {
-            let is_told = |told: &Vector<M>| nearest.across(told) <= weak();
-            if !tangents[..count].iter().any(is_told) {
+            let is_known = |known: &Vector<M>| nearest.across(known) <= weak();
+            if !tangents[..count].iter().any(is_known) {
                 count = (count + 1).min(MOST_TANGENTS);
                 tangents[count - 1] = nearest;
             }
@@ -218,7 +221,7 @@ where
         Ok(Some(Crossing { q, tangents, count, is_complete, defect, groups }))
     }
 
-    /// The zeros of the forms of the open rows, in the null directions.
+    /// The common zeros of the quadratic forms of the open rows in the null space.
     fn cone(&self, q: &M::Coordinates, elimination: &Elimination<M>, direction: &Vector<M>) -> Cone<M::Scalar> {
         let mut forms = [Form::zeros(); DIMENSIONS];
         let (mut gram, mut along) = (Form::<M::Scalar>::identity(), Column::<M::Scalar, D<DIMENSIONS>>::zeros());
@@ -235,12 +238,12 @@ where
                 }
             }
         }
-        // The part of the direction along the null directions.
+        // The projection of the direction on the null space.
         let along = Cholesky::new(&gram).map_or(along, |gram| gram.solve(&along));
         Cone::of(&forms[..size - 1], size, &along)
     }
 
-    /// The zero of the forms near to a direction, by the method of Gauss and Newton.
+    /// The common zero of the forms near a direction, by the Gauss-Newton method.
     fn nearest_tangent(
         &self,
         q: &M::Coordinates,
@@ -248,7 +251,7 @@ where
         elimination: &Elimination<M>,
         direction: &Vector<M>,
     ) -> Option<Vector<M>> {
-        // Loop equations have no part of a tangent.
+        // Removes the part of the direction that is not in the null space.
         let slopes = at.jacobian.along(direction);
         let mut tangent = (*direction + elimination.solve(&-slopes)).normalized();
         let count = elimination.free().count();
@@ -257,7 +260,7 @@ where
         }
         for _ in 0..MOST_ITERATIONS {
             let values = self.mixed(q, elimination, &tangent, &tangent);
-            if values.largest() <= roundings(SAME) {
+            if values.largest() <= ulps(EQUAL_ULPS) {
                 break;
             }
             let mut turns = Matrix::<M::Scalar, M::U, M::U>::zeros();
@@ -278,14 +281,14 @@ where
         (left <= weak() && tangent.dot(direction).abs() > direction.norm() * real(0.5)).then_some(tangent)
     }
 
-    /// L (Psi_q x)_q y of the open rows, from the values along x + y and x - y.
+    /// L (Psi_q x)_q y in the open rows, from the second derivatives along x + y and x - y.
     fn mixed(&self, q: &M::Coordinates, elimination: &Elimination<M>, x: &Vector<M>, y: &Vector<M>) -> PerUnknown<M> {
         let along = |z: &Vector<M>| -> PerUnknown<M> { self.curvature(q, z) };
         elimination.left(&(along(&(*x + *y)) - along(&(*x - *y)))) * real::<M::Scalar>(0.25)
     }
 }
 
-/// Normal equations with a 1 on the diagonal of each coordinate from `count` on, of which there is none.
+/// Pads normal equations of `count` coordinates with ones on the diagonal.
 fn with_units_from<M: Mechanism>(
     count: usize,
     mut normal: Matrix<M::Scalar, M::U, M::U>,

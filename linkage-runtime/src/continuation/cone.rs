@@ -1,31 +1,31 @@
-//! The common zeros of quadratic forms: the directions of the curves that cross.
+//! Common zeros of quadratic forms: the tangents of the curves that cross at a change point.
 //!
-//! A form that is the product of two linear ones leaves one or the other zero, and a form that is a sum of squares leaves
-//! all of them zero; both leave a smaller space, in which the other forms are fewer. Two forms of three coordinates have
-//! such a product among their combinations (a pencil of conics has a degenerate one, whose parameter is a root of a cubic).
-//! That is all where two groups are singular at once, and where more are but each has a form in few coordinates, as those
-//! of chains of dyads have.
+//! A form that is a product of two linear forms vanishes where either does; a form that is a sum of squares vanishes
+//! where all of its linear forms do. Both restrict the search to a smaller space with fewer forms. Two forms of three
+//! coordinates have a combination that is such a product (a pencil of conics has a degenerate one, whose parameter is a
+//! root of a cubic). This covers two groups that are singular at once, and more if the form of each has few
+//! coordinates, as in chains of dyads.
 
 use core::convert::Infallible;
 
 use super::tangents::MOST_TANGENTS;
-use crate::jacobian::rounding::weak;
+use crate::jacobian::ulp::weak;
 use crate::jacobian::{Cholesky, root};
 use crate::{Column, D, Matrix, Real, real};
 
-/// The dimension of the largest null space whose tangents are sought: that of seven groups flat at once.
+/// The largest dimension of a null space whose tangents are computed: that of seven groups singular at once.
 pub(super) const DIMENSIONS: usize = 8;
 
-/// Spaces that are looked at: eight forms that all are products have 2^8 of the smallest.
+/// The most spaces visited: eight forms that all are products lead to 2^8 smallest spaces.
 const MOST_SPACES: usize = 512;
 
-/// Each at least halves, by its logarithm, how far an entry is from 1.
+/// Passes of the equilibration; each at least halves the logarithm of the largest entries.
 const SCALINGS: usize = 5;
 
-/// A direction stands for a space of tangents if this part of it lies there.
+/// A direction represents a space of tangents if at least this part of it lies in the space.
 const NEAR: f64 = 0.5;
 
-/// A quadratic form, in the leading coordinates.
+/// A quadratic form in the leading coordinates.
 pub(super) type Form<T> = Matrix<T, D<DIMENSIONS>, D<DIMENSIONS>>;
 type Coordinates<T> = Column<T, D<DIMENSIONS>>;
 
@@ -37,16 +37,16 @@ pub(super) struct Cone<T: Real> {
     spaces: usize,
 }
 
-/// A space in which zeros are sought, and the forms that are left there.
+/// A space to search for zeros, with the remaining forms restricted to it.
 struct Space<T: Real> {
-    /// Its basis in the first columns.
+    /// The basis, in the first columns.
     basis: Form<T>,
     size: usize,
     forms: [Form<T>; DIMENSIONS],
     count: usize,
 }
 
-/// A form as a sum of squares of linear forms, each with its sign.
+/// A form as a sum of squares of linear forms, each with a sign.
 struct Squares<T: Real> {
     linear: [Coordinates<T>; DIMENSIONS],
     is_negative: [bool; DIMENSIONS],
@@ -54,7 +54,7 @@ struct Squares<T: Real> {
 }
 
 impl<T: Real> Cone<T> {
-    /// The zeros of forms in the first `size` coordinates; `direction` is one that is near to the wanted zero.
+    /// Finds the common zeros of forms in the first `size` coordinates; `direction` is near to the wanted zero.
     pub(super) fn of(forms: &[Form<T>], size: usize, direction: &Coordinates<T>) -> Self {
         let mut cone = Self { lines: [Coordinates::zeros(); MOST_TANGENTS], count: 0, is_complete: true, spaces: 0 };
         let mut space = Space { basis: Form::identity(), size, forms: [Form::zeros(); DIMENSIONS], count: 0 };
@@ -115,14 +115,14 @@ impl<T: Real> Cone<T> {
         }
     }
 
-    /// The whole of a space.
+    /// Records a space in which all forms vanish.
     fn take(&mut self, space: &Space<T>, direction: &Coordinates<T>) {
         if space.size == 1 {
             self.push(&space.basis.column(0));
             return;
         }
         self.is_complete = false;
-        // The part of the direction in the space: that of least distance.
+        // The projection of the direction on the space.
         let basis = &space.basis;
         let mut normal = basis.tr_mul_matrix(basis);
         for unused in space.size..DIMENSIONS {
@@ -152,8 +152,9 @@ impl<T: Real> Cone<T> {
 }
 
 impl<T: Real> Space<T> {
-    /// Scales the coordinates so that each has an entry near to 1 in some form (D. Ruiz, "A scaling algorithm to equilibrate
-    /// both rows and columns norms in matrices", 2001): what is small by its unit is not taken for zero.
+    /// Scales the coordinates so that each has an entry near to 1 in some form (D. Ruiz, "A scaling algorithm to
+    /// equilibrate both rows and columns norms in matrices", 2001): an entry that is small because of its unit is then
+    /// not taken for zero.
     fn equilibrate(&mut self) {
         for _ in 0..SCALINGS {
             for place in 0..self.size {
@@ -182,10 +183,10 @@ impl<T: Real> Space<T> {
         self.count = kept;
     }
 
-    /// The part in which linear forms vanish.
+    /// The subspace in which linear forms vanish.
     fn without(&self, linear: &[Coordinates<T>]) -> Self {
         let mut part = Self { basis: self.basis, size: self.size, forms: self.forms, count: self.count };
-        // The linear forms in the coordinates that are left.
+        // The remaining linear forms, in the coordinates of the subspace.
         let mut rest = [Coordinates::zeros(); DIMENSIONS];
         rest[..linear.len()].copy_from_slice(linear);
         for place in 0..linear.len() {
@@ -194,7 +195,7 @@ impl<T: Real> Space<T> {
             if form[pivot].is_zero() {
                 continue;
             }
-            // x_pivot by the others; the last coordinate takes its place.
+            // x_pivot is expressed by the others; the last coordinate takes its index.
             let last = part.size - 1;
             let mut change = Form::<T>::zeros();
             for column in 0..last {
@@ -214,12 +215,12 @@ impl<T: Real> Space<T> {
         part
     }
 
-    /// Puts a degenerate combination of the first two forms of three coordinates in the place of one of them.
+    /// Replaces one of the first two forms, in three coordinates, by a degenerate combination of both.
     fn degenerate(&mut self) -> bool {
         let [one, two] = [self.forms[0], self.forms[1]];
         let combination = |angle: T| one * angle.cos() + two * angle.sin();
         let determinant = |angle: T| of_three(&combination(angle));
-        // Half a turn changes the sign.
+        // The determinant changes its sign over half a turn.
         let interval = [T::zero(), T::pi()];
         let ends = [determinant(T::zero()), -determinant(T::zero())];
         let found: Result<_, Infallible> =

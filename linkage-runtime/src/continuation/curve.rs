@@ -1,6 +1,7 @@
-//! The curve Psi(q) = 0 in pure numbers: angles in radians, other coordinates and the closures beside their size.
+//! The curve Psi(q) = 0 in nondimensional coordinates: angles in radians, other coordinates and the residuals divided
+//! by their scales.
 
-use crate::jacobian::rounding::{CLOSED, SAME};
+use crate::jacobian::ulp::{EQUAL_ULPS, ZERO_ULPS};
 use crate::jacobian::{
     Closing, EliminationOf as Elimination, JacobianOf as Jacobian, ScalesOf as Scales, VectorOf as Vector, contract,
 };
@@ -8,10 +9,10 @@ use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::{D, Mechanism, PathError, PerInput, PerUnknown, PositionError, real};
 
-/// Newton steps of one correction: each at least halves the distance, from a fair prediction it squares it.
+/// The most Newton steps of one correction: each at least halves the distance, and squares it from a good prediction.
 const MOST_CORRECTIONS: usize = 12;
 
-/// A mechanism and the sizes of its coordinates and closures.
+/// A mechanism with the scales of its coordinates and residuals.
 pub(super) struct Curve<'a, M: Mechanism> {
     pub(super) mechanism: &'a M,
     scales: Scales<M>,
@@ -28,37 +29,37 @@ impl<M: Mechanism> Copy for Curve<'_, M> {}
 /// Psi and [J A] at a position.
 pub(super) struct Linear<M: Mechanism> {
     pub(super) residual: PerUnknown<M>,
-    /// What rounding alone makes of each residual.
+    /// The rounding error of each residual.
     pub(super) noise: PerUnknown<M>,
     pub(super) jacobian: Jacobian<M>,
 }
 
-/// Why a step was not taken.
+/// The residual and the regularity of [J A] at which a step was rejected.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Refusal {
+pub(super) struct Rejection {
     pub(super) residual: f64,
     pub(super) regularity: f64,
 }
 
-/// What came of a trial; an error ends all of them.
-pub(super) type Tried<X> = Result<Result<X, Refusal>, PathError>;
+/// The outcome of a trial step: a result, a rejection, which asks for a shorter step, or an error, which ends the path.
+pub(super) type Tried<X> = Result<Result<X, Rejection>, PathError>;
 
 impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
     pub(super) fn new(mechanism: &'a M, q: &M::Coordinates) -> Self {
         Self { mechanism, scales: Scales::<M>::of(mechanism, &mechanism.pose_at(q)) }
     }
 
-    /// q moved along a vector.
+    /// q + `by`, the vector being nondimensional.
     pub(super) fn moved(&self, q: &M::Coordinates, by: &Vector<M>) -> M::Coordinates {
         let Vector::<M> { unknowns, inputs } = coordinates::<M>(q) + by.scaled(&self.scales.coordinates);
         M::coordinates(unknowns, inputs)
     }
 
     pub(super) fn difference(&self, to: &M::Coordinates, from: &M::Coordinates) -> Vector<M> {
-        (coordinates::<M>(to) - coordinates::<M>(from)).beside(&self.scales.coordinates)
+        (coordinates::<M>(to) - coordinates::<M>(from)).relative_to(&self.scales.coordinates)
     }
 
-    /// A direction, as rates of the coordinates.
+    /// Converts a nondimensional direction to rates of the coordinates.
     pub(super) fn rates(&self, direction: &Vector<M>) -> M::Rates {
         let Vector::<M> { unknowns, inputs } = direction.scaled(&self.scales.coordinates);
         M::rates(unknowns, inputs)
@@ -66,7 +67,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
 
     pub(super) fn direction(&self, rates: &M::Rates) -> Vector<M> {
         let (unknowns, inputs) = M::rate_parts(rates);
-        Vector::<M> { unknowns, inputs }.beside(&self.scales.coordinates)
+        Vector::<M> { unknowns, inputs }.relative_to(&self.scales.coordinates)
     }
 
     pub(super) fn with_input(q: &M::Coordinates, input: M::Scalar) -> M::Coordinates {
@@ -77,26 +78,26 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
         M::inputs(q)[0]
     }
 
-    /// A distance of the input beside its size.
+    /// A distance of the input divided by its scale.
     pub(super) fn input_distance(&self, distance: M::Scalar) -> M::Scalar {
         distance / self.scales.coordinates.inputs[0]
     }
 
-    /// What rounding makes of the coordinates.
-    pub(super) fn rounding(&self, q: &M::Coordinates) -> M::Scalar {
-        (M::Scalar::one() + coordinates::<M>(q).beside(&self.scales.coordinates).largest())
+    /// The rounding error of the nondimensional coordinates.
+    pub(super) fn rounding_error(&self, q: &M::Coordinates) -> M::Scalar {
+        (M::Scalar::one() + coordinates::<M>(q).relative_to(&self.scales.coordinates).largest())
             * M::Scalar::default_epsilon()
     }
 
     /// # Errors
     /// [`PositionError::NotFinite`] if a number is not finite.
     pub(super) fn linear(&self, q: &M::Coordinates) -> Result<Linear<M>, PositionError> {
-        let (mechanism, closures) = (self.mechanism, &self.scales.closures);
+        let (mechanism, scales) = (self.mechanism, &self.scales.residuals);
         let pose = mechanism.pose_at(q);
-        let here = coordinates::<M>(q).beside(&self.scales.coordinates);
+        let here = coordinates::<M>(q).relative_to(&self.scales.coordinates);
         let jacobian = self.scales.jacobian(mechanism, &pose);
-        let residual = mechanism.residual(&pose).component_div(closures);
-        let terms = mechanism.closure_sizes(&pose).component_div(closures);
+        let residual = mechanism.residual(&pose).component_div(scales);
+        let terms = mechanism.closure_sizes(&pose).component_div(scales);
         let noise = (terms + jacobian.abs().along(&here.abs())) * M::Scalar::default_epsilon();
         if here.is_finite() && residual.is_finite() && noise.is_finite() && jacobian.is_finite() {
             Ok(Linear { residual, noise, jacobian })
@@ -105,48 +106,47 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
         }
     }
 
-    /// The second derivative of Psi along a direction, (Psi_q x)_q x.
+    /// (Psi_q x)_q x: the second derivative of Psi along a direction.
     pub(super) fn curvature(&self, q: &M::Coordinates, x: &Vector<M>) -> PerUnknown<M> {
         let pose = self.mechanism.pose_at(q);
-        self.mechanism.gamma(&pose, &self.rates(x)).component_div(&self.scales.closures)
+        self.mechanism.gamma(&pose, &self.rates(x)).component_div(&self.scales.residuals)
     }
 
-    /// The point of the curve near `guess` in the plane through it across `normal`.
+    /// Corrects `guess` by Newton's method to the point of the curve in the plane through `guess` across `normal`.
     ///
     /// # Errors
-    /// Refused where Newton's method does not contract, or the curve runs along the plane.
+    /// Rejected where Newton's method does not contract, or where the curve is nearly parallel to the plane.
     pub(super) fn correct(&self, guess: M::Coordinates, normal: &Vector<M>) -> Tried<(M::Coordinates, Elimination<M>)> {
-        let mut refusal = Refusal { residual: f64::NAN, regularity: f64::NAN };
+        let mut rejection = Rejection { residual: f64::NAN, regularity: f64::NAN };
         let found = contract(guess, MOST_CORRECTIONS, |q| -> Result<_, PathError> {
             let at = self.linear(q)?;
             let elimination = Elimination::<M>::new(at.jacobian);
             let (tangent, part) = (elimination.tangent(), elimination.solve(&-at.residual));
-            // [J A; n'] x = -{Psi; n' (q - guess)}, with what has gathered along n by rounding taken off.
+            // [J A; n'] x = -{Psi; n' (q - guess)}: the rounding errors accumulated along n are removed.
             let along = normal.dot(&tangent);
             let drift = normal.dot(&(self.difference(q, &guess) + part));
             let step = part - tangent * (drift / along);
             let size = step.norm();
             if at.is_closed() {
-                // One more step removes what the last one left, if rounding has not made it long.
-                let is_short = size <= self.rounding(q) * real(SAME);
+                // A last step reduces the residual further; it is not taken if it exceeds rounding error.
+                let is_short = size <= self.rounding_error(q) * real(EQUAL_ULPS);
                 return Ok(Closing::Closed((if is_short { self.moved(q, &step) } else { *q }, elimination)));
             }
             let (residual, regularity) = (to_f64(at.residual.largest()), to_f64(elimination.regularity()));
-            refusal = Refusal { residual, regularity };
+            rejection = Rejection { residual, regularity };
             let cuts = along.abs() > real(LEAST_CROSSING);
             Ok(if cuts { Closing::Step(self.moved(q, &step), size) } else { Closing::Stuck })
         })?;
-        Ok(found.ok_or(refusal))
+        Ok(found.ok_or(rejection))
     }
 }
 
-/// The sine of the least angle at which a plane may cut the curve; a quarter or four times as much changes no path of the
-/// tests.
+/// The sine of the least angle between plane and curve. A quarter or four times as much changes no path of the tests.
 const LEAST_CROSSING: f64 = 1.0 / 64.0;
 
 impl<M: Mechanism> Linear<M> {
     pub(super) fn is_closed(&self) -> bool {
-        let enough = real::<M::Scalar>(CLOSED);
+        let enough = real::<M::Scalar>(ZERO_ULPS);
         self.residual.iter().zip(&self.noise).all(|(residual, noise)| residual.abs() <= *noise * enough)
     }
 }

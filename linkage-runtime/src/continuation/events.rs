@@ -1,4 +1,4 @@
-//! What happens on a step, each event where it happens.
+//! The events of a step: dead points, limits and targets of the input, and zeros of a watched function.
 
 use super::change_point::Crossing;
 use super::curve::Curve;
@@ -7,65 +7,65 @@ use super::options::Options;
 use super::place::Place;
 use super::tangents::Tangents;
 use crate::jacobian::VectorOf as Vector;
-use crate::jacobian::rounding::{SAME, weak};
+use crate::jacobian::ulp::{EQUAL_ULPS, weak};
 use crate::scalar::arithmetic::*;
 use crate::{D, Dim, Mechanism, PathError, PositionError, real};
 
-/// What a path meets. Each ends the step that meets it, so that the position is that of the event, to rounding.
+/// An event of a path. It ends the step, at the position of the event to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event<R> {
-    /// The determinant of a group of unknowns changes its sign: the input turns back, and the path goes on.
+    /// The determinant of a group of unknowns changes its sign: the input reverses, and the path continues.
     DeadPoint {
         /// The unknowns of the group.
         group: &'static str,
     },
     /// Motions of the mechanism cross: [J A] loses rank.
     ChangePoint {
-        /// The groups that are singular there, all of them.
+        /// All groups that are singular there.
         groups: Groups,
         /// The rates of the coordinates along the motions.
         tangents: Tangents<R>,
     },
     /// The input is at an end of its range.
     Limit,
-    /// The number that is watched is zero.
+    /// The watched function is zero.
     Zero,
 }
 
-/// Where a step ends, and why there.
+/// The end of a step and its event.
 pub(super) struct End<M: Mechanism> {
     pub(super) place: Place<M>,
     pub(super) event: Option<Event<M::Rates>>,
     pub(super) is_target: bool,
-    pub(super) stands: Stands<M>,
+    pub(super) resume: Resume<M>,
 }
 
-/// What is to be known of the end of a step for the next one.
-pub(super) enum Stands<M: Mechanism> {
+/// The state carried over to the next step.
+pub(super) enum Resume<M: Mechanism> {
     OnTheWay,
     AtZero,
     AtChangePoint,
-    /// At a change point where nothing has been chosen yet.
+    /// At a change point, with no motion chosen yet.
     Undecided(Crossing<M>),
 }
 
-impl<M: Mechanism> Clone for Stands<M> {
+impl<M: Mechanism> Clone for Resume<M> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<M: Mechanism> Copy for Stands<M> {}
+impl<M: Mechanism> Copy for Resume<M> {}
 
-/// A number that is watched, from the position and the rates of the coordinates along the path.
+/// A function to watch, of the position and of the rates of the coordinates along the path.
 pub(super) type Watch<'w, M> =
     &'w dyn Fn(&<M as Mechanism>::Coordinates, &<M as Mechanism>::Rates) -> <M as Mechanism>::Scalar;
 
-/// What a step looks for beside dead points.
+/// The events that a step looks for in addition to dead points.
 pub(super) struct Wanted<'w, M: Mechanism> {
     pub(super) target: Option<M::Scalar>,
     pub(super) watch: Option<Watch<'w, M>>,
-    /// Whether the watched number is zero where the step begins.
+    /// True if the watched function is zero at the start of the step.
     pub(super) is_at_zero: bool,
 }
 
@@ -73,8 +73,8 @@ impl<M> Curve<'_, M>
 where
     M: Mechanism<V = D<1>>,
 {
-    /// The first event on the arc from a place to `end`, or `end` itself; `None` where a point between them is not
-    /// found.
+    /// Finds the first event on the arc from a place to `end`, or returns `end` itself; `None` if a point between them
+    /// is not found.
     pub(super) fn first_event(
         &self,
         from: &Place<M>,
@@ -93,18 +93,19 @@ where
                         place,
                         event: Some(Event::DeadPoint { group }),
                         is_target: false,
-                        stands: Stands::OnTheWay,
+                        resume: Resume::OnTheWay,
                     };
                 }
             }
         }
-        // Between dead points the input goes one way.
+        // Between dead points the input is monotonic.
         let limits = options.range.into_iter().flatten().map(|limit| (limit, false));
         for (limit, is_target) in limits.chain(wanted.target.map(|input| (input, true))) {
             let gap = |place: &Place<M>| Self::input(&place.q) - limit;
-            // At a change point the input is met where it is met to rounding.
+            // At a change point the input is reached if it agrees to rounding error.
             let is_crossing = matches!(end.event, Some(Event::ChangePoint { .. }));
-            let slack = if is_crossing { self.rounding(&end.place.q) * real(SAME) } else { M::Scalar::zero() };
+            let slack =
+                if is_crossing { self.rounding_error(&end.place.q) * real(EQUAL_ULPS) } else { M::Scalar::zero() };
             if self.input_distance(gap(&end.place)).abs() <= slack && !gap(from).is_zero() {
                 end.place.q = Self::with_input(&end.place.q, limit);
                 let event = end.event.or((!is_target).then_some(Event::Limit));
@@ -117,14 +118,14 @@ where
                 Cut::At(place) => {
                     let place = self.with_exact_input(place, limit)?;
                     end =
-                        End { place, event: (!is_target).then_some(Event::Limit), is_target, stands: Stands::OnTheWay };
+                        End { place, event: (!is_target).then_some(Event::Limit), is_target, resume: Resume::OnTheWay };
                 }
             }
         }
         if let Some(watch) = wanted.watch {
             let value = |place: &Place<M>| watch(&place.q, &self.rates(&place.tangent));
             if ![value(from), value(&end.place)].iter().all(M::Scalar::is_finite) {
-                let quantity = "the watched number";
+                let quantity = "the watched function";
                 return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
             }
             if !wanted.is_at_zero {
@@ -132,7 +133,7 @@ where
                     Cut::None => {}
                     Cut::Lost => return Ok(None),
                     Cut::At(place) => {
-                        end = End { place, event: Some(Event::Zero), is_target: false, stands: Stands::AtZero }
+                        end = End { place, event: Some(Event::Zero), is_target: false, resume: Resume::AtZero }
                     }
                 }
             }
@@ -140,7 +141,7 @@ where
         Ok(Some(end))
     }
 
-    /// The place between two at which a number changes its sign.
+    /// Finds the place between two at which a value changes its sign.
     fn cut(
         &self,
         from: &Place<M>,
@@ -168,7 +169,7 @@ where
         })
     }
 
-    /// A place with this input to the last digit, where the input moves it at all.
+    /// Gives a place exactly this input and corrects the other coordinates, unless the input is at rest.
     pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathError> {
         let q = Self::with_input(&place.q, input);
         let moves = place.tangent.inputs[0].abs() > weak() && place.regularity > weak();

@@ -1,4 +1,4 @@
-//! Groups of unknowns that are meant together.
+//! Sets of groups of unknowns.
 
 use core::fmt;
 
@@ -7,10 +7,10 @@ use crate::Group;
 /// Bits of a word.
 const BITS: usize = 64;
 
-/// Words: a mechanism of more groups has a Jacobian of 8 MB and more on the stack, which cannot be followed.
+/// Words of a set. A mechanism with more groups has a Jacobian of 8 MB or more, too large for the stack.
 const WORDS: usize = 8;
 
-/// Some of the groups of a mechanism, in the order in which they are solved.
+/// A set of groups of a mechanism, in the order in which they are solved.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Groups {
     all: &'static [Group],
@@ -18,7 +18,7 @@ pub struct Groups {
 }
 
 impl Groups {
-    /// The most groups of a mechanism that is followed.
+    /// The most groups that a mechanism can have to be followed.
     pub(super) const MOST: usize = BITS * WORDS;
 
     pub(super) fn none(all: &'static [Group]) -> Self {

@@ -1,48 +1,48 @@
-//! How a path is followed.
+//! Options of path following.
 
-use crate::jacobian::rounding::{SAME, roundings};
+use crate::jacobian::ulp::{EQUAL_ULPS, ulps};
 use crate::scalar::to_f64;
 use crate::{InputError, Real, real};
 
 /// The policy at a change point, where motions of the mechanism cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AtChangePoint {
-    /// The motion goes on smoothly: a parallelogram stays a parallelogram.
+    /// The path continues smoothly: a parallelogram stays a parallelogram.
     #[default]
     Keep,
-    /// The other motion is taken, the way in which the input keeps its direction, or where it rests the first of the
-    /// unknowns that move. Where more than two motions cross, there is not one other: the path ends as by `Stop`.
+    /// The path continues on the other motion, in the direction in which the input keeps its sign, or if it rests the
+    /// first moving unknown. If more than two motions cross, the path ends as with `Stop`.
     Switch,
-    /// The path ends there; [`choose`](super::Path::choose) says how it goes on.
+    /// The path ends; [`choose`](super::Path::choose) selects the motion on which it continues.
     Stop,
 }
 
-/// Where the path goes from its start.
+/// The initial direction of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Direction<R> {
-    /// The input grows.
+    /// The input increases.
     Increasing,
-    /// The input falls.
+    /// The input decreases.
     Decreasing,
-    /// Along these rates of the coordinates, as far as the mechanism can follow: what is left to say at a dead point
-    /// and at a change point.
+    /// The direction along the path nearest to these rates of the coordinates. It is needed at dead points and change
+    /// points, where the sign of the input's rate determines no direction.
     Along(R),
 }
 
-/// How a path is followed. Distances are pure numbers: those of angles are radians, and lengths count beside the
-/// lengths of the loops that they stand in. There are no tolerances: positions and events are found to rounding.
+/// The options of path following. Distances are nondimensional: angles in radians, lengths divided by the lengths of
+/// their loops. There are no tolerances: positions and events are accurate to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T = f64> {
     /// The longest step, by default 1/4.
     pub longest_step: T,
-    /// The most that the tangent turns in one step, in radians, by default 1/4. Steps shrink where the path turns
-    /// sharply, down to rounding.
+    /// The largest turn of the tangent in one step, in radians, by default 1/4. Steps shrink at sharp bends, down to
+    /// rounding error.
     pub largest_turn: T,
-    /// The most steps that one call takes, by default a million.
+    /// The largest number of steps of one call, by default a million.
     pub most_steps: usize,
-    /// What is done where two motions cross.
+    /// The policy at change points.
     pub at_change_point: AtChangePoint,
-    /// The range of the input, at the ends of which the path stops.
+    /// The range of the input; the path ends at its limits.
     pub range: Option<[T; 2]>,
 }
 
@@ -58,18 +58,18 @@ impl<T: Real> Default for Options<T> {
     }
 }
 
-/// The shortest longest step and turn, in roundings: six halvings of it are still more than rounding.
-const LEAST: f64 = 64.0 * SAME;
+/// The least `longest_step` and `largest_turn`, in ulps: six halvings later it is [`EQUAL_ULPS`].
+const LEAST_STEP_ULPS: f64 = 64.0 * EQUAL_ULPS;
 
 impl<T: Real> Options<T> {
     /// # Errors
-    /// [`InputError::OutOfRange`] where an option makes no sense.
+    /// [`InputError::OutOfRange`] for an invalid option.
     pub(super) fn check(&self, mechanism: &'static str, input: T) -> Result<(), InputError> {
         let within = |quantity: &'static str, value: f64, least: f64, most: f64| {
             let is_within = value >= least && value <= most;
             is_within.then_some(()).ok_or(InputError::OutOfRange { of: Some(mechanism), quantity, value, least, most })
         };
-        let least = to_f64(roundings::<T>(LEAST));
+        let least = to_f64(ulps::<T>(LEAST_STEP_ULPS));
         within("the longest step", to_f64(self.longest_step), least, 1.0)?;
         within("the largest turn", to_f64(self.largest_turn), least, 1.0)?;
         within("the number of steps", self.most_steps as f64, 1.0, f64::INFINITY)?;

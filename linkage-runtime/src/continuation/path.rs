@@ -1,27 +1,27 @@
-//! The follower: where it is, and how it takes a step.
+//! The path follower and its steps.
 
-use super::curve::{Curve, Refusal, Tried};
-use super::events::{End, Event, Stands, Wanted, Watch};
+use super::curve::{Curve, Rejection, Tried};
+use super::events::{End, Event, Resume, Wanted, Watch};
 use super::groups::Groups;
 use super::options::{AtChangePoint, Direction, Options};
 use super::place::Place;
 use super::tangents::Tangents;
-use crate::jacobian::rounding::{SAME, weak};
+use crate::jacobian::ulp::{EQUAL_ULPS, weak};
 use crate::jacobian::{EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::{D, Dim, InputError, Mechanism, PathError, PositionError, position, real};
 
-/// Where a path has come to.
+/// The end of a step of a path.
 pub struct PathStep<M: Mechanism> {
     /// The position.
     pub position: M::Coordinates,
-    /// The rates of the coordinates along the path: the velocity ratios (W, 1), times the rate of the input, which is
+    /// The rates of the coordinates along the path: the velocity ratios (W, 1) times the rate of the input, which is
     /// zero at a dead point.
     pub rates: M::Rates,
-    /// The length of the path so far, angles in radians and lengths beside those of their loops.
+    /// The length of the path so far, with angles in radians and lengths divided by those of their loops.
     pub length: M::Scalar,
-    /// What ended the step.
+    /// The event that ended the step, if any.
     pub event: Option<Event<M::Rates>>,
 }
 
@@ -29,7 +29,7 @@ crate::__by_fields!([M: Mechanism] PathStep<M> { position, rates, length, event 
 
 /// A mechanism with one input, followed along its motion.
 ///
-/// As an iterator it gives step after step, each a `Result`, and ends after a limit or an error.
+/// As an iterator it returns the steps one by one, each a `Result`, and ends after a limit or an error.
 pub struct Path<'a, M: Mechanism> {
     curve: Curve<'a, M>,
     place: Place<M>,
@@ -37,27 +37,27 @@ pub struct Path<'a, M: Mechanism> {
     /// The length of the next trial.
     step: M::Scalar,
     length: M::Scalar,
-    /// The change point that has been passed, until it is left.
+    /// The change point just passed, until the path has left it.
     passed: Option<M::Coordinates>,
-    stands: Stands<M>,
+    resume: Resume<M>,
     is_ended: bool,
 }
 
-/// Halvings of one step: 2^-64 of it no longer moves anything.
+/// The most trial lengths of one step: 2^-64 of it is below rounding error.
 const MOST_TRIALS: usize = 64;
 
-/// An event is ahead of a step of this many times its length at most.
+/// A change point is sought up to this many step lengths ahead.
 const AHEAD: f64 = 1.25;
 
-/// A dead point of less regularity than this may be a crossing: a step passes one at which an even number of pivots is
-/// zero without a change of side.
+/// A dead point where [J A] is less regular than this may be a change point: if an even number of pivots vanishes
+/// there, the orientation does not change its sign.
 const DOUBTFUL: f64 = 1e-3;
 
 impl<'a, M> Path<'a, M>
 where
     M: Mechanism<V = D<1>>,
 {
-    /// The path through the position near `guess` at its input, followed with the default options.
+    /// Starts a path at the position near `guess` at its input, with the default options.
     ///
     /// # Errors
     /// Those of [`with`](Self::with).
@@ -65,19 +65,18 @@ where
         Self::with(mechanism, guess, direction, Options::default())
     }
 
-    /// The path through the position near `guess` at its input.
+    /// Starts a path at the position near `guess` at its input.
     ///
     /// # Errors
-    /// Those of [`position::newton`]; [`PathError::NoDirection`] and [`PathError::ChangePoint`] where `direction` does not
-    /// say which way; [`PathError::Lost`] where the mechanism has no tangent; [`InputError::OutOfRange`] for options that
-    /// make no sense.
+    /// Those of [`position::newton`]; [`PathError::NoDirection`] and [`PathError::ChangePoint`] if `direction` is
+    /// ambiguous; [`PathError::Lost`] if the path has no tangent; [`InputError::OutOfRange`] for invalid options.
     pub fn with(
         mechanism: &'a M,
         guess: &M::Coordinates,
         direction: Direction<M::Rates>,
         options: Options<M::Scalar>,
     ) -> Result<Self, PathError> {
-        const { assert!(M::GROUPS.len() <= Groups::MOST, "more groups than a path can tell apart") };
+        const { assert!(M::GROUPS.len() <= Groups::MOST, "a mechanism of more than 512 groups cannot be followed") };
         options.check(M::NAME, Curve::<'_, M>::input(guess))?;
         let solution = position::newton(mechanism, guess)?;
         let q = solution.coordinates;
@@ -86,7 +85,7 @@ where
         let elimination = Elimination::<M>::new(at.jacobian);
         let (step, length) = (options.longest_step * real(0.25), M::Scalar::zero());
         let path =
-            |place, passed, stands| Self { curve, place, options, step, length, passed, stands, is_ended: false };
+            |place, passed, resume| Self { curve, place, options, step, length, passed, resume, is_ended: false };
         if elimination.regularity() < weak() {
             let rates = match direction {
                 Direction::Along(rates) => Some(rates),
@@ -98,11 +97,11 @@ where
                 let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: M::NAME, group }) };
                 let tangent = curve.choose(crossing.tangents(), &rates)?;
                 let place = curve.at_crossing(&crossing, tangent, M::Scalar::zero());
-                return Ok(path(place, Some(crossing.q), Stands::AtChangePoint));
+                return Ok(path(place, Some(crossing.q), Resume::AtChangePoint));
             }
             if elimination.regularity() < M::Scalar::default_epsilon().sqrt() {
-                let refusal = Refusal { residual: solution.residual, regularity: to_f64(elimination.regularity()) };
-                return Err(curve.lost(&q, 0, refusal));
+                let rejection = Rejection { residual: solution.residual, regularity: to_f64(elimination.regularity()) };
+                return Err(curve.lost(&q, 0, rejection));
             }
         }
         let tangent = elimination.tangent();
@@ -112,63 +111,64 @@ where
             _ if (tangent.inputs[0] > M::Scalar::zero()) == matches!(direction, Direction::Increasing) => tangent,
             _ => -tangent,
         };
-        Ok(path(curve.place(q, &elimination, &forward), None, Stands::OnTheWay))
+        Ok(path(curve.place(q, &elimination, &forward), None, Resume::OnTheWay))
     }
 
-    /// Where the path has come to.
+    /// The current position.
     #[must_use]
     pub fn position(&self) -> M::Coordinates {
         self.place.q
     }
 
-    /// The rates of the coordinates along the path.
+    /// The current rates of the coordinates along the path.
     #[must_use]
     pub fn rates(&self) -> M::Rates {
         self.curve.rates(&self.place.tangent)
     }
 
-    /// The path goes back from here.
+    /// Reverses the path.
     pub fn turn_back(&mut self) {
         self.place.tangent = -self.place.tangent;
-        // At a change point the closures change their side, and back they change it again.
-        if !matches!(self.stands, Stands::AtChangePoint) {
+        // At a change point the orientation changes its sign twice: with the tangent, and at the crossing.
+        if !matches!(self.resume, Resume::AtChangePoint) {
             self.place.side = -self.place.side;
             self.passed = None;
         }
         self.is_ended = false;
     }
 
-    /// At a change point where the path stopped, goes on along the motion nearest to these rates.
+    /// Selects the motion nearest to these rates, at a change point where the path stopped.
     ///
     /// # Errors
-    /// [`PathError::NoDirection`] if they are across both motions, or the path does not stand at a change point.
+    /// [`PathError::NoDirection`] if they are orthogonal to all motions, or if the path has not stopped at a change
+    /// point.
     pub fn choose(&mut self, rates: &M::Rates) -> Result<(), PathError> {
-        let Stands::Undecided(crossing) = self.stands else {
+        let Resume::Undecided(crossing) = self.resume else {
             return Err(PathError::NoDirection { mechanism: M::NAME });
         };
         self.place.tangent = self.curve.choose(crossing.tangents(), rates)?;
-        // On which side the closures go on depends on the way that is chosen.
+        // The orientation beyond the change point depends on the motion chosen.
         self.place.side = M::Scalar::zero();
-        self.stands = Stands::AtChangePoint;
+        self.resume = Resume::AtChangePoint;
         self.is_ended = false;
         Ok(())
     }
 
-    /// One step, or less where an event ends it.
+    /// Takes one step, which ends early at an event.
     ///
     /// # Errors
-    /// [`PathError::ChangePoint`] where the path stopped at one and nothing has been chosen, [`PathError::Lost`] where the
-    /// path cannot be followed on, [`PositionError::NotFinite`] if a number is not finite.
+    /// [`PathError::ChangePoint`] if the path stopped at one and no motion has been chosen, [`PathError::Lost`] if the
+    /// path cannot be continued, [`PositionError::NotFinite`] if a number is not finite.
     pub fn advance(&mut self) -> Result<PathStep<M>, PathError> {
         self.advance_wanting(None, None).map(|(step, _)| step)
     }
 
-    /// One step, or less where an event ends it; among the events are the zeros of `watched`, a function of the
-    /// position and of the rates of the coordinates along the path: an output, or one of the rates, which is zero
-    /// where that coordinate turns back.
+    /// Takes one step, which ends early at an event; the zeros of `watched` are events, too. `watched` is a function of
+    /// the position and of the rates of the coordinates along the path: an output, or one of the rates, which is zero
+    /// where that coordinate reverses.
     ///
     /// # Errors
-    /// As [`advance`](Self::advance).
+    /// Those of [`advance`](Self::advance).
     pub fn advance_watching(
         &mut self,
         watched: impl Fn(&M::Coordinates, &M::Rates) -> M::Scalar,
@@ -176,13 +176,14 @@ where
         self.advance_wanting(None, Some(&watched)).map(|(step, _)| step)
     }
 
-    /// On to where the input is `input`, without passing a dead point; the event is the last change point on the way.
+    /// Follows the path until the input is `input`, without passing a dead point; the event is the last change point
+    /// passed.
     ///
-    /// The path turns back if the input is behind it. From a dead point it goes on the way it came.
+    /// The path reverses if the input is behind it. From a dead point it continues forward.
     ///
     /// # Errors
-    /// [`PathError::DeadPoint`] where the input turns back before that: the path then stands at the dead point;
-    /// [`PathError::TooManySteps`] after the most steps, [`InputError::OutOfRange`] if the range does not hold the input,
+    /// [`PathError::DeadPoint`] if the input reverses before: the path is then at the dead point;
+    /// [`PathError::TooManySteps`] after the most steps, [`InputError::OutOfRange`] if the input is outside its range,
     /// and those of [`advance`](Self::advance).
     pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError> {
         if !input.is_finite() {
@@ -203,23 +204,25 @@ where
             }
             let mut heading = self.place.tangent.inputs[0] * gap;
             if heading < M::Scalar::zero() && self.place.tangent.inputs[0].abs() > weak() {
-                // Once because the input is behind, once because a dead point was left for the other side.
+                // At most two reversals: one if the input is behind, one if a dead point was left in the wrong
+                // direction.
                 if turns == 2 {
-                    let refusal = Refusal { residual: 0.0, regularity: to_f64(self.place.regularity) };
-                    return Err(self.curve.lost(&self.place.q, 0, refusal));
+                    let rejection = Rejection { residual: 0.0, regularity: to_f64(self.place.regularity) };
+                    return Err(self.curve.lost(&self.place.q, 0, rejection));
                 }
                 self.turn_back();
                 (heading, turns) = (-heading, turns + 1);
             }
             let before = self.length;
             let (step, is_target) = self.advance_wanting(Some(input), None)?;
-            // A path that stands at a dead point may be told so once more; twice, and no way leads on.
+            // A path that starts at a dead point may report it again; after three steps of zero length the input cannot
+            // be reached.
             rests += usize::from(self.length - before <= weak());
             let is_onward = heading > M::Scalar::zero() || rests > 2;
             match step.event {
                 Some(Event::DeadPoint { group }) => {
                     let left = self.curve.input_distance(input - self.input()).abs();
-                    if left <= self.curve.rounding(&self.place.q) * real(SAME) {
+                    if left <= self.curve.rounding_error(&self.place.q) * real(EQUAL_ULPS) {
                         self.place.q = Curve::<'_, M>::with_input(&self.place.q, input);
                         return Ok(self.here(step.event));
                     }
@@ -230,10 +233,10 @@ where
                 Some(Event::ChangePoint { groups, .. }) => {
                     passed = step.event;
                     let group = groups.first();
-                    if matches!(self.stands, Stands::Undecided(_)) && !is_target {
+                    if matches!(self.resume, Resume::Undecided(_)) && !is_target {
                         return Err(PathError::ChangePoint { mechanism: M::NAME, group });
                     }
-                    // Where all groups are flat at once the motions cross at the end of the input's range.
+                    // Where all groups are singular at once, the motions cross at a limit of the input.
                     if !is_target && is_onward && self.place.tangent.inputs[0].abs() <= weak() {
                         let left = self.curve.input_distance(input - self.input()).abs();
                         return Err(PathError::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
@@ -261,11 +264,11 @@ where
         target: Option<M::Scalar>,
         watch: Option<Watch<'_, M>>,
     ) -> Result<(PathStep<M>, bool), PathError> {
-        if let Stands::Undecided(crossing) = self.stands {
+        if let Resume::Undecided(crossing) = self.resume {
             let group = crossing.groups.first();
             return Err(PathError::ChangePoint { mechanism: M::NAME, group });
         }
-        // At an end of its range the input goes no further.
+        // At a limit of its range the input cannot move outward.
         let (input, way) = (self.input(), self.place.tangent.inputs[0]);
         let is_outward = |[low, high]: [M::Scalar; 2]| {
             (input <= low && way < M::Scalar::zero()) || (input >= high && way > M::Scalar::zero())
@@ -274,10 +277,10 @@ where
             self.is_ended = true;
             return Ok((self.here(Some(Event::Limit)), false));
         }
-        let wanted = Wanted { target, watch, is_at_zero: matches!(self.stands, Stands::AtZero) };
-        let shortest = self.curve.rounding(&self.place.q) * real(SAME);
+        let wanted = Wanted { target, watch, is_at_zero: matches!(self.resume, Resume::AtZero) };
+        let shortest = self.curve.rounding_error(&self.place.q) * real(EQUAL_ULPS);
         let mut trial = self.step;
-        let mut refusal = Refusal { residual: f64::NAN, regularity: f64::NAN };
+        let mut rejection = Rejection { residual: f64::NAN, regularity: f64::NAN };
         for number in 0..MOST_TRIALS {
             match self.attempt(trial, &wanted)? {
                 Ok((end, tried)) => {
@@ -288,7 +291,7 @@ where
                     }
                     return Ok(self.arrive(end, tried, way, number > 0));
                 }
-                Err(why) => refusal = why,
+                Err(why) => rejection = why,
             }
             trial *= real(0.5);
             if trial < shortest {
@@ -296,13 +299,13 @@ where
             }
         }
         self.is_ended = true;
-        Err(self.curve.lost(&self.place.q, MOST_TRIALS, refusal))
+        Err(self.curve.lost(&self.place.q, MOST_TRIALS, rejection))
     }
 
-    /// A step of this length, up to its first event, and the length that was tried.
+    /// Tries a step of this length; returns its end, at the first event, and the length tried.
     fn attempt(&self, trial: M::Scalar, wanted: &Wanted<'_, M>) -> Tried<(End<M>, M::Scalar)> {
         let (curve, from) = (&self.curve, &self.place);
-        // Within reach the target is aimed at: the velocity ratios predict its position.
+        // A target within the step is aimed at: the tangent predicts its position.
         let aim = wanted.target.and_then(|target| {
             let distance = curve.input_distance(target - self.input()) / from.tangent.inputs[0];
             (distance > M::Scalar::zero() && distance <= trial).then_some((target, distance))
@@ -317,9 +320,9 @@ where
             }
             None => curve.at(from, trial)?,
         };
-        let refusal = match &found {
-            Ok(place) => Refusal { residual: 0.0, regularity: to_f64(place.regularity) },
-            Err(refusal) => *refusal,
+        let rejection = match &found {
+            Ok(place) => Rejection { residual: 0.0, regularity: to_f64(place.regularity) },
+            Err(rejection) => *rejection,
         };
         let flips = |place: &Place<M>| place.side * from.side < M::Scalar::zero();
         let is_weak = |place: &Place<M>| place.regularity < weak();
@@ -338,20 +341,20 @@ where
             && let Some(end) = self.crossing_ahead(guess, tried)?
         {
             let found = curve.first_event(from, end, wanted, &self.options)?;
-            return Ok(found.ok_or(refusal).map(|end| (end, tried)));
+            return Ok(found.ok_or(rejection).map(|end| (end, tried)));
         }
-        let Some(place) = arc.filter(|place| !flips(place)) else { return Ok(Err(refusal)) };
+        let Some(place) = arc.filter(|place| !flips(place)) else { return Ok(Err(rejection)) };
         let mut place = place.clone();
         if place.side.is_zero() {
             place.side = from.side;
         }
-        if place.regularity <= curve.rounding(&place.q) * real(SAME) {
+        if place.regularity <= curve.rounding_error(&place.q) * real(EQUAL_ULPS) {
             let (_, group) = curve.weakest_group(&place.q);
             place.forget_sign(group);
         }
-        let end = End { place, event: None, is_target: false, stands: Stands::OnTheWay };
+        let end = End { place, event: None, is_target: false, resume: Resume::OnTheWay };
         let mut found = curve.first_event(from, end, wanted, &self.options)?;
-        // At a dead point [J A] has full rank.
+        // [J A] has full rank at a dead point, but not at a change point.
         let is_doubtful =
             |end: &End<M>| matches!(end.event, Some(Event::DeadPoint { .. })) && end.place.regularity < real(DOUBTFUL);
         if let Some(end) = found.as_ref().filter(|end| is_doubtful(end)) {
@@ -360,10 +363,10 @@ where
                 found = curve.first_event(from, crossing, wanted, &self.options)?;
             }
         }
-        Ok(found.ok_or(refusal).map(|end| (end, tried)))
+        Ok(found.ok_or(rejection).map(|end| (end, tried)))
     }
 
-    /// The change point on the next `tried` of the path.
+    /// Finds the change point within the distance `tried` ahead, starting at the distance `guess`.
     fn crossing_ahead(&self, guess: M::Scalar, tried: M::Scalar) -> Result<Option<End<M>>, PathError> {
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
@@ -384,38 +387,38 @@ where
         if !(is_on_the_way || is_near(&from.q)) {
             return Ok(None);
         }
-        // The closures change their side once for each pivot that passes its zero.
-        let behind = if crossing.defect % 2 == 1 { -from.side } else { from.side };
-        let beside = if crossing.defect == 1 { from.side } else { M::Scalar::zero() };
+        // The orientation changes its sign once for each pivot that passes zero.
+        let side_if_kept = if crossing.defect % 2 == 1 { -from.side } else { from.side };
+        let side_if_switched = if crossing.defect == 1 { from.side } else { M::Scalar::zero() };
         let (tangent, side, is_decided) = match (self.options.at_change_point, crossing.tangents()) {
-            (AtChangePoint::Switch, &[_, other]) if crossing.is_complete => (other.like(&kept), beside, true),
-            (policy, _) => (kept, behind, policy == AtChangePoint::Keep),
+            (AtChangePoint::Switch, &[_, other]) if crossing.is_complete => (other.like(&kept), side_if_switched, true),
+            (policy, _) => (kept, side_if_kept, policy == AtChangePoint::Keep),
         };
         let place = curve.at_crossing(&crossing, tangent, side);
         let tangents = crossing.tangents().iter().map(|tangent| curve.rates(tangent));
         let tangents = Tangents::new(tangents, crossing.is_complete);
         let event = Event::ChangePoint { groups: crossing.groups, tangents };
-        let stands = if is_decided { Stands::AtChangePoint } else { Stands::Undecided(crossing) };
-        Ok(Some(End { place, event: Some(event), is_target: false, stands }))
+        let resume = if is_decided { Resume::AtChangePoint } else { Resume::Undecided(crossing) };
+        Ok(Some(End { place, event: Some(event), is_target: false, resume }))
     }
 
-    fn arrive(&mut self, end: End<M>, tried: M::Scalar, way: M::Scalar, was_refused: bool) -> (PathStep<M>, bool) {
-        let stands = end.stands;
+    fn arrive(&mut self, end: End<M>, tried: M::Scalar, way: M::Scalar, was_rejected: bool) -> (PathStep<M>, bool) {
+        let resume = end.resume;
         let turn = (end.place.tangent - self.place.tangent).norm();
         let is_whole = end.event.is_none() && !end.is_target;
-        // Steps grow and shrink towards the turn that is allowed.
+        // Adapts the step to the largest turn allowed.
         let factor = real::<M::Scalar>(0.7) * self.options.largest_turn / turn;
         let factor = if is_whole { factor.min(real(2.0)).max(real(0.5)) } else { M::Scalar::one() };
-        let last = if is_whole || was_refused { tried } else { self.step };
+        let last = if is_whole || was_rejected { tried } else { self.step };
         self.step = (last * factor).min(self.options.longest_step);
         self.length += way;
-        if matches!(stands, Stands::AtChangePoint | Stands::Undecided(..)) {
+        if matches!(resume, Resume::AtChangePoint | Resume::Undecided(..)) {
             self.passed = Some(end.place.q);
         } else if end.place.regularity >= weak() {
             self.passed = None;
         }
-        self.stands = stands;
-        self.is_ended = matches!(end.event, Some(Event::Limit)) || matches!(stands, Stands::Undecided(..));
+        self.resume = resume;
+        self.is_ended = matches!(end.event, Some(Event::Limit)) || matches!(resume, Resume::Undecided(..));
         self.place = end.place;
         (self.here(end.event), end.is_target)
     }

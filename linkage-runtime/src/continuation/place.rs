@@ -1,25 +1,25 @@
-//! A place on the way, and one step from it.
+//! Points of a path, and one step from a point.
 
 use super::change_point::Crossing;
-use super::curve::{Curve, Refusal, Tried};
+use super::curve::{Curve, Rejection, Tried};
 use super::groups::Groups;
 use super::options::Options;
-use crate::jacobian::rounding::{SAME, weak};
+use crate::jacobian::ulp::{EQUAL_ULPS, weak};
 use crate::jacobian::{Blocks, EliminationOf as Elimination, VectorOf as Vector, root};
 use crate::scalar::arithmetic::*;
 use crate::{Column, D, Dim, Mechanism, PathError, PositionError, real};
 
-/// A position of the curve with what tells it from its neighbours.
+/// A position of the curve, with its tangent, orientation and determinants.
 pub(super) struct Place<M: Mechanism> {
     pub(super) q: M::Coordinates,
-    /// Of length 1, the way that is followed.
+    /// The unit tangent, in the direction of the path.
     pub(super) tangent: Vector<M>,
-    /// On which side of the curve the closures are positive, as a sign; zero where that is not known.
+    /// The orientation det [J A; tangent'], which changes its sign at a change point; zero if unknown.
     pub(super) side: M::Scalar,
-    /// Of the blocks of J; zero where a block has just passed its zero.
+    /// The determinants of the blocks of J; zero where the sign is unknown.
     pub(super) determinants: Column<M::Scalar, M::G>,
     pub(super) regularity: M::Scalar,
-    /// The sign of the last but one pivot.
+    /// The last but one pivot of [J A], relative to the largest.
     pub(super) last_but_one: M::Scalar,
 }
 
@@ -30,7 +30,7 @@ impl<M: Mechanism> Clone for Place<M> {
 }
 
 impl<M: Mechanism> Place<M> {
-    /// Where the determinant of a group is rounding, its sign says nothing.
+    /// Sets the determinant of a group, whose sign is that of a rounding error, to zero.
     pub(super) fn forget_sign(&mut self, group: &str) {
         for (determinant, other) in self.determinants.iter_mut().zip(M::GROUPS) {
             if other.name == group {
@@ -39,7 +39,8 @@ impl<M: Mechanism> Place<M> {
         }
     }
 
-    /// The share of the way to another place after which the determinant of a group is zero, if one changes its sign.
+    /// The fraction of the distance to another place at which the determinant of a group is zero, if one changes its
+    /// sign.
     pub(super) fn sign_changes(&self, to: &Self) -> Option<M::Scalar> {
         let mut pairs = self.determinants.iter().zip(&to.determinants);
         let (before, after) = pairs.find(|(before, after)| **before * **after < M::Scalar::zero())?;
@@ -47,13 +48,12 @@ impl<M: Mechanism> Place<M> {
     }
 }
 
-/// A step may leave its prediction by the angle that it turns through, by this much of its length, and by what rounding of
-/// the coordinates adds.
+/// A step may deviate from its prediction by its turn and by this part of its length, in addition to rounding errors.
 const SLACK: f64 = 1.0 / 64.0;
 
-/// Two pivots fall to zero on the way if the last but one falls to less than this part of its sum at the ends where that is
-/// expected: to zero if it falls and rises by one slope, to an eighth if by one and the double. At a half every way would
-/// do, at a sixteenth a bend hides a crossing.
+/// Two pivots may vanish within a step if the last but one is, where its zero is expected, below this part of the sum
+/// of its values at both ends. It is zero there if it falls and rises with the same slope, an eighth with one slope
+/// twice the other. At 1/2 every step would qualify, at 1/16 a bend hides a change point.
 const FALLEN: f64 = 0.25;
 
 impl<M> Curve<'_, M>
@@ -64,7 +64,7 @@ where
         self.mechanism.block_determinants(&self.mechanism.pose_at(q))
     }
 
-    /// The place at a position of the curve, its tangent the one that goes on along `forward`.
+    /// The place at a position of the curve, with the tangent in the direction of `forward`.
     pub(super) fn place(&self, q: M::Coordinates, elimination: &Elimination<M>, forward: &Vector<M>) -> Place<M> {
         let regularity = elimination.regularity();
         let mut tangent = elimination.tangent();
@@ -73,7 +73,7 @@ where
         }
         let mut side = elimination.orientation(&tangent);
         if regularity < M::Scalar::default_epsilon().sqrt() {
-            // Of a tangent that is rounding alone nothing is known; the last one is.
+            // The tangent is unreliable here; the previous one is kept.
             (tangent, side) = (*forward, M::Scalar::zero());
         }
         Place {
@@ -86,15 +86,16 @@ where
         }
     }
 
-    /// The place at `distance` from another along its tangent, whatever the curve does between the two.
+    /// Predicts and corrects the place at `distance` along the tangent of another; the curve between them is not
+    /// checked.
     pub(super) fn at(&self, from: &Place<M>, distance: M::Scalar) -> Tried<Place<M>> {
         let guess = self.moved(&from.q, &(from.tangent * distance));
         let found = self.correct(guess, &from.tangent)?;
         Ok(found.map(|(q, elimination)| self.place(q, &elimination, &from.tangent)))
     }
 
-    /// Whether the way from one place to the other is an arc: it turns little, and leaves neither tangent further
-    /// than that turn explains. Two curves that pass each other side by side do not look like that.
+    /// True if the way from one place to the other is an arc: it turns little, and deviates from neither tangent more
+    /// than that turn explains. A jump to a neighbouring curve does not satisfy this.
     pub(super) fn is_arc(
         &self,
         from: &Place<M>,
@@ -104,15 +105,16 @@ where
         options: &Options<M::Scalar>,
     ) -> bool {
         let (way, turn) = (self.difference(q, &from.q), (*tangent - from.tangent).norm());
-        let rounding = self.rounding(q) * real(SAME) / regularity.max(M::Scalar::default_epsilon().sqrt());
-        let most = way.norm() * (turn + real(SLACK)) + rounding;
+        let rounding_error =
+            self.rounding_error(q) * real(EQUAL_ULPS) / regularity.max(M::Scalar::default_epsilon().sqrt());
+        let most = way.norm() * (turn + real(SLACK)) + rounding_error;
         way.dot(&from.tangent) > M::Scalar::zero()
             && turn <= options.largest_turn
             && way.across(&from.tangent) <= most
             && way.across(tangent) <= most
     }
 
-    /// The distance along the tangent of `from` at which a number changes its sign.
+    /// Finds the distance along the tangent of `from` at which a value changes its sign.
     pub(super) fn sign_change(
         &self,
         from: &Place<M>,
@@ -120,12 +122,12 @@ where
         values: [M::Scalar; 2],
         value: impl Fn(&Place<M>) -> M::Scalar,
     ) -> Result<Option<M::Scalar>, PathError> {
-        let smallest = self.rounding(&from.q) * real(0.25);
+        let smallest = self.rounding_error(&from.q) * real(0.25);
         root([low, high], values, smallest, |distance| Ok(self.at(from, distance)?.ok().map(|place| value(&place))))
     }
 
-    /// The distance from one place on the way to another at which two pivots may be zero at once. No determinant and no
-    /// side need change its sign there.
+    /// Finds the distance from one place towards another at which two pivots may be zero at once. No determinant and no
+    /// orientation need change its sign there.
     pub(super) fn falls_twice(
         &self,
         from: &Place<M>,
@@ -145,7 +147,8 @@ where
         Ok((between <= sum * real(FALLEN)).then_some(distance))
     }
 
-    /// The groups that are singular to the root of rounding: so far rounding of the loop equations moves a double root.
+    /// The groups whose regularity is at most [`weak`], because rounding errors of Psi move a double root by their
+    /// square root.
     pub(super) fn singular_groups(&self, q: &M::Coordinates) -> Groups {
         let mut groups = Groups::none(M::GROUPS);
         let blocks = Blocks::of(self.mechanism, &self.mechanism.pose_at(q));
@@ -157,8 +160,8 @@ where
         groups
     }
 
-    /// Adds the groups whose determinants have fallen to that on the way from a place: where all terms of a user's
-    /// equation vanish at the crossing, a block tells nothing by its own size.
+    /// Adds the groups whose determinants have fallen by the factor [`weak`] since another place: where all terms of an
+    /// equation vanish at the crossing, the regularity of a block is meaningless.
     pub(super) fn add_fallen_groups(&self, crossing: &mut Crossing<M>, from: &Place<M>) {
         let determinants = self.determinants(&crossing.q);
         let pairs = determinants.iter().zip(&from.determinants);
@@ -169,7 +172,8 @@ where
         }
     }
 
-    /// The place at a crossing, where the signs of the determinants of the groups that are singular are rounding.
+    /// The place at a crossing; the determinants of singular groups, whose signs are those of rounding errors, are set
+    /// to zero.
     pub(super) fn at_crossing(&self, crossing: &Crossing<M>, tangent: Vector<M>, side: M::Scalar) -> Place<M> {
         let mut determinants = self.determinants(&crossing.q);
         for (place, determinant) in determinants.iter_mut().enumerate() {
@@ -187,7 +191,7 @@ where
         }
     }
 
-    /// The tangent nearest to these rates, their way.
+    /// Returns the tangent nearest to these rates, in their direction.
     pub(super) fn choose(&self, tangents: &[Vector<M>], rates: &M::Rates) -> Result<Vector<M>, PathError> {
         let direction = self.direction(rates);
         if !direction.is_finite() {
@@ -204,13 +208,13 @@ where
         nearest.map(|(_, tangent)| tangent).ok_or(PathError::NoDirection { mechanism: M::NAME })
     }
 
-    pub(super) fn lost(&self, q: &M::Coordinates, iterations: usize, why: Refusal) -> PathError {
+    pub(super) fn lost(&self, q: &M::Coordinates, iterations: usize, why: Rejection) -> PathError {
         let (_, group) = self.weakest_group(q);
-        let Refusal { residual, regularity } = why;
+        let Rejection { residual, regularity } = why;
         PathError::Lost { mechanism: M::NAME, group, iterations, residual, regularity }
     }
 
-    /// The group that is nearest to a singularity, and how regular it is.
+    /// The regularity and the name of the group nearest to a singularity.
     pub(super) fn weakest_group(&self, q: &M::Coordinates) -> (M::Scalar, &'static str) {
         Blocks::of(self.mechanism, &self.mechanism.pose_at(q)).weakest()
     }

@@ -1,13 +1,13 @@
-//! The motions that cross at a change point.
+//! The tangents of the motions that cross at a change point.
 
 use core::ops::Index;
 
-/// Tangents that are told of one crossing: three groups that are flat at once with a motion each have 2^3, and seven in a
-/// chain 7 + 1. Each takes the memory of the coordinates in every event.
+/// The most tangents of one change point: three groups singular at once with a motion each have 2^3, and seven in a
+/// chain 7 + 1. Every event takes the memory for this many coordinates.
 pub(super) const MOST_TANGENTS: usize = 8;
 
-/// Rates of the coordinates along the motions that cross at a change point: first along the one that was followed, in
-/// its direction; then along the others, either way.
+/// Rates of the coordinates along the motions that cross at a change point: first the followed motion, in its
+/// direction, then the others, in either direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tangents<R> {
     rates: [Option<R>; MOST_TANGENTS],
@@ -25,36 +25,36 @@ impl<R: Copy> Tangents<R> {
         self.rates.iter().flatten()
     }
 
-    /// How many there are.
+    /// The number of motions.
     #[must_use]
     pub fn len(&self) -> usize {
         self.iter().count()
     }
 
-    /// True if there are none, which no crossing has.
+    /// True if there are none, which never happens at a change point.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// True if these are all. There are more where a whole family of motions begins, as where the outer joints of a
-    /// dyad coincide, so that it turns freely; and where more than eight motions cross. They are not sought where more
-    /// than seven pivots of [J A] are zero, or where the quadratic equations of more than three coordinates do not split:
-    /// then that which was followed stands alone.
+    /// True if these are all motions. There are more where a continuous family of motions begins, as where the outer
+    /// joints of a dyad coincide and it turns freely, and where more than eight motions cross. They are not computed
+    /// where more than seven pivots of [J A] are zero, or where the quadratic equations of more than three coordinates
+    /// do not factor: then only the followed motion is certain to be returned.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.is_complete
     }
 }
 
-/// The tangent at a place below [`len`](Tangents::len): 0 is the motion that was followed.
+/// The tangent at an index below [`len`](Tangents::len); index 0 is the followed motion.
 impl<R> Index<usize> for Tangents<R> {
     type Output = R;
 
     fn index(&self, place: usize) -> &R {
         match &self.rates[place] {
             Some(rates) => rates,
-            None => panic!("there is no tangent {place}"),
+            None => panic!("the index of a tangent is {place}: it must be less than `len`"),
         }
     }
 }

@@ -13,7 +13,7 @@ pub use scene::{Effect, SceneDerivation};
 pub struct Formula {
     /// One line of Unicode: `−l₃·l₄·sin(θ₃ − θ₄)`.
     pub text: &'static str,
-    /// For LaTeX's mathematical mode, with `amsmath`.
+    /// LaTeX for mathematical mode, with `amsmath`.
     pub latex: &'static str,
     /// Presentation MathML: one element, without the `math` element around it.
     pub mathml: &'static str,
@@ -24,16 +24,16 @@ pub struct Formula {
 pub struct Symbol {
     /// The name in the `linkage!` language: `theta3`.
     pub name: &'static str,
-    /// The name as it is shown: θ₃.
+    /// The displayed name: θ₃.
     pub formula: Formula,
 }
 
 /// `left` = `right`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Equation {
-    /// What is given a value.
+    /// The left side.
     pub left: Formula,
-    /// Its value.
+    /// The right side.
     pub right: Formula,
 }
 
@@ -51,25 +51,25 @@ pub struct Entry {
 /// A matrix of formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FormulaMatrix {
-    /// What it is called.
+    /// The name.
     pub name: Formula,
-    /// What stands before the brackets and multiplies every entry.
+    /// A factor of every entry, written before the brackets.
     pub factor: Option<Formula>,
     /// The number of rows.
     pub rows: usize,
     /// The number of columns.
     pub columns: usize,
-    /// The entries; those that are absent are zero.
+    /// The entries that are not zero.
     pub entries: &'static [Entry],
 }
 
-/// How the linear system of a [`Block`] is solved.
+/// The method that solves the linear system of a [`Block`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BlockMethod {
-    /// By formula: the adjugate over the determinant.
+    /// The inverse by formula: the adjugate divided by the determinant.
     ClosedForm,
-    /// By a factorisation with partial pivoting.
+    /// LU factorisation with partial pivoting.
     Factorization,
 }
 
@@ -78,15 +78,15 @@ pub enum BlockMethod {
 pub struct Block {
     /// The unknowns.
     pub unknowns: &'static [Formula],
-    /// The closure equations that determine them: indices of [`Derivation::residual`].
+    /// The constraint equations that determine them: indices of [`Derivation::residual`].
     pub equations: &'static [usize],
-    /// The Assur group that the block is, or what else it is, in words.
+    /// The Assur group, or a description of any other block.
     pub group: &'static str,
-    /// How the linear system is solved.
+    /// The method that solves the linear system.
     pub method: BlockMethod,
-    /// The determinant of the block of J, where there is a formula.
+    /// The determinant of the block of J, if it has a formula.
     pub determinant: Option<Equation>,
-    /// The inverse of the block of J, where there is a formula.
+    /// The inverse of the block of J, if it has a formula.
     pub inverse: Option<FormulaMatrix>,
 }
 
@@ -95,27 +95,27 @@ pub struct Block {
 pub struct Quantity {
     /// The name in the `linkage!` language.
     pub name: &'static str,
-    /// Its components.
+    /// The components.
     pub value: &'static [Equation],
-    /// The derivatives of its components with respect to the inputs.
+    /// The derivatives of the components with respect to the inputs.
     pub ratios: &'static [Equation],
-    /// The second derivatives of its components with respect to the inputs; like what follows empty unless
-    /// the mechanism asks for them.
+    /// The second derivatives of the components with respect to the inputs; empty unless the mechanism requests them.
     pub ratio_derivatives: &'static [Equation],
-    /// The derivatives of its components with respect to the parameters, but for those that are zero.
+    /// The derivatives of the components with respect to the parameters, without those that are zero; empty unless the
+    /// mechanism requests them.
     pub sensitivities: &'static [Equation],
 }
 
-/// How the unknowns follow the parameters while the inputs are held.
+/// The derivatives of the unknowns with respect to the parameters while the inputs are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sensitivity {
     /// ∂Ψ/∂p, the columns in the order of the parameters.
     pub jacobian: FormulaMatrix,
-    /// ∂u/∂p where there is a formula, but for those that are zero.
+    /// ∂u/∂p if it has a formula, without the derivatives that are zero.
     pub formulas: &'static [Equation],
 }
 
-/// What a function computes, counted.
+/// The operation counts of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Operations {
     /// Calls of elementary functions such as sine.
@@ -133,23 +133,23 @@ pub struct Operations {
 pub struct Kernel {
     /// The name of the function.
     pub function: &'static str,
-    /// What one call of it costs.
+    /// The operations of one call.
     pub operations: Operations,
 }
 
-/// How the kinematics of a mechanism follow from its closure equations Ψ(u, v) = 0, where u are the
-/// unknowns and v the inputs.
+/// The kinematics of a mechanism, derived from its constraint equations Ψ(u, v) = 0, where u are the unknowns and v the
+/// inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Derivation {
     /// The mechanism, or the driver of one.
     pub mechanism: &'static str,
-    /// What is given.
+    /// The parameters.
     pub parameters: &'static [Symbol],
-    /// The driven coordinates v.
+    /// The inputs v.
     pub inputs: &'static [Symbol],
-    /// The coordinates u that follow.
+    /// The unknowns u.
     pub unknowns: &'static [Symbol],
-    /// Ψ, which is zero where the mechanism closes.
+    /// Ψ, the residuals of the constraint equations.
     pub residual: &'static [Equation],
     /// J = ∂Ψ/∂u.
     pub jacobian_unknowns: FormulaMatrix,
@@ -161,27 +161,26 @@ pub struct Derivation {
     pub determinant: Option<Equation>,
     /// The velocity ratios ∂u/∂v.
     pub ratios: &'static [Equation],
-    /// ∂²u/∂v∂v where there is a formula; none unless the mechanism asks for them.
+    /// ∂²u/∂v∂v, if it has a formula and the mechanism requests it.
     pub ratio_derivatives: Option<&'static [Equation]>,
-    /// γ: what is left of the second derivative of Ψ where no coordinate accelerates.
+    /// γ, the quadratic velocity terms: the second time derivative of Ψ without the terms of accelerations.
     pub gamma: &'static [Equation],
-    /// η: what is left of the third derivative of Ψ where no coordinate jerks; none unless the mechanism asks
-    /// for the jerk.
+    /// η: the third time derivative of Ψ without the terms of jerks; none unless the mechanism requests the jerk.
     pub jerk: Option<&'static [Equation]>,
-    /// None unless the mechanism asks for it.
+    /// The sensitivities to the parameters; none unless the mechanism requests them.
     pub sensitivity: Option<Sensitivity>,
-    /// Points and how they move.
+    /// The points and their derivatives.
     pub points: &'static [Quantity],
-    /// Outputs and how they change.
+    /// The outputs and their derivatives.
     pub outputs: &'static [Quantity],
-    /// What simplification took for granted, such as l₄ ≠ 0.
+    /// The conditions under which the simplified formulas hold, such as l₄ ≠ 0.
     pub conditions: &'static [Formula],
     /// The emitted functions.
     pub kernels: &'static [Kernel],
 }
 
 impl FormulaMatrix {
-    /// The entry there, unless it is zero; both indices count from 0.
+    /// Returns an entry, or none if it is zero; both indices count from 0.
     #[must_use]
     pub fn entry(&self, row: usize, column: usize) -> Option<Formula> {
         self.entries.iter().find(|entry| (entry.row, entry.column) == (row, column)).map(|entry| entry.value)
@@ -189,7 +188,7 @@ impl FormulaMatrix {
 }
 
 impl BlockMethod {
-    /// The method in words, to follow "solved".
+    /// Describes the method, to follow the word "solved".
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {

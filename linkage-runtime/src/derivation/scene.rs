@@ -2,31 +2,31 @@
 
 use super::{Equation, Kernel, Symbol};
 
-/// How the motion of a scene follows from its bodies and effects: M(v)·v̈ = Q(v, v̇, t).
+/// The equations of motion of a scene, from its bodies and effects: M(v)·v̈ = Q(v, v̇, t).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SceneDerivation {
-    /// Its name.
+    /// The name of the scene.
     pub scene: &'static str,
     /// The mechanism, or the driver of one.
     pub mechanism: &'static str,
     /// The parameters of its effects.
     pub parameters: &'static [Symbol],
-    /// The mass matrix reduced to the inputs, M = Σ m·W_Gᵀ·W_G + j·wᵀ·w, row by row from the diagonal on; empty
-    /// without inertia.
+    /// The mass matrix reduced to the inputs, M = Σ m·W_Gᵀ·W_G + j·wᵀ·w: its upper triangle, row by row; empty without
+    /// inertia.
     pub mass_matrix: &'static [Equation],
-    /// The generalised forces of the inputs, which are the sum of what each body and each effect adds.
+    /// The generalised forces of the inputs, each the sum of the contributions of the bodies and effects.
     pub forces: &'static [Effect],
-    /// The potential energy of gravity, springs and potentials, if it has any.
+    /// The potential energy of gravity, springs and potentials, if there are any.
     pub potential: Option<Equation>,
     /// The emitted functions.
     pub kernels: &'static [Kernel],
 }
 
-/// What a body or an effect adds to the generalised forces.
+/// The contribution of a body or an effect to the generalised forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effect {
-    /// What errors call it: "spring on theta3".
+    /// The name in error messages: "spring on theta3".
     pub name: &'static str,
-    /// Its share of each Q, but for those that are zero; of a body with the quadratic velocity terms.
+    /// The contribution to each Q, without those that are zero; for a body including the quadratic velocity terms.
     pub forces: &'static [Equation],
 }

@@ -1,59 +1,58 @@
-//! What is given and cannot be used.
+//! The error of invalid input.
 
 use core::fmt;
 
-/// A number or a setting that was given and cannot be used. What is compared is a pure number or in the unit of what was
-/// given.
+/// An invalid number or setting. Measures are nondimensional or in the unit of the number given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
     /// A number outside the range that it may have.
     OutOfRange {
-        /// The mechanism, the scene or the stop, if it is about one.
+        /// The mechanism, scene or stop that the number belongs to, if any.
         of: Option<&'static str>,
-        /// What was given.
+        /// The name of the number.
         quantity: &'static str,
         /// Its value.
         value: f64,
-        /// The least that it may be.
+        /// The least valid value.
         least: f64,
-        /// The most that it may be.
+        /// The largest valid value.
         most: f64,
     },
-    /// A stop whose least value is not below its greatest.
+    /// A stop whose lower limit is not less than its upper limit.
     EmptyRange {
         /// The scene.
         scene: &'static str,
         /// The stop.
         stop: &'static str,
-        /// Its least value.
+        /// The lower limit.
         lower: f64,
-        /// Its greatest value.
+        /// The upper limit.
         upper: f64,
     },
-    /// A turn of the input does not bring the mechanism back to where it was.
+    /// The mechanism does not return to its start after one turn of the input.
     NotPeriodic {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
     },
-    /// A motion begins at another place or rate than its drive says.
+    /// The start of a motion disagrees with the drive of an input.
     Inconsistent {
         /// The scene.
         scene: &'static str,
         /// The driven input.
         coordinate: &'static str,
-        /// Its position or its rate.
+        /// The position or the rate of the input.
         quantity: &'static str,
-        /// By how much it differs.
+        /// The difference.
         gap: f64,
     },
-    /// A motion begins beyond a stop.
+    /// A motion starts beyond a stop.
     BeyondStop {
         /// The scene.
         scene: &'static str,
         /// The stop.
         stop: &'static str,
-        /// By how much, in the unit of what it stops.
+        /// The distance beyond the stop, in the unit of the stopped quantity.
         gap: f64,
     },
 }
@@ -72,16 +71,21 @@ impl fmt::Display for InputError {
                 }
             }
             Self::EmptyRange { scene, stop, lower, upper } => {
-                write!(f, "the {stop} in {scene} leaves nothing between {lower} and {upper}")
+                write!(
+                    f,
+                    "the {stop} in {scene} has the limits {lower} and {upper}: the lower one must be less than the upper one"
+                )
             }
-            Self::NotPeriodic { mechanism } => write!(f, "a turn of the input does not bring {mechanism} back"),
+            Self::NotPeriodic { mechanism } => {
+                write!(f, "{mechanism} does not return to its start after one turn of the input")
+            }
             Self::Inconsistent { scene, coordinate, quantity, gap } => {
                 write!(
                     f,
-                    "{scene} begins with another {quantity} of {coordinate} than its drive says: off by {gap:.1e}"
+                    "{scene} starts with a {quantity} of {coordinate} that differs by {gap:.1e} from that of its drive"
                 )
             }
-            Self::BeyondStop { scene, stop, gap } => write!(f, "{scene} begins beyond the {stop}: by {gap:.1e}"),
+            Self::BeyondStop { scene, stop, gap } => write!(f, "{scene} starts {gap:.1e} beyond the {stop}"),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Why there is no result: an enum for each thing that can be attempted.
+//! Errors: an enum each for positions, for paths and for invalid input.
 
 mod input;
 mod path;
@@ -12,7 +12,7 @@ pub use position::PositionError;
 
 use crate::Real;
 
-/// Refuses values that are infinite or not numbers.
+/// Returns an error if a value is infinite or NaN.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
@@ -25,7 +25,7 @@ pub fn finite<T: Real, const N: usize>(
     all_finite(mechanism, quantity, values.iter())
 }
 
-/// Refuses a matrix with an entry that is infinite or not a number.
+/// Returns an error if an entry of the matrix is infinite or NaN.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
@@ -38,7 +38,7 @@ pub fn finite_matrix<T: Real, const R: usize, const C: usize>(
     all_finite(mechanism, quantity, matrix.iter())
 }
 
-/// As [`finite`], of any number of values.
+/// Returns an error if one of any number of values is infinite or NaN.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
@@ -48,7 +48,7 @@ pub fn all_finite<'a, T: Real>(
     quantity: &'static str,
     values: impl Iterator<Item = &'a T> + Clone,
 ) -> Result<(), PositionError> {
-    // A sum is finite only if all its terms are, and takes one verdict; but it may be too large where none is.
+    // A sum is finite only if all its terms are, and takes a single test; but the sum of finite terms may overflow.
     let sum = values.clone().copied().reduce(|sum, value| sum + value);
     if sum.is_none_or(|sum| sum.is_finite()) || values.clone().all(T::is_finite) {
         Ok(())

@@ -1,60 +1,59 @@
-//! Why a path cannot be followed.
+//! The error of path following.
 
 use core::fmt;
 
 use super::{InputError, PositionError};
 
-/// Why a mechanism cannot be followed along its motion. All measures are pure numbers: scaling all lengths of a
-/// mechanism changes none of them.
+/// The reason why a mechanism cannot be followed along its motion. All measures are nondimensional: scaling all lengths
+/// of a mechanism changes none of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum PathError {
-    /// The input cannot reach the value that is asked for: on this branch it turns back at a dead point.
+    /// The input cannot reach the requested value: on this branch it reverses at a dead point.
     DeadPoint {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
         /// The unknowns of the group that locks.
         group: &'static str,
-        /// How far the input stays from what is asked for, in radians or beside the lengths of its loops.
+        /// The distance from the input to the requested value, in radians or divided by the lengths of its loops.
         gap: f64,
     },
-    /// Motions of the mechanism cross here, and nothing says which of them is meant.
+    /// The path is at a change point, where motions of the mechanism cross, and none of them has been chosen.
     ChangePoint {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
         /// The unknowns of the group that is singular; of several the first.
         group: &'static str,
     },
-    /// At this start the input does not say where the path goes: it is a dead point, or the direction given is
-    /// across the path.
+    /// The initial direction is ambiguous: the start is a dead point, or the direction given is orthogonal to the path.
     NoDirection {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
     },
-    /// The path cannot be followed on: the shortest step fails. Where motions are closer to each other than rounding can
-    /// tell, it ends.
+    /// The path cannot be continued: even the shortest step fails. This happens where motions are closer to each other
+    /// than rounding errors.
     Lost {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
-        /// The unknowns of the group that is nearest to a singularity.
+        /// The unknowns of the group nearest to a singularity.
         group: &'static str,
-        /// Trials of the last step.
+        /// The number of trials of the last step.
         iterations: usize,
-        /// The largest residual of the last trial beside the size of its closure.
+        /// The largest residual of the last trial, divided by its scale.
         residual: f64,
-        /// The smallest pivot of the whole Jacobian of the closures beside the largest: 0 is a change point.
+        /// The smallest pivot of the Jacobian [J A] divided by the largest: 0 at a change point.
         regularity: f64,
     },
-    /// The path is longer than the steps that were allowed.
+    /// The path takes more steps than allowed.
     TooManySteps {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
         /// The steps taken.
         steps: usize,
     },
-    /// A position on the path has no value.
+    /// A position on the path cannot be computed.
     Position(PositionError),
-    /// What was given cannot be used.
+    /// The input is invalid.
     Input(InputError),
 }
 
@@ -62,13 +61,19 @@ impl fmt::Display for PathError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::DeadPoint { mechanism, group, gap } => {
-                write!(f, "{mechanism} locks {gap:.1e} before this input: {group} are at a dead point")
+                write!(f, "{mechanism} locks {gap:.1e} before this input: group {group} is at a dead point")
             }
             Self::ChangePoint { mechanism, group } => {
-                write!(f, "motions of {mechanism} cross here, where {group} are singular: choose one")
+                write!(
+                    f,
+                    "motions of {mechanism} cross here, where group {group} is singular: choose one by `Direction::Along` or `Path::choose`"
+                )
             }
             Self::NoDirection { mechanism } => {
-                write!(f, "the direction given does not say which way {mechanism} moves from this start")
+                write!(
+                    f,
+                    "the direction in which {mechanism} moves from this start is ambiguous: give its rates by `Direction::Along`"
+                )
             }
             Self::Lost { mechanism, group, iterations, residual, regularity } => write!(
                 f,
@@ -76,7 +81,7 @@ impl fmt::Display for PathError {
                  {iterations} trials relative residual {residual:.1e}, Jacobian regular to {regularity:.1e}"
             ),
             Self::TooManySteps { mechanism, steps } => {
-                write!(f, "the path of {mechanism} goes on after {steps} steps")
+                write!(f, "the path of {mechanism} is not complete after {steps} steps: raise `most_steps`")
             }
             Self::Position(error) => error.fmt(f),
             Self::Input(error) => error.fmt(f),

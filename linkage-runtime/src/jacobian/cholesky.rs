@@ -1,15 +1,15 @@
-//! Normal equations.
+//! Cholesky factorisation of normal equations.
 
 use crate::{Column, Dim, Matrix, Real};
 
-/// L of a symmetric matrix L L'.
+/// The Cholesky factor L of a symmetric matrix L L'.
 #[derive(Debug, Clone, Copy)]
 pub struct Cholesky<T: Real, N: Dim> {
     lower: Matrix<T, N, N>,
 }
 
 impl<T: Real, N: Dim> Cholesky<T, N> {
-    /// `None` where the matrix is not positive definite.
+    /// Factorises the matrix; `None` if it is not positive definite.
     #[must_use]
     pub fn new(matrix: &Matrix<T, N, N>) -> Option<Self> {
         let mut lower = Matrix::zeros();
@@ -35,7 +35,7 @@ impl<T: Real, N: Dim> Cholesky<T, N> {
         Column::from_fn(|place| self.lower[(place, place)])
     }
 
-    /// The x of L L' x = `right`.
+    /// Solves L L' x = `right`.
     #[must_use]
     pub fn solve(&self, right: &Column<T, N>) -> Column<T, N> {
         let mut x = *right;

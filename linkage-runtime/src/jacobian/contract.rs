@@ -1,8 +1,8 @@
-//! The loops closed by Newton's method from near by.
+//! Undamped Newton's method from near a solution.
 
 use crate::{Mechanism, PerUnknown, PositionError, Real, real};
 
-/// J^-1 Psi: what a step of Newton's method takes from the unknowns.
+/// J^-1 Psi, the correction of a Newton step u - J^-1 Psi.
 ///
 /// # Errors
 /// Those of [`Mechanism::solve_jacobian`].
@@ -11,22 +11,22 @@ pub fn correction<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<PerUnkn
     mechanism.solve_jacobian(pose, &mechanism.residual(pose))
 }
 
-/// What is found at a position on the way to a closed one.
+/// The result of one iteration of Newton's method.
 #[derive(Debug, Clone, Copy)]
 pub enum Closing<P, X, T> {
-    /// It is closed.
+    /// The iteration has converged.
     Closed(X),
-    /// The next position, and how far it is.
+    /// The next position, and the length of the step to it.
     Step(P, T),
-    /// There is no way on.
+    /// No step is possible.
     Stuck,
 }
 
-/// Newton's method without damping from near a solution: steps that shrink by half at least, to where `look` finds the
-/// closures closed; `None` where they do not shrink, or are not closed after `most` of them.
+/// Undamped Newton's method from near a solution: each step is at most half as long as the one before, until `look`
+/// finds that the iteration has converged. `None` if the steps do not shrink, or if `most` of them do not converge.
 ///
-/// From far away steps are damped instead, as those of [`newton`](crate::newton) are, whose verdict has to hold for every
-/// guess: here a shorter step of who follows a motion is the better answer.
+/// [`newton`](crate::newton) damps its steps, because it must handle every guess. Here the caller, who follows a
+/// motion, takes a shorter step instead.
 ///
 /// # Errors
 /// Those of `look`.

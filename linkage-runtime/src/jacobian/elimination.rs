@@ -1,30 +1,30 @@
-//! What [J A] leaves free: Gauss's elimination with complete pivoting.
+//! Gaussian elimination of [J A] with complete pivoting, which gives its rank and its null space.
 //!
-//! No coordinate is preferred: the columns that are left over at the end are those that the motion turns least away from,
-//! so that a dead point of the inputs is a position like any other (R. A. Wehage and E. J. Haug, "Generalized coordinate
-//! partitioning for dimension reduction in analysis of constrained dynamic systems", J. Mech. Des. 104, 1982; W. C.
-//! Rheinboldt and J. V. Burkardt, "A locally parameterized continuation process", 1983).
+//! No coordinate is preferred: the columns without a pivot are the independent coordinates best aligned with the
+//! motion, so that a dead point of the inputs is a position like any other (R. A. Wehage and E. J. Haug, "Generalized
+//! coordinate partitioning for dimension reduction in analysis of constrained dynamic systems", J. Mech. Des. 104,
+//! 1982; W. C. Rheinboldt and J. V. Burkardt, "A locally parameterized continuation process", 1983).
 
 use core::mem;
 
 use super::{Jacobian, Vector};
 use crate::{Column, D, Dim, Matrix, Real};
 
-/// The rows and columns of [J A] that the pivots are in, one after the other. Columns from `U` on are inputs.
+/// The rows and columns of the pivots of [J A], in the order of elimination. Columns from `U` on are inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Order<U: Dim> {
     /// All rows: those of the pivots, then those without one.
     rows: Column<usize, U>,
-    /// The columns of the pivots; beyond their number without meaning.
+    /// The columns of the pivots; entries beyond their number are unused.
     columns: Column<usize, U>,
     pivots: usize,
 }
 
-/// The triangles of [J A]: L, which has ones on its diagonal, times what is left of [J A] in the order of the pivots.
+/// The factorisation of [J A]: a unit lower triangle L times the reduced [J A], in the order of the pivots.
 #[derive(Debug, Clone)]
 pub struct Elimination<T: Real, U: Dim, V: Dim> {
     jacobian: Jacobian<T, U, V>,
-    /// L below its diagonal, by the rows of [J A] and the steps of the pivots.
+    /// L below its diagonal, by the rows of [J A] and the numbers of the pivots.
     lower: Matrix<T, U, U>,
     order: Order<U>,
 }
@@ -62,12 +62,12 @@ impl<U: Dim> Order<U> {
 }
 
 impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
-    /// With all pivots.
+    /// Eliminates with all pivots.
     pub fn new(jacobian: Jacobian<T, U, V>) -> Self {
         Self::all_but(0, jacobian)
     }
 
-    /// With all pivots but the last `open`, whose places are still open.
+    /// Eliminates with all pivots but the last `open`; the rows without a pivot are called open.
     pub fn all_but(open: usize, jacobian: Jacobian<T, U, V>) -> Self {
         let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
         while elimination.order.pivots + open < U::COUNT {
@@ -76,7 +76,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         elimination
     }
 
-    /// With all pivots in columns of unknowns or of inputs that are not held: those stay independent.
+    /// Eliminates with pivots in columns of unknowns and of inputs that are not held; held inputs stay independent.
     pub fn holding(held: &Column<bool, V>, jacobian: Jacobian<T, U, V>) -> Self {
         let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
         while elimination.order.pivots < U::COUNT {
@@ -85,12 +85,13 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         elimination
     }
 
-    /// With the pivots in the places that they have at another position.
+    /// Eliminates with the pivots of an earlier elimination.
     pub fn in_order(order: &Order<U>, jacobian: Jacobian<T, U, V>) -> Self {
         Self::where_strong(order, jacobian, |_| true)
     }
 
-    /// The same, with the places open whose pivots are no larger than `weak`.
+    /// Eliminates with the pivots of an earlier elimination that are larger than `weak`; the rows of the others stay
+    /// open.
     pub fn in_order_above(weak: T, order: &Order<U>, jacobian: Jacobian<T, U, V>) -> Self {
         Self::where_strong(order, jacobian, |pivot| pivot.abs() > weak)
     }
@@ -105,12 +106,12 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         elimination
     }
 
-    /// Where the pivots are.
+    /// The rows and columns of the pivots.
     pub fn order(&self) -> &Order<U> {
         &self.order
     }
 
-    /// The pivots, which with complete pivoting fall, one after the other; zero those that are open.
+    /// The pivots, which decrease with complete pivoting; zero for open rows.
     pub fn pivots(&self) -> Column<T, U> {
         let places = self.order.rows.iter().zip(self.order.dependent());
         Column::from_iterator(places.map(|(&row, &column)| self.entry(row, column)))
@@ -126,7 +127,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         self.share(U::COUNT.checked_sub(2))
     }
 
-    /// A pivot relative to the first; 1 where there is none.
+    /// A pivot relative to the first; 1 if the pivot does not exist.
     fn share(&self, step: Option<usize>) -> T {
         let Some(step) = step else { return T::one() };
         let pivots = self.pivots();
@@ -134,14 +135,14 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         if first > T::zero() { pivots[step].abs() / first } else { T::zero() }
     }
 
-    /// How many pivots are at most this part of the largest.
+    /// The number of pivots that are at most `weak` times the largest.
     pub fn defect(&self, weak: T) -> usize {
         let pivots = self.pivots();
         let least = pivots.largest() * weak;
         pivots.iter().filter(|pivot| pivot.abs() <= least).count()
     }
 
-    /// How many pivots come after the widest gap between one and the next.
+    /// The number of pivots after the largest ratio between consecutive pivots.
     pub fn after_gap(&self) -> usize {
         let pivots = self.pivots();
         let mut widest = (T::one(), 1);
@@ -159,29 +160,29 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         self.order.free::<V>()
     }
 
-    /// The rows without a pivot, as they come in [J A].
+    /// The rows without a pivot, in the order of [J A].
     pub fn open_rows(&self) -> impl Iterator<Item = usize> + '_ {
         (0..U::COUNT).filter(|row| self.order.open_rows().contains(row))
     }
 
-    /// The vector that [J A] takes to zero in the rows that have a pivot, with a 1 at a free column.
+    /// The vector with a 1 at a free column that the rows of [J A] with a pivot take to zero.
     pub fn null(&self, free: usize) -> Vector<T, U, V> {
         self.above(Vector::unit(free), |row| -self.entry(row, free))
     }
 
-    /// A solution of [J A] x = `right`, in the rows that have a pivot: without the columns that have none.
+    /// Solves [J A] x = `right` in the rows with a pivot, with x zero in the free columns.
     pub fn solve(&self, right: &Column<T, U>) -> Vector<T, U, V> {
         let reduced = self.reduced(right);
         self.above(Vector::zero(), |row| reduced[row])
     }
 
-    /// A combination of closures reduced to the rows that have no pivot; the others are zero.
+    /// L^-1 `right` in the open rows; zero in the others.
     pub fn left(&self, right: &Column<T, U>) -> Column<T, U> {
         let reduced = self.reduced(right);
         self.in_open_rows(|row| reduced[row])
     }
 
-    /// The same of rounding errors, whose signs are not known.
+    /// The rounding error of [`left`](Self::left), for errors of unknown sign.
     pub fn left_of_noise(&self, noise: &Column<T, U>) -> Column<T, U> {
         self.in_open_rows(|row| {
             // The row of the inverse of L.
@@ -195,7 +196,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         })
     }
 
-    /// The derivatives of what [`left`](Self::left) gives along the direction of a free column.
+    /// The derivatives of [`left`](Self::left) of Psi along the null vector of a free column.
     pub fn slope(&self, free: usize) -> Column<T, U> {
         self.in_open_rows(|row| self.entry(row, free))
     }
@@ -217,7 +218,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         self.entry(self.order.rows[step], self.order.columns[step])
     }
 
-    /// One more pivot, the largest that there is.
+    /// Eliminates with the largest entry that is open as the next pivot.
     fn pivot_among(&mut self, is_open: &impl Fn(usize) -> bool) {
         let mut best = None;
         for row in self.open_rows() {
@@ -264,7 +265,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         reduced
     }
 
-    /// The coordinates of the pivots from what their rows are to be; at a pivot that is zero they rest.
+    /// Back substitution: the coordinates of the pivots from the values of their rows; zero at a pivot that is zero.
     fn above(&self, mut vector: Vector<T, U, V>, right: impl Fn(usize) -> T) -> Vector<T, U, V> {
         for step in (0..self.order.pivots).rev() {
             let (row, pivot) = (self.order.rows[step], self.pivot(step));
@@ -277,13 +278,13 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
 }
 
 impl<T: Real, U: Dim> Elimination<T, U, D<1>> {
-    /// The unit tangent of the curve Psi = 0, either way.
+    /// The unit tangent of the curve Psi = 0, in either direction.
     pub fn tangent(&self) -> Vector<T, U, D<1>> {
         self.null(self.first_free()).normalized()
     }
 
-    /// The determinant of [J A] with the `tangent` below it: it keeps its sign along the curve, and changes it where
-    /// another curve is crossed (E. L. Allgower and K. Georg, "Numerical Continuation Methods", 1990, chapter 8).
+    /// det [J A; `tangent`']. It keeps its sign along the curve, and changes it where another curve is crossed (E. L.
+    /// Allgower and K. Georg, "Numerical Continuation Methods", 1990, chapter 8).
     pub fn orientation(&self, tangent: &Vector<T, U, D<1>>) -> T {
         let free = self.first_free();
         // The sign of the permutation from rows to columns, the tangent's row with the free column.

@@ -1,19 +1,19 @@
-//! The closures near a position: what their derivatives say of it, and how they are closed.
+//! The Jacobian [J A] of the constraints at a position, its singularities, and Newton's method.
 //!
-//! - [`Scales`]: sizes of coordinates and closures, so that no unit has a say in a verdict;
-//! - [`Jacobian`] and [`Elimination`]: [J A], its pivots, what it leaves free, and solutions of it;
-//! - [`Blocks`]: how near each group is to a singularity;
-//! - [`contract()`]: the loops closed by Newton's method near a position;
-//! - [`root()`]: where a number on the way changes its sign;
-//! - [`rounding`]: what counts as rounding.
+//! - [`Scales`]: scales of coordinates and residuals, which make all tests independent of units;
+//! - [`Jacobian`] and [`Elimination`]: [J A], its pivots, its null space, and its linear systems;
+//! - [`Blocks`]: the distance of each group from a singularity;
+//! - [`contract()`]: undamped Newton's method from near a solution;
+//! - [`root()`]: the point at which a function changes its sign;
+//! - [`ulp`]: tolerances in ulps.
 
 mod blocks;
 mod cholesky;
 mod contract;
 mod elimination;
 mod root;
-pub mod rounding;
 mod scales;
+pub mod ulp;
 mod vector;
 
 pub use blocks::Blocks;
@@ -32,7 +32,7 @@ pub type VectorOf<M> = Vector<<M as Mechanism>::Scalar, <M as Mechanism>::U, <M 
 /// [J A] of a mechanism.
 pub type JacobianOf<M> = Jacobian<<M as Mechanism>::Scalar, <M as Mechanism>::U, <M as Mechanism>::V>;
 
-/// The sizes of the coordinates and closures of a mechanism.
+/// The scales of the coordinates and residuals of a mechanism.
 pub type ScalesOf<M> = Scales<<M as Mechanism>::Scalar, <M as Mechanism>::U, <M as Mechanism>::V>;
 
 /// The elimination of [J A] of a mechanism.

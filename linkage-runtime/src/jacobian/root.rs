@@ -1,11 +1,11 @@
-//! Where a number changes its sign.
+//! Root finding between two points.
 
 use crate::{Real, real};
 
-/// The place between two at which a value changes its sign, to within `enough`: of those that were looked at that of the
-/// least magnitude. By the ITP method (I. F. D. Oliveira and R. H. C. Takahashi, "An Enhancement of the Bisection Method
-/// Average Performance Preserving Minmax Optimality", ACM Trans. Math. Softw. 47, 2020), which takes at most one look more
-/// than bisection. `None` where `value` has none.
+/// Finds the point between two at which a value changes its sign, to within `enough`: of those evaluated the one with
+/// the least magnitude of the value. It uses the ITP method (I. F. D. Oliveira and R. H. C. Takahashi, "An Enhancement
+/// of the Bisection Method Average Performance Preserving Minmax Optimality", ACM Trans. Math. Softw. 47, 2020), which
+/// takes at most one evaluation more than bisection. `None` if `value` returns `None`.
 ///
 /// # Errors
 /// Those of `value`.
@@ -22,7 +22,7 @@ pub fn root<T: Real, E>(
     let width = high - low;
     let enough = if enough > T::zero() { enough } else { width * T::default_epsilon() };
     let margin = enough * half;
-    // margin 2^(looks allowed)
+    // margin 2^(evaluations allowed)
     let mut radius = margin;
     while radius < width {
         radius += radius;
@@ -35,7 +35,7 @@ pub fn root<T: Real, E>(
         let truncated = if shift <= (middle - straight).abs() { straight + side * shift } else { middle };
         let room = radius - (high - low) * half;
         let place = if (truncated - middle).abs() <= room { truncated } else { middle - side * room };
-        // No nearer to an end than the end may be left.
+        // The point stays at least `margin` away from both ends.
         let place = place.max(low + margin).min(high - margin);
         if place <= low || place >= high {
             break;

@@ -1,19 +1,19 @@
-//! Sizes of coordinates and closures.
+//! Scales of coordinates and residuals.
 
 use super::Vector;
 use crate::scalar::{larger, largest};
 use crate::{Column, Dim, Matrix, Mechanism, Real};
 
-/// What size of a coordinate and of a closure matters, so that no unit has a say in a verdict: of an angle 1, of a length
-/// that of the loops that it is in. Beside them coordinates, closures and the entries of [J A] are pure numbers.
+/// Divisors that make coordinates, residuals and the entries of [J A] nondimensional, so that no test depends on a
+/// unit: 1 for an angle, the lengths of its loops for a length.
 ///
-/// They follow from what the entries of [J A] can be at the lengths of the mechanism, and not from what they are: they
-/// hold for the whole of a motion.
+/// They are computed from the largest values that the entries of [J A] can have at the lengths of the mechanism, not
+/// from the entries at one position, and hold for the whole of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales<T: Real, U: Dim, V: Dim> {
-    /// Of the closures.
-    pub closures: Column<T, U>,
-    /// Of the coordinates.
+    /// The scales of the residuals.
+    pub residuals: Column<T, U>,
+    /// The scales of the coordinates.
     pub coordinates: Vector<T, U, V>,
 }
 
@@ -27,36 +27,36 @@ pub struct Jacobian<T: Real, U: Dim, V: Dim> {
 }
 
 impl<T: Real, U: Dim, V: Dim> Scales<T, U, V> {
-    /// Of a mechanism, from the lengths that it has at a position.
+    /// Computes the scales of a mechanism from its lengths at a position.
     pub fn of<M: Mechanism<Scalar = T, U = U, V = V>>(mechanism: &M, pose: &M::Pose) -> Self {
         let by_unknowns = mechanism.jacobian_unknowns_sizes(pose);
         let by_inputs = mechanism.jacobian_inputs_sizes(pose);
         let terms = mechanism.closure_sizes(pose);
-        // A closure is as large as an angle can make it.
-        let closures = Column::from_fn(|row| {
+        // The scale of a residual is its largest derivative by an angle, or without angles the sum of its terms.
+        let residuals = Column::from_fn(|row| {
             let of_unknowns = of_angles(&by_unknowns.row(row), M::UNKNOWN_ANGLES);
             let of_angles = larger(of_unknowns, of_angles(&by_inputs.row(row), M::INPUT_ANGLES));
             positive(if of_angles.is_zero() { terms[row] } else { of_angles })
         });
         let coordinates = Vector {
-            unknowns: of_coordinates(&by_unknowns, &closures, M::UNKNOWN_ANGLES),
-            inputs: of_coordinates(&by_inputs, &closures, M::INPUT_ANGLES),
+            unknowns: of_coordinates(&by_unknowns, &residuals, M::UNKNOWN_ANGLES),
+            inputs: of_coordinates(&by_inputs, &residuals, M::INPUT_ANGLES),
         };
-        Self { closures, coordinates }
+        Self { residuals, coordinates }
     }
 
-    /// [J A] of pure numbers at a position.
+    /// [J A] at a position, nondimensional.
     pub fn jacobian<M: Mechanism<Scalar = T, U = U, V = V>>(&self, mechanism: &M, pose: &M::Pose) -> Jacobian<T, U, V> {
         let (j, a) = (mechanism.jacobian_unknowns(pose), mechanism.jacobian_inputs(pose));
         Jacobian {
-            unknowns: beside(&j, &self.closures, &self.coordinates.unknowns),
-            inputs: beside(&a, &self.closures, &self.coordinates.inputs),
+            unknowns: relative_to(&j, &self.residuals, &self.coordinates.unknowns),
+            inputs: relative_to(&a, &self.residuals, &self.coordinates.inputs),
         }
     }
 }
 
 impl<T: Real, U: Dim, V: Dim> Jacobian<T, U, V> {
-    /// The rates of the closures along a vector.
+    /// The rates of the residuals along a vector.
     pub fn along(&self, vector: &Vector<T, U, V>) -> Column<T, U> {
         self.unknowns * vector.unknowns + self.inputs * vector.inputs
     }
@@ -66,7 +66,7 @@ impl<T: Real, U: Dim, V: Dim> Jacobian<T, U, V> {
         Self { unknowns: self.unknowns.abs(), inputs: self.inputs.abs() }
     }
 
-    /// Whether every entry is finite.
+    /// True if every entry is finite.
     pub fn is_finite(&self) -> bool {
         self.unknowns.is_finite() && self.inputs.is_finite()
     }
@@ -77,7 +77,7 @@ pub fn largest_entries<T: Real, R: Dim, C: Dim>(matrix: &Matrix<T, R, C>, rows: 
     matrix.columns().map(|column| column.component_div(rows).largest())
 }
 
-/// A divisor: what is not positive divides nothing.
+/// A scale as a divisor: 1 if the scale is zero.
 pub fn positive<T: Real>(size: T) -> T {
     if size.is_zero() { T::one() } else { size }
 }
@@ -88,17 +88,17 @@ fn of_angles<T: Real, C: Dim>(sizes: &Column<T, C>, angles: &[bool]) -> T {
 
 fn of_coordinates<T: Real, U: Dim, C: Dim>(
     sizes: &Matrix<T, U, C>,
-    closures: &Column<T, U>,
+    residuals: &Column<T, U>,
     angles: &[bool],
 ) -> Column<T, C> {
-    let entries = largest_entries(sizes, closures);
+    let entries = largest_entries(sizes, residuals);
     Column::from_fn(|place| if angles[place] { T::one() } else { positive(entries[place]).recip() })
 }
 
-fn beside<T: Real, U: Dim, C: Dim>(
+fn relative_to<T: Real, U: Dim, C: Dim>(
     matrix: &Matrix<T, U, C>,
-    closures: &Column<T, U>,
+    residuals: &Column<T, U>,
     coordinates: &Column<T, C>,
 ) -> Matrix<T, U, C> {
-    Matrix::from_fn(|row, column| matrix[(row, column)] * coordinates[column] / closures[row])
+    Matrix::from_fn(|row, column| matrix[(row, column)] * coordinates[column] / residuals[row])
 }

@@ -1,28 +1,28 @@
-//! Vectors of q.
+//! Vectors in the space of the coordinates q.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use super::rounding::weak;
+use super::ulp::weak;
 use crate::scalar::{larger, largest};
 use crate::{Column, Dim, Real};
 
-/// A vector of q: its part along the unknowns, and its part along the inputs.
+/// A vector in the space of q, with its components along the unknowns and along the inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vector<T: Real, U: Dim, V: Dim> {
-    /// Along the unknowns.
+    /// The components along the unknowns.
     pub unknowns: Column<T, U>,
-    /// Along the inputs.
+    /// The components along the inputs.
     pub inputs: Column<T, V>,
 }
 
 impl<T: Real, U: Dim, V: Dim> Vector<T, U, V> {
-    /// Zero.
+    /// The zero vector.
     #[must_use]
     pub fn zero() -> Self {
         Self { unknowns: Column::zeros(), inputs: Column::zeros() }
     }
 
-    /// The unit vector of a coordinate, by its column in [J A]: from `U` on they are inputs.
+    /// The unit vector of a coordinate, by its column in [J A]; columns from `U` on are inputs.
     #[must_use]
     pub fn unit(column: usize) -> Self {
         let mut vector = Self::zero();
@@ -30,13 +30,13 @@ impl<T: Real, U: Dim, V: Dim> Vector<T, U, V> {
         vector
     }
 
-    /// A coordinate, by its column in [J A].
+    /// Returns a coordinate, by its column in [J A].
     #[must_use]
     pub fn get(&self, column: usize) -> T {
         if column < U::COUNT { self.unknowns[column] } else { self.inputs[column - U::COUNT] }
     }
 
-    /// Gives a coordinate another value, by its column in [J A].
+    /// Sets a coordinate, by its column in [J A].
     pub fn set(&mut self, column: usize, value: T) {
         if column < U::COUNT {
             self.unknowns[column] = value;
@@ -45,56 +45,59 @@ impl<T: Real, U: Dim, V: Dim> Vector<T, U, V> {
         }
     }
 
-    /// The sum of the products of the coordinates.
+    /// The dot product.
     #[must_use]
     pub fn dot(&self, other: &Self) -> T {
         self.unknowns.dot(&other.unknowns) + self.inputs.dot(&other.inputs)
     }
 
-    /// The root of the sum of the squares.
+    /// The Euclidean norm.
     #[must_use]
     pub fn norm(&self) -> T {
         self.dot(self).sqrt()
     }
 
-    /// The largest magnitude; not a number if a coordinate is none.
+    /// The largest magnitude; NaN if a coordinate is NaN.
     #[must_use]
     pub fn largest(&self) -> T {
         larger(largest(self.unknowns), largest(self.inputs))
     }
 
-    /// The same way, of length 1.
+    /// The unit vector in this direction.
     #[must_use]
     pub fn normalized(&self) -> Self {
         *self * self.norm().recip()
     }
 
-    /// What is left of it across a unit vector.
+    /// The length of the component orthogonal to a unit vector.
     #[must_use]
     pub fn across(&self, direction: &Self) -> T {
         (*self - *direction * self.dot(direction)).norm()
     }
 
-    /// The magnitudes.
+    /// The magnitudes of the coordinates.
     #[must_use]
     pub fn abs(&self) -> Self {
         Self { unknowns: self.unknowns.abs(), inputs: self.inputs.abs() }
     }
 
-    /// Each coordinate times that of another.
+    /// The entrywise product.
     #[must_use]
     pub fn scaled(&self, by: &Self) -> Self {
         Self { unknowns: self.unknowns.component_mul(&by.unknowns), inputs: self.inputs.component_mul(&by.inputs) }
     }
 
-    /// Each coordinate beside that of another.
+    /// The entrywise quotient, by scales.
     #[must_use]
-    pub fn beside(&self, size: &Self) -> Self {
-        Self { unknowns: self.unknowns.component_div(&size.unknowns), inputs: self.inputs.component_div(&size.inputs) }
+    pub fn relative_to(&self, scales: &Self) -> Self {
+        Self {
+            unknowns: self.unknowns.component_div(&scales.unknowns),
+            inputs: self.inputs.component_div(&scales.inputs),
+        }
     }
 
-    /// A direction or its opposite: that in which the inputs keep their way along another, or if they rest the first of
-    /// the unknowns that move along both.
+    /// Returns the direction or its opposite: that in which the first input that moves has the sign it has in `other`,
+    /// or if the inputs rest, the first unknown that moves in both.
     #[must_use]
     pub fn like(&self, other: &Self) -> Self {
         let inputs = self.inputs.iter().zip(&other.inputs);
@@ -103,7 +106,7 @@ impl<T: Real, U: Dim, V: Dim> Vector<T, U, V> {
         if decisive.next().is_some_and(|product| product < T::zero()) { -*self } else { *self }
     }
 
-    /// Whether every coordinate is finite.
+    /// True if every coordinate is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.unknowns.is_finite() && self.inputs.is_finite()

@@ -1,23 +1,23 @@
-//! Singular values by one-sided rotations.
+//! Singular value decomposition by one-sided Jacobi rotations.
 
 use crate::{Column, Dim, Matrix, Real, real};
 
-/// Sweeps before the rotations end; six or seven are needed.
+/// The most sweeps; six or seven are needed.
 const MOST_SWEEPS: usize = 40;
 
 /// The singular values of a matrix, the largest first, and its right singular vectors.
 ///
 /// Pairs of columns are rotated until all are orthogonal: C. G. J. Jacobi's method, one-sided (M. R. Hestenes, 1958).
 /// It finds small singular values to more digits than a bidiagonalisation (J. Demmel and K. Veselić, "Jacobi's method
-/// is more accurate than QR", SIAM Journal on Matrix Analysis and Applications 13, 1992), always ends, and asks
-/// nothing of the shape of the matrix.
+/// is more accurate than QR", SIAM Journal on Matrix Analysis and Applications 13, 1992), and works for a matrix of any
+/// shape.
 pub(super) struct Decomposition<T: Real, N: Dim> {
     pub(super) values: Column<T, N>,
     pub(super) vectors: Matrix<T, N, N>,
 }
 
 impl<T: Real, N: Dim> Decomposition<T, N> {
-    /// Of a matrix of finite numbers, none much larger than 1.
+    /// Decomposes a matrix of finite numbers, none much larger than 1.
     pub(super) fn of<R: Dim>(matrix: Matrix<T, R, N>) -> Self {
         let (mut columns, mut vectors) = (matrix, Matrix::<T, N, N>::identity());
         for _ in 0..MOST_SWEEPS {

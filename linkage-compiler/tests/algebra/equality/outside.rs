@@ -66,7 +66,7 @@ fn functions_of_the_user_are_letters() {
         let answer = compare(g, one, stranger);
         let Answer::Undecided(Reason::External(name)) = &answer else { panic!("{answer}") };
         assert!(["lift", "other"].contains(&name.as_str()));
-        assert_eq!(answer.to_string(), format!("cannot decide: nothing is known of the function `{name}`"));
+        assert_eq!(answer.to_string(), format!("cannot decide: the properties of the function `{name}` are not known"));
     }
 }
 
