@@ -269,9 +269,9 @@ impl<A, D> Searched<A, D> {
     /// Corrects a limit in closed form for the rounding errors of its coefficients, which cancel where lengths are
     /// nearly equal.
     ///
-    /// The square of the determinant of the group is proportional to the distance from the limit. Its zero is found by
-    /// a secant through its values at two inputs before the limit, which approach it as the corrections become smaller.
-    /// The relative error of the secant is four times the square of their distance, relative to that of the next zero:
+    /// The square of the determinant of the group is proportional to the distance from the limit. A secant through its
+    /// values at two inputs before the limit finds its zero; the inputs approach the limit as the corrections become
+    /// smaller. The error of the secant is four times the square of their distance, relative to that of the next zero:
     /// at `NEAREST` it is negligible, and the distance has three digits left, of which a limit this near needs one.
     fn corrected<T: Real, P, const N: usize>(
         &self,

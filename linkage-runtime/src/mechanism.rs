@@ -59,11 +59,11 @@ pub trait Mechanism {
     /// The groups, in the order in which they are solved.
     const GROUPS: &'static [Group];
 
-    /// Combines u and v to q.
+    /// Combines u and v into q.
     fn coordinates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Coordinates;
     /// Splits q into u and v.
     fn parts(q: &Self::Coordinates) -> (PerUnknown<Self>, PerInput<Self>);
-    /// Combines u' and v' to q'.
+    /// Combines u' and v' into q'.
     fn rates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Rates;
     /// Splits q' into u' and v'.
     fn rate_parts(rates: &Self::Rates) -> (PerUnknown<Self>, PerInput<Self>);
@@ -125,7 +125,8 @@ pub trait Mechanism {
 
 /// A mechanism whose position has a closed form.
 ///
-/// `linkage!` implements it where all groups have one; of the others some are found by Newton's method.
+/// `linkage!` implements it if all groups have one. In other mechanisms the groups without a closed form are solved by
+/// Newton's method.
 pub trait Assembly: Mechanism {
     /// The assembly branch: the choice between the two solutions of each group that has two.
     type Branch: Copy + Debug + Eq;

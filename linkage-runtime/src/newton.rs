@@ -83,8 +83,7 @@ pub fn search<C: Constraints>(constraints: &C, start: Unknowns<C>) -> Result<(It
 
 /// True if |Psi| <= epsilon |J| |u|, u at the start: the residual is that of one rounding error of the unknowns. An
 /// angle of many turns is less accurate than its sine.
-/// |J| |u|: the sine of an angle of many turns is known better than the angle.
-fn is_rounding<C: Constraints>(constraints: &C, at: &Iterate<C>, start: &Unknowns<C>) -> bool {
+fn is_rounding_error<C: Constraints>(constraints: &C, at: &Iterate<C>, start: &Unknowns<C>) -> bool {
     let (_, scales) = constraints.residual(&at.point);
     let of_unknowns = constraints.jacobian(&at.point).abs() * start.abs();
     let enough = scales * real::<C::Scalar>(ZERO_ULPS);

@@ -37,12 +37,12 @@
 //! and butterfly, three on the leg. [`newton`](crate::newton) to convergence takes a quarter to three quarters longer.
 //! That pays for its checks and adds no digits.
 //!
-//! Near a dead point no method in doubles is accurate: the rounding error of the input alone causes errors of eps /
-//! sin(mu) in the angles, eps / sin^2(mu) in the velocity and eps / sin^3(mu) in the acceleration, where mu is the
-//! transmission angle. Closed form in `f64` returns an error at sin(mu) = 1e-9, where 31 digits still give seven of the
+//! Near a dead point no method in doubles is accurate: with a transmission angle mu, the rounding error of the input
+//! alone causes errors of eps / sin(mu) in the angles, eps / sin^2(mu) in the velocity and eps / sin^3(mu) in
+//! the acceleration. Closed form in `f64` returns an error at sin(mu) = 1e-9, where 31 digits still give seven of the
 //! acceleration. At *given* angles, determinants as sines of differences keep every digit down to 1e-9, where products
-//! of stored sines have lost nine digits and are no faster. The butterfly's determinant has no such form and loses as
-//! many digits as it is small.
+//! of stored sines have lost nine digits and are no faster. The butterfly's determinant has no such form and loses a
+//! digit with each factor of ten.
 //!
 //! Products of stored sines, and Newton's method to a tolerance, are inferior in error or time everywhere and are not
 //! offered here.

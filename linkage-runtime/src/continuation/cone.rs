@@ -19,7 +19,7 @@ pub(super) const DIMENSIONS: usize = 8;
 /// The most spaces visited: eight forms that all are products lead to 2^8 smallest spaces.
 const MOST_SPACES: usize = 512;
 
-/// Passes of the equilibration; each at least halves the logarithm of the largest entries.
+/// Passes of the equilibration; each at least halves the logarithm by which an entry differs from 1.
 const SCALINGS: usize = 5;
 
 /// A direction represents a space of tangents if at least this part of it lies in the space.

@@ -38,7 +38,7 @@ pub struct Options<T = f64> {
     /// The largest turn of the tangent in one step, in radians, by default 1/4. Steps shrink at sharp bends, down to
     /// rounding error.
     pub largest_turn: T,
-    /// The largest number of steps of one call, by default a million.
+    /// The largest number of steps of one call of [`advance_to`](super::Path::advance_to), by default a million.
     pub most_steps: usize,
     /// The policy at change points.
     pub at_change_point: AtChangePoint,

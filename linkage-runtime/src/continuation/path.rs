@@ -16,7 +16,7 @@ use crate::{D, Dim, InputError, Mechanism, PathError, PositionError, position, r
 pub struct PathStep<M: Mechanism> {
     /// The position.
     pub position: M::Coordinates,
-    /// The rates of the coordinates along the path: the velocity ratios (W, 1) times the rate of the input, which is
+    /// The rates of the coordinates along the path, proportional to the velocity ratios (W, 1); that of the input is
     /// zero at a dead point.
     pub rates: M::Rates,
     /// The length of the path so far, with angles in radians and lengths divided by those of their loops.

@@ -71,19 +71,13 @@ impl fmt::Display for InputError {
                 }
             }
             Self::EmptyRange { scene, stop, lower, upper } => {
-                write!(
-                    f,
-                    "the {stop} in {scene} has the limits {lower} and {upper}: the lower one must be less than the upper one"
-                )
+                write!(f, "the {stop} in {scene} is from {lower} to {upper}: the first must be less than the second")
             }
             Self::NotPeriodic { mechanism } => {
                 write!(f, "{mechanism} does not return to its start after one turn of the input")
             }
             Self::Inconsistent { scene, coordinate, quantity, gap } => {
-                write!(
-                    f,
-                    "{scene} starts with a {quantity} of {coordinate} that differs by {gap:.1e} from that of its drive"
-                )
+                write!(f, "{scene} starts with a {quantity} of {coordinate} that differs by {gap:.1e} from its drive")
             }
             Self::BeyondStop { scene, stop, gap } => write!(f, "{scene} starts {gap:.1e} beyond the {stop}"),
         }

@@ -66,22 +66,23 @@ impl fmt::Display for PathError {
             Self::ChangePoint { mechanism, group } => {
                 write!(
                     f,
-                    "motions of {mechanism} cross here, where group {group} is singular: choose one by `Direction::Along` or `Path::choose`"
+                    "motions of {mechanism} cross here, where group {group} is singular: choose one by \
+                     `Direction::Along` or `Path::choose`"
                 )
             }
             Self::NoDirection { mechanism } => {
                 write!(
                     f,
-                    "the direction in which {mechanism} moves from this start is ambiguous: give its rates by `Direction::Along`"
+                    "the direction of {mechanism} is ambiguous here: give rates along its path by `Direction::Along`"
                 )
             }
             Self::Lost { mechanism, group, iterations, residual, regularity } => write!(
                 f,
-                "the path of {mechanism} cannot be followed on, {group} being nearest to a singularity: after \
-                 {iterations} trials relative residual {residual:.1e}, Jacobian regular to {regularity:.1e}"
+                "the path of {mechanism} cannot be continued; group {group} is nearest to a singularity: after \
+                 {iterations} trials relative residual {residual:.1e}, regularity of the Jacobian {regularity:.1e}"
             ),
             Self::TooManySteps { mechanism, steps } => {
-                write!(f, "the path of {mechanism} is not complete after {steps} steps: raise `most_steps`")
+                write!(f, "the path of {mechanism} has not reached the input after {steps} steps: raise `most_steps`")
             }
             Self::Position(error) => error.fmt(f),
             Self::Input(error) => error.fmt(f),

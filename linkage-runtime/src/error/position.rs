@@ -15,7 +15,9 @@ pub enum PositionError {
         mechanism: &'static str,
         /// The unknowns of the group that is singular; the groups before it are regular.
         group: &'static str,
-        /// |det J| of the group divided by the largest value that its formula could take at these lengths; for more than two unknowns the smallest pivot of the equilibrated Jacobian. 1 is far from singular, 0 is singular.
+        /// The regularity of the group: |det J| divided by the largest value that its formula could take at these
+        /// lengths, for more than two unknowns the smallest pivot of the equilibrated Jacobian. 1 is far from singular,
+        /// 0 is singular.
         regularity: f64,
     },
     /// A group cannot be assembled at this input: its links do not reach each other.
@@ -24,9 +26,9 @@ pub enum PositionError {
         mechanism: &'static str,
         /// The unknowns of the group; the groups before it can be assembled.
         group: &'static str,
-        /// The relative gap, 0 where the links just touch. For two links (RRR) it is the distance of the squared
-        /// distance of the outer joints from the range that the links span, divided by the square of the sum of their
-        /// lengths; for other groups the gap divided by the length of the link.
+        /// The relative gap, 0 where the links just touch. For two links (RRR) it is the amount by which the squared
+        /// distance of the outer joints is outside the range that the links span, divided by the square of the sum of
+        /// their lengths; for other groups the gap divided by the length of the link.
         gap: f64,
     },
     /// A group has infinitely many positions at this input. For two links (RRR) the outer joints coincide and the
@@ -78,12 +80,14 @@ impl fmt::Display for PositionError {
         match self {
             Self::Singular { mechanism, group, regularity } => write!(
                 f,
-                "{mechanism} is in a singular configuration: the regularity of group {group} is {regularity:.1e}, 0 is singular"
+                "{mechanism} is in a singular configuration: group {group} has regularity {regularity:.1e}, 0 is \
+                 singular"
             ),
             Self::Unbuildable { mechanism, group, gap } => {
                 write!(
                     f,
-                    "{mechanism} cannot be assembled at this input: group {group} does not close, the relative gap is {gap:.1e}"
+                    "{mechanism} cannot be assembled at this input: group {group} does not close by a relative gap of \
+                     {gap:.1e}"
                 )
             }
             Self::Undetermined { mechanism, group } => {
@@ -101,7 +105,8 @@ impl fmt::Display for PositionError {
             Self::OtherBranch { mechanism, group } => {
                 write!(
                     f,
-                    "the position found of {mechanism} is on another branch than the guess: the determinant of group {group} changed its sign"
+                    "the position found of {mechanism} is on another branch than the guess: the determinant of group \
+                     {group} changed its sign"
                 )
             }
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),

@@ -2,7 +2,7 @@
 
 use crate::{Real, real};
 
-/// `number` epsilon.
+/// `number` times epsilon.
 pub fn ulps<T: Real>(number: f64) -> T {
     T::default_epsilon() * real(number)
 }
