@@ -1,6 +1,6 @@
-//! The names that the code emitted for scenes uses. Not part of the interface.
+//! Items used by the code emitted for scenes. Not part of the public API.
 
-pub use crate::contact::{sound, stops};
+pub use crate::contact::{validate_contacts, validate_stops};
 pub use crate::equilibrium::equilibrium;
 pub use crate::inertia::reduced;
 pub use crate::scene::{Kinematics, finite_each, not_negative};

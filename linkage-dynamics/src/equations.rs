@@ -1,4 +1,4 @@
-//! The equations of motion as they stand before the accelerations are solved for.
+//! The equations of motion before they are solved for the accelerations.
 
 use crate::MotionError;
 use linkage_runtime::__shared::all_finite;
@@ -18,10 +18,10 @@ pub struct Equations<T: Real, U: Dim, V: Dim> {
 }
 
 impl<T: Real, U: Dim, V: Dim> Equations<T, U, V> {
-    /// From M and Q at a position and the rates v', with what the mechanism says of u.
+    /// Builds the equations from M and Q at a position and the rates v'; the mechanism gives W and the bias.
     ///
     /// # Errors
-    /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J has no inverse,
+    /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J is singular,
     /// [`PositionError::NotFinite`](linkage_runtime::PositionError::NotFinite) if a number is not finite.
     pub fn at<M: Mechanism<Scalar = T, U = U, V = V>>(
         mechanism: &M,

@@ -1,4 +1,4 @@
-//! Equilibrium by Newton's method on the forces of the inputs.
+//! Equilibrium: Newton's method on the generalised forces of the inputs.
 
 use core::marker::PhantomData;
 
@@ -6,26 +6,26 @@ use crate::MotionError;
 use linkage_runtime::__shared::{Constraints, Factorization, all_finite, hadamard_ratio, product_of_pivots, search};
 use linkage_runtime::{Column, D, Matrix, PositionError, Real, real};
 
-/// Positions close to rounding only, and forces are no better than positions: a sum of forces is zero beside this
-/// many times the sum of their magnitudes.
-const COARSER: f64 = 64.0;
+/// The factor on the scales of the forces in Newton's convergence test: forces inherit the rounding errors of the
+/// positions.
+const SCALE_FACTOR: f64 = 64.0;
 
-/// The forces of the free inputs at a position.
+/// The generalised forces of the free inputs at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Balance<T, const N: usize> {
-    /// What is zero in equilibrium.
+    /// The generalised forces: zero in equilibrium.
     pub forces: [T; N],
-    /// The sums of the magnitudes of what each is made of.
-    pub sizes: [T; N],
-    /// Their derivatives by the inputs, column by column.
+    /// The scale of each force: the sum of the magnitudes of its terms.
+    pub scales: [T; N],
+    /// The derivatives of the forces with respect to the inputs, column by column.
     pub slopes: [[T; N]; N],
 }
 
-/// The position where the forces of the free inputs vanish, from `start` on; `evaluate` closes the mechanism at
-/// values of these inputs. Stable or not is not asked.
+/// Finds the position where the forces of the free inputs vanish, starting at `start`; `evaluate` assembles the
+/// mechanism at values of these inputs. The equilibrium may be unstable.
 ///
 /// # Errors
-/// What `evaluate` says of the start, [`PositionError::NotConverged`] if no equilibrium is found,
+/// Those of `evaluate` at the start, [`PositionError::NotConverged`] if no equilibrium is found,
 /// [`PositionError::NotFinite`] if a number is not finite.
 pub fn equilibrium<T, Q, const N: usize>(
     scene: &'static str,
@@ -35,25 +35,25 @@ pub fn equilibrium<T, Q, const N: usize>(
 where
     T: Real,
 {
-    let (_, Balance { mut sizes, slopes, .. }) = evaluate(start)?;
-    // What the forces change by over the whole of an input is a size, too: a single spring is slack where it rests.
+    let (_, Balance { mut scales, slopes, .. }) = evaluate(start)?;
+    // The scale includes slope * input: a single spring is slack at its equilibrium, so its own terms vanish there.
     for (column, input) in slopes.into_iter().zip(start) {
-        for (size, slope) in sizes.iter_mut().zip(column) {
-            *size += (slope * input).abs();
+        for (scale, slope) in scales.iter_mut().zip(column) {
+            *scale += (slope * input).abs();
         }
     }
-    // Relative to an infinite size every force would be zero.
-    all_finite(scene, "the forces at rest", sizes.iter())?;
-    // The measure stays as it is, so that smaller forces are better.
-    let sizes = Column::from(sizes) * real::<T>(COARSER);
-    let forces = Forces { scene, sizes, evaluate: &evaluate, position: PhantomData };
+    // Relative to an infinite scale every force would be zero.
+    all_finite(scene, "the forces at rest", scales.iter())?;
+    // The scale stays constant during the search, so that smaller forces always count as better.
+    let scales = Column::from(scales) * real::<T>(SCALE_FACTOR);
+    let forces = Forces { scene, scales, evaluate: &evaluate, position: PhantomData };
     let (found, _) = search(&forces, Column::from(start))?;
     found.point.map(|(q, ..)| q)
 }
 
 struct Forces<'a, T: Real, Q, F, const N: usize> {
     scene: &'static str,
-    sizes: Column<T, D<N>>,
+    scales: Column<T, D<N>>,
     evaluate: &'a F,
     position: PhantomData<Q>,
 }
@@ -72,16 +72,16 @@ where
     }
 
     fn residual(&self, point: &Self::Point) -> (Column<T, D<N>>, Column<T, D<N>>) {
-        // Where the mechanism cannot be closed there is no force, and no step ends there.
+        // NaN where the mechanism cannot be assembled: the line search then rejects the step.
         let none = || Column::repeat(T::zero() / T::zero());
-        (point.as_ref().map_or_else(|_| none(), |(_, balance)| balance.forces.into()), self.sizes)
+        (point.as_ref().map_or_else(|_| none(), |(_, balance)| balance.forces.into()), self.scales)
     }
 
     fn solve(&self, point: &Self::Point, right: &Column<T, D<N>>) -> Result<Column<T, D<N>>, PositionError> {
-        // No step starts there either.
+        // Not reached: no step starts at such a position.
         let none = PositionError::NotFinite { mechanism: self.scene, quantity: "the forces at rest" };
         let (_, balance) = point.as_ref().map_err(|_| none)?;
-        let factors = Factorization::new(self.scene, "the stiffness", balance.slopes, self.sizes.into())?;
+        let factors = Factorization::new(self.scene, "the stiffness", balance.slopes, self.scales.into())?;
         Ok(factors.solve((*right).into()).into())
     }
 

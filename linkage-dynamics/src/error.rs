@@ -1,105 +1,117 @@
-//! Why a motion cannot be computed.
+//! The error type of dynamics.
 
 use core::fmt;
 
 use linkage_runtime::{InputError, PathError, PositionError};
 
-/// Why forces, accelerations or a motion cannot be computed.
+/// The reason why forces, accelerations or a motion cannot be computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// The reduced mass matrix is not positive: an input could accelerate without a force.
+    /// The reduced mass matrix is not positive definite: an input could accelerate without a force.
     NoInertia {
         /// The scene.
         scene: &'static str,
         /// The input.
         coordinate: &'static str,
-        /// What is left of its reduced inertia while the inputs before it are held by forces alone, beside its
-        /// reduced inertia while they stand still: 1 for one input, 0 where there is none.
+        /// Cholesky pivot divided by the diagonal entry of the mass matrix, from 0 (no inertia) to 1.
         share: f64,
     },
-    /// No forces or impulses of the frictions and stops agree with the motion: a prescribed motion drives through a
-    /// stop, or stops leave no way to move.
+    /// No contact forces or impulses satisfy the motion: a prescribed motion drives through a stop, or the stops
+    /// contradict each other.
     NoContactForces {
         /// The scene.
         scene: &'static str,
-        /// A contact that takes part.
+        /// A contact that is involved.
         contact: &'static str,
     },
-    /// A simulation back in time of a scene with frictions or stops: what they take does not say where the motion came
-    /// from.
+    /// A scene with frictions or stops is simulated backwards in time: dissipated energy cannot be recovered.
     Irreversible {
         /// The scene.
         scene: &'static str,
         /// The first of its frictions and stops.
         contact: &'static str,
     },
-    /// On the way of an integration a number is infinite or not a number.
+    /// A number became infinite or NaN during an integration.
     NotFinite {
-        /// What is not finite.
+        /// The quantity that is not finite.
         quantity: &'static str,
         /// The time.
         t: f64,
     },
-    /// An integration needs steps that rounding swallows: near a singularity of the equations, or where they jump.
+    /// The step has become smaller than the rounding error of t: near a singularity of the equations, or at a jump.
     StepTooSmall {
         /// The time that was reached.
         t: f64,
-        /// The step that would have been tried.
+        /// The next step that was too small.
         step: f64,
     },
-    /// An integration has taken as many steps as it may.
+    /// The limit on the number of steps is reached.
     TooManySteps {
         /// The time that was reached.
         t: f64,
-        /// The steps taken, accepted or not.
+        /// The number of steps taken, rejected ones included.
         steps: usize,
     },
-    /// The equations have become stiff: stability, not accuracy, sets the length of the steps of an explicit method.
+    /// The equations have become stiff: stability, not accuracy, limits the step of an explicit method.
     Stiff {
         /// The time that was reached.
         t: f64,
-        /// The step times the size of the fastest rate that holds it up.
+        /// h |lambda|: the step times an estimate of the dominant eigenvalue.
         product: f64,
     },
-    /// Events follow one another without time passing: a ball that has come to rest still bounces.
+    /// An event repeats at the same time: for example, a ball at rest that still bounces.
     EventsWithoutEnd {
         /// The time that was reached.
         t: f64,
-        /// The number of the last event.
+        /// The index of the last event.
         event: usize,
     },
-    /// A position on the way has no value.
+    /// A position during the motion could not be computed.
     Position(PositionError),
-    /// The motion comes to where motions cross, or cannot be followed.
+    /// The motion reached a change point, or could not be followed.
     Path(PathError),
-    /// What was given cannot be used.
+    /// An argument is invalid.
     Input(InputError),
 }
 
 impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoInertia { scene, coordinate, share } => {
-                write!(f, "{coordinate} of {scene} has no inertia here: {share:.1e} of it is left")
-            }
+            Self::NoInertia { scene, coordinate, share } => write!(
+                f,
+                "the mass matrix of {scene} is singular in {coordinate} (pivot / diagonal {share:.1e}): give the bodies \
+                 that it moves mass or inertia"
+            ),
             Self::NoContactForces { scene, contact } => {
-                write!(f, "no forces of frictions and stops agree with the motion of {scene}: {contact}")
+                write!(
+                    f,
+                    "no contact forces satisfy the motion of {scene}, {contact} included: a prescribed motion drives \
+                     through a stop, or stops contradict each other"
+                )
             }
             Self::Irreversible { scene, contact } => {
                 write!(
                     f,
-                    "{scene} cannot be followed back in time, for it has a {contact}: let it end later than it starts"
+                    "{scene} has a {contact} and cannot be simulated backwards in time: choose an end after the start"
                 )
             }
             Self::NotFinite { quantity, t } => write!(f, "{quantity} is not a finite number at t = {t}"),
-            Self::StepTooSmall { t, step } => write!(f, "the integration needs a step of {step:.1e} at t = {t}"),
-            Self::TooManySteps { t, steps } => write!(f, "{steps} steps lead to t = {t} only"),
+            Self::StepTooSmall { t, step } => write!(
+                f,
+                "the step has shrunk to {step:.1e}, too small for t = {t}: the equations are singular or jump here"
+            ),
+            Self::TooManySteps { t, steps } => {
+                write!(f, "the limit of {steps} steps is reached at t = {t}: raise `most_steps` or the tolerance")
+            }
             Self::Stiff { t, product } => write!(
                 f,
-                "the equations have become stiff at t = {t}: the step times their fastest rate is {product:.1}"
+                "the equations are stiff at t = {t}, h |lambda| = {product:.1}: an explicit method does not suit them"
             ),
-            Self::EventsWithoutEnd { t, event } => write!(f, "event {event} happens without end at t = {t}"),
+            Self::EventsWithoutEnd { t, event } => write!(
+                f,
+                "event {event} repeats without end at t = {t}: let its action stop, or restart with another law"
+            ),
             Self::Position(error) => error.fmt(f),
             Self::Path(error) => error.fmt(f),
             Self::Input(error) => error.fmt(f),

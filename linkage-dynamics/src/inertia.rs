@@ -1,14 +1,13 @@
-//! Accelerations from a mass matrix: symmetric elimination without exchange.
+//! Accelerations from a mass matrix: symmetric elimination without pivoting.
 
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, D, Dim, Matrix, PositionError, Real, real};
 
-/// A pivot below this many roundings of its own entry is no better than the rounding of the others.
-const LEAST_PIVOT: f64 = 4.0;
+/// A pivot below this many ulps of its diagonal entry counts as zero: it is rounding error.
+const LEAST_PIVOT_ULPS: f64 = 4.0;
 
-/// A mass matrix with the columns before each pivot taken out, good for a matrix whose every pivot is positive. Nothing
-/// here can panic, whatever the compiler proves.
+/// The triangular factors of a positive definite mass matrix. Nothing here can panic, even without optimisation.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Inertia<T: Real, N: Dim> {
     matrix: Matrix<T, N, N>,
@@ -16,7 +15,7 @@ pub(crate) struct Inertia<T: Real, N: Dim> {
 
 impl<T: Real, N: Dim> Inertia<T, N> {
     /// # Errors
-    /// As [`reduced`].
+    /// Those of [`reduced`].
     #[inline]
     pub(crate) fn new(
         scene: &'static str,
@@ -26,7 +25,7 @@ impl<T: Real, N: Dim> Inertia<T, N> {
         let mut matrix = *mass;
         for (k, coordinate) in coordinates.iter().enumerate() {
             let (pivot, entry) = (matrix.part(k, k), mass.part(k, k));
-            if !(pivot > real::<T>(LEAST_PIVOT) * T::default_epsilon() * entry && pivot.is_finite()) {
+            if !(pivot > real::<T>(LEAST_PIVOT_ULPS) * T::default_epsilon() * entry && pivot.is_finite()) {
                 return Err(without_inertia(scene, coordinate, pivot, entry));
             }
             for i in k + 1..N::COUNT {
@@ -42,7 +41,7 @@ impl<T: Real, N: Dim> Inertia<T, N> {
         Ok(Self { matrix })
     }
 
-    /// The x of M x = `forces`.
+    /// Solves M x = `forces`.
     #[inline]
     pub(crate) fn solve(&self, forces: &Column<T, N>) -> Column<T, N> {
         let (matrix, mut x) = (&self.matrix, *forces);
@@ -63,11 +62,11 @@ impl<T: Real, N: Dim> Inertia<T, N> {
     }
 }
 
-/// The accelerations of M x = `forces`, where M is symmetric and given by columns.
+/// Solves M x = `forces` for the accelerations x, where M is symmetric and given by columns.
 ///
 /// # Errors
 /// [`MotionError::NoInertia`] with the name of the first coordinate whose pivot is not positive,
-/// [`PositionError::NotFinite`] if it is not a number.
+/// [`PositionError::NotFinite`] if it is NaN or infinite.
 #[inline]
 pub fn reduced<T: Real, const N: usize>(
     scene: &'static str,

@@ -1,13 +1,13 @@
-//! Linkages in motion.
+//! Dynamics of planar linkages.
 //!
-//! - [`Scene`]: a mechanism with forces, the trait that a simulation takes;
-//! - [`simulation`]: scenes in motion, through dead points and change points;
+//! - [`Scene`]: the trait of a mechanism with inertia and forces;
+//! - [`simulation`]: integration of scenes, through dead points and change points;
 //! - [`contact`]: dry friction and stops;
-//! - [`integrate`]: motions from differential equations, with events;
-//! - [`MotionError`]: why a motion cannot be computed.
+//! - [`integrate`]: solvers for ordinary differential equations, with events;
+//! - [`MotionError`]: the error type of all of these.
 
 #![cfg_attr(not(feature = "std"), no_std)]
-// Without elementary functions there is nothing; `linkage` says so.
+// The crate is empty without `std` or `libm`; `linkage` then emits a `compile_error!`.
 #![cfg(any(feature = "std", feature = "libm"))]
 #![warn(missing_docs)]
 

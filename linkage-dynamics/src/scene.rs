@@ -1,4 +1,4 @@
-//! Mechanisms with forces: the trait that integrators take, and what the code emitted for scenes calls.
+//! The trait of mechanisms with inertia and forces, and functions that the code emitted for scenes calls.
 
 use crate::contact::within;
 use crate::simulation::scales::resolution_by_inputs;
@@ -8,7 +8,7 @@ use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::Scales;
 use linkage_runtime::{Column, Dim, InputError, Matrix, Mechanism, PerInput, PositionError, Real, newton};
 
-/// Values that the functions of a scene share at a position and rates of the inputs.
+/// Values shared by the functions of a scene, at one position and one set of input rates.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinematics<P, R, T, const U: usize, const V: usize> {
     /// The position.
@@ -17,23 +17,22 @@ pub struct Kinematics<P, R, T, const U: usize, const V: usize> {
     pub ratios: [[T; U]; V],
     /// q' = (W v', v').
     pub rates: R,
-    /// u'' where the inputs do not accelerate.
+    /// u'' at v'' = 0.
     pub bias: [T; U],
 }
 
 /// A mechanism with inertia and forces, as a differential equation, with frictions and stops.
 ///
-/// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then
-/// the rates of the inputs. Its derivative (W v', v'') needs no position to be solved for, follows angles beyond
-/// a turn, and does not leave a branch unnoticed: W has no finite value at a dead point. What rounding and the
-/// integrator add to the closures is removed by [`Scene::project`], after each step or now and then. An
-/// integrator of plain functions takes
+/// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then the rates
+/// of the inputs. Its derivative (W v', v'') requires no position solution, follows angles beyond a turn, and stays on
+/// its branch: W has no finite value at a dead point. [`Scene::project`] removes the drift of the constraints, after
+/// each step or now and then. For an integrator of plain functions, pass
 ///
 /// ```text
 /// |t, y: &_| scene.derivative(t, y)
 /// ```
 pub trait Scene {
-    /// The number that a length or an angle is.
+    /// The scalar type of lengths and angles.
     type Scalar: Real;
     /// The number of dependent coordinates.
     type U: Dim;
@@ -46,16 +45,16 @@ pub trait Scene {
     /// The kinematics.
     type Mechanism: Mechanism<Scalar = Self::Scalar, U = Self::U, V = Self::V>;
 
-    /// The name of the scene, as errors give it.
+    /// The name of the scene, used in errors.
     const NAME: &'static str;
 
     /// The kinematics.
     fn mechanism(&self) -> &Self::Mechanism;
     /// y = (q, v').
     fn state(q: &Coordinates<Self>, input_rates: &Inputs<Self>) -> StateColumn<Self>;
-    /// q and v', taken out of y.
+    /// Splits y into q and v'.
     fn parts(state: &StateColumn<Self>) -> (Coordinates<Self>, Inputs<Self>);
-    /// Refuses parameters that no mechanism has.
+    /// Checks that the parameters are physically valid.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if a mass, an inertia or a friction is negative, with its name, or if the restitution of
@@ -64,28 +63,28 @@ pub trait Scene {
     /// y' = (W v', v''), without frictions and stops.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] where J has no inverse, [`MotionError::NoInertia`] where an input could accelerate
-    /// without a force, [`PositionError::NotFinite`] with the name of the body or the effect that has no finite value.
+    /// [`PositionError::Singular`] where J is singular, [`MotionError::NoInertia`] where an input could accelerate
+    /// without a force, [`PositionError::NotFinite`] with the name of the body or the effect whose value is not finite.
     fn derivative(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError>;
-    /// M, Q, W and u'' at v'' = 0, of which [`derivative`](Self::derivative) is made where no input is prescribed.
+    /// M, Q, W and u'' at v'' = 0: [`derivative`](Self::derivative) where no input is prescribed.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] where J has no inverse, [`PositionError::NotFinite`] with the name of the body or the
-    /// effect that has no finite value.
+    /// [`PositionError::Singular`] where J is singular, [`PositionError::NotFinite`] with the name of the body or the
+    /// effect whose value is not finite.
     fn equations(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<EquationsOf<Self>, MotionError>;
-    /// The frictions and stops as they were declared, in order, at a position and the rates q'.
+    /// The frictions and stops in the order of declaration, at a position and the rates q'.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`] with the name of the effect that has no finite value, [`InputError::OutOfRange`] with
-    /// that of the friction whose limit is negative.
+    /// [`PositionError::NotFinite`] with the name of the effect whose value is not finite, [`InputError::OutOfRange`]
+    /// with the name of the friction whose limit is negative.
     fn contacts(
         &self,
         t: Self::Scalar,
         q: &Coordinates<Self>,
         rates: &Rates<Self>,
     ) -> Result<ContactsOf<Self>, MotionError>;
-    /// M and F of M q'' + Psi_q' lambda = F in all coordinates, at these rates q' of all of them: what any choice of
-    /// independent coordinates takes.
+    /// M and F of M q'' + Psi_q' lambda = F in all coordinates, at the rates q': they hold for any choice of
+    /// independent coordinates.
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if an entry is not finite.
@@ -95,10 +94,10 @@ pub trait Scene {
         q: &Coordinates<Self>,
         rates: &Rates<Self>,
     ) -> Result<UnreducedOf<Self>, MotionError>;
-    /// The motion that is prescribed of each input, if one is.
+    /// The prescribed motion of each input, or None.
     fn prescribed(&self, t: Self::Scalar) -> Column<Option<Prescribed<Self::Scalar>>, Self::V>;
 
-    /// The state with the closures closed again, the inputs as they are.
+    /// Projects the state onto the constraints Psi = 0 with the inputs fixed.
     ///
     /// # Errors
     /// [`PositionError::NotConverged`] if no position is found, [`PositionError::NotFinite`] if a number is not finite.
@@ -109,11 +108,11 @@ pub trait Scene {
         Ok(Self::state(&closed.coordinates, &input_rates))
     }
 
-    /// The state to begin with, at the position near `q` whose inputs are those of `q`.
+    /// Builds the initial state: the position near `q` that satisfies the constraints with the inputs of `q`.
     ///
     /// # Errors
-    /// Those of [`Scene::check`] and [`Scene::project`], [`InputError::Inconsistent`] if a driven input or its rate is not
-    /// what its law says, and [`InputError::BeyondStop`] if a stop is passed already.
+    /// Those of [`Scene::check`] and [`Scene::project`], [`InputError::Inconsistent`] if a driven input or its rate
+    /// differs from its law, and [`InputError::BeyondStop`] if the position is beyond a stop.
     fn start(
         &self,
         t: Self::Scalar,
@@ -126,11 +125,11 @@ pub trait Scene {
         let given = inputs.iter().zip(&rates).zip(&laws);
         for (&coordinate, ((&value, &rate), law)) in Self::Mechanism::INPUTS.iter().zip(given) {
             let Some(law) = law else { continue };
-            // An infinite law agrees with everything.
+            // Relative to an infinite value of the law every difference would be zero.
             finite(Self::NAME, "the law of a drive", [law.value, law.rate])?;
             for (quantity, given, law) in [("position", value, law.value), ("rate", rate, law.rate)] {
                 let gap = (given - law).abs();
-                // NaN is not consistent either.
+                // The comparison is false for NaN, which is inconsistent too.
                 let agrees = gap <= Self::Scalar::default_epsilon().sqrt() * (given.abs() + law.abs());
                 if !agrees {
                     let gap = to_f64(gap);
@@ -160,14 +159,14 @@ pub type Coordinates<S> = <<S as Scene>::Mechanism as Mechanism>::Coordinates;
 pub type Rates<S> = <<S as Scene>::Mechanism as Mechanism>::Rates;
 /// The inputs v of a scene by name, or their rates.
 pub type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
-/// The state y = (q, v') of a scene as integrators take it.
+/// The state y = (q, v') of a scene as one column.
 pub type StateColumn<S> = Column<<S as Scene>::Scalar, <S as Scene>::State>;
 
 type EquationsOf<S> = Equations<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 type UnreducedOf<S> = Unreduced<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 type ContactsOf<S> = Column<Contact<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>, <S as Scene>::Contacts>;
 
-/// A prescribed motion of an input at a moment.
+/// The prescribed motion of an input at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prescribed<T> {
     /// The value of the input.
@@ -178,12 +177,12 @@ pub struct Prescribed<T> {
     pub acceleration: T,
 }
 
-/// The name of a coordinate by its column in [J A].
+/// Returns the name of the coordinate of a column of [J A].
 pub(crate) fn coordinate_name<M: Mechanism>(column: usize) -> &'static str {
     M::UNKNOWNS.iter().chain(M::INPUTS).nth(column).copied().unwrap_or_default()
 }
 
-/// Inertia and forces in all coordinates, M q'' + Psi_q' lambda = F, apart by the unknowns u and the inputs v.
+/// Inertia and forces in all coordinates, M q'' + Psi_q' lambda = F, split into unknowns u and inputs v.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unreduced<T: Real, U: Dim, V: Dim> {
     /// M_uu.
@@ -201,22 +200,22 @@ pub struct Unreduced<T: Real, U: Dim, V: Dim> {
 /// The energy of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy<T> {
-    /// Of the bodies whose inertia counts.
+    /// The kinetic energy of the bodies listed under `inertia`.
     pub kinetic: T,
-    /// Of gravity, springs and potentials.
+    /// The potential energy of gravity, springs and potentials.
     pub potential: T,
 }
 
-/// The power of a scene: the energy changes by `applied` - `dissipated`.
+/// The power of a scene: dE/dt = `applied` - `dissipated`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Power<T> {
-    /// Of forces, torques and drives.
+    /// The power of forces, torques and drives.
     pub applied: T,
-    /// Of dampers.
+    /// The power of dampers.
     pub dissipated: T,
 }
 
-/// Refuses numbers less than zero, and what is not finite.
+/// Checks that the numbers are finite and not negative.
 ///
 /// # Errors
 /// [`InputError::OutOfRange`] or [`PositionError::NotFinite`] with the name of the first.
@@ -235,15 +234,15 @@ pub fn not_negative<T: Real, const N: usize>(
     Ok(())
 }
 
-/// A number that may not be negative.
+/// The error for a negative number.
 pub(crate) fn negative<T: Real>(scene: &'static str, quantity: &'static str, value: T) -> InputError {
     InputError::OutOfRange { of: Some(scene), quantity, value: to_f64(value), least: 0.0, most: f64::MAX }
 }
 
-/// Refuses the first value that is not finite, by its name.
+/// Checks that all values are finite.
 ///
 /// # Errors
-/// [`PositionError::NotFinite`] with the name.
+/// [`PositionError::NotFinite`] with the name of the first that is not.
 pub fn finite_each<T: Real, const N: usize>(
     scene: &'static str,
     values: [(&'static str, T); N],

@@ -49,8 +49,8 @@ fn no_unknown_is_infinite() {
 /// Forces beside which any other is zero.
 #[test]
 fn an_equilibrium_of_infinite_forces_is_none() {
-    for (sizes, slopes) in [([f64::INFINITY], [[1.0]]), ([1.0], [[1e308]])] {
-        let found = equilibrium("scene", [10.0], |[x]| Ok((x, Balance { forces: [x], sizes, slopes })));
+    for (scales, slopes) in [([f64::INFINITY], [[1.0]]), ([1.0], [[1e308]])] {
+        let found = equilibrium("scene", [10.0], |[x]| Ok((x, Balance { forces: [x], scales, slopes })));
         assert!(matches!(found, Err(MotionError::Position(PositionError::NotFinite { .. }))), "{found:?}");
     }
 }

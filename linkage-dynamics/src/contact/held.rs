@@ -1,9 +1,9 @@
-//! Contacts held at once: their forces, whether independent or not.
+//! The forces of held contacts, redundant or not.
 //!
-//! With A = S M^-1 S' of the contacts that are held, A f = -b keeps their s'' = 0, where b is s'' without them. Where
-//! more are held than the motion needs (every joint of a linkage of one input sticks) A has no inverse: contacts are
-//! taken one after the other, that first of which most is left beside those before it, until nothing but rounding is
-//! left. These carry the force, and every other row is a combination of theirs.
+//! A f = -b keeps s'' = 0 of the held contacts, where A = S M^-1 S' and b is s'' without their forces. With redundant
+//! contacts (for example, every joint of a one-degree-of-freedom linkage sticks) A is singular: LDL' with diagonal
+//! pivoting takes the row with the largest remaining pivot, relative to its diagonal entry, until only rounding error
+//! remains. The rows taken carry the forces; every other row is a linear combination of them.
 
 use super::reduced::ReducedEquations;
 use super::{ContactLaw, Mode};
@@ -11,28 +11,29 @@ use crate::MotionError;
 use crate::inertia::Inertia;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
-/// What is left of a pivot beside its own entry, and of a force beside its terms, is nothing below this many roundings.
-pub(super) fn nothing<T: Real>() -> T {
+/// The tolerance of 1024 ulps: a pivot counts as zero below it, relative to its diagonal entry, and a sum relative to
+/// the magnitudes of its terms.
+pub(super) fn held_tolerance<T: Real>() -> T {
     real::<T>(1024.0) * T::default_epsilon()
 }
 
-/// How the mechanism answers to forces along its contacts.
+/// The response of the mechanism to forces along its contacts.
 pub(super) struct Response<T: Real, V: Dim, C: Dim> {
-    /// M^-1 Q with the forces of what slips.
+    /// M^-1 Q, the forces of slipping contacts included.
     pub acceleration: Column<T, V>,
-    /// M^-1 S', by contact; of those asked for.
+    /// M^-1 S', one column for each requested contact.
     pub columns: Matrix<T, V, C>,
     /// S M^-1 S'.
     pub matrix: Matrix<T, C, C>,
-    /// s'' without the forces of the contacts asked for, and the sum of the magnitudes of its terms.
+    /// s'' without the forces of the requested contacts, and the sum of the magnitudes of its terms.
     pub bias: Column<(T, T), C>,
 }
 
 impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
-    /// With these forces along the contacts, and what the contacts in `asked` are needed for.
+    /// Computes the response with these forces along the contacts; matrix rows for the contacts in `asked`.
     ///
     /// # Errors
-    /// [`MotionError::NoInertia`], [`PositionError::NotFinite`] as [`reduced`](crate::reduced).
+    /// [`MotionError::NoInertia`], [`PositionError::NotFinite`] as for [`Inertia::new`].
     pub(super) fn new(
         equations: &ReducedEquations<T, V, C>,
         forces: &Column<T, C>,
@@ -61,9 +62,9 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
     }
 }
 
-/// A symmetric matrix, of some of its rows, as L D L'.
+/// The L D L' factors of a symmetric matrix, restricted to some of its rows.
 pub(super) struct Factors<T: Real, C: Dim> {
-    /// The rows in the order in which they were taken; from `rank` on those that depend on the ones before.
+    /// The rows in pivot order; those from `rank` on depend on the ones before.
     pub order: Column<usize, C>,
     pub count: usize,
     pub rank: usize,
@@ -72,12 +73,12 @@ pub(super) struct Factors<T: Real, C: Dim> {
 }
 
 impl<T: Real, C: Dim> Factors<T, C> {
-    /// Takes that row first of which most is left.
+    /// Factors with pivoting: the row with the largest remaining pivot first.
     pub(super) fn pivoted(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize) -> Self {
         Self::new(matrix, order, count, true)
     }
 
-    /// Takes the rows as they come, and ends with the first that depends on those before.
+    /// Factors in the given order, up to the first row that depends on those before it.
     pub(super) fn in_order(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize) -> Self {
         Self::new(matrix, order, count, false)
     }
@@ -88,7 +89,7 @@ impl<T: Real, C: Dim> Factors<T, C> {
         let mut left: Column<T, C> = Column::from_fn(|row| matrix[(row, row)]);
         let mut rank = 0;
         while rank < count {
-            // A row of zeros has nothing to lose.
+            // A row of zeros counts as dependent.
             let share = |row: usize| {
                 let entry = matrix[(row, row)];
                 if entry > T::zero() { left[row] / entry } else { T::zero() }
@@ -99,7 +100,7 @@ impl<T: Real, C: Dim> Factors<T, C> {
                     best = place;
                 }
             }
-            if share(order[best]) <= nothing() {
+            if share(order[best]) <= held_tolerance() {
                 break;
             }
             order.as_mut_slice().swap(rank, best);
@@ -118,7 +119,7 @@ impl<T: Real, C: Dim> Factors<T, C> {
         Self { order, count, rank, lower, pivots }
     }
 
-    /// The x of A x = `side` for the independent rows, both by place in the order.
+    /// Solves A x = `side` for the independent rows; both are indexed in pivot order.
     pub(super) fn solve(&self, side: impl Fn(usize) -> T) -> Column<T, C> {
         let mut x = Column::zeros();
         for place in 0..self.rank {
@@ -131,7 +132,7 @@ impl<T: Real, C: Dim> Factors<T, C> {
         self.back(x)
     }
 
-    /// A row as a combination of the independent ones, by place in the order.
+    /// Returns the coefficients of a row as a combination of the independent rows, in pivot order.
     pub(super) fn combination(&self, place: usize) -> Column<T, C> {
         let mut x = Column::zeros();
         if place < self.rank {
@@ -155,15 +156,15 @@ impl<T: Real, C: Dim> Factors<T, C> {
     }
 }
 
-/// Contacts that are held, and what holds them.
+/// The held contacts and their forces.
 pub(super) struct Held<T: Real, V: Dim, C: Dim> {
     pub response: Response<T, V, C>,
     pub factors: Factors<T, C>,
-    /// The forces along s of the independent contacts, by place in the order.
+    /// The forces along s of the independent contacts, in pivot order.
     pub forces: Column<T, C>,
 }
 
-/// The force along s of a contact that slips.
+/// The force along s of a slipping contact.
 pub(super) fn slipping<T: Real>(mode: Mode, law: &ContactLaw<T>) -> T {
     match (mode, law) {
         (Mode::SlipForward, ContactLaw::Friction { limit }) => -*limit,
@@ -174,7 +175,7 @@ pub(super) fn slipping<T: Real>(mode: Mode, law: &ContactLaw<T>) -> T {
 
 impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// # Errors
-    /// As [`Response::new`].
+    /// Those of [`Response::new`].
     pub(super) fn new(equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Result<Self, MotionError> {
         let forces: Column<T, C> = Column::from_fn(|place| slipping(modes[place], &equations.contacts[place].law));
         let response = Response::new(equations, &forces, |place| modes[place].is_held())?;
@@ -198,7 +199,8 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         acceleration
     }
 
-    /// v' without what rounding, or an event found to rounding, has left of the rates of what is held.
+    /// Returns v' projected so that s' = 0 of the held contacts: removes rounding error and the error of the event
+    /// time.
     pub(super) fn rates(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
         let impulses = self.factors.solve(|row| -equations.contacts[row].rate(&equations.rates).0);
         let mut rates = equations.rates;
@@ -209,8 +211,8 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         rates
     }
 
-    /// Makes S x + `rest` = 0 for what is held not to rounding, but as exactly as a coordinate of each can: where
-    /// a block rests its rate is 0.
+    /// Makes S x + `rest` = 0 exact for the held contacts by solving for one coordinate of each: the rate of a resting
+    /// block is then exactly 0.
     fn keep(&self, equations: &ReducedEquations<T, V, C>, x: &mut Column<T, V>, rest: impl Fn(usize) -> T) {
         let rank = self.factors.rank;
         let mut rows = Column::<_, C>::repeat(Column::<T, V>::zeros());
@@ -221,7 +223,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             sides[place] = -rest(contact);
         }
         for place in 0..rank {
-            // Beside the inertia of each coordinate, units have no say.
+            // Dividing by the diagonal inertia makes the pivot choice independent of units.
             let weight = |at: usize| rows[place][at] * rows[place][at] / equations.mass[(at, at)];
             let pivot = (1..V::COUNT).fold(0, |best, at| if weight(at) > weight(best) { at } else { best });
             pivots[place] = pivot;

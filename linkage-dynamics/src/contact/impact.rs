@@ -1,8 +1,8 @@
-//! Impacts: what reaches a stop goes back with its part of the rate.
+//! Impacts by Newton's law of restitution, s'+ = -e s'-.
 //!
-//! Newton's law: of contacts that meet their stops s'+ = -e s'-, by impulses that push only; what rests on a stop at that
-//! moment takes part and is not pushed through it: v'+ = v'- + M^-1 S' p, with p >= 0, S v'+ + e S v'- >= 0 and one of
-//! the two zero for each. **Impulses of friction are neglected**: what sticks may begin to slip at an impact.
+//! v'+ = v'- + M^-1 S' p with p >= 0, S v'+ + e S v'- >= 0 and, for each stop, one of the two zero. Stops that are
+//! closed at that time take part with e = 0. **Impulses of friction are neglected**: a sticking contact may begin to
+//! slip at an impact.
 
 use super::bounded::{Bounds, bounded};
 use super::held::Response;
@@ -15,19 +15,19 @@ use linkage_runtime::{Column, Dim, Matrix, Real, real};
 pub(super) struct Struck<T> {
     /// 1 at the lower, -1 at the upper stop.
     pub inward: T,
-    /// The part of its rate that is given back.
+    /// The coefficient of restitution.
     pub restitution: T,
 }
 
-/// What an impact leaves.
+/// The result of an impact.
 pub(super) struct After<T: Real, V: Dim, C: Dim> {
     /// v'.
     pub rates: Column<T, V>,
-    /// By stop.
+    /// The impulse of each stop.
     pub impulses: Column<T, C>,
 }
 
-/// The rates v' after the impact, and the impulse of each stop.
+/// Computes the rates v' after the impact and the impulse of each stop.
 ///
 /// # Errors
 /// [`MotionError::NoContactForces`] if a prescribed motion drives through a stop.
@@ -36,7 +36,7 @@ pub(super) fn impact<T: Real, V: Dim, C: Dim>(
     struck: &Column<Option<Struck<T>>, C>,
 ) -> Result<After<T, V, C>, MotionError> {
     let response = Response::new(equations, &Column::zeros(), |place| struck[place].is_some())?;
-    // Every row looks inward.
+    // All rows are oriented inward.
     let inward = struck.map(|struck| struck.map_or(T::zero(), |struck| struck.inward));
     let matrix = Matrix::from_fn(|row, column| response.matrix[(row, column)] * inward[row] * inward[column]);
     let bounds = Column::from_fn(|place| {

@@ -1,34 +1,33 @@
-//! How far contacts that are held are from giving way.
+//! The margin of held contacts before they slip or open.
 //!
-//! A motion z that they could make together, s' = c z, begins if the load does more work on it than friction takes:
-//! what is left is h z + sum limit |c z|, with h a set of forces that would hold them. By the kinematic theorem of limit
-//! analysis they hold if and only if no motion gains, and by linearity it is enough to look at the motions in which all
-//! but one of the independent contacts stand still (W. Prager, *An Introduction to Plasticity*, 1959). Where none is
-//! redundant these are the contacts one by one; K sticking joints of a linkage of one input hold while |Q| is
-//! not more than the sum of |S| limit.
+//! A motion z of the held contacts, s' = c z, begins if the load does more work on it than friction dissipates: if the
+//! margin h z + sum limit |c z| is negative, where h is a set of forces that would hold them. By the kinematic theorem
+//! of limit analysis the contacts hold if and only if no motion has a negative margin, and by linearity it suffices to
+//! test the motions in which all but one of the independent contacts are at rest (W. Prager, *An Introduction to
+//! Plasticity*, 1959). Without redundancy these are the contacts one by one; K sticking joints of a linkage with one
+//! input hold while |Q| <= sum |S| limit.
 
-use super::held::{Held, nothing};
+use super::held::{Held, held_tolerance};
 use super::reduced::ReducedEquations;
 use super::{ContactLaw, Mode};
 use linkage_runtime::{Column, Dim, Real};
 
 impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
-    /// By contact, the least that is left of the motions that it takes part in: it gives way where this falls through
-    /// zero. A little more than nothing is left where the load is just what the limit can hold, so that rounding
-    /// does not set free what stands.
+    /// Returns for each contact the least margin of the motions in which it moves: it slips or opens where the margin
+    /// falls through zero. The tolerance of the force is added, so that a contact loaded exactly to its limit holds.
     pub(super) fn margins(&self, equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Column<T, C> {
         let (rank, count) = (self.factors.rank, self.factors.count);
         let mut margins = Column::repeat(T::one());
         let mut found = Column::<_, C>::repeat(false);
         let combinations: Column<Column<T, C>, C> =
             Column::from_fn(|place| if place < count { self.factors.combination(place) } else { Column::zeros() });
-        // Along each contact in the order; what of it is rounding is nothing.
+        // s' of each contact in pivot order, 0 within rounding error.
         let motion = |z: &Column<T, C>| -> Column<T, C> {
             Column::from_fn(|place| {
                 let terms = combinations[place].iter().zip(z).map(|(&c, &z)| c * z);
                 let (sum, size) =
                     terms.fold((T::zero(), T::zero()), |(sum, size), term| (sum + term, size + term.abs()));
-                if sum.abs() <= nothing::<T>() * size { T::zero() } else { sum }
+                if sum.abs() <= held_tolerance::<T>() * size { T::zero() } else { sum }
             })
         };
         let mut weigh = |z: &Column<T, C>| {
@@ -47,7 +46,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
                     ContactLaw::Friction { limit } => limit,
                     ContactLaw::Stop { .. } => T::zero(),
                 };
-                left += (limit + self.rounding(contact)) * moved.abs();
+                left += (limit + self.force_tolerance(contact)) * moved.abs();
             }
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count).filter(|(_, s)| !s.is_zero()) {
                 let share = left / moved.abs();
@@ -81,22 +80,22 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
                 let term = self.response.matrix[(contact, row)] * force;
                 (left, size) = (left + term, size + term.abs());
             }
-            // The others do not hold it: a prescribed motion takes it along.
-            if left.abs() > nothing::<T>() * size {
+            // The independent contacts do not hold this one: a prescribed motion moves it.
+            if left.abs() > held_tolerance::<T>() * size {
                 margins[contact] = -left.abs();
             }
         }
         margins
     }
 
-    /// What rounding may have left in the force of a contact.
-    fn rounding(&self, contact: usize) -> T {
+    /// The rounding error of the force of a contact.
+    fn force_tolerance(&self, contact: usize) -> T {
         let inverse = self.response.matrix[(contact, contact)];
-        if inverse > T::zero() { nothing::<T>() * self.response.bias[contact].1 / inverse } else { T::zero() }
+        if inverse > T::zero() { held_tolerance::<T>() * self.response.bias[contact].1 / inverse } else { T::zero() }
     }
 }
 
-/// Every choice of `many` of the numbers below `count`.
+/// Visits every combination of `many` of the numbers below `count`.
 fn each_choice<C: Dim>(count: usize, many: usize, mut visit: impl FnMut(&[usize])) {
     let mut chosen: Column<usize, C> = Column::from_fn(|place| place);
     loop {
@@ -109,7 +108,7 @@ fn each_choice<C: Dim>(count: usize, many: usize, mut visit: impl FnMut(&[usize]
     }
 }
 
-/// The motion in which these contacts stand still, if they leave one only.
+/// Returns the motion in which these contacts are at rest, if it is unique up to a factor.
 fn across<T: Real, C: Dim>(
     combinations: &Column<Column<T, C>, C>,
     still: &[usize],
@@ -123,7 +122,7 @@ fn across<T: Real, C: Dim>(
     let sizes = rows.map(|row| size(&row));
     for step in 0..still.len() {
         let pivot = (0..rank).fold(0, |best, at| if rows[step][at].abs() > rows[step][best].abs() { at } else { best });
-        if rows[step][pivot].abs() <= nothing::<T>() * sizes[step] {
+        if rows[step][pivot].abs() <= held_tolerance::<T>() * sizes[step] {
             return None;
         }
         pivots[step] = pivot;

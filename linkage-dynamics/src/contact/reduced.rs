@@ -1,19 +1,19 @@
-//! The equations of motion and the contacts in some choice of independent coordinates.
+//! The equations of motion and the contacts in any choice of independent coordinates.
 
 use super::{Contact, ContactLaw};
 use crate::scene::{Rates, StateColumn, coordinate_name};
 use crate::{Equations, MotionError, Scene};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput, Real};
 
-/// M v'' = Q + S' f with the contacts' s' = S v' + `drift` and s'' = S v'' + `bias`, where v are `V` coordinates that
-/// move independently: the inputs of a scene, or any others.
+/// M v'' = Q + S' f with the contacts' s' = S v' + `drift` and s'' = S v'' + `bias`, where v are `V` independent
+/// coordinates: the inputs of a scene, or others.
 ///
-/// A coordinate whose motion is prescribed no force can accelerate: see [`prescribe`](Self::prescribe).
+/// No force accelerates a coordinate whose motion is prescribed: see [`prescribe`](Self::prescribe).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReducedEquations<T: Real, V: Dim, C: Dim> {
-    /// The scene, as errors give it.
+    /// The name of the scene, used in errors.
     pub scene: &'static str,
-    /// The coordinates, as errors give them.
+    /// The names of the coordinates, used in errors.
     pub coordinates: Column<&'static str, V>,
     /// M.
     pub mass: Matrix<T, V, V>,
@@ -25,26 +25,26 @@ pub struct ReducedEquations<T: Real, V: Dim, C: Dim> {
     pub contacts: Column<ReducedContact<T, V>, C>,
 }
 
-/// A contact by the independent coordinates.
+/// A contact in the independent coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReducedContact<T: Real, V: Dim> {
-    /// The label that errors give.
+    /// The name used in errors.
     pub name: &'static str,
     /// s.
     pub value: T,
     /// Its row of S: `ds/dv`.
     pub row: Column<T, V>,
-    /// What is left of s' where v' is zero: of prescribed coordinates only.
+    /// s' at v' = 0: nonzero only with prescribed coordinates.
     pub drift: T,
-    /// What is left of s'' where v'' is zero.
+    /// s'' at v'' = 0.
     pub bias: T,
-    /// What it does.
+    /// The law of its force.
     pub law: ContactLaw<T>,
 }
 
 impl<T: Real, V: Dim> ReducedContact<T, V> {
-    /// Of a contact where the velocity is (u', v') = `basis` times the rates of the independent coordinates, and the
-    /// acceleration that times theirs plus `bias`.
+    /// Reduces a contact by (u', v') = N z' and (u'', v'') = N z'' + bias, where z are the independent coordinates and
+    /// N is given by its rows of u and of v.
     #[must_use]
     pub fn new<U: Dim>(
         contact: &Contact<T, U, V>,
@@ -70,7 +70,7 @@ impl<T: Real, V: Dim> ReducedContact<T, V> {
 }
 
 impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
-    /// Those of a scene in its inputs, whose prescribed ones stay prescribed.
+    /// Builds the equations of a scene in its inputs, with the prescribed motions applied.
     ///
     /// # Errors
     /// Those of [`Scene::equations`] and [`Scene::contacts`].
@@ -81,7 +81,7 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
         Self::with_rates(scene, t, state).map(|(reduced, _)| reduced)
     }
 
-    /// The same, and q'.
+    /// Builds the equations in the inputs, and q'.
     pub(crate) fn with_rates<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<(Self, Rates<S>), MotionError>
     where
         S: Scene<Scalar = T, V = V, Contacts = C>,
@@ -95,7 +95,7 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
         Ok((reduced, rates))
     }
 
-    /// The same where no input is prescribed yet.
+    /// Builds the equations in the inputs before the prescribed motions are applied, and q'.
     pub(crate) fn unprescribed<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<(Self, Rates<S>), MotionError>
     where
         S: Scene<Scalar = T, V = V, Contacts = C>,
@@ -112,8 +112,8 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
         Ok((Self { scene: S::NAME, coordinates, mass, forces, rates: input_rates, contacts }, rates))
     }
 
-    /// Gives a coordinate this acceleration: its rate and acceleration act on the others as they do, and no force or
-    /// impulse changes them. Its row of M becomes that of the identity.
+    /// Prescribes the acceleration of a coordinate. Its row and column of M become those of the identity, its terms
+    /// move to the right side, and no force or impulse changes it.
     pub fn prescribe(&mut self, at: usize, acceleration: T) {
         self.forces -= self.mass.column(at) * acceleration;
         self.forces[at] = acceleration;

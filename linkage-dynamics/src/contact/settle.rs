@@ -1,23 +1,23 @@
-//! What happens at an event: impacts, and which modes follow.
+//! Contact events: impacts, and the modes that follow.
 
 use super::bounded::bounded;
-use super::held::{Held, Response, nothing, slipping};
+use super::held::{Held, Response, held_tolerance, slipping};
 use super::impact::{After, Struck, impact};
 use super::reduced::ReducedEquations;
-use super::state::{Contacts, NOTHING, is_nothing, slip_or_stick};
+use super::state::{Contacts, ZERO_ULPS, is_negligible, slip_or_stick};
 use super::{ContactLaw, Mode};
 use crate::MotionError;
 use linkage_runtime::{Column, Dim, Real, real};
 
-/// A flight of fewer roundings of the time than these is none.
-const SHORTEST_FLIGHT: f64 = 64.0;
+/// A rebound shorter than this many ulps of the time is treated as rest.
+const SHORTEST_FLIGHT_ULPS: f64 = 64.0;
 
 impl<T: Real, C: Dim> Contacts<T, C> {
-    /// What happens at the state where an event function has just fallen through zero: impacts, and the modes that
-    /// follow. Gives the rates v' from here on. `evaluate` gives the equations at other rates.
+    /// Applies impacts and finds the new modes at a state where an event function has just fallen through zero. Returns
+    /// the rates v' after the event. `evaluate` computes the equations at given rates.
     ///
     /// # Errors
-    /// [`MotionError::NoContactForces`] if no forces hold what a prescribed motion takes along, and what `evaluate` returns.
+    /// [`MotionError::NoContactForces`] if no contact forces satisfy a prescribed motion, and those of `evaluate`.
     pub fn settle<V: Dim>(
         &mut self,
         t: T,
@@ -25,36 +25,37 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
     ) -> Result<Column<T, V>, MotionError> {
         let mut equations = evaluate(rates)?;
-        // What has no rate, and may be held: on which side if it is a stop.
+        // The mode in which each contact with s' = 0 would be held; None for the others.
         let mut at_rest: Column<Option<Mode>, C> = Column::from_fn(|place| self.at_rest(place, &equations));
         if let Some(struck) = self.struck(&equations, &at_rest) {
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
         }
         self.choose(&equations, &at_rest)?;
-        // What slips on keeps its rate, however small: where s turns at a dead centre the mechanism does not stand.
+        // A contact that goes on slipping keeps its rate, however small: s' passes zero at a dead centre while the
+        // mechanism moves.
         if self.modes.iter().any(|mode| mode.is_held()) {
             return Ok(Held::new(&equations, &self.modes)?.rates(&equations));
         }
         Ok(equations.rates)
     }
 
-    /// The mode in which a contact would be held, if it has no rate.
+    /// Returns the mode in which a contact would be held, if its rate is zero.
     fn at_rest<V: Dim>(&self, place: usize, equations: &ReducedEquations<T, V, C>) -> Option<Mode> {
         let contact = &equations.contacts[place];
         let (rate, size) = contact.rate(&equations.rates);
         match (self.modes[place], contact.law) {
             (Mode::Stick | Mode::AtLower | Mode::AtUpper, _) => Some(self.modes[place]),
-            (Mode::SlipForward, _) => (rate <= T::zero() || is_nothing((rate, size))).then_some(Mode::Stick),
-            (Mode::SlipBackward, _) => (rate >= T::zero() || is_nothing((rate, size))).then_some(Mode::Stick),
+            (Mode::SlipForward, _) => (rate <= T::zero() || is_negligible((rate, size))).then_some(Mode::Stick),
+            (Mode::SlipBackward, _) => (rate >= T::zero() || is_negligible((rate, size))).then_some(Mode::Stick),
             (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
-                let (side, gap, rounding) = self.nearest(place, contact, [lower, upper]);
-                (gap <= rounding && is_nothing((rate, size))).then_some(side)
+                let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
+                (gap <= tolerance && is_negligible((rate, size))).then_some(side)
             }
             (Mode::Open, ContactLaw::Friction { .. }) => None,
         }
     }
 
-    /// The stops that take part in an impact, if there is one.
+    /// Returns the stops that take part in an impact; None without an impact.
     fn struck<V: Dim>(
         &self,
         equations: &ReducedEquations<T, V, C>,
@@ -67,9 +68,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             if let Some(side) = at_rest[place] {
                 return Some(Struck { inward: side.inward(), restitution: T::zero() });
             }
-            let (side, gap, rounding) = self.nearest(place, contact, [lower, upper]);
+            let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
             let approaches = contact.rate(&equations.rates).0 * side.inward() < T::zero();
-            (gap <= rounding && approaches).then(|| {
+            (gap <= tolerance && approaches).then(|| {
                 hit = true;
                 Struck { inward: side.inward(), restitution }
             })
@@ -77,7 +78,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         hit.then_some(struck)
     }
 
-    /// An impact: the equations at the rates after it, and what is at rest then.
+    /// Applies an impact: returns the equations at the rates after it, and updates the contacts at rest.
     fn strike<V: Dim>(
         &mut self,
         t: T,
@@ -97,15 +98,14 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         }
         let After { rates, .. } = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
-        // A rebound that is over within the rounding of the time is none, nor one that is no higher than one rounding of
-        // the place.
+        // A rebound counts as rest if it is shorter than the rounding error of the time or lower than that of the gap.
         let free = Response::new(&after, &Column::zeros(), |place| struck[place].is_some())?;
-        let shortest = real::<T>(SHORTEST_FLIGHT) * T::default_epsilon() * t.abs();
+        let shortest = real::<T>(SHORTEST_FLIGHT_ULPS) * T::default_epsilon() * t.abs();
         let mut again = false;
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
-            let lost = self.resolution[place] / real(NOTHING);
+            let lost = self.resolution[place] / real(ZERO_ULPS);
             let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lost * back;
             if !restitution.is_zero() && back > T::zero() && is_over {
                 *restitution = T::zero();
@@ -119,9 +119,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             pushed = impulses;
         }
         for (place, contact) in after.contacts.iter().enumerate() {
-            // What rounding leaves is beside the rates before and after.
+            // The rounding error of the rate is relative to its terms before and after the impact.
             let (rate, size) = contact.rate(&after.rates);
-            let none = is_nothing((rate, size + equations.contacts[place].rate(&equations.rates).1));
+            let none = is_negligible((rate, size + equations.contacts[place].rate(&equations.rates).1));
             match contact.law {
                 ContactLaw::Friction { .. } => {
                     at_rest[place] = none.then_some(Mode::Stick);
@@ -143,7 +143,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok(after)
     }
 
-    /// The modes of what has no rate: those in which forces within their bounds hold it or let it go.
+    /// Chooses the modes of the contacts at rest: held by a force within its bounds, or released.
     fn choose<V: Dim>(
         &mut self,
         equations: &ReducedEquations<T, V, C>,
@@ -167,10 +167,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 Mode::AtLower | Mode::AtUpper if slack * side.inward() > T::zero() => Mode::Open,
                 held => held,
             };
-            // A series of bounces ends where a stop is left from rest, or rested on.
+            // The series of bounces has ended, either resting on the stop or leaving it from rest.
             self.hardest[place] = T::zero();
         }
-        // Where the others leave nothing to move, a force at its limit holds as well.
+        // A contact released at its limit is held again if its s'' is zero within rounding error.
         let acceleration = self.acceleration(equations)?;
         for (place, contact) in equations.contacts.iter().enumerate() {
             let Some(side) = at_rest[place] else { continue };
@@ -182,7 +182,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 Mode::Open => sum * side.inward(),
                 _ => continue,
             };
-            if goes <= nothing::<T>() * size {
+            if goes <= held_tolerance::<T>() * size {
                 self.modes[place] = side;
             }
         }

@@ -1,4 +1,4 @@
-//! What the contacts of a scene are doing, and how that changes.
+//! The modes of the contacts of a scene, and their events.
 
 use super::bounded::{Bounds, bounded};
 use super::held::{Held, Response, slipping};
@@ -9,78 +9,77 @@ use crate::integrate::{Crossing, Guard};
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, Dim, InputError, Real, real};
 
-/// A rate or a gap below this many roundings of its terms is zero.
-pub(super) const NOTHING: f64 = 16.0;
+/// A rate or a gap below this many ulps of the magnitudes of its terms counts as zero.
+pub(super) const ZERO_ULPS: f64 = 16.0;
 
-/// The modes of the contacts of a scene, with what is remembered from one event to the next.
+/// The modes of the contacts of a scene, with the memory needed from one event to the next.
 ///
-/// [`begin`](Self::begin) at the start of a motion, and [`settle`](Self::settle) wherever an event function of
-/// [`events`](Self::events) has fallen through zero; between them [`motion`](Self::motion) is smooth. Time runs forward:
-/// what an impact or friction has taken does not say where the motion came from.
+/// Call [`begin`](Self::begin) at the start of a motion, and [`settle`](Self::settle) wherever one of the
+/// [`events`](Self::events) has fallen through zero; between events [`motion`](Self::motion) is smooth. Time runs
+/// forward: energy that impacts and friction dissipate cannot be recovered.
 ///
-/// **The end of bouncing.** A stop comes to rest where what its rebound would have left is less than the square root
-/// of the scalar's rounding of the greatest rate that it was hit with since it last rested, or where the rebound would
-/// be over within the rounding of the time, or no higher than one rounding of the place
-/// ([`with_resolution`](Self::with_resolution); simulations do it).
+/// **The end of bouncing.** s comes to rest on a stop where the rebound rate is less than sqrt(epsilon) times the
+/// greatest impact rate since it last rested, or where the rebound would be shorter than the rounding error of the
+/// time, or lower than that of the gap ([`with_resolution`](Self::with_resolution), which simulations call).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contacts<T: Real, C: Dim> {
-    /// By contact, in the order of the scene.
+    /// The mode of each contact, in the order of the scene.
     pub modes: Column<Mode, C>,
-    /// The greatest rate that a stop was hit with since it last rested.
+    /// The greatest impact rate of each stop since s last rested on it.
     pub(super) hardest: Column<T, C>,
-    /// How exactly the places of stops are known, beside roundings of their values.
+    /// The error of each s, where it exceeds the rounding error of its value.
     pub(super) resolution: Column<T, C>,
 }
 
-/// Accelerations, and the forces of the contacts.
+/// The accelerations, and the forces of the contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
     /// v''.
     pub acceleration: Column<T, V>,
-    /// By contact, along its s: the work of a contact is its force times the change of s. Where more contacts are
-    /// held than the motion needs, their forces are not unique, and these are some that hold them.
+    /// The force of each contact along its s: its work is f ds. With redundant contacts the forces are not unique; this
+    /// is one solution.
     pub forces: Column<T, C>,
 }
 
 impl Mode {
-    /// Whether s'' = 0 is kept by a force.
+    /// Returns true if a force keeps s'' = 0.
     #[must_use]
     pub fn is_held(self) -> bool {
         matches!(self, Self::Stick | Self::AtLower | Self::AtUpper)
     }
 
-    /// 1 at a lower, -1 at an upper stop.
+    /// Returns 1 at a lower and -1 at an upper stop.
     pub(super) fn inward<T: Real>(self) -> T {
         if self == Self::AtUpper { -T::one() } else { T::one() }
     }
 }
 
-/// The stop that is nearer, and how far it is.
+/// Returns the nearer stop and the distance to it.
 pub(super) fn nearer<T: Real, V: Dim>(contact: &ReducedContact<T, V>, lower: T, upper: T) -> (Mode, T) {
     let (below, above) = (contact.value - lower, upper - contact.value);
     if below <= above { (Mode::AtLower, below) } else { (Mode::AtUpper, above) }
 }
 
-/// What rounding may leave of the gap between values of this size.
-fn rounding<T: Real>(value: T, bound: T) -> T {
-    rounding_of(value.abs() + bound.abs())
+/// The tolerance of the gap between two values.
+fn gap_tolerance<T: Real>(value: T, bound: T) -> T {
+    sum_tolerance(value.abs() + bound.abs())
 }
 
-/// What rounding may leave of terms of this size.
-pub(crate) fn rounding_of<T: Real>(size: T) -> T {
-    real::<T>(NOTHING) * T::default_epsilon() * size
+/// The rounding error of a sum whose terms have these magnitudes in total.
+pub(crate) fn sum_tolerance<T: Real>(size: T) -> T {
+    real::<T>(ZERO_ULPS) * T::default_epsilon() * size
 }
 
-pub(super) fn is_nothing<T: Real>((sum, size): (T, T)) -> bool {
-    sum.abs() <= rounding_of(size)
+pub(super) fn is_negligible<T: Real>((sum, size): (T, T)) -> bool {
+    sum.abs() <= sum_tolerance(size)
 }
 
 impl<T: Real, C: Dim> Contacts<T, C> {
-    /// The modes at the start of a motion, and the rates v' there: those given, but what touches a stop and moves
-    /// towards it is thrown back at once. `evaluate` gives the equations at other rates.
+    /// Finds the modes at the start of a motion and the rates v': the given rates, after the impact of any s that
+    /// touches a stop and moves towards it. `evaluate` computes the equations at given rates.
     ///
     /// # Errors
-    /// [`InputError::BeyondStop`] if a stop is passed already; else as [`settle`](Self::settle).
+    /// [`InputError::BeyondStop`] if an s is beyond its stop; those of [`settle`](Self::settle).
     pub fn begin<V: Dim>(
         t: T,
         rates: &Column<T, V>,
@@ -91,7 +90,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok((contacts, rates))
     }
 
-    /// The same with the resolution that these have; the rates.
+    /// Does the same as [`begin`](Self::begin), with the resolution stored here; returns the rates.
     pub(crate) fn start<V: Dim>(
         &mut self,
         t: T,
@@ -108,20 +107,20 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         self.resume(t, rates, evaluate)
     }
 
-    /// Nothing acts.
+    /// All contacts open.
     pub(crate) fn open() -> Self {
         Self { modes: Column::repeat(Mode::Open), hardest: Column::zeros(), resolution: Column::zeros() }
     }
 
-    /// With what rounding may leave of each s where that is more than its value tells: a coordinate that is solved for
-    /// is as near to a stop at zero as the closures are to zero. Nearer than this it touches, and a rebound that is no
-    /// higher than a sixteenth of it is none.
+    /// Sets the error of each s where it exceeds the rounding error of its value: a solved coordinate is only as
+    /// accurate as the constraints. At a smaller distance s touches its stop; a rebound lower than a sixteenth of it
+    /// counts as rest.
     #[must_use]
     pub fn with_resolution(self, resolution: Column<T, C>) -> Self {
         Self { resolution, ..self }
     }
 
-    /// On which side a stop is nearer, and what rounding may leave of the gap.
+    /// Returns the nearer stop, the gap to it, and the tolerance of the gap.
     pub(super) fn nearest<V: Dim>(
         &self,
         place: usize,
@@ -130,14 +129,14 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ) -> (Mode, T, T) {
         let (side, gap) = nearer(contact, lower, upper);
         let bound = if side == Mode::AtLower { lower } else { upper };
-        (side, gap, self.resolution[place].max(rounding(contact.value, bound)))
+        (side, gap, self.resolution[place].max(gap_tolerance(contact.value, bound)))
     }
 
-    /// The modes that go with other rates v', given by a blow from outside; and the rates from here on, as those of
-    /// [`begin`](Self::begin). What rests on a stop and keeps no rate rests on.
+    /// Recomputes the modes after an external impulse that has changed the rates to v'; returns the rates as
+    /// [`begin`](Self::begin) does. An s that rests on a stop with zero rate stays at rest.
     ///
     /// # Errors
-    /// As [`settle`](Self::settle).
+    /// Those of [`settle`](Self::settle).
     pub fn resume<V: Dim>(
         &mut self,
         t: T,
@@ -150,14 +149,14 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             let rate = contact.rate(rates);
             match contact.law {
                 ContactLaw::Friction { .. } => *mode = slip_or_stick(rate),
-                ContactLaw::Stop { .. } if is_nothing(rate) => {}
+                ContactLaw::Stop { .. } if is_negligible(rate) => {}
                 ContactLaw::Stop { .. } => *mode = Mode::Open,
             }
         }
         self.settle(t, rates, evaluate)
     }
 
-    /// The accelerations in these modes.
+    /// Computes the accelerations and contact forces in these modes.
     ///
     /// # Errors
     /// [`MotionError::NoInertia`], [`PositionError::NotFinite`](linkage_runtime::PositionError::NotFinite) as for the
@@ -169,7 +168,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             forces[place] = slipping(self.modes[place], &contact.law);
         }
         if held.factors.rank < held.factors.count {
-            // Some forces within their limits; what no force could hold the event functions tell.
+            // One solution within the limits. If there is none, the event functions report the contact.
             if let Ok(solution) = bounded(&held.response.matrix, &self.bounds(&held.response, equations)) {
                 for place in (0..C::COUNT).filter(|&place| self.modes[place].is_held()) {
                     forces[place] = solution.forces[place];
@@ -183,19 +182,19 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok(ContactMotion { acceleration: held.acceleration(equations), forces })
     }
 
-    /// v'' alone.
+    /// Computes v'' alone.
     ///
     /// # Errors
-    /// As [`motion`](Self::motion).
+    /// Those of [`motion`](Self::motion).
     pub fn acceleration<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, V>, MotionError> {
         Ok(Held::new(equations, &self.modes)?.acceleration(equations))
     }
 
-    /// By contact: of one that slips s', positive as it began; of an open stop how far it is; of one that sticks or
-    /// rests what is left of what holds it. Something happens where it falls through zero.
+    /// The event function of each contact: |s'| while it slips (s' with the sign of the mode), the gap of an open stop,
+    /// the margin of a contact that sticks or rests. Its mode changes where the function falls through zero.
     ///
     /// # Errors
-    /// As [`motion`](Self::motion).
+    /// Those of [`motion`](Self::motion).
     pub fn events<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, C>, MotionError> {
         let mut values = Column::repeat(T::one());
         if self.modes.iter().any(|mode| mode.is_held()) {
@@ -212,7 +211,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok(values)
     }
 
-    /// The guards with what is known of their change: of an open stop its rate.
+    /// The event functions as guards; the rate is known for open stops.
     pub(crate) fn guards<V: Dim>(
         &self,
         equations: &ReducedEquations<T, V, C>,
@@ -231,30 +230,29 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         }))
     }
 
-    /// Which way the event functions pass through zero.
+    /// The direction in which the event functions pass through zero.
     #[must_use]
     pub fn crossings() -> Column<Crossing, C> {
         Column::repeat(Crossing::Falling)
     }
 
-    /// The rates v' with those of what is held made zero, if they are not, and whether the modes are still those of
-    /// this state: not where something slips the other way than its mode says, where more is held than the limits
-    /// can, or where a stop has been passed. Rounding and the error of a step may do that at the end of a step; then
-    /// [`settle`](Self::settle) mends it.
+    /// Returns the rates v' with s' = 0 of the held contacts, and true if the modes are still valid. They are not if a
+    /// contact slips against its mode, exceeds its limit, or is beyond a stop: rounding error and the error of a step
+    /// may cause this at the end of a step. Then call [`settle`](Self::settle).
     ///
     /// # Errors
-    /// As [`motion`](Self::motion).
+    /// Those of [`motion`](Self::motion).
     pub fn review<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<(Column<T, V>, bool), MotionError> {
         let values = self.events(equations)?;
         let mut holds = true;
         for (place, (&value, contact)) in values.iter().zip(&equations.contacts).enumerate() {
             holds &= match (self.modes[place], contact.law) {
                 (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
-                    let (side, gap, rounding) = self.nearest(place, contact, [lower, upper]);
+                    let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
                     let (rate, _) = contact.rate(&equations.rates);
-                    -gap <= rounding || rate * side.inward() > T::zero()
+                    -gap <= tolerance || rate * side.inward() > T::zero()
                 }
-                // It has just begun, and rounding has left it on the other side.
+                // Slip has just begun, and rounding error gives its rate the wrong sign.
                 (mode @ (Mode::SlipForward | Mode::SlipBackward), _) if value < T::zero() => {
                     let acceleration = contact.row.dot(&self.acceleration(equations)?) + contact.bias;
                     acceleration * (if mode == Mode::SlipForward { T::one() } else { -T::one() }) > T::zero()
@@ -270,7 +268,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok((rates, holds))
     }
 
-    /// What the forces of the contacts that are held may be.
+    /// The bounds of the forces of the held contacts.
     pub(super) fn bounds<V: Dim>(
         &self,
         response: &Response<T, V, C>,
@@ -290,7 +288,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
 }
 
 pub(super) fn slip_or_stick<T: Real>((rate, size): (T, T)) -> Mode {
-    if is_nothing((rate, size)) {
+    if is_negligible((rate, size)) {
         Mode::Stick
     } else if rate > T::zero() {
         Mode::SlipForward
@@ -299,7 +297,7 @@ pub(super) fn slip_or_stick<T: Real>((rate, size): (T, T)) -> Mode {
     }
 }
 
-/// Refuses a scalar, of this resolution, beyond its stops by more than rounding.
+/// Checks that a scalar is not beyond its stops by more than its tolerance.
 pub(crate) fn within<T: Real>(
     scene: &'static str,
     stop: &'static str,
@@ -307,7 +305,7 @@ pub(crate) fn within<T: Real>(
     [lower, upper]: [T; 2],
 ) -> Result<(), InputError> {
     for (gap, bound) in [(lower - value, lower), (value - upper, upper)] {
-        if gap > resolution.max(rounding(value, bound)) {
+        if gap > resolution.max(gap_tolerance(value, bound)) {
             return Err(InputError::BeyondStop { scene, stop, gap: to_f64(gap) });
         }
     }

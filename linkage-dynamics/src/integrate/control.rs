@@ -1,7 +1,7 @@
-//! The length of steps: their error beside the tolerance, the next length, the first one.
+//! Step-size control: the error relative to the tolerance, the next step, the first step.
 //!
 //! Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993), section II.4, as in their
-//! codes DOP853 and DOPRI5. Lengths are plain numbers: derivatives that a dual scalar carries have no part in them.
+//! codes DOP853 and DOPRI5. Lengths are `f64`: the derivative parts of dual scalars do not influence them.
 
 use nalgebra::ComplexField;
 
@@ -10,13 +10,13 @@ use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, Dim, InputError, Real};
 
-/// What of the change that the last error asks for is dared.
+/// The safety factor of the step-size controller.
 const SAFETY: f64 = 0.9;
 
-/// The least relative tolerance, in roundings.
-const LEAST_ROUNDINGS: f64 = 10.0;
+/// The least relative tolerance, in ulps.
+const LEAST_TOLERANCE_ULPS: f64 = 10.0;
 
-/// The local error that is allowed: of component i `relative` (`scale_i` + |`y_i`|).
+/// The allowed local error of component i: `relative` (`scale_i` + |`y_i`|).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance<T: Real, N: Dim> {
     relative: f64,
@@ -24,15 +24,15 @@ pub struct Tolerance<T: Real, N: Dim> {
 }
 
 impl<T: Real, N: Dim> Tolerance<T, N> {
-    /// `relative` is a pure number, such as 1e-9. `scale` tells of each component, in its own unit, what size of it
-    /// matters: what is small beside it is allowed the error `relative * scale`. A code with absolute and relative
-    /// tolerances has `scale` = absolute / relative.
+    /// Sets the tolerance. `relative` is dimensionless, such as 1e-9. `scale` is a typical value of each component, in
+    /// its unit: components much smaller than it may have the error `relative * scale`. For an absolute tolerance,
+    /// `scale` = absolute / relative.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a relative tolerance below ten roundings or above 1, and for a scale
-    /// that is not positive and finite.
+    /// [`InputError::OutOfRange`] if the relative tolerance is below ten ulps or above 1, or a scale is not positive
+    /// and finite.
     pub fn new(relative: f64, scale: impl Into<Column<T, N>>) -> Result<Self, InputError> {
-        let least = LEAST_ROUNDINGS * to_f64(T::default_epsilon());
+        let least = LEAST_TOLERANCE_ULPS * to_f64(T::default_epsilon());
         within("the relative tolerance", relative, least, 1.0)?;
         let scale = scale.into();
         for &scale in &scale {
@@ -41,17 +41,17 @@ impl<T: Real, N: Dim> Tolerance<T, N> {
         Ok(Self { relative, scale })
     }
 
-    /// The error allowed at a component of this size.
+    /// Returns the allowed error of a component with magnitude `size`.
     fn allowed(&self, component: usize, size: f64) -> f64 {
         self.relative * (to_f64(self.scale[component]) + size)
     }
 
-    /// The root of the mean square of a change at `y` beside what is allowed.
+    /// The root mean square of a change at `y` divided by the allowed errors.
     pub(super) fn share(&self, change: &Column<T, N>, y: &Column<T, N>) -> f64 {
         self.norm(change, |i| to_f64(y[i]).abs()) / ComplexField::sqrt(N::COUNT as f64)
     }
 
-    /// The root of sum (`v_i` / allowed)^2, also where the squares are too large for the scalar.
+    /// sqrt(sum (`v_i` / allowed)^2), safe from overflow of the squares.
     fn norm(&self, v: &Column<T, N>, size: impl Fn(usize) -> f64) -> f64 {
         let part = |i: usize| to_f64(v[i]) / self.allowed(i, size(i));
         let sum = (0..N::COUNT).fold(0.0, |sum, i| sum + part(i) * part(i));
@@ -67,7 +67,7 @@ impl<T: Real, N: Dim> Tolerance<T, N> {
     }
 }
 
-/// Refuses a setting outside of what it may be.
+/// Checks that a setting is between `least` and `most`.
 pub(super) fn within(quantity: &'static str, value: f64, least: f64, most: f64) -> Result<(), InputError> {
     if (least..=most).contains(&value) {
         Ok(())
@@ -76,12 +76,12 @@ pub(super) fn within(quantity: &'static str, value: f64, least: f64, most: f64) 
     }
 }
 
-/// Refuses what is not positive and finite.
+/// Checks that a setting is positive and finite.
 pub(super) fn positive(quantity: &'static str, value: f64) -> Result<(), InputError> {
     within(quantity, value, f64::MIN_POSITIVE, f64::MAX)
 }
 
-/// The error of a step beside what is allowed: up to 1 it is accepted.
+/// The error of a step divided by the allowed error: the step is accepted up to 1.
 #[inline]
 pub(super) fn error<T: Real, N: Dim>(
     tableau: &Tableau,
@@ -100,14 +100,14 @@ pub(super) fn error<T: Real, N: Dim>(
     if first == f64::INFINITY || second == f64::INFINITY {
         return f64::INFINITY;
     }
-    // |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N, where no square of a small error is lost.
+    // |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N, rearranged so that squares of small errors do not underflow.
     let share = second / first;
     h.abs() * first / ComplexField::sqrt(N::COUNT as f64 * (1.0 + 0.01 * share * share))
 }
 
-/// A step to be tried: h = 0.01 |y| / |f|, and with the second derivative that a step of Euler's of that length shows,
-/// h^p max(|f|, |y''|) = 0.01, both in the time that the solution takes to change by its size.
-/// Where nothing moves or the state is zero, a millionth of `span`, or less if the state moves by its scale sooner.
+/// The first trial step: h = 0.01 |y| / |f|, then h^p max(|f|, |y''|) = 0.01 with y'' from an Euler step of that
+/// length; in units of the time |y| / |f|. If the rate or the state is zero: 1e-6 `span`, or less if the state moves by
+/// its scale sooner.
 #[inline]
 pub(super) fn first_length<T: Real, N: Dim>(
     order: u32,
@@ -129,7 +129,7 @@ pub(super) fn first_length<T: Real, N: Dim>(
         span
     };
     let guess = if known || time < span { 0.01 * time } else { 1e-6 * span }.min(span);
-    // Where there is no rate so far ahead, shorter steps are tried.
+    // If the rate fails at the end of the Euler step, the guess is used.
     let Ok(ahead) = euler(guess) else { return guess };
     let bend = tolerance.norm(&(ahead - *slope), size) / guess;
     let steepest = (bend * time * time).max(moving * time);
@@ -142,21 +142,21 @@ pub(super) fn first_length<T: Real, N: Dim>(
         let [bend, moving, time] = [bend, moving, time].map(ComplexField::ln);
         ComplexField::exp(time + root * (ComplexField::ln(most) - (bend + 2.0 * time).max(moving + time)))
     };
-    // Beside a change that is too large for the scalar every length is nothing: it is found by trying.
+    // After an overflow the length is 0 or NaN: start from the guess, which rejected steps shorten.
     let length = if length > 0.0 { length } else { guess };
     (100.0 * guess).min(length).min(span)
 }
 
-/// What is kept from step to step.
+/// The state of the step-size controller.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Controller {
-    /// What of the change that the last error asks for is dared.
+    /// The safety factor of the step-size controller.
     pub(super) safety: f64,
-    /// The length proposed, without sign; none before the first step.
+    /// The proposed length, without sign; None before the first step.
     pub(super) length: Option<f64>,
-    /// The last error that was accepted.
+    /// The error of the last accepted step.
     error: f64,
-    /// The last step was not accepted.
+    /// True if the last step was rejected.
     rejected: bool,
 }
 
@@ -165,11 +165,11 @@ impl Controller {
         Self { safety: SAFETY, length: None, error: 1e-4, rejected: false }
     }
 
-    /// Takes the error of a step of this length, proposes the next length and tells whether the step is accepted.
+    /// Proposes the next length from the error of a step of this length; returns true if the step is accepted.
     #[inline]
     pub(super) fn accepts(&mut self, rule: &Control, error: f64, length: f64) -> bool {
         let power = if rule.exponent == 0.125 {
-            // By square roots, which all machines round alike.
+            // Square roots are correctly rounded on every machine; `powf` is not.
             ComplexField::sqrt(ComplexField::sqrt(ComplexField::sqrt(error)))
         } else {
             ComplexField::powf(error, rule.exponent)
@@ -183,13 +183,13 @@ impl Controller {
         } else {
             length / (power / self.safety).min(slowest)
         };
-        // A step that follows a rejected one is not longer.
+        // The step after a rejected one does not grow.
         self.length = Some(if accepted && self.rejected { next.min(length) } else { next });
         self.rejected = !accepted;
         accepted
     }
 
-    /// After a step of this length that has no error, as its rate failed.
+    /// Proposes a shorter length after a step whose rate failed.
     pub(super) fn failed(&mut self, rule: &Control, length: f64) {
         self.length = Some(length * rule.shrink);
         self.rejected = true;

@@ -1,4 +1,4 @@
-//! The events of an integration under way, one after the other.
+//! Delivery of the events of a step, one after the other.
 
 use super::event::{Action, Found};
 use super::run::{Instant, Integration, Place, Step, StepOf, finite};
@@ -9,33 +9,33 @@ use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 
 impl<S: System, M: Method> Integration<S, M> {
-    /// The next event in the last step after the part `from`: first on a cubic, which takes no evaluation of the
-    /// rate, and if there may be one on the dense output.
+    /// Searches the last step after the fraction `from` for the next event: first on a cubic, which requires no
+    /// evaluation of the rate, then on the dense output if there may be one.
     pub(super) fn search(&mut self, from: f64) -> Result<Found<S>, MotionError> {
-        let roundings = self.roundings();
+        let resolution = self.resolution();
         let sides = self.sides;
         if self.interpolant.is_none() {
             let cubic = self.cubic();
-            let found = self.sides.search(&mut self.system, (&cubic, true), (from, self.parts), roundings)?;
+            let found = self.sides.search(&mut self.system, (&cubic, true), (from, self.parts), resolution)?;
             if !matches!(found, Found::Perhaps) {
                 return Ok(found);
             }
         }
         self.sides = sides;
         let interpolant = self.interpolant()?;
-        self.sides.search(&mut self.system, (&interpolant, false), (from, self.parts), roundings)
+        self.sides.search(&mut self.system, (&interpolant, false), (from, self.parts), resolution)
     }
 
-    /// What rounding leaves of the time, as a part of the last step.
-    fn roundings(&self) -> f64 {
+    /// The rounding error of the time, as a fraction of the last step.
+    fn resolution(&self) -> f64 {
         let [start, end] = [self.from.0, self.to.0].map(to_f64);
         to_f64(S::Scalar::default_epsilon()) * (start.abs().max(end.abs()) / (end - start).abs()).max(1.0)
     }
 
-    /// The next of the events that have happened here.
+    /// Delivers the next event at this time.
     pub(super) fn deliver(&mut self) -> Result<StepOf<S>, MotionError> {
         let (t, state) = (self.t, self.state);
-        let resolution = 4.0 * self.roundings() * to_f64(self.to.0 - self.from.0).abs();
+        let resolution = 4.0 * self.resolution() * to_f64(self.to.0 - self.from.0).abs();
         if to_f64(t - self.instant.t).abs() > resolution {
             self.instant = Instant { t, anew: false };
             self.sides.anew();
@@ -52,12 +52,12 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok(Step { t, state, event: Some(event) })
     }
 
-    /// Nothing follows.
+    /// Ends the integration.
     pub(crate) fn stop(&mut self) {
         self.place = Place::Over;
     }
 
-    /// The motion starts anew here, from this state.
+    /// Restarts the motion here from this state.
     pub(crate) fn restart(&mut self, state: StateOf<S>) -> Result<(), MotionError> {
         finite("the state after an event", self.t, &state)?;
         self.state = state;

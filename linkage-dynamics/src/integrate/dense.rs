@@ -8,8 +8,8 @@ use linkage_runtime::{Column, Dim, Real, real};
 /// The largest number of coefficients.
 const COEFFICIENTS: usize = 9;
 
-/// The state within a step as a polynomial in s = (t - start) / h, from 0 to 1, which takes on state and rate at both
-/// ends:
+/// The state within a step as a polynomial in s = (t - start) / h, from 0 to 1, which interpolates state and rate at
+/// both ends:
 ///
 /// y = c0 + s (c1 + (1 - s) (c2 + s (c3 + (1 - s) (c4 + ...))))
 ///
@@ -19,12 +19,12 @@ pub struct Interpolant<T: Real, N: Dim> {
     start: T,
     length: T,
     coefficients: [Column<T, N>; COEFFICIENTS],
-    /// The number of coefficients that are used.
+    /// The number of coefficients in use.
     used: usize,
 }
 
 impl<T: Real, N: Dim> Interpolant<T, N> {
-    /// One state and no step.
+    /// A constant state: a step of length zero.
     pub(super) fn constant(t: T, state: Column<T, N>) -> Self {
         let mut coefficients = [Column::zeros(); COEFFICIENTS];
         coefficients[0] = state;
@@ -36,7 +36,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         self.coefficients.iter().take(self.used).flatten().all(T::is_finite)
     }
 
-    /// Hermite's cubic, of order 3: it takes no evaluation.
+    /// The cubic Hermite interpolant, of order 3: it requires no evaluation.
     #[inline]
     pub(super) fn cubic(start: T, length: T, states: [&Column<T, N>; 2], slopes: [&Column<T, N>; 2]) -> Self {
         let difference = *states[1] - *states[0];
@@ -49,7 +49,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         Self { start, length, coefficients, used: 4 }
     }
 
-    /// The cubic with the coefficients that the method adds.
+    /// Completes the cubic by the higher coefficients of the method.
     pub(super) fn complete(mut self, tableau: &Tableau, slopes: &Slopes<T, N>) -> Self {
         for (coefficient, weights) in self.coefficients[self.used..].iter_mut().zip(tableau.dense) {
             *coefficient = tableau::combination(slopes, weights) * self.length;
@@ -58,7 +58,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         self
     }
 
-    /// The polynomial that starts at `state` and has the slopes y' at these parts of the step, one for each.
+    /// The polynomial with the value `state` at the start and these slopes y' at the given fractions of the step.
     pub(crate) fn of_slopes<const P: usize>(
         (start, state): (T, Column<T, N>),
         length: T,
@@ -67,7 +67,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
     ) -> Option<Self> {
         let mut by_coefficient = SMatrix::<f64, P, P>::zeros();
         for (row, &s) in parts.iter().enumerate() {
-            // Of the k-th function, from 1, the value and the slope.
+            // Value and slope of the k-th basis function, from k = 1.
             let (mut value, mut slope) = (s, 1.0);
             for column in 0..P {
                 by_coefficient[(row, column)] = slope;
@@ -86,7 +86,8 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         Some(Self { start, length, coefficients, used: P + 1 })
     }
 
-    /// The same polynomial, of degree 8 at most, on a part of its step if that ends at `end`.
+    /// Restricts the polynomial, of degree 8 at most, to the part of its step before `end`; None if `end` is not within
+    /// it.
     pub(crate) fn up_to(&self, end: T) -> Option<Self> {
         let length = end - self.start;
         if length.abs() >= self.length.abs() {
@@ -97,7 +98,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         Self::of_slopes((self.start, self.coefficients[0]), length, &parts, &slopes)
     }
 
-    /// The last coefficient, which tells how far the polynomial is from the motion.
+    /// The last coefficient: an estimate of the error of the polynomial.
     pub(crate) fn last(&self) -> Column<T, N> {
         self.coefficients[self.used - 1]
     }
@@ -115,19 +116,19 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         slope / self.length
     }
 
-    /// Where the step starts and where it ends.
+    /// The times of the start and the end of the step.
     #[must_use]
     pub fn interval(&self) -> (T, T) {
         (self.start, self.start + self.length)
     }
 
-    /// The state at t. Outside of the step it is extrapolated, and need not be finite.
+    /// The state at t. Outside the step it is extrapolated, and may not be finite.
     #[must_use]
     pub fn at(&self, t: T) -> Column<T, N> {
         if self.length.is_zero() { self.coefficients[0] } else { self.at_fraction((t - self.start) / self.length) }
     }
 
-    /// The state at this part of the step.
+    /// The state at this fraction of the step.
     #[inline]
     pub(crate) fn at_fraction(&self, s: T) -> Column<T, N> {
         let rest = T::one() - s;
@@ -139,12 +140,12 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
             .fold(last[0], |sum, (i, coefficient)| *coefficient + sum * if i % 2 == 0 { s } else { rest })
     }
 
-    /// The length of the step, negative where it goes back in time.
+    /// The length of the step, negative for a step back in time.
     pub(super) fn length(&self) -> T {
         self.length
     }
 
-    /// The time at this part of the step.
+    /// The time at this fraction of the step.
     pub(super) fn time(&self, s: f64) -> T {
         self.start + real::<T>(s) * self.length
     }

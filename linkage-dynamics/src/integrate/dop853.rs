@@ -7,8 +7,8 @@
 
 use super::tableau::{Control, Method, Stage, Tableau, Weights};
 
-/// Dormand and Prince's method of order 8 with error estimates of orders 5 and 3: 12 evaluations a step, three more
-/// for dense output of order 7 in a step that is asked for it.
+/// Dormand and Prince's method of order 8 with error estimates of orders 5 and 3: 12 evaluations a step, three more for
+/// dense output of order 7, in a step where it is requested.
 #[derive(Debug, Clone, Copy)]
 pub struct Dop853;
 
@@ -133,7 +133,7 @@ const SOLUTION: Weights = &[
     (11, 0.04471_06157_27772_59051_76885_56904_3),
 ];
 
-/// The solution less one of order 5.
+/// The solution minus one of order 5.
 const ERROR5: Weights = &[
     (0, 0.01312_00449_94194_88073_25010_2996),
     (5, -1.22515_64463_76204_44072_05697_53),
@@ -145,7 +145,7 @@ const ERROR5: Weights = &[
     (11, -0.02235_53078_63886_29525_88442_7845),
 ];
 
-/// The solution less one of order 3, which takes slopes 0, 8 and 11 only.
+/// The solution minus one of order 3, which uses slopes 0, 8 and 11 only.
 const ERROR3: Weights = &[
     (0, 0.05429_37341_16568_76223_80535_76636_3 - 0.24409_44881_88976_37795_27559_05512),
     (5, 4.45031_28927_52408_88144_11395_0566),

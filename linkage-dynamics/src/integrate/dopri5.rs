@@ -6,7 +6,7 @@
 use super::tableau::{Control, Method, Stage, Tableau, Weights};
 
 /// Dormand and Prince's method of order 5 with an error estimate of order 4: 6 evaluations a step, dense output of
-/// order 4 for nothing.
+/// order 4 without further evaluations.
 #[derive(Debug, Clone, Copy)]
 pub struct Dopri5;
 

@@ -1,4 +1,4 @@
-//! Events: zeros of functions of the state, and what happens there.
+//! Events: zeros of functions of the state, and the actions there.
 
 use nalgebra::ComplexField;
 
@@ -9,40 +9,40 @@ use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, Dim, real};
 
-/// How often a guard may be zero at one time: where several are within rounding, each may move the others.
-const MOST_TURNS: u32 = 8;
+/// The most events of one guard at one time: guards that are zero within rounding error may trigger each other.
+const MAX_REPEATS: u32 = 8;
 
-/// The most parts of a step at which guards are looked at.
-const MOST_PARTS: usize = 64;
+/// The largest number of parts of a step between which guards are sampled.
+const MAX_PARTS: usize = 64;
 
-/// Two values of a function within this many rounding errors of them are the same: a function that keeps its value does
-/// not turn. At 0 each rounding error of a constant costs dense output; at 1e4 turns by 1e-12 of the value are missed.
-const SAME: f64 = 16.0;
+/// Two values of a function within this many ulps count as equal, so that a constant has no extremum. At 0 each
+/// rounding error of a constant costs dense output; at 1e4 extrema of 1e-12 of the value are missed.
+const EQUAL_ULPS: f64 = 16.0;
 
-/// Which way an event function passes through zero.
+/// The direction in which an event function passes through zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Crossing {
     /// From negative to positive.
     Rising,
     /// From positive to negative.
     Falling,
-    /// Either way.
+    /// Either direction.
     Either,
 }
 
-/// What happens at an event, to a state `Y`.
+/// The action at an event, on a state `Y`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action<Y> {
-    /// The event is recorded and the motion goes on.
+    /// Records the event; the motion continues.
     Record,
-    /// The integration ends here.
+    /// Ends the integration.
     Stop,
-    /// The motion starts anew from this state: after an impact, or where from here on another law holds. The length
-    /// of the steps is kept.
+    /// Restarts the motion from this state: after an impact, or where the law of the rate changes. The step length is
+    /// kept.
     Restart(Y),
 }
 
-/// On which side of zero the functions are, as far as the integration has gone: the user's, then the guards.
+/// The sign of each function up to the time reached: the user's events, then the guards.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sides<K: Dim, C: Dim> {
     events: Column<Side, K>,
@@ -51,52 +51,52 @@ pub(super) struct Sides<K: Dim, C: Dim> {
 
 #[derive(Debug, Clone, Copy)]
 struct Side {
-    /// 1 or -1; 0 where the function has been zero since the start, or a guard not above it.
+    /// 1 or -1; 0 for an event that has been zero since the start, or a guard that has not been positive.
     sign: i8,
-    /// Its event has happened at the time reached, and is not delivered yet.
+    /// Its event at the time reached is not delivered yet.
     waits: bool,
-    /// How often it has had an event at the last time of events.
+    /// The number of its events at the last event time.
     happened: u32,
-    /// How far from zero rounding has left a function that has just had its event; of the others -1.
+    /// The residual |value| of a function at its event just now; -1 for the others.
     residue: f64,
-    /// None of a guard, which may be zero and has its event where it falls below.
+    /// None for a guard, which has its event where it falls below zero, not at zero.
     crossing: Option<Crossing>,
 }
 
-/// A function at one place of a step.
+/// A sample of a function at one time of a step.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     value: f64,
-    /// Its change by the whole step at the rate that it has there, zero where that is not known.
+    /// Its rate times the length of the step; zero if unknown.
     rate: f64,
-    /// The system knows the rate.
+    /// True if the system supplies the rate.
     is_known: bool,
 }
 
-/// The events and the guards at one place of a step.
+/// Samples of all events and guards at one time of a step.
 #[derive(Debug, Clone, Copy)]
 struct Look<K: Dim, C: Dim> {
-    /// Part of the step.
+    /// The fraction of the step.
     at: f64,
     events: Column<Seen, K>,
     guards: Column<Seen, C>,
 }
 
-/// What is found in a step.
+/// The result of a search in a step.
 pub(super) enum Found<S: System> {
     /// No event.
     Nothing,
-    /// Perhaps an event, which a cubic does not tell.
+    /// Possibly an event: the cubic cannot decide.
     Perhaps,
     /// The first events.
     Hit(Hit<S>),
-    /// The guards change too much in it to be followed.
+    /// The guards change too much between samples.
     Unclear,
 }
 
-/// The first events in the step after some part of it.
+/// The first events in the step after some fraction of it.
 pub(super) struct Hit<S: System> {
-    /// Part of the step.
+    /// The fraction of the step.
     pub(super) at: f64,
     pub(super) t: S::Scalar,
     pub(super) state: StateOf<S>,
@@ -106,11 +106,11 @@ pub(super) struct Hit<S: System> {
 struct Course<'a, S: System> {
     system: &'a mut S,
     step: &'a Interpolant<S::Scalar, S::N>,
-    /// The resolution of the time, as a part of the step.
-    roundings: f64,
+    /// The rounding error of the time, as a fraction of the step.
+    resolution: f64,
 }
 
-/// The sign of a value that is known to be a number.
+/// The sign of a value that is not NaN.
 fn sign(value: f64) -> i8 {
     if value > 0.0 {
         1
@@ -121,7 +121,7 @@ fn sign(value: f64) -> i8 {
     }
 }
 
-/// What a look at the functions of a system shows.
+/// Samples of the functions of a system.
 type LookAt<S> = Look<<S as System>::Events, <S as System>::Guards>;
 
 fn seen<S: System>(
@@ -150,7 +150,7 @@ fn seen<S: System>(
 }
 
 impl<K: Dim, C: Dim> Look<K, C> {
-    /// The guards whose rates the system does not know.
+    /// The values of the guards without a known rate.
     fn unknown(&self) -> Column<Option<f64>, C> {
         self.guards.map(|guard| if guard.is_known { None } else { Some(guard.value) })
     }
@@ -165,19 +165,19 @@ impl<K: Dim, C: Dim> Look<K, C> {
 }
 
 impl<S: System> Course<'_, S> {
-    /// The functions at a part of the step, with the rates that the system knows.
+    /// Samples the functions at a fraction of the step, with the rates that the system supplies.
     fn look(&mut self, at: f64) -> Result<LookAt<S>, MotionError> {
         let Self { system, step, .. } = self;
         seen(*system, (at, step.length()), (step.time(at), &step.at_fraction(real(at))))
     }
 
-    /// The functions a little nearer to the middle of the step, where a difference tells their rates best.
+    /// Samples the functions slightly nearer to the middle of the step, for a difference quotient.
     fn aside(&mut self, at: f64) -> Result<LookAt<S>, MotionError> {
-        let little = ComplexField::sqrt(self.roundings);
+        let little = ComplexField::sqrt(self.resolution);
         self.look(if at < 0.5 { at + little } else { at - little })
     }
 
-    /// The functions with all rates, those that the system does not know by differences.
+    /// Samples the functions with all rates; those that the system does not supply by difference quotients.
     fn whole(&mut self, at: f64) -> Result<LookAt<S>, MotionError> {
         let mut look = self.look(at)?;
         if look.each().any(|seen| !seen.is_known) {
@@ -191,9 +191,9 @@ impl<S: System> Course<'_, S> {
     }
 }
 
-/// True if only rounding tells these values of a function apart.
+/// Returns true if the values are equal within rounding error.
 fn is_same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= SAME * f64::EPSILON * a.abs().max(b.abs())
+    (a - b).abs() <= EQUAL_ULPS * f64::EPSILON * a.abs().max(b.abs())
 }
 
 impl Side {
@@ -205,8 +205,8 @@ impl Side {
         self.crossing.is_none()
     }
 
-    /// True if the function has reached zero or passed it, of a guard whether it has passed it: a stop that carries no
-    /// load holds. A guard that began within rounding of zero or below has, where it goes on falling.
+    /// Returns true if an event function has reached or passed zero, or a guard has passed it: a stop with zero load
+    /// holds. A guard that started at zero or below has passed it if it is negative and falling.
     fn passed(&self, seen: &Seen) -> bool {
         match self.sign {
             0 => self.is_guard() && seen.value < 0.0 && seen.rate < 0.0,
@@ -215,7 +215,7 @@ impl Side {
         }
     }
 
-    /// Whether a passage is an event.
+    /// Returns true if the passage from this sign is an event.
     fn counts(&self) -> bool {
         match self.crossing {
             Some(Crossing::Rising) => self.sign < 0,
@@ -225,7 +225,7 @@ impl Side {
         }
     }
 
-    /// A number that is positive before the passage, and then zero or less.
+    /// Returns a number that is positive before the passage and zero or negative after it.
     fn left(&self, seen: &Seen) -> f64 {
         let left = if self.sign < 0 { -seen.value } else { seen.value };
         let passed = self.passed(seen);
@@ -238,19 +238,19 @@ impl Side {
         }
     }
 
-    /// True if the function has a rate away from zero or towards it: 1 or -1, as it was seen.
+    /// Returns the rate away from zero: negative if the function approaches zero.
     fn way(&self, seen: &Seen) -> f64 {
         if self.sign < 0 { -seen.rate } else { seen.rate }
     }
 
-    /// True if the function comes nearer to zero and turns between two places. At one of them it may stand: it starts
-    /// from rest, or is too flat for a difference to tell.
+    /// Returns true if the function approaches zero and has an extremum between two samples. At one of them its rate
+    /// may be zero.
     fn turns(&self, before: &Seen, here: &Seen) -> bool {
         let (start, end) = (self.way(before), self.way(here));
         self.sign != 0 && !self.passed(here) && start <= 0.0 && end >= 0.0 && start < end
     }
 
-    /// True if the function comes nearer to zero from one place to another.
+    /// Returns true if the function is nearer to zero at the second sample.
     fn nears(&self, before: &Seen, here: &Seen) -> bool {
         let change = here.value - before.value;
         !is_same(here.value, before.value) && (if self.sign < 0 { -change } else { change }) < 0.0
@@ -270,35 +270,34 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         self.events.iter_mut().chain(&mut self.guards)
     }
 
-    /// Whether an event has happened that is not delivered yet.
+    /// Returns true if an event is not delivered yet.
     pub(super) fn waits(&self) -> bool {
         self.each().any(|side| side.waits)
     }
 
-    /// Nothing is to be delivered.
+    /// Drops undelivered events.
     pub(super) fn forget(&mut self) {
         self.each_mut().for_each(|side| side.waits = false);
     }
 
-    /// Another time of events: none has happened yet.
+    /// Resets the event counts at a new event time.
     pub(super) fn anew(&mut self) {
         self.each_mut().for_each(|side| side.happened = 0);
     }
 
-    /// The next event to be delivered, and whether it has happened too often at this time already.
+    /// Takes the next undelivered event; returns its index, and true if it has occurred too often at this time.
     pub(super) fn deliver(&mut self) -> (usize, bool) {
         let next = self.each_mut().enumerate().find(|(_, side)| side.waits);
         next.map_or((0, false), |(event, side)| {
             side.waits = false;
             side.happened += 1;
-            (event, side.happened > if event < K::COUNT { 1 } else { MOST_TURNS })
+            (event, side.happened > if event < K::COUNT { 1 } else { MAX_REPEATS })
         })
     }
 
-    /// The sides at the start of a motion. A function that is zero, or that its event has left within rounding of
-    /// zero, is on the side that it leaves for: `after` is a little later. A guard is above zero, whatever rounding
-    /// says, for the law begins where it holds; if it does not become so its event happens once more, unless it is
-    /// known to grow.
+    /// Sets the signs at the start of a motion. An event function that is zero, within rounding error after its own
+    /// event, has the sign that it takes a little later, at `after`. A guard counts as positive, because its law holds
+    /// at the start: if it stays negative its event repeats; with a known rate only if it is falling.
     pub(super) fn begin<S: System<Events = K, Guards = C>>(
         &mut self,
         system: &mut S,
@@ -327,7 +326,7 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         self.each().zip(look.each()).any(|(side, seen)| side.passed(seen) && side.counts())
     }
 
-    /// Takes over the sides that this look shows.
+    /// Updates the signs from these samples.
     fn follow(&mut self, look: &Look<K, C>) {
         for (side, seen) in self.each_mut().zip(look.each()) {
             if side.sign == 0 {
@@ -339,26 +338,26 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         }
     }
 
-    /// The first events within the step after the part `from`, looked for between `parts` equal parts of the step.
-    /// Guards are looked at more often where they bend.
+    /// Finds the first events of the step after the fraction `from`, sampling at `parts` equal parts. Guards with
+    /// curvature are sampled more often.
     ///
-    /// An event function that comes near zero and turns once between two parts is followed to where it turns. On a cubic,
-    /// which has the states and the rates of the ends alone, it is only told whether something may happen
-    /// ([`Found::Perhaps`]): a function that turns at most once in the step shows that at the ends.
+    /// An event function that approaches zero and has one extremum between two samples is followed to the extremum. On
+    /// a cubic, which has only the states and rates of the ends, the result is [`Found::Perhaps`] at most: a function
+    /// with at most one extremum in the step shows it at the ends.
     pub(super) fn search<S: System<Events = K, Guards = C>>(
         &mut self,
         system: &mut S,
         (step, is_cubic): (&Interpolant<S::Scalar, S::N>, bool),
         (from, parts): (f64, usize),
-        roundings: f64,
+        resolution: f64,
     ) -> Result<Found<S>, MotionError> {
-        let mut course = Course { system, step, roundings };
+        let mut course = Course { system, step, resolution };
         let (sides, mut parts) = (*self, parts);
         loop {
             let found =
                 if is_cubic { self.glance(&mut course, parts)? } else { self.scan(&mut course, (from, parts))? };
             match found {
-                Found::Unclear if parts < MOST_PARTS => {
+                Found::Unclear if parts < MAX_PARTS => {
                     *self = sides;
                     parts *= 2;
                 }
@@ -367,7 +366,7 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         }
     }
 
-    /// True if something may happen in the step: something passes zero, or comes nearer and turns.
+    /// Checks for a possible event: a function that passes zero, or approaches it and has an extremum.
     fn glance<S: System<Events = K, Guards = C>>(
         &mut self,
         course: &mut Course<'_, S>,
@@ -386,7 +385,8 @@ impl<K: Dim, C: Dim> Sides<K, C> {
             if self.any(&here) || self.any_turns(&before, &here) {
                 return Ok(Found::Perhaps);
             }
-            // Of what the system knows no rate: a value nearer to zero than those around it, at the ends a rate.
+            // Without a known rate: a value nearer to zero than both neighbours; at the ends of the step, a difference
+            // quotient.
             let turned = match &older {
                 Some(older) => self.any_unknown([older, &before, &here], |side, [older, before, here]| {
                     side.nears(older, before) && !side.nears(before, here)
@@ -418,7 +418,7 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         self.each().zip(before.each().zip(here.each())).any(|(side, (before, here))| side.turns(before, here))
     }
 
-    /// True if this is so of a function whose rate the system does not know.
+    /// Returns true if `is_so` holds for a function without a known rate.
     fn any_unknown<const P: usize>(&self, looks: [&Look<K, C>; P], is_so: impl Fn(&Side, [&Seen; P]) -> bool) -> bool {
         let events = (0..K::COUNT)
             .any(|i| self.events[i].sign != 0 && is_so(&self.events[i], looks.map(|look| &look.events[i])));
@@ -437,7 +437,7 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         if from == 0.0 {
             samples.push(before.unknown());
         }
-        // Between which parts of the step something has happened first.
+        // The fractions of the step around the first event.
         let mut happened = None;
         for part in 1..=parts {
             let at = part as f64 / parts as f64;
@@ -460,7 +460,7 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         happened.map_or(Ok(Found::Nothing), |between| self.hit(course, between).map(Found::Hit))
     }
 
-    /// Two places around the first event between these.
+    /// Returns two fractions of the step around the first event between two samples.
     fn between<S: System<Events = K, Guards = C>>(
         &mut self,
         course: &mut Course<'_, S>,
@@ -468,7 +468,7 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         here: &Look<K, C>,
     ) -> Result<Option<(f64, f64)>, MotionError> {
         let mut before = before;
-        // Each function turns once.
+        // Each function has at most one extremum here.
         for _ in 0..K::COUNT + C::COUNT {
             let Some(turn) = self.passed_before(course, &before, here)? else { break };
             if self.any(&turn) {
@@ -484,7 +484,7 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         Ok(None)
     }
 
-    /// Where a function that turns between two places is beyond zero, the first such place if there is one.
+    /// Returns the first sample at which a function with an extremum between two samples is beyond zero.
     fn passed_before<S: System<Events = K, Guards = C>>(
         &self,
         course: &mut Course<'_, S>,
@@ -497,10 +497,10 @@ impl<K: Dim, C: Dim> Sides<K, C> {
                 continue;
             }
             let mut passed = None;
-            // Where it stands it is as at the start if it stands there.
+            // If the rate is zero at the start, a zero rate counts as the side of the start.
             let still = if side.way(start) == 0.0 { f64::MIN_POSITIVE } else { 0.0 };
-            // Up to where the value there differs from the least by a rounding error.
-            let enough = ComplexField::sqrt(course.roundings);
+            // Near an extremum an error of sqrt(epsilon) in the time changes the value by one rounding error.
+            let enough = ComplexField::sqrt(course.resolution);
             fall((before.at, here.at), [still - side.way(start), -side.way(end)], enough, |at| {
                 let look = course.whole(at)?;
                 let Some(seen) = look.each().nth(place) else { return Ok(None) };
@@ -519,15 +519,15 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         Ok(first)
     }
 
-    /// The first events between two parts of the step.
+    /// Locates the first events between two fractions of the step.
     fn hit<S: System<Events = K, Guards = C>>(
         &mut self,
         course: &mut Course<'_, S>,
         (start, end): (f64, f64),
     ) -> Result<Hit<S>, MotionError> {
         let ends = [self.least(&course.look(start)?), self.least(&course.look(end)?)];
-        let roundings = course.roundings;
-        let at = fall((start, end), ends, roundings, |at| Ok(Some(self.least(&course.look(at)?))))?;
+        let resolution = course.resolution;
+        let at = fall((start, end), ends, resolution, |at| Ok(Some(self.least(&course.look(at)?))))?;
         let there = course.look(at)?;
         for (side, seen) in self.each_mut().zip(there.each()) {
             side.waits = side.passed(seen) && side.counts();
@@ -538,7 +538,7 @@ impl<K: Dim, C: Dim> Sides<K, C> {
         Ok(Hit { at, t: step.time(at), state: step.at_fraction(real(at)) })
     }
 
-    /// The least of the functions that may have an event, as they are before it: positive, and then zero or less.
+    /// The least of the functions that may have an event: positive before the first event, then zero or negative.
     fn least(&self, look: &Look<K, C>) -> f64 {
         self.each()
             .zip(look.each())
@@ -547,10 +547,10 @@ impl<K: Dim, C: Dim> Sides<K, C> {
     }
 }
 
-/// Where a function that is positive before has just become zero or less, to within `enough`: by the ITP method
-/// (Oliveira and Takahashi, *An Enhancement of the Bisection Method Average Performance Preserving Minmax Optimality*,
-/// ACM Trans. Math. Softw. 47 (2020)), which takes at most one evaluation more than bisection. It ends where `value` has
-/// none.
+/// Finds the point where a positive function becomes zero or negative, to within `enough`: by the ITP method (Oliveira
+/// and Takahashi, *An Enhancement of the Bisection Method Average Performance Preserving Minmax Optimality*, ACM Trans.
+/// Math. Softw. 47 (2020)), which takes at most one evaluation more than bisection. It ends early if `value` returns
+/// None.
 fn fall(
     (mut a, mut b): (f64, f64),
     [mut above, mut below]: [f64; 2],
@@ -573,10 +573,10 @@ fn fall(
             let room = radius - 0.5 * (b - a);
             if (truncated - middle).abs() <= room { truncated } else { middle - side * room }
         } else {
-            // At the start the side counts that the motion leaves for, whatever rounding says.
+            // At the start of a motion a rounding error in the value may contradict the sign of the departure.
             middle
         };
-        // No nearer to an end than the end may be left.
+        // Keep at least `half` away from both ends.
         let s = s.max(a + half).min(b - half);
         let Some(found) = value(s)? else { return Ok(s) };
         if found > 0.0 {

@@ -1,4 +1,4 @@
-//! Steps of fixed length, for real time.
+//! Steps of fixed length for real time.
 
 use super::control::{positive, within};
 use super::run::finite;
@@ -20,13 +20,12 @@ pub const STAGES: &[Stage] = &[
 /// y1 = y + h (k0 + 2 k1 + 2 k2 + k3) / 6.
 pub const SOLUTION: Weights = &[(0, 1.0 / 6.0), (1, 1.0 / 3.0), (2, 1.0 / 3.0), (3, 1.0 / 6.0)];
 
-/// An integration by steps of one length, without control of the error: each takes four evaluations of the rate, no
-/// more and no fewer, so that it keeps time with a clock. It has no events.
+/// An integration by steps of fixed length, without error control: each step takes exactly four evaluations of the
+/// rate. It has no events.
 ///
-/// Why this method: in the coordinates of a mechanism the mass depends on the position, and forces may depend on
-/// speeds; there the symplectic methods that are explicit are neither. Kutta's is of order 4, and unlike the explicit
-/// methods of order 1 and 2 it does not blow up oscillations without damping: it is stable up to a step of 2.8 /
-/// angular frequency.
+/// The choice of the method: explicit symplectic methods require a constant mass matrix and forces without velocities,
+/// which mechanisms do not have. Kutta's method is of order 4, and unlike explicit methods of order 1 and 2 it is
+/// stable for undamped oscillations, up to a step of 2.8 / angular frequency.
 #[derive(Debug, Clone)]
 pub struct FixedStep<S: System> {
     system: S,
@@ -37,7 +36,7 @@ pub struct FixedStep<S: System> {
 }
 
 impl<S: System<Events = D<0>, Guards = D<0>>> FixedStep<S> {
-    /// From state `y` at `start`, by steps of this length, which is negative to go back in time.
+    /// Starts from state `y` at `start` with steps of this length, negative for steps back in time.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length is zero or not finite, or `start` is not, [`MotionError::NotFinite`] if the state is not.
@@ -53,7 +52,7 @@ impl<S: System<Events = D<0>, Guards = D<0>>> FixedStep<S> {
         Ok(Self { system: system.into_system(), start, length, steps: 0, state: y })
     }
 
-    /// The time: of n steps start + n h, in which no rounding adds up.
+    /// The time start + n h after n steps: rounding errors do not accumulate.
     #[must_use]
     pub fn t(&self) -> S::Scalar {
         self.start + real::<S::Scalar>(self.steps as f64) * self.length
@@ -65,13 +64,13 @@ impl<S: System<Events = D<0>, Guards = D<0>>> FixedStep<S> {
         &self.state
     }
 
-    /// The system, with what it has learned on the way.
+    /// The system in its current state.
     #[must_use]
     pub fn system(&self) -> &S {
         &self.system
     }
 
-    /// Takes the last step back, to the state before it.
+    /// Undoes the last step; `state` is the state before it.
     pub(crate) fn undo(&mut self, state: StateOf<S>) {
         self.steps -= 1;
         self.state = state;
@@ -80,7 +79,7 @@ impl<S: System<Events = D<0>, Guards = D<0>>> FixedStep<S> {
     /// Takes a step.
     ///
     /// # Errors
-    /// What the system returns, and [`MotionError::NotFinite`]; time and state stay what they were.
+    /// Those of the system, and [`MotionError::NotFinite`]; time and state then stay unchanged.
     pub fn step(&mut self) -> Result<(), MotionError> {
         let (t, h) = (self.t(), self.length);
         let y = self.system.before_step(t, &self.state)?.unwrap_or(self.state);

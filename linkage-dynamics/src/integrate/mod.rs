@@ -1,9 +1,9 @@
-//! Motions from differential equations: y' = f(t, y).
+//! Solvers for ordinary differential equations y' = f(t, y).
 //!
-//! - [`dop853`]: order 8, for accuracy; [`dopri5`]: order 5, for pictures. Both choose their steps by a
-//!   [`Tolerance`]; between the steps [dense output](Interpolant) gives the state at [any times](Integration::at).
-//! - [Events](watched): stops, impacts, stick and slip, the user's zeros, found to rounding.
-//! - [`FixedStep`]: so many evaluations a step and no more, for real time.
+//! - [`dop853`]: order 8, for accuracy; [`dopri5`]: order 5, for pictures. Both adapt their steps to a [`Tolerance`];
+//!   [dense output](Interpolant) gives the state at [any times](Integration::at).
+//! - [Events](watched): zeros of user functions, stops, impacts, stick and slip, located to rounding error.
+//! - [`FixedStep`]: steps of fixed length and cost, for real time.
 //!
 //! ```
 //! use linkage_dynamics::integrate::{Tolerance, dop853};
@@ -23,40 +23,39 @@
 //! # Ok::<(), linkage_dynamics::MotionError>(())
 //! ```
 //!
-//! **Failure.** Every function that may fail says so, and what was computed until then stays: an iterator has given
-//! it, and [`t`](Integration::t) and [`state`](Integration::state) tell how far the motion went. Where the rate cannot
-//! be had in the middle of a step (a position that cannot be assembled, a number that is not finite), shorter steps are
-//! tried down to rounding, so that the motion is followed up to the place where it ends; the rate's own error is then
+//! **Errors.** After an error everything computed before it remains: the iterator has returned it, and
+//! [`t`](Integration::t) and [`state`](Integration::state) are the last values reached. If the rate fails in the middle
+//! of a step (a position that cannot be assembled, a number that is not finite), shorter steps are tried down to the
+//! rounding error of t, so that the motion is followed to the point where it ends; the error of the rate is then
 //! returned.
 //!
-//! **Which events are found.** An event function, or a [`Guard`], is looked at between the equal
-//! [parts](Integration::event_parts) of each step, four without that setting.
-//! - A passage through zero that is not taken back within a part is found, to rounding of the time.
-//! - What comes near zero and turns once in the step is followed to where it turns, so that a passage there and back is
-//!   found however short it is. Of a guard whose rate the system knows the sign of the rate tells that it turns; of event
-//!   functions, and of guards without a rate, values tell, and differences at the ends of the step: they miss it only
-//!   where the function is the same to rounding errors at the parts around the turn. The accuracy is that of the motion:
-//!   a passage shallower than its error may be there or not. Of 10 000 random functions with one minimum in a step, down
-//!   to a depth of 1e-9, none is missed.
-//! - What turns more often in one step may be missed: of random sums of four sines that pass zero by 1e-4 of their
-//!   height, 0.1 % with two extrema in a step, 1 % with three, 5 % with four, 25 % with five, two thirds with more; looked
-//!   at in 16 parts 0.06 %. Guards without a rate are looked at in up to 64 parts where they bend, and the step is made
-//!   shorter if that is not enough: of these 0.2 % with six extrema and more.
+//! **Detection of events.** Event functions and [`Guard`]s are sampled at equal [parts](Integration::event_parts) of
+//! each step, four by default.
+//! - A change of sign between two samples is found, and located to the rounding error of the time.
+//! - A function that approaches zero and has one extremum in the step is followed to the extremum, so that a short
+//!   passage there and back is found too. For a guard with a known rate the sign of the rate shows the extremum; for
+//!   event functions, and guards without a rate, the samples and difference quotients at the ends of the step do: they
+//!   miss it only where the samples around the extremum are equal within rounding error. The accuracy is that of the
+//!   motion: a passage shallower than its error may or may not be found. Of 10 000 random functions with one minimum in
+//!   a step, down to a depth of 1e-9, none is missed.
+//! - A function with several extrema in one step may be missed: of random sums of four sines that pass zero by 1e-4 of
+//!   their amplitude, 0.1 % with two extrema in a step, 1 % with three, 5 % with four, 25 % with five, two thirds with
+//!   more; with 16 parts 0.06 %. Guards without a rate are sampled at up to 64 parts if they are not smooth enough, and
+//!   the step is then shortened if necessary: of these 0.2 % with six extrema or more are missed.
 //!
-//! This takes no evaluation of the rate but in a step in which something passes zero or turns towards it, which is
-//! given dense output; functions are looked at six or seven times in a step in which none turns, and some thirty times, without known rates
-//! some 130 times, in one in which one does. Without events it takes nothing.
+//! Event detection evaluates the rate only in steps with a possible event, for dense output. Functions are evaluated
+//! six or seven times in a step without an extremum; in a step with one about 30 times, or 130 without known rates.
 //!
-//! **Reproducible.** Nothing is drawn by chance and no clock is read: the same calls give the same bits. A rate may keep
-//! a state of its own, such as the last position as the guess for the next; then it must depend on nothing but the
-//! calls it gets, and what it returns may depend on that guess only within rounding, for it is called for rejected
-//! steps and for dense output as well, and asking for other output times changes the calls. [`dop853`] itself
-//! computes by the four operations and square roots except for its first step, so that with a [first
-//! step](Integration::first_step) given and such a rate the bits are those of every machine.
+//! **Reproducibility.** The same calls give the same bits: no random numbers and no clock are used. A rate may have
+//! internal state, such as the last position as the guess for the next; this state must depend only on the calls, and
+//! may change the returned rate only within rounding error, because the rate is also called for rejected steps and for
+//! dense output, and other output times change the calls. [`dop853`] itself uses only the four operations and square
+//! roots except for its first step: with a given [first step](Integration::first_step) and such a rate the bits are the
+//! same on every machine.
 //!
-//! **Units.** Tolerances are pure numbers beside sizes that the caller gives; no length, time or mass is built in.
+//! **Units.** Tolerances are relative to scales that the caller gives; no length, time or mass is built in.
 //!
-//! Everything lies in arrays of fixed size: nothing is allocated.
+//! Arrays have fixed size: nothing is allocated.
 
 mod control;
 mod delivery;
@@ -85,13 +84,13 @@ pub use tableau::{Control, Method, Stage, Tableau, Weights};
 
 use crate::MotionError;
 
-/// An integration by the method of Dormand and Prince of order 8(5,3): the choice where accuracy counts.
+/// Starts an integration by the method of Dormand and Prince of order 8(5,3), for accuracy.
 ///
-/// The system is a closure `FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, MotionError>` or a [`System`]; `start` is
-/// the time and the state there.
+/// The system is a function `FnMut(T, &SVector<T, N>) -> Result<SVector<T, N>, MotionError>` or a [`System`]; `start`
+/// is the initial time and state.
 ///
 /// # Errors
-/// As [`Integration::new`].
+/// Those of [`Integration::new`].
 pub fn dop853<S: System, B>(
     system: impl IntoSystem<B, System = S>,
     start: (S::Scalar, impl Into<StateOf<S>>),
@@ -101,11 +100,11 @@ pub fn dop853<S: System, B>(
     Integration::new(system, start, end, tolerance)
 }
 
-/// An integration by the method of Dormand and Prince of order 5(4): the choice for tolerances down to 1e-6. Else as
-/// [`dop853`].
+/// Starts an integration by the method of Dormand and Prince of order 5(4), for tolerances down to 1e-6. The arguments
+/// are those of [`dop853`].
 ///
 /// # Errors
-/// As [`Integration::new`].
+/// Those of [`Integration::new`].
 pub fn dopri5<S: System, B>(
     system: impl IntoSystem<B, System = S>,
     start: (S::Scalar, impl Into<StateOf<S>>),

@@ -8,12 +8,11 @@ use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 
-/// The states at given times, by dense output: the steps are those that the integration takes without them. Made by
+/// An iterator over the states at given times, by dense output, which does not change the steps. Made by
 /// [`Integration::at`].
 ///
-/// It ends after the last time, where an event stops the integration, or with an error; what came before stands. A
-/// time that is not in the part of the interval that lies ahead is an
-/// [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange).
+/// It ends after the last time, where an event stops the integration, or with an error; earlier states remain valid. A
+/// time outside the rest of the interval is an [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange).
 #[derive(Debug)]
 pub struct Outputs<'a, S: System, M, I> {
     integration: &'a mut Integration<S, M>,

@@ -1,4 +1,4 @@
-//! An integration: step after step, from event to event.
+//! The main loop of an integration: steps and events.
 
 use core::marker::PhantomData;
 
@@ -12,39 +12,39 @@ use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, Dim, InputError, Real};
 
-/// The part of the tolerance by which a state may be corrected without another evaluation of the rate.
-const NEGLIGIBLE: f64 = 0.01;
+/// The largest correction of a state, as a fraction of the tolerance, that needs no new evaluation of the rate.
+const NEGLIGIBLE_CORRECTION: f64 = 0.01;
 
-/// How often steps are made shorter in a row, each time to a sixteenth, for the sake of their guards: to a millionth of
-/// what the tolerance asks for. With 4 a jump of a guard is met by steps 16 times as long, with 6 it costs one more step.
-const MOST_SHORTENED: u32 = 5;
+/// The most times in a row that a step is shortened to a sixteenth for its guards: 16^-5 = 1e-6 of the step by
+/// tolerance. With 4 a jump of a guard is met by steps 16 times as long, with 6 it costs one more step.
+const MAX_SHORTENED: u32 = 5;
 
-/// What an integration has cost.
+/// The cost of an integration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Evaluations of the rate, those that failed included.
+    /// Evaluations of the rate, failed ones included.
     pub evaluations: usize,
-    /// Steps accepted.
+    /// Accepted steps.
     pub accepted: usize,
-    /// Steps rejected, the first one's included.
+    /// Rejected steps, attempts at the first step included.
     pub rejected: usize,
 }
 
-/// Where the integration has arrived: at the end of a step or, within one, at an event.
+/// A point of an integration: the end of a step, or an event within one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step<T: Real, N: Dim> {
     /// The time.
     pub t: T,
-    /// The state; at an event before what it does.
+    /// The state; at an event, before its action.
     pub state: Column<T, N>,
-    /// The number of the event, if there is one.
+    /// The index of the event, if there is one.
     pub event: Option<usize>,
 }
 
-/// Where an integration of a system has arrived.
+/// The [`Step`] of a system.
 pub(super) type StepOf<S> = Step<<S as System>::Scalar, <S as System>::N>;
 
-/// The last time of an event, and whether the motion started anew with one.
+/// The last event time; `anew` if the motion restarted there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Instant<T> {
     pub(super) t: T,
@@ -53,16 +53,16 @@ pub(super) struct Instant<T> {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Place {
-    /// At the start, at the end of a step, or where the motion starts anew.
+    /// At the start, at the end of a step, or at a restart.
     Boundary,
-    /// At this part of a step.
+    /// At this fraction of a step.
     Within(f64),
-    /// Nothing follows.
+    /// The integration has ended.
     Over,
 }
 
-/// An integration under way: an iterator over its steps and events, which ends with an error or at the end of the
-/// interval. What was reached stays readable after an error.
+/// An iterator over the steps and events of an integration. It ends with an error or at the end of the interval; the
+/// last state remains readable after an error.
 #[derive(Debug, Clone)]
 pub struct Integration<S: System, M = Dop853> {
     pub(super) method: PhantomData<M>,
@@ -74,16 +74,16 @@ pub struct Integration<S: System, M = Dop853> {
     pub(super) parts: usize,
     pub(super) start: S::Scalar,
     pub(super) end: S::Scalar,
-    /// How far the integration is.
+    /// The time and state reached.
     pub(super) t: S::Scalar,
     pub(super) state: StateOf<S>,
     pub(super) place: Place,
-    /// The last step: its start, its end, its slopes, and its dense output once that was asked for.
+    /// The last step: its start, its end, its slopes, and its dense output once requested.
     pub(super) from: (S::Scalar, StateOf<S>),
     pub(super) to: (S::Scalar, StateOf<S>),
     pub(super) slopes: Slopes<S::Scalar, S::N>,
     pub(super) interpolant: Option<Interpolant<S::Scalar, S::N>>,
-    /// The last slope is that of the state.
+    /// True if the last slope is the rate at the current state.
     pub(super) continues: bool,
     pub(super) controller: Controller,
     pub(super) counts: Counts,
@@ -91,12 +91,12 @@ pub struct Integration<S: System, M = Dop853> {
     pub(super) not_stiff: u32,
     pub(super) sides: Sides<S::Events, S::Guards>,
     pub(super) instant: Instant<S::Scalar>,
-    /// How often the step has been made shorter for the sake of its guards.
+    /// The number of times in a row that the step was shortened for its guards.
     pub(super) shortened: u32,
 }
 
 impl<S: System, M: Method> Integration<S, M> {
-    /// Of this system from state `y` at `start` to `end`, which may be the earlier.
+    /// Starts an integration of this system from state `y` at `start` to `end`, which may be before `start`.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if a time is not finite, [`MotionError::NotFinite`] if the state is not.
@@ -140,7 +140,7 @@ impl<S: System, M: Method> Integration<S, M> {
         })
     }
 
-    /// The length of the first step, in place of an estimate that takes one evaluation.
+    /// Sets the length of the first step; the default estimate takes one evaluation.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if it is not positive and finite.
@@ -150,7 +150,7 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok(self)
     }
 
-    /// The largest length of a step; without it the whole interval.
+    /// Sets the largest step; the default is the whole interval.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if it is not positive and finite.
@@ -160,63 +160,62 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok(self)
     }
 
-    /// Steps, accepted or not, after which the integration is given up; 100 000 without it.
+    /// Sets the limit on the number of steps, rejected ones included; the default is 100 000.
     #[must_use]
     pub fn most_steps(mut self, steps: usize) -> Self {
         self.most_steps = steps;
         self
     }
 
-    /// Tests after every so many accepted steps whether the equations have become stiff; 0 never does. 1000
-    /// without it.
+    /// Tests for stiffness every so many accepted steps; 0 never does. The default is 1000.
     #[must_use]
     pub fn stiffness_test(mut self, every: usize) -> Self {
         self.stiffness_every = every;
         self
     }
 
-    /// Looks at the event functions at so many equal parts of each step; 4 without it, at least 1. An event
-    /// function that goes through zero and back between two of them is seen if it turns once in the step; what turns
-    /// more often may need more parts ([which events are found](super)). Between the ends of a step the functions are
-    /// evaluated, but no rate unless something may happen.
+    /// Samples the event functions at so many equal parts of each step; the default is 4, the least 1. A passage
+    /// through zero and back between two samples is found if the function has one extremum in the step; with several it
+    /// may need more parts ([detection of events](super)). This evaluates the functions, but no rate without a possible
+    /// event.
     #[must_use]
     pub fn event_parts(mut self, parts: usize) -> Self {
         self.parts = parts.max(1);
         self
     }
 
-    /// How far the integration is.
+    /// The time reached.
     #[must_use]
     pub fn t(&self) -> S::Scalar {
         self.t
     }
 
-    /// The state there; after an event what it made of it.
+    /// The state reached; after an event, the state after its action.
     #[must_use]
     pub fn state(&self) -> &StateOf<S> {
         &self.state
     }
 
-    /// How much of the interval is done, from 0 to 1.
+    /// The part of the interval that is done, from 0 to 1.
     #[must_use]
     pub fn progress(&self) -> f64 {
         let (done, whole) = (to_f64(self.t - self.start), to_f64(self.end - self.start));
         if whole == 0.0 { 1.0 } else { done / whole }
     }
 
-    /// What it has cost.
+    /// The cost so far.
     #[must_use]
     pub fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// The system, with what it has learned on the way.
+    /// The system in its current state.
     #[must_use]
     pub fn system(&self) -> &S {
         &self.system
     }
 
-    /// Whether nothing follows: the end is reached, an event stopped the integration, or an error.
+    /// Returns true at the end of the interval, after an event that stopped the integration, and after an error.
     #[must_use]
     pub fn is_over(&self) -> bool {
         match self.place {
@@ -226,11 +225,11 @@ impl<S: System, M: Method> Integration<S, M> {
         }
     }
 
-    /// The states of the last step, also before its end where an event cut it off. Made when it is first asked for,
-    /// in one step at most once.
+    /// The dense output of the last step, beyond an event that cut it off too. It is computed at the first call, at
+    /// most once a step.
     ///
     /// # Errors
-    /// What the rate returns where the method evaluates it for dense output, and [`MotionError::NotFinite`].
+    /// Those of the rate if the method evaluates it for dense output, and [`MotionError::NotFinite`].
     pub fn interpolant(&mut self) -> Result<Interpolant<S::Scalar, S::N>, MotionError> {
         if let Some(interpolant) = self.interpolant {
             return Ok(interpolant);
@@ -248,16 +247,16 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok(interpolant)
     }
 
-    /// The states at these times, which follow one another in the direction of the integration.
+    /// Returns the states at these times, which must be in the direction of the integration.
     pub fn at<I: IntoIterator<Item = S::Scalar>>(&mut self, times: I) -> Outputs<'_, S, M, I::IntoIter> {
         Outputs::new(self, times.into_iter())
     }
 
-    /// Integrates to the end. `watch` sees every step and event and how much of the interval is done; where it
-    /// returns false the integration pauses, and may be continued.
+    /// Integrates to the end. `watch` receives every step and event and the progress from 0 to 1; if it returns false
+    /// the integration pauses, and may be continued.
     ///
     /// # Errors
-    /// As [`advance`](Self::advance).
+    /// Those of [`advance`](Self::advance).
     pub fn finish(&mut self, mut watch: impl FnMut(&StepOf<S>, f64) -> bool) -> Result<(), MotionError> {
         while let Some(step) = self.advance()? {
             if !watch(&step, self.progress()) {
@@ -267,12 +266,12 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok(())
     }
 
-    /// To the next event or, if there is none, to the end of the step; None where nothing follows.
+    /// Advances to the next event or to the end of the step; returns None at the end.
     ///
     /// # Errors
-    /// What the system returns, if no shorter step avoids it; [`MotionError::NotFinite`], [`MotionError::StepTooSmall`],
-    /// [`MotionError::TooManySteps`], [`MotionError::Stiff`], [`MotionError::EventsWithoutEnd`]. Nothing follows after an error, and time and
-    /// state stay what they were before it.
+    /// Those of the system, if no shorter step avoids them; [`MotionError::NotFinite`], [`MotionError::StepTooSmall`],
+    /// [`MotionError::TooManySteps`], [`MotionError::Stiff`], [`MotionError::EventsWithoutEnd`]. After an error the
+    /// integration has ended, with the time and state before it.
     pub fn advance(&mut self) -> Result<Option<StepOf<S>>, MotionError> {
         if self.is_over() {
             return Ok(None);
@@ -280,7 +279,7 @@ impl<S: System, M: Method> Integration<S, M> {
         let result = self.proceed();
         if result.is_err() {
             self.place = Place::Over;
-            // The slopes of the last step are lost.
+            // The slopes of the last step are overwritten.
             (self.from, self.to) = ((self.t, self.state), (self.t, self.state));
             self.interpolant = Some(Interpolant::constant(self.t, self.state));
         }
@@ -308,7 +307,7 @@ impl<S: System, M: Method> Integration<S, M> {
                     self.place = Place::Within(hit.at);
                     return self.deliver();
                 }
-                Found::Unclear if is_new && self.shortened < MOST_SHORTENED => {
+                Found::Unclear if is_new && self.shortened < MAX_SHORTENED => {
                     self.shortened += 1;
                     self.go_back(self.from.0, self.from.1);
                     self.counts.accepted -= 1;
@@ -316,7 +315,7 @@ impl<S: System, M: Method> Integration<S, M> {
                     self.limit_next(length / 16.0);
                 }
                 _ => {
-                    // What jumps stays unclear, in this step and in those that follow it.
+                    // At a jump the guards stay unclear: do not shorten the following steps again.
                     if !matches!(found, Found::Unclear) {
                         self.shortened = 0;
                     }
@@ -328,7 +327,7 @@ impl<S: System, M: Method> Integration<S, M> {
         }
     }
 
-    /// The same start, end and settings by another method or with another system.
+    /// Rebuilds the integration with the same start, end and settings for another method or system.
     pub(crate) fn with<S2: System<Scalar = S::Scalar, N = S::N>, M2: Method>(
         self,
         system: impl FnOnce(S) -> S2,
@@ -343,7 +342,7 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok(other)
     }
 
-    /// Whether a step begins here.
+    /// Returns true if a step begins here.
     pub(crate) fn is_at_boundary(&self) -> bool {
         self.place == Place::Boundary && !self.sides.waits()
     }
@@ -352,18 +351,18 @@ impl<S: System, M: Method> Integration<S, M> {
         &mut self.system
     }
 
-    /// The length of the step to be tried next, without sign.
+    /// The length of the next trial step, without sign.
     pub(crate) fn next_length(&self) -> Option<f64> {
         self.controller.length
     }
 
-    /// Makes the next step no longer than this.
+    /// Limits the length of the next step.
     pub(crate) fn limit_next(&mut self, length: f64) {
         self.controller.length =
             Some(self.controller.length.map_or(length, |next| if next < length { next } else { length }));
     }
 
-    /// Dares this part of the change of length that the last error asks for.
+    /// Sets the safety factor of the step-size controller.
     pub(crate) fn set_safety(&mut self, safety: f64) {
         self.controller.safety = safety;
     }
@@ -372,20 +371,20 @@ impl<S: System, M: Method> Integration<S, M> {
         self.tolerance = tolerance;
     }
 
-    /// Goes on from another state than the one reached: a projected one, or one in other coordinates.
+    /// Replaces the state reached: by a projected one, or by one in other coordinates.
     pub(crate) fn exchange(&mut self, state: StateOf<S>) {
         self.state = state;
         self.continues = false;
     }
 
-    /// Goes on from a state that differs from the one reached by what is left of the closures. Beside the tolerance that
-    /// is mostly nothing, and the last slope stands for the next one.
+    /// Replaces the state reached by its projection onto the constraints. If the correction is negligible relative to
+    /// the tolerance, which is usual, the last slope is reused.
     pub(crate) fn correct(&mut self, state: StateOf<S>) {
-        self.continues = self.continues && self.tolerance.share(&(state - self.state), &state) <= NEGLIGIBLE;
+        self.continues = self.continues && self.tolerance.share(&(state - self.state), &state) <= NEGLIGIBLE_CORRECTION;
         self.state = state;
     }
 
-    /// Goes on from a place before the one reached; the length of the steps is kept.
+    /// Returns to an earlier point; the step length is kept.
     pub(crate) fn go_back(&mut self, t: S::Scalar, state: StateOf<S>) {
         (self.from, self.to) = ((t, state), (t, state));
         self.interpolant = Some(Interpolant::constant(t, state));
@@ -395,7 +394,7 @@ impl<S: System, M: Method> Integration<S, M> {
         self.exchange(state);
     }
 
-    /// Takes a step that was made by other means, up to the end of the interpolant.
+    /// Takes a step that was computed by another method, given by its interpolant.
     pub(crate) fn pass(&mut self, step: Interpolant<S::Scalar, S::N>) {
         let end = step.interval().1;
         self.from = (self.t, self.state);
@@ -405,7 +404,7 @@ impl<S: System, M: Method> Integration<S, M> {
         self.continues = false;
     }
 
-    /// The interval of which the states are at hand: from the start of the last step to where the integration is.
+    /// The interval with available states: from the start of the last step to the time reached.
     pub(crate) fn reached(&self) -> [S::Scalar; 2] {
         [self.from.0, self.t]
     }
@@ -414,7 +413,7 @@ impl<S: System, M: Method> Integration<S, M> {
         self.end
     }
 
-    /// The state at a time that was reached in the last step; its ends as they are.
+    /// The state at a time within the last step; at its ends exactly the stored states.
     pub(crate) fn state_within(&mut self, t: S::Scalar) -> Result<StateOf<S>, MotionError> {
         if t == self.from.0 {
             return Ok(self.from.1);

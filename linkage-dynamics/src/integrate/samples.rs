@@ -1,15 +1,15 @@
-//! Guards at equal distances in a step: whether they are seen well enough.
+//! Samples of guards at equal distances in a step: a smoothness test.
 //!
-//! The error of a step tells nothing of how fast a guard changes: while all sticks, nothing moves. So it is looked at
-//! more often until four values in a row are near a parabola.
+//! The error of a step does not depend on how fast a guard changes: while everything sticks, nothing moves. The
+//! sampling is refined until every four consecutive values are close to a parabola.
 
 use linkage_runtime::{Column, Dim};
 
-/// Part of the greatest of four values up to which they are on a parabola.
+/// The largest deviation of four values from a parabola, relative to the largest of them.
 const ON_A_PARABOLA: f64 = 0.05;
 
-/// The last four values of each guard, the newest first; none of one whose rate the system knows, which follows from
-/// the state as exactly as that is followed.
+/// The last four values of each guard, newest first; None for a guard with a known rate, which is as accurate as the
+/// state.
 pub(super) struct Samples<C: Dim> {
     values: [Column<Option<f64>, C>; 4],
     count: usize,
@@ -26,12 +26,12 @@ impl<C: Dim> Samples<C> {
         self.count += 1;
     }
 
-    /// Whether there are as many as it takes to tell whether a guard is seen well.
+    /// Returns true if there are enough values for the test.
     pub(super) fn are_enough(&self) -> bool {
         self.count > 3
     }
 
-    /// Whether some guard changes too much from one to the next to be followed.
+    /// Returns true if some guard is too far from a parabola.
     pub(super) fn are_unclear(&self) -> bool {
         let [a, b, c, d] = &self.values;
         self.are_enough()

@@ -1,4 +1,4 @@
-//! One step: its stages, its error, its length, and whether the equations have become stiff.
+//! One step: stages, error, length, and the stiffness test.
 
 use nalgebra::ComplexField;
 
@@ -42,7 +42,7 @@ impl<S: System, M: Method> Integration<S, M> {
             }
             let last = 1.01 * length > span.abs();
             let end = if last { self.end } else { t + real::<S::Scalar>(direction * length) };
-            // At time zero any length tells, however short beside the interval.
+            // At t = 0 any normal length is allowed, however short relative to the interval.
             if 0.1 * length <= epsilon * to_f64(t).abs() || length < f64::MIN_POSITIVE || end == t {
                 return Err(failure.unwrap_or(MotionError::StepTooSmall { t: to_f64(t), step: direction * length }));
             }
@@ -68,7 +68,8 @@ impl<S: System, M: Method> Integration<S, M> {
         }
     }
 
-    /// A step to `end`: its error beside what is allowed, and its end, whose slope is evaluated if it may be accepted.
+    /// Attempts a step to `end`: returns its relative error and the new state, whose slope is evaluated if the step may
+    /// be accepted.
     #[inline]
     fn attempt(&mut self, (t, y): (S::Scalar, &StateOf<S>), end: S::Scalar) -> Result<(f64, StateOf<S>), MotionError> {
         let table = const { &M::TABLEAU };
@@ -113,9 +114,9 @@ impl<S: System, M: Method> Integration<S, M> {
         self.controller.length.unwrap_or(whole).min(self.largest).min(whole)
     }
 
-    /// h |lambda| from the last stage and the end of the step, which are at the same time (Hairer and Wanner,
-    /// *Solving Ordinary Differential Equations II*, section IV.2): the equations are taken to be stiff if stability
-    /// sets the length of 15 tested steps without 6 others in a row among them.
+    /// Tests for stiffness: estimates h |lambda| from the last stage and the end of the step, which are at the same
+    /// time (Hairer and Wanner, *Solving Ordinary Differential Equations II*, section IV.2): the equations count as
+    /// stiff if stability limits 15 tested steps, without 6 others in a row among them.
     fn test_stiffness(&mut self) -> Result<(), MotionError> {
         let every = self.stiffness_every;
         if every == 0 || (self.stiff == 0 && !self.counts.accepted.is_multiple_of(every)) {
@@ -143,7 +144,7 @@ impl<S: System, M: Method> Integration<S, M> {
     }
 }
 
-/// Whether this slope takes part.
+/// Returns true if this slope has a weight.
 const fn uses(weights: Weights, slope: usize) -> bool {
     let mut i = 0;
     while i < weights.len() {
@@ -155,7 +156,7 @@ const fn uses(weights: Weights, slope: usize) -> bool {
     false
 }
 
-/// The rate, counting.
+/// The rate with a count of its evaluations.
 #[inline(always)]
 pub(super) fn counted<'a, S: System>(
     system: &'a mut S,

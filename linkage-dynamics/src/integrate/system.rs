@@ -1,4 +1,4 @@
-//! What is integrated.
+//! Systems of differential equations.
 
 use core::marker::PhantomData;
 
@@ -9,25 +9,25 @@ use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Column, D, Dim, Real};
 
-/// A function that ends the law of the rate where it falls below zero, at one state.
+/// The value of a guard function at one state: where it falls below zero, the law of the rate changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guard<T> {
     /// Its value.
     pub value: T,
-    /// Its change in time, if that is known. Where it is not, differences of values tell.
+    /// Its time derivative, if known; otherwise difference quotients are used.
     pub rate: Option<T>,
 }
 
 /// The state of a system, or its rate.
 pub type StateOf<S> = Column<<S as System>::Scalar, <S as System>::N>;
 
-/// A system of differential equations y' = f(t, y) with events and guards. A closure of the rate becomes one without any
-/// ([`IntoSystem`]).
+/// A system of differential equations y' = f(t, y) with events and guards. A Rust function of (t, y) is a system
+/// without events ([`IntoSystem`]).
 ///
-/// One object has it all, so that its parts may share what they know: the last position as a guess, which coordinates
-/// are the independent ones, whether a block sticks or slips.
+/// One object provides all functions, so that they share internal state: the last position as a guess, the choice of
+/// independent coordinates, the modes of contacts.
 pub trait System {
-    /// The number that a time and a component of the state is.
+    /// The scalar type of times and components.
     type Scalar: Real;
     /// The number of components of the state.
     type N: Dim;
@@ -39,26 +39,26 @@ pub trait System {
     /// y' = f(t, y).
     ///
     /// # Errors
-    /// If there is no rate at this state; the step is then tried shorter.
+    /// If the rate does not exist at this state; a shorter step is then tried.
     fn rate(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<StateOf<Self>, MotionError>;
 
     /// The functions whose zeros are the events.
     ///
     /// # Errors
-    /// If they cannot be computed, which ends the integration.
+    /// If they cannot be computed; the integration then ends.
     fn events(&mut self, t: Self::Scalar, y: &StateOf<Self>)
     -> Result<Column<Self::Scalar, Self::Events>, MotionError>;
 
-    /// Which way they must pass through zero.
+    /// The direction in which each must pass through zero.
     fn crossings(&self) -> Column<Crossing, Self::Events> {
         Column::repeat(Crossing::Either)
     }
 
-    /// The functions that end the law of the rate where they fall below zero, beside the user's events: of what
-    /// sticks how much more it holds, of what is apart how far. They are numbered as events after the user's.
+    /// The guards: where one falls below zero the law of the rate changes. Examples: the reserve of a sticking
+    /// friction, the gap of an open stop. They are numbered as events after the user's.
     ///
     /// # Errors
-    /// If they cannot be computed, which ends the integration.
+    /// If they cannot be computed; the integration then ends.
     fn guards(
         &mut self,
         t: Self::Scalar,
@@ -68,10 +68,10 @@ pub trait System {
         Ok(Column::repeat(Guard { value: Self::Scalar::one(), rate: Some(Self::Scalar::zero()) }))
     }
 
-    /// What happens at event `event`; of events at the same time the first comes first.
+    /// The action at event `event`; events at the same time are handled in the order of their numbers.
     ///
     /// # Errors
-    /// To end the integration with an error.
+    /// Any error ends the integration.
     fn at_event(
         &mut self,
         event: usize,
@@ -82,21 +82,20 @@ pub trait System {
         Ok(Action::Record)
     }
 
-    /// Called at the start, and at the end of each step that another one follows, when the outputs of that step have
-    /// been given. A state that it returns takes the place of the old one: projected onto a constraint, or in other
-    /// coordinates, in which the rate then is too. The length of the steps is kept.
+    /// Called before each step, after the outputs of the last one. A returned state replaces the current one: projected
+    /// onto a constraint, or in other coordinates, which the rate must then use too. The step length is kept.
     ///
     /// # Errors
-    /// To end the integration with an error.
+    /// Any error ends the integration.
     fn before_step(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<Option<StateOf<Self>>, MotionError> {
         let _ = (t, y);
         Ok(None)
     }
 }
 
-/// A state as closures take and give it: nalgebra's [`SVector`] or a [`Column`].
+/// The state type of user functions: nalgebra's [`SVector`] or a [`Column`].
 pub trait StateVector: Copy + From<Column<Self::Scalar, Self::N>> + Into<Column<Self::Scalar, Self::N>> {
-    /// The number that a component is.
+    /// The scalar type of the components.
     type Scalar: Real;
     /// The number of components.
     type N: Dim;
@@ -112,18 +111,18 @@ impl<T: Real, N: Dim> StateVector for Column<T, N> {
     type N = N;
 }
 
-/// What is given to an integration: a [`System`], or the rate of one as a closure of the time and a [`StateVector`].
+/// The argument of an integration: a [`System`], or a rate as a function of the time and a [`StateVector`].
 ///
-/// `By` tells the two apart; it is always inferred.
+/// `By` distinguishes the two and is always inferred.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not the rate of a motion",
-    note = "a rate is a closure `|t, y: &SVector<_, N>| -> Result<SVector<_, N>, MotionError>`: `Ok(f(..)?)` makes the error that of motions"
+    note = "write `|t, y: &SVector<_, N>| -> Result<SVector<_, N>, MotionError>`; `Ok(f(..)?)` converts other errors"
 )]
 pub trait IntoSystem<By> {
-    /// The system.
+    /// The resulting system.
     type System: System;
 
-    /// The system.
+    /// The resulting system.
     fn into_system(self) -> Self::System;
 }
 
@@ -148,7 +147,7 @@ where
     }
 }
 
-/// A closure of the rate as a system without events. Made by [`IntoSystem`].
+/// A rate function as a system without events. Made by [`IntoSystem`].
 #[derive(Debug, Clone)]
 pub struct Rate<F, Y> {
     rate: F,
@@ -174,7 +173,7 @@ where
     }
 }
 
-/// A rate with events, each a closure. Made by [`watched`].
+/// A rate function with event functions. Made by [`watched`].
 #[derive(Debug, Clone)]
 pub struct Watched<F, G, A, Y, const K: usize> {
     rate: F,
@@ -184,8 +183,8 @@ pub struct Watched<F, G, A, Y, const K: usize> {
     state: PhantomData<Y>,
 }
 
-/// A system of closures: its rate, the K event functions with the way that each must pass through zero, and what
-/// happens at an event. They take the state as nalgebra's `SVector` or as a [`Column`].
+/// Builds a system from a rate, K event functions with the direction in which each must pass through zero, and an
+/// action at events. The state is nalgebra's `SVector` or a [`Column`].
 ///
 /// ```
 /// use linkage_dynamics::integrate::{Action, Crossing, Tolerance, dop853, watched};

@@ -1,9 +1,9 @@
-//! Embedded Runge-Kutta pairs as data, and the stages of a step.
+//! Embedded Runge-Kutta pairs as tables, and the stages of a step.
 
 use crate::MotionError;
 use linkage_runtime::{Column, Dim, Real, real};
 
-/// A linear combination of slopes: the number of each slope, from 0, and its coefficient.
+/// A linear combination of slopes: the index of each slope and its coefficient.
 pub type Weights = &'static [(usize, f64)];
 
 /// A slope k = f(t + c h, y + h sum a_j k_j).
@@ -15,23 +15,23 @@ pub struct Stage {
     pub weights: Weights,
 }
 
-/// The rule by which the length of the next step follows from the error of this one.
+/// The parameters of the step-size controller.
 #[derive(Debug, Clone, Copy)]
 pub struct Control {
-    /// The power of the error in the rule, beta included.
+    /// The exponent of the error, beta included.
     pub exponent: f64,
-    /// The power of the error before (Lund's stabilisation); 0 leaves it out.
+    /// The exponent of the previous error (PI controller, Lund's stabilisation); 0 switches it off.
     pub beta: f64,
-    /// The least ratio of a step to the one before.
+    /// The least ratio of a step to the previous one.
     pub shrink: f64,
-    /// The largest ratio of a step to the one before.
+    /// The largest ratio of a step to the previous one.
     pub grow: f64,
-    /// h |lambda| at the border of stability: where it is exceeded, stability sets the step and not the error.
+    /// h |lambda| at the boundary of the stability region: above it stability limits the step.
     pub stability: f64,
 }
 
-/// An embedded pair of explicit Runge-Kutta methods with dense output, whose last slope is the first of the next
-/// step. Slope 0 is f(t, y), slope `end` is f(t + h, y1).
+/// The Butcher tableau of an embedded explicit Runge-Kutta pair with dense output; the last slope is reused as the
+/// first of the next step (FSAL). Slope 0 is f(t, y), slope `end` is f(t + h, y1).
 #[derive(Debug, Clone, Copy)]
 pub struct Tableau {
     /// The order p of the solution: its local error is O(h^(p + 1)).
@@ -40,20 +40,19 @@ pub struct Tableau {
     pub stages: &'static [Stage],
     /// y1 = y + h sum b_j k_j.
     pub solution: Weights,
-    /// The number of the slope at the end of the step.
+    /// The index of the slope at the end of the step.
     pub end: usize,
-    /// y1 less a solution of lower order, beside h. Of two estimates, of orders 5 and 3, E = E5^2 / sqrt(E5^2 +
-    /// E3^2 / 100).
+    /// (y1 - solution of lower order) / h. With two estimates, of orders 5 and 3, E = E5^2 / sqrt(E5^2 + E3^2 / 100).
     pub errors: [Weights; 2],
-    /// Slopes `end` + 1, ... that only dense output takes.
+    /// Slopes `end` + 1 and following, which only dense output uses.
     pub dense_stages: &'static [Stage],
-    /// The coefficients of dense output beside h that do not follow from y, y1 and their slopes.
+    /// The coefficients of dense output, divided by h, that do not follow from y, y1 and their slopes.
     pub dense: &'static [Weights],
-    /// The rule for the next step.
+    /// The parameters of the step-size controller.
     pub control: Control,
 }
 
-/// As many slopes as the largest method has.
+/// The number of slopes of the largest method.
 pub(super) const SLOPES: usize = 16;
 
 /// The slopes of a step.
@@ -71,7 +70,7 @@ pub(super) fn combination<T: Real, N: Dim>(slopes: &Slopes<T, N>, weights: Weigh
     weights.iter().fold(Column::zeros(), |sum, &(j, weight)| sum + slopes[j] * real::<T>(weight))
 }
 
-/// The slopes `from`, `from` + 1, ... of these stages.
+/// Computes the slopes of these stages, numbered upwards from `from`.
 #[inline(always)]
 pub(super) fn evaluate<T: Real, N: Dim>(
     mut rate: impl FnMut(T, &Column<T, N>) -> Result<Column<T, N>, MotionError>,

@@ -1,7 +1,7 @@
-//! A simulation from state to state: steps, and what happens at events.
+//! The main loop of a simulation: steps and events.
 
-use super::motion::Road;
-use super::road::{AtSingularity, WARNED};
+use super::motion::Parametrisation;
+use super::parametrisation::{AtSingularity, WARNED_STEPS};
 use super::run::Simulation;
 use super::state::{State, Touch};
 use super::watch::{Then, Watch};
@@ -23,7 +23,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             if let Some((t, y)) = start.filter(|_| step.event.is_none())
                 && self.ends_too_near(&y, &step.state)
             {
-                // Again in two parts: over a change point leads a step that begins well before it.
+                // Repeat it in two parts: a step over a change point must begin well before it.
                 self.integration.go_back(t, y);
                 self.integration.limit_next(0.5 * to_f64(step.t - t).abs());
                 self.is_prepared = true;
@@ -32,13 +32,13 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             let motion = self.integration.system();
             let (q, _) = S::parts(&step.state);
             let mechanism = motion.scene.mechanism();
-            if matches!(motion.road, Road::Inputs) {
+            if matches!(motion.parametrisation, Parametrisation::Inputs) {
                 let signs = mechanism.block_determinants(&mechanism.pose_at(&q));
                 if !same_signs(self.signs.as_slice(), signs.as_slice()) {
                     if self.at_singularity == AtSingularity::Stop {
-                        return Err(motion.singular(&q));
+                        return Err(motion.singular_error(&q));
                     }
-                    // The step went over a singularity: again from its start, in coordinates that tell.
+                    // The step passed a singularity: repeat it from its start in regular coordinates.
                     self.go_back()?;
                     continue;
                 }
@@ -56,10 +56,10 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                     }
                     Ok(())
                 }
-                // At just the state at which the guard was zero.
+                // Exactly the state at which the guard was zero.
                 _ => self.settle(&mut state, &closed),
             };
-            // Of several events of contacts at one time the first decides for all.
+            // With several contact events at one time, the first settles all contacts.
             if step.event.is_some() && state.event.is_none() && result.is_ok() && state.changes().next().is_none() {
                 continue;
             }
@@ -72,17 +72,17 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
     }
 
-    /// Takes the step again, in other coordinates than the inputs.
+    /// Repeats the step in other coordinates than the inputs.
     fn go_back(&mut self) -> Result<(), MotionError> {
         let (t, y) = self.from;
         self.integration.go_back(t, y);
-        self.warned = WARNED;
+        self.warned = WARNED_STEPS;
         self.leave_inputs()?;
         self.is_prepared = true;
         Ok(())
     }
 
-    /// What the user wishes to happen at an event.
+    /// Applies the user's action at an event.
     fn happens(&mut self, event: usize, state: &mut State<S>, closed: &StateColumn<S>) -> Result<(), MotionError> {
         let motion = self.integration.system_mut();
         match motion.watch.at_event(event, state)? {
@@ -98,7 +98,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         Ok(())
     }
 
-    /// What happens to the contacts.
+    /// Applies impacts and mode changes of the contacts.
     fn settle(&mut self, state: &mut State<S>, closed: &StateColumn<S>) -> Result<(), MotionError> {
         let (after, changes) = self.integration.system_mut().settled(state.t, closed)?;
         self.integration.restart(after)?;
@@ -106,7 +106,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         Ok(())
     }
 
-    /// What the contacts have done, and do from here on.
+    /// Records the changes and the new modes of the contacts in the state.
     fn note(&self, state: &mut State<S>, changes: Column<Option<Change>, S::Contacts>) {
         let modes = self.integration.system().contacts.modes;
         for ((touch, mode), change) in state.contacts.iter_mut().zip(modes).zip(changes) {

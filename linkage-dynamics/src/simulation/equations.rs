@@ -1,9 +1,9 @@
-//! The differential equations of a scene in the coordinates that are independent for the time being.
+//! The differential equations of a scene in the current independent coordinates.
 //!
-//! q' = N z' and M_r z'' = Q_r with M_r = N' M N and Q_r = N' (F - M b), where N spans what [J A] leaves free and b is
-//! q'' at z'' = 0. With the inputs for z these are the equations that are emitted.
+//! q' = N z' and M_r z'' = Q_r with M_r = N' M N and Q_r = N' (F - M b), where the columns of N span the null space of
+//! [J A] and b is q'' at z'' = 0. With z = v these are the emitted equations.
 
-use super::motion::{Choice, FactorsOf, LEAST_PART, Motion, Reduced, Road};
+use super::motion::{Choice, FactorsOf, LEAST_PIVOT_RATIO, Motion, Parametrisation, Reduced};
 use super::watch::Watch;
 use crate::contact::{ReducedContact, ReducedEquations};
 use crate::integrate::{Crossing, Guard, System};
@@ -14,7 +14,7 @@ use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Column, Dim, Mechanism, real};
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// y' in the coordinates of a choice.
+    /// y' in a choice of independent coordinates.
     pub(super) fn rate_by(
         &self,
         independent: &Choice<S>,
@@ -28,12 +28,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
     fn rate_of(&self, (equations, rates): &(Reduced<S>, Rates<S>)) -> Result<StateColumn<S>, MotionError> {
         let accelerations = self.contacts.acceleration(equations)?;
         all_finite(S::NAME, "the acceleration", accelerations.iter())?;
-        // y' has the places of y.
+        // y' is packed in the layout of y.
         let (unknowns, inputs) = S::Mechanism::rate_parts(rates);
         Ok(Self::pack(&S::Mechanism::coordinates(unknowns, inputs), &accelerations))
     }
 
-    /// M_r, Q_r and the contacts in the coordinates of a choice, and q'.
+    /// M_r, Q_r and the contacts in a choice of independent coordinates, and q'.
     pub(super) fn equations_by(
         &self,
         independent: &Choice<S>,
@@ -41,7 +41,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         (t, y): (S::Scalar, &StateColumn<S>),
     ) -> Result<(Reduced<S>, Rates<S>), MotionError> {
         let (mut equations, rates) = self.unprescribed_by(independent, factors, (t, y))?;
-        // What is prescribed moves as its law says, whatever the forces.
+        // Prescribed coordinates follow their laws.
         for (input, law) in self.scene.prescribed(t).iter().enumerate() {
             let Some(law) = law else { continue };
             if let Some(at) = independent.free.iter().position(|&free| free == S::U::COUNT + input) {
@@ -51,7 +51,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((equations, rates))
     }
 
-    /// The same where no input is prescribed yet.
+    /// Does the same before the prescribed motions are applied.
     pub(super) fn unprescribed_by(
         &self,
         independent: &Choice<S>,
@@ -89,7 +89,8 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
 
     #[inline]
     fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
-        let (Road::Others(independent) | Road::Over(independent, _)) = &self.road else {
+        let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
+        else {
             if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) {
                 return self.scene.derivative(t, y);
             }
@@ -97,12 +98,12 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
         };
         let (q, _) = Self::unpack(y);
         let factors = self.factors(independent, &q);
-        // No step goes over a singularity of the choice, or near it, unnoticed.
-        let least = independent.regularity() * real(LEAST_PART);
+        // An error near a singularity of the choice: the integrator then tries a shorter step.
+        let least = independent.regularity() * real(LEAST_PIVOT_RATIO);
         let own_way = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
         let pivots = factors.pivots().zip_map(&independent.pivots, own_way);
         if !pivots.iter().all(|&pivot| pivot >= least) {
-            return Err(self.singular(&q));
+            return Err(self.singular_error(&q));
         }
         self.rate_by(independent, &factors, (t, y))
     }

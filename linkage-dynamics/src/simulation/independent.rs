@@ -1,23 +1,23 @@
 //! Independent coordinates other than the inputs.
 //!
-//! Of [J A] without what is held the elimination takes the U coordinates that the closures determine best; the V that are
-//! left over are independent.
+//! Elimination with complete pivoting of [J A], held inputs excluded, selects the U best-conditioned columns as
+//! dependent coordinates; the other V are independent.
 
 use linkage_runtime::__shared::smallest;
 use linkage_runtime::jacobian::{Elimination, Order, Scales, Vector};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
 
-/// A choice of independent coordinates, and the order in which the others are eliminated. Coordinates are columns of
-/// [J A]: from U on they are inputs.
+/// A choice of independent coordinates, and the elimination order of the others. Coordinates are column indices of [J
+/// A]; those from U on are inputs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Independent<T: Real, U: Dim, V: Dim> {
     pub(super) order: Order<U>,
     pub(super) free: Column<usize, V>,
-    /// The pivots where the step starts.
+    /// The pivots at the start of the step.
     pub(super) pivots: Column<T, U>,
 }
 
-/// [J A] at a position, eliminated in the order of a choice.
+/// [J A] at a position, factored in the pivot order of a choice.
 pub(super) struct Factors<T: Real, U: Dim, V: Dim> {
     elimination: Elimination<T, U, V>,
     free: Column<usize, V>,
@@ -25,7 +25,7 @@ pub(super) struct Factors<T: Real, U: Dim, V: Dim> {
 }
 
 impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
-    /// The best choice in which what is `held` stays independent.
+    /// Returns the best-conditioned choice in which the `held` inputs stay independent.
     pub(super) fn choose<M: Mechanism<Scalar = T, U = U, V = V>>(
         mechanism: &M,
         pose: &M::Pose,
@@ -38,7 +38,7 @@ impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
         Self { order: *elimination.order(), free, pivots: elimination.pivots() }
     }
 
-    /// [J A] at another position, eliminated in the same order.
+    /// Factors [J A] at another position in the same pivot order.
     pub(super) fn factors<M: Mechanism<Scalar = T, U = U, V = V>>(
         &self,
         mechanism: &M,
@@ -49,12 +49,12 @@ impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
         Factors { elimination, free: self.free, scales: *scales }
     }
 
-    /// Of coordinates or their rates the independent ones.
+    /// Extracts the independent components of coordinates or rates.
     pub(super) fn of(&self, vector: &Vector<T, U, V>) -> Column<T, V> {
         self.free.map(|column| vector.get(column))
     }
 
-    /// The smallest pivot: 0 where the closures do not determine the dependent coordinates.
+    /// The smallest pivot: 0 where the constraints do not determine the dependent coordinates.
     pub(super) fn regularity(&self) -> T {
         smallest(self.pivots)
     }
@@ -65,17 +65,17 @@ impl<T: Real, U: Dim, V: Dim> Factors<T, U, V> {
         self.elimination.pivots()
     }
 
-    /// The changes of the dependent coordinates that change the closures by `right`.
+    /// Returns the change of the dependent coordinates that changes the residual by `right`.
     pub(super) fn solve(&self, right: &Column<T, U>) -> Vector<T, U, V> {
         self.elimination.solve(&right.component_div(&self.scales.residuals)).scaled(&self.scales.coordinates)
     }
 
-    /// The basis N of the motions that the closures allow, q' = N z': its rows of the unknowns and of the inputs.
+    /// The null-space basis N, q' = N z': its rows of the unknowns and of the inputs.
     pub(super) fn basis(&self) -> (Matrix<T, U, V>, Matrix<T, V, V>) {
-        let sizes = &self.scales.coordinates;
+        let scales = &self.scales.coordinates;
         let columns = self.free.map(|free| {
-            let column = self.elimination.null(free).scaled(sizes);
-            (column.unknowns / sizes.get(free), column.inputs / sizes.get(free))
+            let column = self.elimination.null(free).scaled(scales);
+            (column.unknowns / scales.get(free), column.inputs / scales.get(free))
         });
         (Matrix::from_columns(columns.map(|column| column.0)), Matrix::from_columns(columns.map(|column| column.1)))
     }

@@ -1,48 +1,48 @@
-//! Scenes in motion: the equations that `linkage!` emits for a scene, integrated, with the closures held.
+//! Simulation of scenes: integrates the equations of motion that `linkage!` emits, with the constraints Psi = 0
+//! satisfied.
 //!
-//! [`simulate`] takes a scene with `inertia`, a start and an end, and gives the states one after the other with all
+//! [`simulate`] takes a scene with `inertia`, a start and an end, and returns an iterator over the states, with all
 //! coordinates and their rates by name.
 //!
-//! 1. *Coordinates.* The motion is that of y = (q, v') by the emitted equations in the inputs. After each step the
-//!    closures are closed again by Newton's method from where the integrator has left them, with the inputs held: one or
-//!    two iterations to rounding, on the branch and in the turn where the motion is, also where a group has no
-//!    closed form.
-//! 2. *Dead points of the input*, where J has no inverse: near one the motion is followed in other independent
-//!    coordinates, those that elimination with complete pivoting of [J A] leaves over, and in the inputs again when these
-//!    are good again. No step goes over a singularity of its own coordinates.
-//! 3. *Change points*, where [J A] itself loses rank, as where the links of a parallelogram are in line, and no
-//!    coordinate helps: a step of a collocation method goes over it along the branch whose tangent continues; it stands
-//!    if the closures hold there where the step says, and at the change point to rounding. Where two branches only come
-//!    near each other the motion follows its own round the bend.
+//! 1. *Coordinates.* The state is y = (q, v') with the emitted equations in the inputs v. After each step Newton's
+//!    method projects q onto the constraints with the inputs fixed: one or two iterations to rounding error, without a
+//!    change of branch or turn, also for groups without closed form.
+//! 2. *Dead points of the input*, where J is singular: near one the simulation uses other independent coordinates, the
+//!    columns without pivot after elimination of [J A] with complete pivoting, and returns to the inputs behind it. No
+//!    step passes a singularity of its own coordinates.
+//! 3. *Change points*, where [J A] itself loses rank (the links of a parallelogram in line) and no choice of
+//!    coordinates is regular: one collocation step passes it along the branch whose tangent continues. The step is
+//!    accepted if it satisfies the constraints at its nodes, and at the change point to rounding error. Where two
+//!    branches only come near each other, the motion follows its own branch.
 //!
-//! Contacts begin and end where their guards say ([which are found](crate::integrate)): of a stop, on a coordinate or an
-//! output, the rate of the gap is known, so that it is not missed however briefly it is touched within a step. Frictions
-//! and stops are followed forward in time only: [`MotionError::Irreversible`](crate::MotionError::Irreversible).
+//! Contacts change where their guards fall through zero ([detection of events](crate::integrate)): the rate of the gap
+//! of a stop is known, so that even a brief touch within a step is found. Frictions and stops are simulated forward in
+//! time only: [`MotionError::Irreversible`](crate::MotionError::Irreversible).
 //!
-//! The branch never changes but like this: what cannot be followed ends with a [`MotionError`](crate::MotionError), and what was
-//! computed until then stays.
+//! The branch changes only in this way: a motion that cannot be followed ends with a
+//! [`MotionError`](crate::MotionError), and earlier states remain valid.
 //!
-//! Prescribed inputs keep to their laws. Reproducible: the same calls give the same bits. Nothing is allocated.
+//! Prescribed inputs follow their laws. The same calls give the same bits. Nothing is allocated.
 
 mod advance;
+mod change_point;
 mod equations;
+mod failure;
 mod independent;
 mod motion;
 mod outputs;
-mod over;
+mod parametrisation;
 mod real_time;
-mod road;
 mod run;
 pub(crate) mod scales;
 mod state;
 mod touching;
-mod verdict;
 mod watch;
 
 pub use motion::Motion;
 pub use outputs::States;
+pub use parametrisation::{AtSingularity, Passages};
 pub use real_time::RealTime;
-pub use road::{AtSingularity, Passages};
 pub use run::{Simulation, simulate};
 pub use state::{Loads, State, Touch};
 pub use watch::{EventFunctions, Then, Unwatched, Watch};

@@ -1,4 +1,5 @@
-//! A scene in motion: by which coordinates, its velocities and states, and its closures closed.
+//! A scene as a system of differential equations: its coordinates, velocities, states, and projection onto the
+//! constraints.
 
 use super::independent::{Factors, Independent};
 use super::state::{State, Touch};
@@ -13,68 +14,69 @@ use linkage_runtime::{Column, Dim, Mechanism, PerInput, Real, newton, real};
 
 /// A choice of independent coordinates of a scene.
 pub(super) type Choice<S> = Independent<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
-/// [J A] of a scene by a choice.
+/// The factored [J A] of a scene.
 pub(super) type FactorsOf<S> = Factors<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
-/// The coordinates by which a scene is followed.
-pub(super) type RoadOf<S> = Road<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V, <S as Scene>::State>;
+/// The parametrisation of a scene.
+pub(super) type ParametrisationOf<S> =
+    Parametrisation<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V, <S as Scene>::State>;
 /// The states of a scene within a step.
 pub(super) type Polynomial<S> = Interpolant<<S as Scene>::Scalar, <S as Scene>::State>;
 /// The equations of motion of a scene in independent coordinates.
 pub(super) type Reduced<S> = ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>;
-/// What is known of a scene's mechanism at a position.
+/// The pose of a scene's mechanism.
 type PoseOf<S> = <<S as Scene>::Mechanism as Mechanism>::Pose;
 /// Changes, rates or accelerations of u and v.
 pub(super) type Change<S> = VectorOf<<S as Scene>::Mechanism>;
 
-/// By which coordinates the motion is followed.
+/// The choice of coordinates in which the motion is integrated.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Road<T: Real, U: Dim, V: Dim, N: Dim> {
+pub(super) enum Parametrisation<T: Real, U: Dim, V: Dim, N: Dim> {
     /// The inputs, by the emitted equations.
     Inputs,
-    /// Others.
+    /// Other coordinates.
     Others(Independent<T, U, V>),
-    /// The polynomial over a change point, in other coordinates than the inputs, also where it goes on after the end.
+    /// Other coordinates, within the collocation polynomial over a change point.
     Over(Independent<T, U, V>, Interpolant<T, N>),
 }
 
-/// A pivot may fall to this part of the smallest one within a step. At half of it or twice as much every test of
-/// simulations holds.
-pub(super) const LEAST_PART: f64 = 0.2;
+/// Within a step a pivot may fall to this fraction of the smallest pivot at its start. At half or twice this value all
+/// simulation tests pass.
+pub(super) const LEAST_PIVOT_RATIO: f64 = 0.2;
 
-/// Newton steps that close the closures again from where an integrator has left them: mostly one, near a change point, where
-/// they only halve at first, a dozen.
-const MOST_CORRECTIONS: usize = 16;
+/// The limit on Newton iterations of the projection after a step: mostly one is needed; near a change point, where each
+/// at first only halves the error, a dozen.
+const MAX_CORRECTIONS: usize = 16;
 
-/// A step of Newton's method of this many roots of roundings leaves less than a rounding.
-const LAST_CORRECTION: f64 = 1e-3;
+/// After a Newton step shorter than this many sqrt(epsilon) the error is below one ulp, by quadratic convergence.
+const LAST_CORRECTION_SQRT_EPSILONS: f64 = 1e-3;
 
-/// A scene in motion, as an integrator takes it.
+/// A scene as a [`System`](crate::integrate::System) for an integrator.
 #[derive(Debug, Clone)]
 pub struct Motion<'a, S: Scene, W> {
     pub(super) scene: &'a S,
     pub(super) watch: W,
     pub(super) scales: ScalesOf<S::Mechanism>,
-    pub(super) road: RoadOf<S>,
+    pub(super) parametrisation: ParametrisationOf<S>,
     pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
     pub(super) names: Column<&'static str, S::Contacts>,
 }
 
 impl<'a, S: Scene> Motion<'a, S, Unwatched> {
-    /// In the inputs, with no contact acting.
+    /// Starts in the inputs, with all contacts open.
     pub(super) fn new(scene: &'a S, scales: ScalesOf<S::Mechanism>) -> Self {
         let (contacts, names) = (Contacts::open(), Column::repeat(""));
-        Self { scene, watch: Unwatched, scales, road: Road::Inputs, contacts, names }
+        Self { scene, watch: Unwatched, scales, parametrisation: Parametrisation::Inputs, contacts, names }
     }
 }
 
 impl<'a, S: Scene, W> Motion<'a, S, W> {
-    /// The same with other events.
+    /// Replaces the user's events.
     pub(super) fn watched<W2>(self, watch: W2) -> Motion<'a, S, W2> {
-        let Self { scene, scales, road, contacts, names, .. } = self;
-        Motion { scene, watch, scales, road, contacts, names }
+        let Self { scene, scales, parametrisation, contacts, names, .. } = self;
+        Motion { scene, watch, scales, parametrisation, contacts, names }
     }
 
-    /// y of a position and the rates of the independent coordinates.
+    /// Packs a position and the rates of the independent coordinates into y.
     pub(super) fn pack(q: &Coordinates<S>, rates: &PerInput<S::Mechanism>) -> StateColumn<S> {
         S::state(q, &(*rates).into())
     }
@@ -84,7 +86,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         (q, rates.into())
     }
 
-    /// Which inputs are prescribed.
+    /// True for each prescribed input.
     pub(super) fn held(&self, t: S::Scalar) -> Column<bool, S::V> {
         self.scene.prescribed(t).map(|law| law.is_some())
     }
@@ -94,13 +96,14 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         independent.factors(mechanism, &mechanism.pose_at(q), &self.scales)
     }
 
-    /// The factors if the position is apart from a change point that is passed.
+    /// Returns the factors of [J A] if no pivot is too small.
     pub(super) fn regular(&self, independent: &Choice<S>, q: &Coordinates<S>) -> Option<FactorsOf<S>> {
         let factors = self.factors(independent, q);
-        (smallest(factors.pivots().iter().copied()) > independent.regularity() * real(LEAST_PART)).then_some(factors)
+        (smallest(factors.pivots().iter().copied()) > independent.regularity() * real(LEAST_PIVOT_RATIO))
+            .then_some(factors)
     }
 
-    /// A position without its names.
+    /// A position as columns.
     pub(super) fn column(q: &Coordinates<S>) -> Change<S> {
         let (unknowns, inputs) = S::Mechanism::parts(q);
         Change::<S> { unknowns, inputs }
@@ -111,8 +114,8 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         S::Mechanism::coordinates(there.unknowns, there.inputs)
     }
 
-    /// The largest of changes beside the sizes of their coordinates; of rates it is an angular frequency.
-    pub(super) fn size_of(&self, change: &Change<S>) -> S::Scalar {
+    /// The largest change divided by the scale of its coordinate; for rates, an angular frequency.
+    pub(super) fn scaled_norm(&self, change: &Change<S>) -> S::Scalar {
         change.relative_to(&self.scales.coordinates).largest()
     }
 
@@ -120,31 +123,32 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     pub(super) fn velocity(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Change<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let mechanism = self.scene.mechanism();
-        match &self.road {
-            Road::Inputs => {
+        match &self.parametrisation {
+            Parametrisation::Inputs => {
                 let pose = mechanism.pose_at(&q);
                 let right = mechanism.jacobian_inputs(&pose) * -rates;
                 Ok(Change::<S> { unknowns: mechanism.solve_jacobian(&pose, &right)?, inputs: rates })
             }
-            Road::Others(independent) => Ok(self.factors(independent, &q).rates(&rates)),
-            Road::Over(independent, step) => {
+            Parametrisation::Others(independent) => Ok(self.factors(independent, &q).rates(&rates)),
+            Parametrisation::Over(independent, step) => {
                 if let Some(factors) = self.regular(independent, &q) {
                     return Ok(factors.rates(&rates));
                 }
-                // Near the change point [J A] does not tell.
+                // Near the change point [J A] is too close to singular: use the polynomial.
                 let (rates, _) = S::parts(&step.slope_at(t));
                 Ok(Self::column(&rates))
             }
         }
     }
 
-    /// y of a position and the rates of the inputs.
+    /// Packs a position and the rates of the inputs into y.
     pub(super) fn with_input_rates(
         &self,
         q: &Coordinates<S>,
         rates: &PerInput<S::Mechanism>,
     ) -> Result<StateColumn<S>, MotionError> {
-        let (Road::Others(independent) | Road::Over(independent, _)) = &self.road else {
+        let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
+        else {
             return Ok(Self::pack(q, rates));
         };
         let mechanism = self.scene.mechanism();
@@ -163,7 +167,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         Ok(State { t, q, rates, event: None, contacts: Column::from_fn(touch) })
     }
 
-    /// y with the closures closed again and prescribed inputs where their laws say.
+    /// Projects y onto the constraints, with prescribed inputs set to their laws.
     pub(super) fn closed(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let (mut q, mut rates) = Self::unpack(y);
         let laws = self.scene.prescribed(t);
@@ -171,9 +175,9 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         for (input, law) in laws.iter().enumerate() {
             if let Some(law) = law {
                 inputs[input] = law.value;
-                let at = match &self.road {
-                    Road::Inputs => Some(input),
-                    Road::Others(independent) | Road::Over(independent, _) => {
+                let at = match &self.parametrisation {
+                    Parametrisation::Inputs => Some(input),
+                    Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
                         independent.free.iter().position(|&free| free == S::U::COUNT + input)
                     }
                 };
@@ -185,28 +189,28 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         if laws.iter().any(Option::is_some) {
             q = S::Mechanism::with_inputs(&q, inputs);
         }
-        let q = match &self.road {
-            Road::Inputs => self.closed_in_inputs(&q)?,
-            Road::Others(independent) => self.closed_by(independent, &q)?,
-            Road::Over(independent, _) if self.regular(independent, &q).is_none() => q,
-            Road::Over(independent, _) => self.closed_by(independent, &q)?,
+        let q = match &self.parametrisation {
+            Parametrisation::Inputs => self.closed_in_inputs(&q)?,
+            Parametrisation::Others(independent) => self.closed_by(independent, &q)?,
+            Parametrisation::Over(independent, _) if self.regular(independent, &q).is_none() => q,
+            Parametrisation::Over(independent, _) => self.closed_by(independent, &q)?,
         };
         Ok(Self::pack(&q, &rates))
     }
 
-    /// The position near `q` with the same inputs. One step is mostly so small that the next would be less than rounding.
+    /// Projects `q` with the same inputs. Mostly one Newton step suffices.
     fn closed_in_inputs(&self, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionError> {
         let mechanism = self.scene.mechanism();
-        let enough = S::Scalar::default_epsilon().sqrt() * real(LAST_CORRECTION);
+        let enough = S::Scalar::default_epsilon().sqrt() * real(LAST_CORRECTION_SQRT_EPSILONS);
         let closed = self.closed_near(q, enough, |pose| {
             Ok(Some(Change::<S> { unknowns: correction(mechanism, pose)?, inputs: Column::zeros() }))
         })?;
-        // No position near: the search says why.
+        // No convergence nearby: the damped search returns a position or the error.
         closed.map_or_else(|| Ok(newton(mechanism, q)?.coordinates), Ok)
     }
 
-    /// The position near `q` with the same independent coordinates. Near a change point rounding is so enlarged that all is
-    /// taken that steps can give.
+    /// Projects `q` with the same independent coordinates. It iterates until the steps stop shrinking, because a change
+    /// point amplifies rounding errors.
     pub(super) fn closed_by(&self, independent: &Choice<S>, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionError> {
         let mechanism = self.scene.mechanism();
         let closed = self.closed_near(q, S::Scalar::zero(), |pose| {
@@ -214,11 +218,11 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
             let is_singular = factors.pivots().iter().any(|pivot| pivot.is_zero());
             Ok((!is_singular).then(|| factors.solve(&mechanism.residual(pose))))
         })?;
-        closed.ok_or_else(|| self.change_point(q))
+        closed.ok_or_else(|| self.change_point_error(q))
     }
 
-    /// The position to which these steps of Newton's method lead from where an integrator has left it: by a step that is
-    /// no longer than `enough`, or until they are rounding and fall no more.
+    /// Iterates these Newton steps from `q` until one is no longer than `enough`, or until they are rounding error and
+    /// stop shrinking.
     fn closed_near(
         &self,
         q: &Coordinates<S>,
@@ -228,9 +232,9 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         let mechanism = self.scene.mechanism();
         let small = S::Scalar::default_epsilon().sqrt();
         let mut last = None;
-        contract(*q, MOST_CORRECTIONS, |q| {
+        contract(*q, MAX_CORRECTIONS, |q| {
             let Some(step) = step(&mechanism.pose_at(q))? else { return Ok(Closing::Stuck) };
-            let (next, size) = (Self::moved(q, &-step), self.size_of(&step));
+            let (next, size) = (Self::moved(q, &-step), self.scaled_norm(&step));
             if size <= enough {
                 return Ok(Closing::Closed(next));
             }

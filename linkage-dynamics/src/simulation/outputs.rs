@@ -41,10 +41,10 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 }
 
-/// The states of a simulation at given times. Made by [`Simulation::at`].
+/// An iterator over the states of a simulation at given times. Made by [`Simulation::at`].
 ///
-/// It ends after the last time, where an event stops the simulation, or with an error; what came before stands. A time
-/// that is not in the part of the interval that lies ahead is an [`InputError::OutOfRange`].
+/// It ends after the last time, where an event stops the simulation, or with an error; earlier states remain valid. A
+/// time outside the rest of the interval is an [`InputError::OutOfRange`].
 pub struct States<'s, 'a, S: Scene, M, W: Watch<S>, I> {
     pub(super) simulation: &'s mut Simulation<'a, S, M, W>,
     pub(super) times: I,

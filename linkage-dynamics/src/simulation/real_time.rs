@@ -1,4 +1,4 @@
-//! Simulation in step with a clock.
+//! Simulation with steps of fixed length and cost.
 
 use super::motion::Motion;
 use super::state::State;
@@ -9,16 +9,16 @@ use linkage_runtime::__shared::same_signs;
 use linkage_runtime::jacobian::Scales;
 use linkage_runtime::{Column, D, Mechanism};
 
-/// A scene by steps of one length, each of four evaluations of its equations in the inputs and one closing of the
-/// closures: [`FixedStep`]. Nothing is tried twice, and no step goes over a singularity of the inputs.
+/// A simulation with steps of fixed length, each with four evaluations of the equations in the inputs and one
+/// projection onto the constraints: [`FixedStep`]. No step is repeated, and none passes a singularity of the inputs.
 pub struct RealTime<'a, S: Scene<Contacts = D<0>>> {
-    steps: FixedStep<Closing<'a, S>>,
+    steps: FixedStep<Projected<'a, S>>,
 }
 
-/// A motion whose closures are closed before each step.
-struct Closing<'a, S: Scene<Contacts = D<0>>>(Motion<'a, S, Unwatched>);
+/// A motion that is projected onto the constraints before each step.
+struct Projected<'a, S: Scene<Contacts = D<0>>>(Motion<'a, S, Unwatched>);
 
-impl<S: Scene<Contacts = D<0>>> System for Closing<'_, S> {
+impl<S: Scene<Contacts = D<0>>> System for Projected<'_, S> {
     type Scalar = S::Scalar;
     type N = S::State;
     type Events = D<0>;
@@ -38,7 +38,7 @@ impl<S: Scene<Contacts = D<0>>> System for Closing<'_, S> {
 }
 
 impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
-    /// From a time, a position and the rates of the inputs there, by steps of this length.
+    /// Starts from a time, a position and the rates of the inputs, with steps of this length.
     ///
     /// # Errors
     /// Those of [`Scene::start`], and [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length is zero or not finite.
@@ -50,7 +50,7 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
         let y = scene.start(t, &q, &input_rates.into())?;
         let scales = Scales::of(scene.mechanism(), &scene.mechanism().pose_at(&q));
         let motion = Motion::new(scene, scales);
-        Ok(Self { steps: FixedStep::new(Closing(motion), (t, y), length)? })
+        Ok(Self { steps: FixedStep::new(Projected(motion), (t, y), length)? })
     }
 
     /// The time.
@@ -59,10 +59,11 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
         self.steps.t()
     }
 
-    /// The state that was reached, closed.
+    /// The state reached, projected onto the constraints.
     ///
     /// # Errors
-    /// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged) if the closures cannot be closed, [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J has no inverse.
+    /// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged) if the constraints cannot be
+    /// satisfied, [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J is singular.
     pub fn state(&self) -> Result<State<S>, MotionError> {
         let (t, motion) = (self.t(), &self.steps.system().0);
         motion.state(t, &motion.closed(t, self.steps.state())?)
@@ -71,8 +72,8 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
     /// Takes a step.
     ///
     /// # Errors
-    /// What the scene returns, and [`PositionError::Singular`](linkage_runtime::PositionError::Singular) if the step goes over a singularity; time and state stay what
-    /// they were.
+    /// Those of the scene, and [`PositionError::Singular`](linkage_runtime::PositionError::Singular) if the step passes
+    /// a singularity; time and state then stay unchanged.
     pub fn step(&mut self) -> Result<(), MotionError> {
         let before = *self.steps.state();
         self.steps.step()?;
@@ -83,7 +84,7 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
         if same_signs(signs(&before).as_slice(), signs(self.steps.state()).as_slice()) {
             return Ok(());
         }
-        let error = motion.singular(&q);
+        let error = motion.singular_error(&q);
         self.steps.undo(before);
         Err(error)
     }

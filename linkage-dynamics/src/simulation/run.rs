@@ -1,8 +1,8 @@
-//! A simulation: its start, its settings, and what it tells.
+//! A simulation: start, settings and results.
 
 use super::motion::Motion;
 use super::outputs::States;
-use super::road::{AtSingularity, Passages, scale_of};
+use super::parametrisation::{AtSingularity, Passages, scale_of};
 use super::state::{Loads, State};
 use super::watch::{EventFunctions, Then, Unwatched, Watch};
 use crate::contact::Contacts;
@@ -13,49 +13,49 @@ use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
 use linkage_runtime::{Column, Dim, InputError, Mechanism, real};
 
-/// What of the change of a step's length is dared. A mechanism is now slow and now fast within one turn, and the usual
-/// 0.9 has every third step rejected.
+/// The safety factor of the step-size controller. The speed of a mechanism varies within each turn; with the usual 0.9
+/// every third step is rejected.
 const SAFETY_IN_TURNS: f64 = 0.8;
 
-/// The determinants of the groups of a scene, whose signs tell branches apart.
+/// The determinants of the groups of a scene; their signs distinguish branches.
 pub(super) type Signs<S> = Column<<S as Scene>::Scalar, <<S as Scene>::Mechanism as Mechanism>::G>;
 
-/// A simulation under way: an iterator over the [states](State) at the ends of its steps and at its events, which ends
-/// with an error or at the end of the interval. What was reached stays readable after an error.
+/// An iterator over the [states](State) of a simulation at the ends of its steps and at its events. It ends with an
+/// error or at the end of the interval; the last state remains readable after an error.
 pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) integration: Integration<Motion<'a, S, W>, M>,
     pub(super) relative: f64,
-    /// The size of rates beside those of coordinates.
+    /// The scale of rates divided by that of coordinates.
     pub(super) frequency: S::Scalar,
     pub(super) at_singularity: AtSingularity,
     pub(super) state: State<S>,
-    /// The contacts in the step that led to the state.
+    /// The contacts during the step before the state.
     pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
-    /// Where the step begins, closed, with the signs of the determinants there.
+    /// The start of the step, projected, and the determinants there.
     pub(super) from: (S::Scalar, StateColumn<S>),
     pub(super) signs: Signs<S>,
     pub(super) passages: Passages,
-    /// Steps in other coordinates that are left since one in the inputs went over a singularity.
+    /// The remaining steps in other coordinates after a step in the inputs passed a singularity.
     pub(super) warned: u32,
     pub(super) is_over: bool,
-    /// Why nothing follows the state.
+    /// The error that ends the simulation after the current state.
     pub(super) failure: Option<MotionError>,
-    /// The next step is prepared.
+    /// True if the coordinates of the next step are chosen.
     pub(super) is_prepared: bool,
 }
 
-/// A simulation of this scene from a time, a position and the rates of the inputs there to the time `end`, by the
-/// method of order 8(5,3). `tolerance` is the relative error allowed of a step: a pure number such as 1e-9, beside the
-/// magnitude of each coordinate and rate, or beside what is large for it if that is more: 1 rad, the lengths of the
-/// loops, and for rates these times the angular frequency of the motion at the start.
+/// Starts a simulation of this scene from a time, a position and the rates of the inputs to the time `end`, by the
+/// method of order 8(5,3). `tolerance` is the allowed relative error of a step, such as 1e-9: relative to the magnitude
+/// of each coordinate and rate plus its scale, which is 1 rad or the lengths of the loops, and for rates that times the
+/// angular frequency of the motion at the start.
 ///
-/// The position need only be near: it is closed with its inputs as they are.
+/// The position may be approximate: it is projected onto the constraints with its inputs fixed.
 ///
 /// # Errors
 /// Those of [`Scene::start`]: [`InputError::OutOfRange`], [`InputError::Inconsistent`],
-/// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged); those of the equations of motion there;
-/// [`MotionError::Irreversible`] if `end` is the earlier and the scene has frictions or stops;
-/// [`InputError::OutOfRange`] for a tolerance below ten roundings or above 1 and for times that are not finite.
+/// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged); those of the equations of motion at
+/// the start; [`MotionError::Irreversible`] if `end` is before the start and the scene has frictions or stops;
+/// [`InputError::OutOfRange`] for a tolerance below ten ulps or above 1 and for times that are not finite.
 pub fn simulate<S: Scene>(
     scene: &S,
     (t, q, input_rates): (S::Scalar, Coordinates<S>, impl Into<Inputs<S>>),
@@ -76,7 +76,7 @@ pub fn simulate<S: Scene>(
     let contacts = motion.contacts;
     let velocity = motion.velocity(t, &y)?;
     let (_, accelerations) = Motion::<S, Unwatched>::unpack(&scene.derivative(t, &y)?);
-    let speed = motion.size_of(&velocity);
+    let speed = motion.scaled_norm(&velocity);
     let urge = accelerations.component_div(&scales.coordinates.inputs).largest().sqrt();
     let span = to_f64(end - t).abs();
     let frequency = speed.max(urge);
@@ -104,19 +104,19 @@ pub fn simulate<S: Scene>(
 }
 
 impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
-    /// The same by another method: [`Dopri5`](crate::integrate::Dopri5) for pictures.
+    /// Changes the method: [`Dopri5`](crate::integrate::Dopri5) for pictures.
     ///
     /// # Errors
-    /// None that [`simulate`] has not found.
+    /// None that [`simulate`] has not returned already.
     pub fn method<M2: Method>(self) -> Result<Simulation<'a, S, M2, W>, MotionError> {
         self.with(|motion| motion)
     }
 
-    /// Watches K functions of the state: `values` gives them, `crossings` says which way each must pass through zero,
-    /// and `action` what happens at an event. Set it before the first step.
+    /// Sets K event functions: `values` computes them, `crossings` is the direction in which each must pass through
+    /// zero, and `action` handles an event. Call it before the first step.
     ///
     /// # Errors
-    /// None that [`simulate`] has not found.
+    /// None that [`simulate`] has not returned already.
     pub fn events<F, A, const K: usize>(
         self,
         crossings: [Crossing; K],
@@ -151,14 +151,14 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         })
     }
 
-    /// What happens where the inputs cannot drive the mechanism; without it the motion goes on.
+    /// Sets the behaviour at singularities of the inputs; the default is to continue.
     #[must_use]
     pub fn at_singularity(mut self, policy: AtSingularity) -> Self {
         self.at_singularity = policy;
         self
     }
 
-    /// The largest length of a step; without it the whole interval.
+    /// Sets the largest step; the default is the whole interval.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if it is not positive and finite.
@@ -167,7 +167,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         Ok(self)
     }
 
-    /// The length of the first step, in place of an estimate.
+    /// Sets the length of the first step; the default is an estimate.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if it is not positive and finite.
@@ -176,26 +176,26 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         Ok(self)
     }
 
-    /// Steps, accepted or not, after which the simulation is given up; 100 000 without it.
+    /// Sets the limit on the number of steps, rejected ones included; the default is 100 000.
     #[must_use]
     pub fn most_steps(mut self, steps: usize) -> Self {
         self.integration = self.integration.most_steps(steps);
         self
     }
 
-    /// How far the simulation is.
+    /// The time reached.
     #[must_use]
     pub fn t(&self) -> S::Scalar {
         self.state.t
     }
 
-    /// The last state that was reached.
+    /// The state reached.
     #[must_use]
     pub fn state(&self) -> &State<S> {
         &self.state
     }
 
-    /// The forces of frictions, stops and drives at the last state that was reached, at an event those after it.
+    /// The forces of frictions, stops and drives at the state reached; at an event, those after it.
     ///
     /// # Errors
     /// Those of the equations of motion, and [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) very near to one.
@@ -210,35 +210,35 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         Ok(Loads { contacts, drives: drives.into(), drive_power })
     }
 
-    /// How much of the interval is done, from 0 to 1.
+    /// The part of the interval that is done, from 0 to 1.
     #[must_use]
     pub fn progress(&self) -> f64 {
         self.integration.progress()
     }
 
-    /// What it has cost. The evaluations of a step over a change point are not among them.
+    /// The cost so far, without the evaluations of steps over change points.
     #[must_use]
     pub fn counts(&self) -> Counts {
         self.integration.counts()
     }
 
-    /// The singularities that were met.
+    /// The singularities passed so far.
     #[must_use]
     pub fn passages(&self) -> Passages {
         self.passages
     }
 
-    /// The states at these times, which follow one another in the direction of the simulation, by dense output and
-    /// with the closures closed: the steps are those that are taken without them.
+    /// Returns the states at these times, which must be in the direction of the simulation, by dense output and
+    /// projection onto the constraints. This does not change the steps.
     pub fn at<I: IntoIterator<Item = S::Scalar>>(&mut self, times: I) -> States<'_, 'a, S, M, W, I::IntoIter> {
         States { simulation: self, times: times.into_iter(), failed: false }
     }
 
-    /// Simulates to the end. `watch` sees every state and how much of the interval is done; where it returns false the
+    /// Simulates to the end. `watch` receives every state and the progress from 0 to 1; if it returns false the
     /// simulation pauses, and may be continued.
     ///
     /// # Errors
-    /// As [`advance`](Self::advance).
+    /// Those of [`advance`](Self::advance).
     pub fn finish(&mut self, mut watch: impl FnMut(&State<S>, f64) -> bool) -> Result<(), MotionError> {
         while let Some(state) = self.advance()? {
             if !watch(&state, self.progress()) {
@@ -248,13 +248,13 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         Ok(())
     }
 
-    /// To the end of the next step or to the next event; None where nothing follows.
+    /// Advances to the next event or to the end of the step; returns None at the end.
     ///
     /// # Errors
-    /// What the scene returns where no shorter step avoids it,
+    /// Those of the scene, if no shorter step avoids them,
     /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) and
-    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) where the motion cannot be followed, and those of
-    /// [`Integration::advance`]. Nothing follows after an error.
+    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) where the motion cannot be followed, and
+    /// those of [`Integration::advance`]. After an error the simulation has ended.
     pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
         if self.is_over || (self.failure.is_none() && self.integration.is_over()) {
             return Ok(None);

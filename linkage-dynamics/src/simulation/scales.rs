@@ -1,22 +1,22 @@
-//! How exactly a contact is known beside the sizes of the coordinates.
+//! The rounding error of contact coordinates, from the scales of the coordinates.
 
 use crate::ContactCoordinate;
-use crate::contact::rounding_of;
+use crate::contact::sum_tolerance;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::jacobian::ScalesOf;
 use linkage_runtime::{Column, Dim, Mechanism, PositionError};
 
 type Along<M> = ContactCoordinate<<M as Mechanism>::Scalar, <M as Mechanism>::U, <M as Mechanism>::V>;
 
-/// What rounding may leave of s: a coordinate is known to roundings of its size, or of its value.
+/// The rounding error of s, from errors of a few ulps of each coordinate's scale or value.
 pub(crate) fn resolution<M: Mechanism>(scales: &ScalesOf<M>, q: &M::Coordinates, along: &Along<M>) -> M::Scalar {
     let (unknowns, inputs) = M::parts(q);
     let unknowns = unknowns.abs().zip_map(&scales.coordinates.unknowns, M::Scalar::max);
     let inputs = inputs.abs().zip_map(&scales.coordinates.inputs, M::Scalar::max);
-    rounding_of(along.unknowns.abs().dot(&unknowns) + along.inputs.abs().dot(&inputs))
+    sum_tolerance(along.unknowns.abs().dot(&unknowns) + along.inputs.abs().dot(&inputs))
 }
 
-/// The same where the inputs are given and the unknowns follow from them: by s' of each input alone.
+/// The rounding error of s where the unknowns are solved from given inputs: adds the sensitivity ds/dv to each input.
 ///
 /// # Errors
 /// Those of [`Mechanism::solve_jacobian`].
@@ -34,5 +34,5 @@ pub(crate) fn resolution_by_inputs<M: Mechanism>(
         let unknowns = mechanism.solve_jacobian(&pose, &by_inputs.column(input))?;
         size += (along.inputs[input] - along.unknowns.dot(&unknowns)).abs() * inputs[input];
     }
-    Ok(resolution::<M>(scales, q, along) + rounding_of(size))
+    Ok(resolution::<M>(scales, q, along) + sum_tolerance(size))
 }

@@ -1,43 +1,43 @@
-//! What a simulation gives.
+//! The results of a simulation.
 
 use crate::contact::Change;
 use crate::{Coordinates, Inputs, Mode, Rates, Scene};
 use linkage_runtime::Column;
 
-/// A moment of a motion.
+/// The state of a simulation at one time.
 pub struct State<S: Scene> {
     /// The time.
     pub t: S::Scalar,
-    /// All coordinates by name: radians, and the unit of the lengths.
+    /// All coordinates by name, in radians and in the unit of the lengths.
     pub q: Coordinates<S>,
     /// The rates of all coordinates by name.
     pub rates: Rates<S>,
-    /// The number of the event that happens here, if there is one; the rates are those before it.
+    /// The index of the user-defined event at this time, if there is one; the rates are those before it.
     pub event: Option<usize>,
-    /// The frictions and stops as they were declared, in order. Where one has changed the rates are those before that,
-    /// and the modes those from here on.
+    /// The frictions and stops in the order of declaration. At a change of one, the rates are those before it and the
+    /// modes those after it.
     pub contacts: Column<Touch, S::Contacts>,
 }
 
-/// A friction or a stop at a moment of a motion.
+/// The state of a friction or a stop at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Touch {
-    /// Which: `friction on theta3`.
+    /// The name: `friction on theta3`.
     pub name: &'static str,
-    /// What it is doing.
+    /// The mode, after any change.
     pub mode: Mode,
-    /// What has happened to it here.
+    /// The change at this time, if there is one.
     pub change: Option<Change>,
 }
 
 impl<S: Scene> State<S> {
-    /// What the friction or stop of this name is doing, if there is one: `friction on theta3`.
+    /// Returns the mode of the friction or stop with this name, such as `friction on theta3`.
     #[must_use]
     pub fn mode(&self, name: &str) -> Option<Mode> {
         self.contacts.iter().find(|contact| contact.name == name).map(|contact| contact.mode)
     }
 
-    /// What has happened here, with the names of the frictions and stops.
+    /// Returns the changes at this time, with the names of the frictions and stops.
     pub fn changes(&self) -> impl Iterator<Item = (&'static str, Change)> {
         self.contacts.iter().filter_map(|contact| Some((contact.name, contact.change?)))
     }
@@ -45,15 +45,15 @@ impl<S: Scene> State<S> {
 
 linkage_runtime::__by_fields!([S: Scene] State<S> { t, q, rates, event, contacts });
 
-/// The forces that frictions, stops and drives exert.
+/// The forces of frictions, stops and drives.
 pub struct Loads<S: Scene> {
-    /// Of the frictions and stops as they were declared, in order, along what they act on: the work of each is its
-    /// force times the change of that. Where more are held than the motion needs, these are some that hold them.
+    /// The force of each friction and stop along its scalar s, in the order of declaration: its work is f ds. With
+    /// redundant contacts the forces are not unique; this is one solution.
     pub contacts: Column<S::Scalar, S::Contacts>,
-    /// Of the drives, of angles torques; zero where an input is not driven.
+    /// The force (for an angle, torque) of each drive; zero for inputs without a drive.
     pub drives: Inputs<S>,
-    /// The power of the drives: with the power of the scene's other forces and what frictions and dampers dissipate,
-    /// that is how the energy changes.
+    /// The power of the drives. dE/dt = this + the power of the scene's other forces - the dissipation of frictions and
+    /// dampers.
     pub drive_power: S::Scalar,
 }
 

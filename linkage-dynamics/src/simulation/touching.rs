@@ -1,6 +1,6 @@
-//! Frictions and stops of a scene in motion, by whatever coordinates it is followed.
+//! Frictions and stops of a scene in the current independent coordinates.
 
-use super::motion::{Motion, Reduced, Road};
+use super::motion::{Motion, Parametrisation, Reduced};
 use super::scales::{resolution as resolution_of, resolution_by_inputs};
 use crate::contact::{Change, Contact, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::integrate::Guard;
@@ -11,29 +11,30 @@ use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput};
 
 /// A number for each contact of a scene.
 type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;
-/// y, and what each contact has done.
+/// y, and the change of each contact.
 type Changed<S> = (StateColumn<S>, Column<Option<Change>, <S as Scene>::Contacts>);
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// M, Q and the contacts in the coordinates of the motion.
+    /// M, Q and the contacts in the current coordinates.
     ///
     /// # Errors
-    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) so near to one that [J A] does not tell how rates depend on each other, if it is not passed.
+    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) if [J A] is nearly singular and no step over
+    /// a change point is in progress.
     fn equations(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
-        match &self.road {
-            Road::Inputs => ReducedEquations::of(self.scene, t, y),
-            Road::Others(independent) | Road::Over(independent, _) => {
+        match &self.parametrisation {
+            Parametrisation::Inputs => ReducedEquations::of(self.scene, t, y),
+            Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
                 let (q, _) = S::parts(y);
-                match (self.regular(independent, &q), &self.road) {
+                match (self.regular(independent, &q), &self.parametrisation) {
                     (Some(factors), _) => Ok(self.equations_by(independent, &factors, (t, y))?.0),
-                    (None, Road::Over(_, step)) => self.equations_over(independent, step, (t, y)),
-                    (None, _) => Err(self.change_point(&q)),
+                    (None, Parametrisation::Over(_, step)) => self.equations_over(independent, step, (t, y)),
+                    (None, _) => Err(self.change_point_error(&q)),
                 }
             }
         }
     }
 
-    /// The contacts with their s and s' alone: nothing is told of what would move them.
+    /// Contact values and rates only, without their derivatives with respect to the coordinates.
     pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let velocity = self.velocity(t, y)?;
@@ -51,35 +52,38 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts })
     }
 
-    /// How far each contact is from another mode, with the closures closed.
+    /// The event functions of the contacts, at the projected state.
     pub(super) fn margins(
         &self,
         t: S::Scalar,
         y: &StateColumn<S>,
     ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionError> {
-        // A step in the inputs may have gone where nothing closes: it will be taken again.
+        // Without projection if that fails: a step in the inputs may have left the reachable range and will be
+        // repeated.
         let y = self.closed(t, y).unwrap_or(*y);
         let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
         let equations = if is_free { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
         self.contacts.guards(&equations)
     }
 
-    /// What rounding may leave of each s.
+    /// The rounding error of each s.
     fn resolution(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<PerContact<S>, MotionError> {
         let (q, _) = Self::unpack(y);
         let velocity = self.velocity(t, y)?;
         let contacts = self.scene.contacts(t, &q, &S::Mechanism::rates(velocity.unknowns, velocity.inputs))?;
         let mut resolution = Column::zeros();
         for (resolution, Contact { along, .. }) in resolution.iter_mut().zip(&contacts) {
-            *resolution = match self.road {
-                Road::Inputs => resolution_by_inputs(self.scene.mechanism(), &self.scales, &q, along)?,
-                Road::Others(_) | Road::Over(..) => resolution_of::<S::Mechanism>(&self.scales, &q, along),
+            *resolution = match self.parametrisation {
+                Parametrisation::Inputs => resolution_by_inputs(self.scene.mechanism(), &self.scales, &q, along)?,
+                Parametrisation::Others(_) | Parametrisation::Over(..) => {
+                    resolution_of::<S::Mechanism>(&self.scales, &q, along)
+                }
             };
         }
         Ok(resolution)
     }
 
-    /// The modes at the start, and y with the rates from there on.
+    /// Finds the modes at the start; returns y with the rates after any impact.
     pub(super) fn begin(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let mut contacts = self.contacts.with_resolution(self.resolution(t, y)?);
@@ -89,12 +93,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok(Self::pack(&q, &rates))
     }
 
-    /// What happens at this state: y from here on, and what each contact has done.
+    /// Applies a contact event at this state; returns y after it and the change of each contact.
     pub(super) fn settled(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
         self.decided(t, y, y, false)
     }
 
-    /// The same where the rates have just become those of `y`, from those of `before`.
+    /// Updates the modes after the user has changed the rates from `before` to `y`.
     pub(super) fn resumed(
         &mut self,
         t: S::Scalar,
@@ -125,7 +129,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((after, done))
     }
 
-    /// y with the rates of what is held made zero, and whether the modes are still those of this state.
+    /// Returns y with s' = 0 of the held contacts, and true if the modes are still valid.
     pub(super) fn reviewed(
         &self,
         contacts: &Contacts<S::Scalar, S::Contacts>,
@@ -142,20 +146,20 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((Self::pack(&S::parts(y).0, &rates), holds))
     }
 
-    /// The forces of the contacts, and those of the drives by input, zero where there is none.
+    /// The forces of the contacts, and of the drives by input, zero without a drive.
     ///
-    /// A drive of the input `v_i` does the work of its force alone: in any coordinates among which the prescribed inputs
-    /// are it is what is left of M v'' = Q + S' f in its row.
+    /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
+    /// the prescribed inputs.
     pub(super) fn loads(
         &self,
         t: S::Scalar,
         y: &StateColumn<S>,
     ) -> Result<(PerContact<S>, PerInput<S::Mechanism>), MotionError> {
         let (q, _) = S::parts(y);
-        let (free, places) = match &self.road {
-            Road::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
-            Road::Others(independent) | Road::Over(independent, _) => {
-                let factors = self.regular(independent, &q).ok_or_else(|| self.change_point(&q))?;
+        let (free, places) = match &self.parametrisation {
+            Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
+            Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
+                let factors = self.regular(independent, &q).ok_or_else(|| self.change_point_error(&q))?;
                 let place = |input: usize| independent.free.iter().position(|&free| free == S::U::COUNT + input);
                 (self.unprescribed_by(independent, &factors, (t, y))?.0, Column::from_fn(place))
             }

@@ -1,37 +1,37 @@
-//! Events of the user's.
+//! User-defined events.
 
 use super::state::State;
 use crate::integrate::Crossing;
 use crate::{Inputs, MotionError, Scene};
 use linkage_runtime::{Column, D, Dim};
 
-/// What happens at an event of a simulation.
+/// The action at an event of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Then<I> {
-    /// The event is given among the states, and the motion goes on.
+    /// Returns the event among the states; the motion continues.
     GoOn,
-    /// The simulation ends here.
+    /// Ends the simulation.
     Stop,
-    /// The motion starts anew with these rates of the inputs, as after an impact.
+    /// Restarts the motion with these input rates, as after an impact.
     Restart(I),
 }
 
-/// Functions of the state of a scene whose zeros are events, and what happens there.
+/// Event functions of the state of a scene, and the actions at their zeros.
 pub trait Watch<S: Scene> {
     /// The number of functions.
     type Events: Dim;
 
-    /// The functions.
+    /// Computes the functions.
     ///
     /// # Errors
-    /// If they cannot be computed, which ends the simulation.
+    /// If they cannot be computed; the simulation then ends.
     fn values(&mut self, state: &State<S>) -> Result<Column<S::Scalar, Self::Events>, MotionError>;
-    /// Which way they must pass through zero.
+    /// The direction in which each must pass through zero.
     fn crossings(&self) -> Column<Crossing, Self::Events>;
-    /// What happens at an event.
+    /// The action at an event.
     ///
     /// # Errors
-    /// To end the simulation with an error.
+    /// Any error ends the simulation.
     fn at_event(&mut self, event: usize, state: &State<S>) -> Result<Then<Inputs<S>>, MotionError>;
 }
 
@@ -55,7 +55,7 @@ impl<S: Scene> Watch<S> for Unwatched {
     }
 }
 
-/// Events by closures. Made by [`Simulation::events`](super::Simulation::events).
+/// User functions as events. Made by [`Simulation::events`](super::Simulation::events).
 #[derive(Debug, Clone)]
 pub struct EventFunctions<F, A, const K: usize> {
     pub(super) crossings: [Crossing; K],

@@ -71,8 +71,8 @@ impl ScenePlan<'_, '_, '_> {
         }
         let sources = vec![self.plan.coordinates(Order::Rate)];
         let body = self.on_coordinates(sources, Vec::new(), unnamed(nodes));
-        let sound = Expression::runtime("sound", [Expression::mechanism(), Expression::List(contacts)]);
-        let body = Body { value: Value::Result(sound), ..body };
+        let valid = Expression::runtime("validate_contacts", [Expression::mechanism(), Expression::List(contacts)]);
+        let body = Body { value: Value::Result(valid), ..body };
         self.add(self.signatures.contacts(), doc, body);
     }
 

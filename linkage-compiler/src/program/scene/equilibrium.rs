@@ -81,7 +81,7 @@ impl ScenePlan<'_, '_, '_> {
         let many = free.len();
         let list = |from: usize| Expression::List(results(from..from + many));
         let slopes = Expression::List(Expression::nested(results(2 * many..nodes.len()), &[many]));
-        let members = ["forces", "sizes", "slopes"].map(str::to_owned).into_iter().zip([list(0), list(many), slopes]);
+        let members = ["forces", "scales", "slopes"].map(str::to_owned).into_iter().zip([list(0), list(many), slopes]);
         let value = Expression::structure(Type::Runtime("Balance", Vec::new()), members);
         let body = Body { value: Value::Plain(value), ..body };
         let doc = lines([

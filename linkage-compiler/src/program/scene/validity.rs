@@ -43,7 +43,7 @@ impl ScenePlan<'_, '_, '_> {
         } else {
             body.after.push(Statement::Do(masses.tried()));
             let stops = self.labelled(stops.into_iter(), self.scene.masses.len(), 3);
-            Value::Result(Expression::runtime("stops", [Expression::mechanism(), stops]))
+            Value::Result(Expression::runtime("validate_stops", [Expression::mechanism(), stops]))
         };
         self.add(self.signatures.check(), doc, body);
     }

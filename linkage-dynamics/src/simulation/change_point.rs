@@ -1,13 +1,13 @@
-//! Over a change point, where [J A] loses rank and no coordinate helps.
+//! Passing a change point, where [J A] loses rank and no choice of coordinates is regular.
 //!
-//! A motion that goes straight on through a change point is as smooth there as anywhere; it is only [J A] that does not
-//! tell. The step is a collocation at the eight nodes of Gauss (order 16; Hairer, Norsett and Wanner, *Solving Ordinary
-//! Differential Equations I*, 2nd ed. (1993), theorem II.7.9), placed so that the change point lies in the wide gap
-//! between the fourth and the fifth. The first four are solved alone, and their polynomial predicts the rest.
+//! A motion straight through a change point is smooth; only [J A] is singular there. The step is collocation at eight
+//! Gauss nodes (order 16; Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993),
+//! theorem II.7.9), placed so that the change point lies between the fourth and the fifth, the widest gap. The first
+//! four are solved alone, and their polynomial predicts the rest.
 //!
-//! The step stands if the motion that it found is one: if the closures hold at the nodes where the polynomial says, so
-//! that the branch beyond is the one whose tangent continues, and if they hold in the gap to rounding, so that there
-//! is a crossing and not two branches that only come near each other.
+//! The step is accepted if the polynomial satisfies the constraints at the nodes, so that the branch beyond is the one
+//! whose tangent continues, and at the change point to rounding error, so that the branches cross and do not only come
+//! near each other.
 
 use core::convert::Infallible;
 
@@ -20,7 +20,7 @@ use linkage_runtime::jacobian::ulp::weak;
 use linkage_runtime::jacobian::{EliminationOf as Elimination, root};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real, real};
 
-/// Gauss's nodes on [0, 1]: the zeros of Legendre's polynomial of degree 8.
+/// The Gauss nodes on [0, 1]: the zeros of the shifted Legendre polynomial of degree 8.
 const NODES: [f64; 8] = [
     0.019_855_071_751_231_884,
     0.101_666_761_293_186_64,
@@ -32,52 +32,53 @@ const NODES: [f64; 8] = [
     0.980_144_928_248_768_1,
 ];
 
-/// Iterations of the collocation; they converge by the ratio of the step to the time of the motion.
-const MOST_ITERATIONS: usize = 40;
+/// The limit on fixed-point iterations of the collocation. The convergence ratio is the step divided by the time scale
+/// of the motion.
+const MAX_ITERATIONS: usize = 40;
 
-/// An iteration that changes the end by this many roots of roundings has converged if the next does not change it less:
-/// near a change point rounding is enlarged by the square of the distance to it.
-const SMALL: f64 = 0.01;
+/// The iteration has converged if the change of the end is below this many sqrt(epsilon) and stops shrinking: near a
+/// change point rounding error grows as 1 / distance^2.
+const CONVERGED_SQRT_EPSILONS: f64 = 0.01;
 
-/// How far from the middle the change point may lie, as a part of the step. At twice this value every test of simulations
-/// holds; at half of it that of a stop beside a change point fails.
-const OFF_MIDDLE: f64 = 0.03;
+/// The largest distance of the change point from the middle, as a fraction of the step. At twice this value all
+/// simulation tests pass; at half of it the one of a stop near a change point fails.
+const MAX_OFF_MIDDLE: f64 = 0.03;
 
-/// What may be left of the closures at the change point, in roundings of their sizes. At a quarter of it or four times as
-/// much every test of simulations holds.
-const CROSSING: f64 = 256.0;
+/// The residual tolerance at the change point, in ulps of the residual scales. At a quarter or four times this value
+/// all simulation tests pass.
+const CROSSING_ULPS: f64 = 256.0;
 
-/// How far the closures at the nodes may be from where the polynomial says, beside the length of the step. At a
-/// tenth of it or ten times as much every test of simulations holds.
-const GAP: f64 = 1e-3;
+/// The largest projection distance at the nodes, divided by the length of the step. At a tenth or ten times this value
+/// all simulation tests pass.
+const MAX_PROJECTION: f64 = 1e-3;
 
-/// The longest step, in radians or as a part of the sizes of lengths. At a quarter more every
-/// test of simulations holds; at a quarter less three fail, crossed cranks among them.
-const LONGEST: f64 = 1.2;
+/// The longest step, in radians or relative to the scales of lengths. At 1.25 times this value all simulation tests
+/// pass; at 0.75 times three fail, crossed cranks among them.
+const LONGEST_STEP: f64 = 1.2;
 
-/// The step that is wanted: shorter ones suffer more from rounding, whose part grows as their inverse square.
-const WANTED: f64 = 0.9;
+/// The target step length, in radians: the relative rounding error grows as 1 / length^2.
+const TARGET_STEP: f64 = 0.9;
 
-/// Twice the way ahead in which a change point is looked for.
-const SEEN: f64 = 3.0;
+/// Twice the distance ahead in which a change point is searched, in radians.
+const SEARCH_RANGE: f64 = 3.0;
 
-/// Below this length a step is not made shorter for the sake of its dense output.
-const SHORTEST_OVER: f64 = 0.04;
+/// Steps below this length, in radians, are not shortened for the accuracy of dense output.
+const SHORTEST_STEP: f64 = 0.04;
 
-/// What lies ahead.
+/// The result of the search for a change point ahead.
 pub(super) enum Ahead<T: Real, N: Dim> {
     /// No change point.
     Clear,
-    /// It may be one: the next step is to be no longer than this.
+    /// Possibly one: the next step must be no longer than this.
     Near(T),
     /// A change point, and the step over it.
     ChangePoint(Interpolant<T, N>),
 }
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// The step over the change point ahead, if one is near; `way` is 1 or -1 in time, `tolerance` that of the
-    /// steps.
-    pub(super) fn over(
+    /// Computes the step over the change point ahead, if one is near; `way` is 1 or -1, the direction of time,
+    /// `tolerance` that of the steps.
+    pub(super) fn change_point_ahead(
         &self,
         independent: &Choice<S>,
         (t, y): (S::Scalar, &StateColumn<S>),
@@ -87,7 +88,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let (q, rates) = Self::unpack(y);
         let factors = self.factors(independent, &q);
         let velocity = factors.rates(&rates);
-        let speed = self.size_of(&velocity);
+        let speed = self.scaled_norm(&velocity);
         let moves = speed > S::Scalar::zero();
         if !moves {
             return Ok(Ahead::Clear);
@@ -95,7 +96,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let pivots = &independent.pivots;
         let smaller = |least, at| if pivots[at].abs() < pivots[least].abs() { at } else { least };
         let smallest = (1..S::U::COUNT).fold(0, smaller);
-        // The time to its zero along the tangent.
+        // The time until the smallest pivot is zero, by linear extrapolation.
         let little = way * S::Scalar::default_epsilon().sqrt() / speed;
         let later = Self::moved(&q, &(velocity * little));
         let change = self.factors(independent, &later).pivots()[smallest] - independent.pivots[smallest];
@@ -103,41 +104,41 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let slope = self.rate_by(independent, &factors, (t, y))?;
         for _ in 0..3 {
             let turn = length * way * speed;
-            if !(turn > S::Scalar::zero() && turn <= real(SEEN)) {
+            if !(turn > S::Scalar::zero() && turn <= real(SEARCH_RANGE)) {
                 return Ok(Ahead::Clear);
             }
-            if turn > real(LONGEST) {
+            if turn > real(LONGEST_STEP) {
                 return Ok(Ahead::Near(
-                    (length * real(0.5)).abs() * (S::Scalar::one() - real::<S::Scalar>(WANTED) / turn),
+                    (length * real(0.5)).abs() * (S::Scalar::one() - real::<S::Scalar>(TARGET_STEP) / turn),
                 ));
             }
             let nearer = Ahead::Near((length * real(0.25)).abs());
             let Some((step, gap)) = self.collocation(independent, (t, y), &slope, length) else { return Ok(nearer) };
             let Some(middle) = self.zero_of_pivot(independent, &step, smallest) else { return Ok(nearer) };
             let off = (middle - real(0.5)).abs();
-            if off > real(OFF_MIDDLE) {
+            if off > real(MAX_OFF_MIDDLE) {
                 length *= middle * real(2.0);
                 continue;
             }
             let last = step.last();
             let (of_q, of_rates) = Self::unpack(&last);
-            let size = self.size_of(&Self::column(&of_q));
+            let size = self.scaled_norm(&Self::column(&of_q));
             let of_rates = of_rates.component_div(&independent.of(&self.scales.coordinates)).largest();
-            // Dense output is more exact than its last term by the next ratio of terms and the nodes' polynomial.
+            // The estimated error of dense output is 1e-5 times its last term.
             let inexact = larger(size, of_rates / speed) * real(1e-5);
             let is_exact = inexact <= tolerance.max(real(1e-9));
-            if !is_exact && turn > real(SHORTEST_OVER) {
+            if !is_exact && turn > real(SHORTEST_STEP) {
                 return Ok(nearer);
             }
-            let is_smooth = gap <= turn * real(GAP);
-            let is_crossing =
-                self.left_over(independent, &step, middle) <= S::Scalar::default_epsilon() * real(CROSSING);
+            let is_smooth = gap <= turn * real(MAX_PROJECTION);
+            let is_crossing = self.unresolved_residual(independent, &step, middle)
+                <= S::Scalar::default_epsilon() * real(CROSSING_ULPS);
             return Ok(if is_smooth && is_crossing { Ahead::ChangePoint(step) } else { nearer });
         }
         Ok(Ahead::Clear)
     }
 
-    /// The collocation, and how far the closures are from it.
+    /// Solves the collocation equations; returns the polynomial and the largest projection distance at its nodes.
     fn collocation(
         &self,
         independent: &Choice<S>,
@@ -160,14 +161,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
         mut step: Polynomial<S>,
     ) -> Option<(Polynomial<S>, S::Scalar)> {
         let mut last: Option<S::Scalar> = None;
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             let mut slopes = [Column::zeros(); P];
             let mut gap = S::Scalar::zero();
             for (slope, &node) in slopes.iter_mut().zip(nodes) {
                 let there = step.at_fraction(real(node));
                 let (guess, rates) = Self::unpack(&there);
                 let q = self.closed_by(independent, &guess).ok()?;
-                gap = larger(gap, self.size_of(&(Self::column(&q) - Self::column(&guess))));
+                gap = larger(gap, self.scaled_norm(&(Self::column(&q) - Self::column(&guess))));
                 let (at, factors) = (t + length * real(node), self.factors(independent, &q));
                 *slope = self.rate_by(independent, &factors, (at, &Self::pack(&q, &rates))).ok()?;
             }
@@ -179,7 +180,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             if !change.is_finite() {
                 return None;
             }
-            let small = change <= S::Scalar::default_epsilon().sqrt() * real(SMALL);
+            let small = change <= S::Scalar::default_epsilon().sqrt() * real(CONVERGED_SQRT_EPSILONS);
             if change.is_zero() || (small && last.is_some_and(|last| change >= last * real(0.5))) {
                 return Some((step, gap));
             }
@@ -188,8 +189,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         None
     }
 
-    /// M, Q and the contacts within the step, where [J A] does not tell: along it they are as smooth as the motion, and
-    /// their polynomial through the nodes is taken, with time and rates as they are.
+    /// M, Q and the contacts within the step, where [J A] is nearly singular: they are smooth along the motion, so they
+    /// are interpolated from the nodes, at the given time and rates.
     pub(super) fn equations_over(
         &self,
         independent: &Choice<S>,
@@ -206,7 +207,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         }
         for node in NODES {
             let others = NODES.iter().filter(|&&other| other != node);
-            // Lagrange's polynomial that is 1 at this node.
+            // The Lagrange basis polynomial of this node.
             let weight =
                 others.fold(S::Scalar::one(), |weight, &other| weight * (at - real(other)) / real(node - other));
             let (guess, _) = Self::unpack(&step.at_fraction(real(node)));
@@ -224,7 +225,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok(equations)
     }
 
-    /// The part of the step at which a pivot is zero.
+    /// The fraction of the step at which a pivot is zero.
     fn zero_of_pivot(&self, independent: &Choice<S>, step: &Polynomial<S>, pivot: usize) -> Option<S::Scalar> {
         let value = |s: S::Scalar| self.factors(independent, &Self::unpack(&step.at_fraction(s)).0).pivots()[pivot];
         let ends = [S::Scalar::zero(), S::Scalar::one()];
@@ -235,8 +236,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         zero.filter(|_| changes)
     }
 
-    /// What is left of the closures at the change point where small pivots cannot remove it.
-    fn left_over(&self, independent: &Choice<S>, step: &Polynomial<S>, middle: S::Scalar) -> S::Scalar {
+    /// The largest relative residual at the change point, outside the range of the regular pivots.
+    fn unresolved_residual(&self, independent: &Choice<S>, step: &Polynomial<S>, middle: S::Scalar) -> S::Scalar {
         let mechanism = self.scene.mechanism();
         let pose = mechanism.pose_at(&Self::unpack(&step.at_fraction(middle)).0);
         let jacobian = self.scales.jacobian(mechanism, &pose);

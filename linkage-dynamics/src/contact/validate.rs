@@ -1,4 +1,4 @@
-//! What no friction and no stop can be.
+//! Validation of contacts: finite numbers, limits that are not negative, ranges that are not empty.
 
 use super::{Contact, ContactCoordinate, ContactLaw};
 use crate::MotionError;
@@ -6,11 +6,11 @@ use crate::scene::negative;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Dim, InputError, PositionError, Real};
 
-/// The contacts, if their numbers are finite and no limit is negative.
+/// Returns the contacts if their numbers are finite and no friction limit is negative.
 ///
 /// # Errors
-/// [`PositionError::NotFinite`] or [`InputError::OutOfRange`] with the name of the first that is not sound.
-pub fn sound<T: Real, U: Dim, V: Dim, const C: usize>(
+/// [`PositionError::NotFinite`] or [`InputError::OutOfRange`] with the name of the first that is invalid.
+pub fn validate_contacts<T: Real, U: Dim, V: Dim, const C: usize>(
     scene: &'static str,
     contacts: [Contact<T, U, V>; C],
 ) -> Result<[Contact<T, U, V>; C], MotionError> {
@@ -34,11 +34,12 @@ pub fn sound<T: Real, U: Dim, V: Dim, const C: usize>(
     Ok(contacts)
 }
 
-/// Refuses stops between which nothing is left, and a restitution that is not between 0 and 1.
+/// Checks that lower < upper and that the restitution is between 0 and 1.
 ///
 /// # Errors
-/// [`InputError::EmptyRange`], [`InputError::OutOfRange`] or [`PositionError::NotFinite`] with the name of the first.
-pub fn stops<T: Real, const N: usize>(
+/// [`InputError::EmptyRange`], [`InputError::OutOfRange`] or [`PositionError::NotFinite`] with the name of the first
+/// stop that is invalid.
+pub fn validate_stops<T: Real, const N: usize>(
     scene: &'static str,
     stops: [(&'static str, T, T, T); N],
 ) -> Result<(), MotionError> {

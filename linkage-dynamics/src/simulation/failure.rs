@@ -1,4 +1,4 @@
-//! How near to a singularity a position is, and what is said where the motion cannot go on.
+//! Errors for motions that end at a singularity.
 
 use super::independent::Independent;
 use super::motion::Motion;
@@ -9,23 +9,23 @@ use linkage_runtime::jacobian::ulp::weak;
 use linkage_runtime::{Column, Mechanism, PathError, PositionError};
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// The name of the group whose determinant is smallest beside its size.
-    pub(super) fn change_point(&self, q: &Coordinates<S>) -> MotionError {
+    /// The change-point error with the most singular group: the least determinant relative to its scale.
+    pub(super) fn change_point_error(&self, q: &Coordinates<S>) -> MotionError {
         let mechanism = self.scene.mechanism();
         let (_, group) = Blocks::of(mechanism, &mechanism.pose_at(q)).weakest();
         PathError::ChangePoint { mechanism: S::Mechanism::NAME, group }.into()
     }
 
-    /// Why no coordinates are left: what is prescribed comes to a dead point, or two motions cross.
-    pub(super) fn cannot_go_on(&self, t: S::Scalar, q: &Coordinates<S>) -> MotionError {
+    /// The error if no choice of coordinates is regular: a prescribed input is at a dead point, or two motions cross.
+    pub(super) fn no_coordinates_error(&self, t: S::Scalar, q: &Coordinates<S>) -> MotionError {
         let mechanism = self.scene.mechanism();
         let is_driven = self.held(t).iter().any(|&held| held);
         let freely = Independent::choose(mechanism, &mechanism.pose_at(q), &self.scales, &Column::repeat(false));
         let is_regular = freely.regularity() > weak();
-        if is_driven && is_regular { self.singular(q) } else { self.change_point(q) }
+        if is_driven && is_regular { self.singular_error(q) } else { self.change_point_error(q) }
     }
 
-    pub(super) fn singular(&self, q: &Coordinates<S>) -> MotionError {
+    pub(super) fn singular_error(&self, q: &Coordinates<S>) -> MotionError {
         let mechanism = self.scene.mechanism();
         let (regularity, group) = Blocks::of(mechanism, &mechanism.pose_at(q)).weakest();
         let regularity = to_f64(regularity);
