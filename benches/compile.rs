@@ -1,6 +1,6 @@
-//! What the macro costs: expansion time, graph, emitted work and text, over mechanisms of growing size.
+//! The cost of the macro: expansion time, graph, emitted operations and text, over mechanisms of growing size.
 //!
-//! `cargo bench --profile dev --bench compile` times it as cargo builds macros, unoptimised.
+//! `cargo bench --profile dev --bench compile` measures it unoptimised, as cargo builds macros.
 
 use std::time::{Duration, Instant};
 
@@ -21,7 +21,7 @@ struct Measured {
     bytes: usize,
 }
 
-/// The median of expansions of one source: of nine, or of as many as a second has room for.
+/// The median time of nine expansions of one source, fewer if they take more than a second.
 fn measure(source: &str) -> Measured {
     const FEWEST: usize = 9;
     let root: TokenStream = "::linkage".parse().expect("a path");
@@ -53,8 +53,8 @@ fn table(title: &str, source: fn(usize) -> String, sizes: &[usize]) {
 fn main() {
     table("The four-bar", four_bar, &[1]);
     table("A chain of four-bars", chain, &[1, 2, 4, 8, 16, 32, 64]);
-    table("Loops through every unknown", dense, &[1, 2, 4, 8]);
-    println!("Hopeless inputs, refused or not\n     ms");
+    table("Loops with all unknowns", dense, &[1, 2, 4, 8]);
+    println!("Extreme inputs\n     ms");
     let inputs = [
         ("a sine of a sine of …, 1000 deep", nested(1000)),
         ("a sine of a sine of …, 3000 deep", nested(3000)),
@@ -66,8 +66,8 @@ fn main() {
     for (what, source) in inputs {
         let tokens: TokenStream = source.parse().expect("tokens");
         let start = Instant::now();
-        let refused = linkage_compiler::expand(tokens, &"::linkage".parse().expect("a path")).to_string();
-        let verdict = if refused.contains("compile_error") { "refused" } else { "expanded" };
-        println!("{:8.1} {what}: {verdict}", start.elapsed().as_secs_f64() * 1e3);
+        let expansion = linkage_compiler::expand(tokens, &"::linkage".parse().expect("a path")).to_string();
+        let result = if expansion.contains("compile_error") { "error" } else { "expanded" };
+        println!("{:8.1} {what}: {result}", start.elapsed().as_secs_f64() * 1e3);
     }
 }

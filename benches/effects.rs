@@ -1,11 +1,11 @@
-//! Cost per effect: one mechanism, and scenes with nothing but inertia, with one effect more, and with all of them.
+//! The cost of each effect: scenes of one mechanism with inertia alone, with one more effect, and with all effects.
 //!
 //! `cargo bench --bench effects`
 //!
 //! Operations: functions, divisions, multiplications and additions of one evaluation, as the emitted functions document
-//! them. Nanoseconds: the median of many rounds, in which the scenes take turns, and what is more than bare. Bytes: of
-//! the scene. Smooth scenes are timed in `derivative`; with frictions and stops an integrator evaluates the equations
-//! before they are solved and the contacts, and solves for the acceleration in their modes: so do these.
+//! them. Nanoseconds: the median of many rounds with alternating scenes, and the difference to the bare scene. Bytes:
+//! the size of the scene. Smooth scenes are timed in `derivative`; those with frictions and stops as an integrator
+//! does: `equations`, `contacts`, and the solution for the acceleration in given modes.
 
 #[path = "../tests/source/work.rs"]
 mod work;
@@ -28,7 +28,7 @@ type Evaluate = Box<dyn Fn(&[State])>;
 const COUNT: usize = 5_000;
 const ROUNDS: usize = 61;
 
-/// A row of the table, with a function that evaluates all states.
+/// A row of the table, with a function that evaluates the scene at all states.
 struct Row {
     title: &'static str,
     scene: &'static str,
@@ -57,7 +57,7 @@ impl Row {
         Self::new(title, (S::NAME, &["rates"]), scene, |scene, y| scene.derivative(0.5, y))
     }
 
-    /// In these modes.
+    /// A row with contacts in these modes.
     fn in_contact<S: Scene<Scalar = f64, State = D<4>> + 'static>(
         title: &'static str,
         scene: S,
@@ -65,7 +65,7 @@ impl Row {
     ) -> Self {
         let start = State::from([1.2, -1.0, 0.5, 12.0]);
         let (_, rates) = S::parts(&start);
-        // The accelerations in given modes do not ask how these came about.
+        // The accelerations in given modes do not depend on how the modes were reached.
         let rates: PerInput<S::Mechanism> = rates.into();
         let begun = Contacts::begin(0.0, &rates, |_| ReducedEquations::of(&scene, 0.0, &start));
         let (mut contacts, _) = begun.expect("modes at the start");
@@ -102,7 +102,7 @@ fn main() {
         Row::smooth("+ gravity, spring, damper", Mounted::default()),
         Row::smooth("+ all of these", Smooth::default()),
         Row::smooth("+ drive", Driven::default()),
-        Row::new("  what drives it", ("Driven", &["drive_forces"]), Driven::default(), |scene, y| {
+        Row::new("  drive forces", ("Driven", &["drive_forces"]), Driven::default(), |scene, y| {
             let (q, rates) = Driven::parts(y);
             Ok(State::from([0.0, 0.0, 0.0, scene.drive_forces(0.5, &q, rates)?[0]]))
         }),
@@ -127,7 +127,7 @@ fn main() {
         }
     }
     let bare = rows[0].median();
-    println!("scene                         f   /   *   +       ns  beside bare  bytes");
+    println!("scene                         f   /   *   +       ns   difference  bytes");
     for row in &rows {
         let Operations { functions, divisions, multiplications, additions } = row.operations(&work);
         let (time, title) = (row.median(), row.title);

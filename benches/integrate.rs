@@ -1,9 +1,9 @@
-//! What accuracy costs: `linkage::integrate` beside the crates `ode_solvers` and `differential-equations`, by the same
-//! methods on the same problems, timed in turns.
+//! Accuracy and time of `linkage::integrate` and of the crates `ode_solvers` and `differential-equations`, with the
+//! same methods on the same problems, timed alternately.
 //!
 //! `cargo bench --bench integrate`
 //!
-//! Error: of the state at the end. Calls: of the right-hand side. Time: microseconds, the median of the readings.
+//! Columns: the error of the final state, the calls of the right-hand side, and the median time in microseconds.
 
 use std::cell::Cell;
 use std::hint::black_box;
@@ -14,23 +14,23 @@ use linkage::MotionError;
 use linkage::integrate::{Tolerance, dop853, dopri5};
 use linkage::nalgebra::SVector;
 
-/// Readings of each crate; the median counts.
+/// The number of readings of each crate; the median counts.
 const READINGS: usize = 21;
 
 type State<const N: usize> = SVector<f64, N>;
 type TheirState<const N: usize> = ode_solvers::SVector<f64, N>;
 
-/// A motion whose end is known.
+/// A motion with known final state.
 trait Problem<const N: usize>: Copy {
     const NAME: &str;
     const START: [f64; N];
     const INTERVAL: f64;
     fn rate(y: [f64; N]) -> [f64; N];
-    /// How far the state at the end is off.
+    /// The error of the final state.
     fn miss(end: [f64; N]) -> f64;
 }
 
-/// A pendulum of 1 m let go at the horizontal, for 10 s.
+/// A pendulum of 1 m released at the horizontal, for 10 s.
 #[derive(Clone, Copy)]
 struct Pendulum;
 
@@ -44,14 +44,14 @@ impl Problem<2> for Pendulum {
         [y[1], -9.81 * y[0].sin()]
     }
 
-    /// Of the bob, by the exact law in elliptic functions.
+    /// The error of the bob's position, relative to the exact solution by elliptic functions.
     fn miss(end: [f64; 2]) -> f64 {
         let (x, z) = (end[0].sin() - 0.275_087_462_576_116_9, -end[0].cos() + 0.961_419_205_099_125_1);
         x.abs().max(z.abs())
     }
 }
 
-/// A satellite about earth and moon that comes back to its start (Hairer, Norsett and Wanner, section II.0).
+/// A periodic orbit of a satellite around earth and moon (Hairer, Norsett and Wanner, section II.0).
 #[derive(Clone, Copy)]
 struct Arenstorf;
 
@@ -87,7 +87,7 @@ enum Order {
     Eight,
 }
 
-/// The right-hand side and how often it is called.
+/// The right-hand side with a count of its calls.
 #[derive(Clone, Copy)]
 struct Called<'a, P>(P, &'a Cell<usize>);
 

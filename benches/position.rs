@@ -1,5 +1,5 @@
-//! Position in closed form, beside the best that one writes by hand: nanoseconds a position of a four-bar
-//! without angles, and with velocity and acceleration; interleaved, medians.
+//! Nanoseconds for a position of a four-bar in closed form, emitted and written by hand, and with velocity and
+//! acceleration: medians of alternating rounds.
 //!
 //! `cargo bench --bench position`
 
@@ -10,7 +10,7 @@ use linkage::nalgebra::{Complex, UnitComplex};
 use linkage::{Elbow, PositionError, Real, linkage};
 
 linkage! {
-    /// Nobody asks for an angle here.
+    /// No angle of this mechanism is read, so none is computed.
     #[derive(Debug, Clone, PartialEq)]
     mechanism FourBar {
         param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
@@ -23,20 +23,20 @@ linkage! {
     }
 }
 
-/// Directions of the coupler and of the rocker, and their determinant.
+/// The directions of coupler and rocker, and their determinant.
 struct Hand {
     coupler: [f64; 2],
     rocker: [f64; 2],
     determinant: f64,
 }
 
-/// As one would write it for speed: C from B by the half chord of the triangle B C D.
+/// Hand-written for speed: C from B by the half chord of the triangle B C D.
 #[inline(never)]
 fn by_hand(m: &FourBar, theta2: f64) -> Option<Hand> {
     from_sine(m, theta2.sin_cos())
 }
 
-/// The same with the inlined sine of this crate.
+/// Hand-written, with the inlined sine of this crate.
 #[inline(never)]
 fn by_hand_inlined(m: &FourBar, theta2: f64) -> Option<Hand> {
     from_sine(m, theta2.sine_cosine())
@@ -59,7 +59,7 @@ fn from_sine(m: &FourBar, (sine, cosine): (f64, f64)) -> Option<Hand> {
     Some(Hand { coupler: [x * by_3, y * by_3], rocker: [(dx - x) * by_4, (dy - y) * by_4], determinant: -across })
 }
 
-/// The same with what `assemble` promises: the direction of the input, a typed error, no silent NaN.
+/// Hand-written, with the guarantees of `assemble`: the direction of the input, a typed error, no silent NaN.
 #[inline(never)]
 fn by_hand_alike(m: &FourBar, theta2: f64) -> Result<FourBarPose, PositionError> {
     let (sine, cosine) = theta2.sin_cos();
@@ -105,7 +105,7 @@ fn emitted_with_motion(m: &FourBar, theta2: f64) -> Option<f64> {
     Some(acceleration.theta3 + acceleration.theta4)
 }
 
-/// From coordinates as near as a step of a degree leaves them.
+/// Newton's method from a guess one degree away.
 #[inline(never)]
 fn newton(m: &FourBar, guess: &FourBarCoordinates) -> Option<f64> {
     Some(m.solve(guess).ok()?.coordinates.theta3)
@@ -114,11 +114,11 @@ fn newton(m: &FourBar, guess: &FourBarCoordinates) -> Option<f64> {
 const COUNT: usize = 20_000;
 const ROUNDS: usize = 41;
 
-/// Nanoseconds for each of some arguments.
+/// The nanoseconds for one evaluation, over some arguments.
 fn time<A, R>(arguments: &[A], work: impl Fn(&A) -> R) -> f64 {
     let start = Instant::now();
     for argument in arguments {
-        // By reference: a copy of the result would cost as much as a tenth of the work.
+        // By reference: a copy of the result would cost a tenth of the evaluation.
         black_box(&work(black_box(argument)));
     }
     start.elapsed().as_secs_f64() * 1e9 / arguments.len() as f64
@@ -147,7 +147,7 @@ fn table(title: &str, m: &FourBar, angles: &[f64]) {
     println!("  position, emitted                      {emitted:6.1} ns");
     println!("  by hand, NaN and dead points unnoticed {hand:6.1} ns, emitted / by hand {:.2}", emitted / hand);
     println!("  the same with the sine of this crate   {inlined:6.1} ns, emitted / by hand {:.2}", emitted / inlined);
-    println!("  by hand with the same promises         {alike:6.1} ns, emitted / by hand {:.2}", emitted / alike);
+    println!("  by hand with the same guarantees       {alike:6.1} ns, emitted / by hand {:.2}", emitted / alike);
     println!("  position, velocity, acceleration       {motion:6.1} ns");
     println!("  position by Newton from 1 degree away  {newton:6.1} ns");
 }
@@ -161,8 +161,8 @@ fn main() {
     assert!((ours.determinant - alike.determinant).abs() < 1e-11);
     let fraction = |index: usize| index as f64 / COUNT as f64;
     let sweep: Vec<f64> = (0..COUNT).map(|index| 0.2 + 0.3 * fraction(index)).collect();
-    // A turn in leaps of the golden angle: no branch of the library's sine can be foreseen.
+    // Steps of the golden angle over a turn, so that branches of the library's sine are not predictable.
     let leaps: Vec<f64> = (0..COUNT).map(|index| std::f64::consts::TAU * (0.618_034 * index as f64).fract()).collect();
-    table("Angles in small steps, 0.2 to 0.5", &m, &sweep);
-    table("Angles of a turn in leaps", &m, &leaps);
+    table("Angles from 0.2 to 0.5 in small steps", &m, &sweep);
+    table("Angles of a turn in large steps", &m, &leaps);
 }

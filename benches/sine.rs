@@ -1,5 +1,4 @@
-//! What a sine and cosine cost: `Real::sine_cosine` and `sines_cosines` beside the library's `sin_cos`, timed in
-//! turns.
+//! The time of `Real::sine_cosine` and `sines_cosines` compared with the library's `sin_cos`, timed alternately.
 //!
 //! `cargo bench --bench sine`
 
@@ -8,16 +7,16 @@ use std::time::Instant;
 
 use linkage_runtime::{Real, real};
 
-/// Angles per pass: they and their sines stay in the nearest cache.
+/// Angles per pass: these and their sines fit into the first-level cache.
 const ANGLES: usize = 1024;
 
-/// Passes per reading.
+/// The number of passes per reading.
 const PASSES: usize = 200;
 
-/// Readings of each function; the median counts.
+/// The number of readings of each function; the median counts.
 const READINGS: usize = 61;
 
-/// One function at a time: each angle waits for the sine and cosine before it.
+/// Latency: each angle depends on the previous sine and cosine.
 #[inline(always)]
 fn chain<T: Real>(angles: &[T], sin_cos: impl Fn(T) -> (T, T)) -> T {
     angles.iter().fold(T::zero(), |sum, &angle| {
@@ -26,7 +25,7 @@ fn chain<T: Real>(angles: &[T], sin_cos: impl Fn(T) -> (T, T)) -> T {
     })
 }
 
-/// As many at a time as the processor manages.
+/// Throughput: independent angles.
 #[inline(always)]
 fn independent<T: Real>(angles: &[T], sines: &mut [T], cosines: &mut [T], sin_cos: impl Fn(T) -> (T, T)) {
     for ((&angle, s), c) in angles.iter().zip(sines).zip(cosines) {
@@ -34,7 +33,7 @@ fn independent<T: Real>(angles: &[T], sines: &mut [T], cosines: &mut [T], sin_co
     }
 }
 
-/// N at a time, as emitted code takes the angles of one position.
+/// N angles in one call, as emitted code does for a position.
 #[inline(always)]
 fn groups<T: Real, const N: usize>(
     angles: &[T],
@@ -51,7 +50,7 @@ fn groups<T: Real, const N: usize>(
     }
 }
 
-/// Nanoseconds per angle.
+/// The nanoseconds per angle.
 fn time(mut pass: impl FnMut()) -> f64 {
     let start = Instant::now();
     (0..PASSES).for_each(|_| pass());
@@ -70,7 +69,7 @@ fn row(name: &str, mut ours: impl FnMut(), mut library: impl FnMut()) {
 }
 
 fn angles<T: Real>(range: f64) -> Vec<T> {
-    // The fractional parts of multiples of the golden section.
+    // The fractional parts of multiples of the golden ratio.
     let part = |i: usize| (i as f64 * 0.618_033_988_749_894_9).fract() * 2.0 - 1.0;
     (0..ANGLES).map(|i| real(range * part(i))).collect()
 }

@@ -1,7 +1,8 @@
-//! A scene's derivative beside the one that an engineer writes by hand, to count their instructions.
+//! The derivative of a scene, emitted and written by hand, for a comparison of instruction counts.
 //!
-//! `cargo bench --bench twin -- mounted hand 1000` evaluates one of them so often: `bare` or `mounted`; `emitted` among
-//! other scenes, emitted `alone`, or by `hand`. `tests/instructions.rs` runs it under callgrind.
+//! `cargo bench --bench twin -- mounted hand 1000` evaluates one of them so many times: the scene is `bare` or
+//! `mounted`; the code is `emitted` with other scenes, emitted `alone`, or written by `hand`. `tests/instructions.rs`
+//! runs it under callgrind.
 
 use std::hint::black_box;
 
@@ -9,7 +10,7 @@ use linkage::{Column, D, MotionError, PositionError, Real, Scene};
 
 include!("../dev/gallery/src/mechanisms/four_bar_effects.rs");
 
-/// The same mechanism with nothing beside the one scene.
+/// A copy of the mechanism with this scene only.
 mod bare {
     linkage::linkage! {
         pub mechanism FourBar {
@@ -28,7 +29,7 @@ mod bare {
     }
 }
 
-/// As `bare`.
+/// A copy of the mechanism with this scene only.
 mod mounted {
     linkage::linkage! {
         pub mechanism FourBar {
@@ -52,7 +53,7 @@ mod mounted {
 /// q, v'.
 type State = Column<f64, D<4>>;
 
-/// What every scene of the four-bar needs of the motion.
+/// The kinematics that every scene of the four-bar uses.
 struct Motion {
     /// The links as vectors.
     crank: [f64; 2],
@@ -74,8 +75,8 @@ struct Motion {
 fn motion(m: &FourBar, [a3, b3]: [f64; 2], scene: &'static str, y: &State) -> Result<Motion, PositionError> {
     let FourBar { l2, l3, l4, .. } = *m;
     let [theta3, theta4, theta2, rate] = (*y).into();
-    // The library's own sines, so that only what is done with them is compared. The fourth is the transmission angle,
-    // whose sine is exact near a dead point, as no difference of products is.
+    // The sines of this library, so that only the rest of the code is compared. The fourth angle is the transmission
+    // angle: its sine is accurate near a dead point, unlike a difference of products.
     let [(s2, c2), (s3, c3), (s4, c4), (transmission, _)] =
         f64::sines_cosines([theta2, theta3, theta4, theta3 - theta4]);
     let size = l3 * l4;
@@ -103,7 +104,7 @@ fn singular(scene: &'static str, determinant: f64, size: f64) -> PositionError {
     PositionError::NotFinite { mechanism: scene, quantity: "the Jacobian" }
 }
 
-/// v'' of M v'' = Q for M > 0.
+/// Solves M v'' = Q for M > 0.
 #[inline(always)]
 fn accelerated(scene: &'static str, mass: f64, force: f64) -> Result<f64, MotionError> {
     if mass > 0.0 && mass < f64::INFINITY {
@@ -120,7 +121,7 @@ fn without_inertia(scene: &'static str, mass: f64) -> MotionError {
     PositionError::NotFinite { mechanism: scene, quantity: "the mass matrix" }.into()
 }
 
-/// y', which is finite where the sum of its parts is; `parts` are asked for where it is not.
+/// Returns y' if it is finite; else the error names the first of `parts` that is not.
 #[inline(always)]
 fn answer<const N: usize>(
     scene: &'static str,
@@ -166,7 +167,7 @@ fn bare_by_hand(scene: &Bare, y: &State) -> Result<State, MotionError> {
     answer("Bare", acceleration, rates, || [("body coupler", coupler), ("body rocker", rocker)])
 }
 
-/// With weight, a spring from C to a fixed point, and a damper of the rocker.
+/// Adds weight, a spring from C to a fixed point, and a damper on the rocker.
 #[inline(never)]
 fn mounted_by_hand(scene: &Mounted, y: &State) -> Result<State, MotionError> {
     let Mounted { j2, m3, j3, a3, b3, m4, j4, a4, g, k, s0, xp, yp, c, .. } = *scene;
@@ -187,7 +188,7 @@ fn mounted_by_hand(scene: &Mounted, y: &State) -> Result<State, MotionError> {
     let coupler = m3 * (gx * hx + gy * hy) + j3 * w3 * bias3;
     let rocker = about_d * w4 * bias4 - m4 * g * a4 * c4 * w4;
     let (dx, dy) = (x2 + x3 - xp, y2 + y3 - yp);
-    // No square of it may overflow or vanish.
+    // `hypot`: squares could overflow or underflow.
     let length = dx.hypot(dy);
     let along = dx * (-y2 - y3 * w3) + dy * (x2 + x3 * w3);
     let spring = -k * (length - s0) * along / length;
@@ -209,7 +210,7 @@ fn emitted<S: Scene<Scalar = f64, State = D<4>>>(scene: &S, y: &State) -> Result
     scene.derivative(0.0, y)
 }
 
-/// Evaluates a derivative `calls` times, at a little greater angle each time.
+/// Evaluates a derivative `calls` times, at a slightly larger angle each time.
 fn evaluate<S>(calls: usize, scene: &S, derivative: impl Fn(&S, &State) -> Result<State, MotionError>) -> f64 {
     let mut y = State::from([0.8, -1.1, 0.5, 12.0]);
     let mut sum = 0.0;
@@ -223,16 +224,16 @@ fn evaluate<S>(calls: usize, scene: &S, derivative: impl Fn(&S, &State) -> Resul
 fn main() {
     let given: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
     let mut given = given.iter().map(String::as_str);
-    let (scene, road) = (given.next().unwrap_or("bare"), given.next().unwrap_or("emitted"));
+    let (scene, code) = (given.next().unwrap_or("bare"), given.next().unwrap_or("emitted"));
     let calls = given.next().map_or(1000, |calls| calls.parse().expect("a number of calls"));
-    let sum = match (scene, road) {
+    let sum = match (scene, code) {
         ("bare", "emitted") => evaluate(calls, &Bare::default(), emitted),
         ("bare", "alone") => evaluate(calls, &bare::Bare::default(), emitted),
         ("bare", "hand") => evaluate(calls, &Bare::default(), bare_by_hand),
         ("mounted", "emitted") => evaluate(calls, &Mounted::default(), emitted),
         ("mounted", "alone") => evaluate(calls, &mounted::Mounted::default(), emitted),
         ("mounted", "hand") => evaluate(calls, &Mounted::default(), mounted_by_hand),
-        _ => panic!("there is no {scene} {road}"),
+        _ => panic!("unknown arguments: {scene} {code}"),
     };
     println!("{sum:?}");
 }

@@ -1,4 +1,4 @@
-//! Andrews' squeezing mechanism: what its digits cost, by method and tolerance.
+//! Andrews' squeezing mechanism: error, right-hand sides and time by method and tolerance.
 //!
 //! `cargo run --release --example andrews`
 
@@ -10,7 +10,7 @@ use linkage::simulation::simulate;
 use linkage_gallery::andrews_motion::{END, START};
 use linkage_gallery::andrews_scene::*;
 
-/// Repetitions, of which the fastest counts.
+/// The number of repetitions; the fastest counts.
 const REPETITIONS: usize = 50;
 
 fn angles(q: SqueezerCoordinates<f64>) -> [f64; 7] {

@@ -1,7 +1,7 @@
-//! The four-bar of the Maple sheet (La Sapienza, Meccanica applicata alle macchine, 2009-2010, "Analisi
-//! cinematica mediante il metodo delle equazioni di vincolo"), step by step: closures, Jacobians,
-//! determinant, velocity ratios, Newton's iterates, velocities, accelerations by both methods, and the
-//! picture. Each number stands beside the one the sheet prints, which has ten digits.
+//! The four-bar of the Maple sheet (La Sapienza, Meccanica applicata alle macchine, 2009-2010, "Analisi cinematica
+//! mediante il metodo delle equazioni di vincolo"), step by step: loop equations, Jacobians, determinant, velocity
+//! ratios, Newton's iterates, velocities, accelerations by both methods, and the picture. Each number is printed next
+//! to the value of the sheet, which has ten digits.
 //!
 //! `cargo run --example maple_sheet`
 
@@ -29,13 +29,13 @@ linkage! {
     }
 }
 
-/// The sheet agrees with exact arithmetic to this, and so must we with the sheet.
+/// The relative accuracy of the sheet's values, and the tolerance of the comparison.
 const SHEET: f64 = 1e-8;
 
 fn beside(what: &str, ours: f64, sheet: f64) {
     let error = (ours - sheet).abs() / sheet.abs();
     println!("  {what:<12} {ours:>22.15} {sheet:>22} {error:>9.1e}");
-    assert!(error <= SHEET, "{what}: {ours} is not the sheet's {sheet}");
+    assert!(error <= SHEET, "{what}: {ours} differs from the sheet's {sheet}");
 }
 
 fn heading(text: &str) {
@@ -154,8 +154,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The sheet's first method: u'' = -J^-1 (A v'' + J' u' + A' v') with J' and A' the time derivatives of
-/// the matrices themselves, written here by hand as the sheet has them.
+/// The sheet's first method: u'' = -J^-1 (A v'' + J' u' + A' v') with the time derivatives J' and A', written by hand
+/// as in the sheet.
 fn by_derivatives_of_the_jacobian(
     four_bar: &FourBar,
     q: &FourBarCoordinates,

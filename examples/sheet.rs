@@ -1,7 +1,6 @@
-//! A mechanism's derivation as a document: one HTML file with the formulas, the numbers of a pose and
-//! the picture, here for the four-bar of the Maple sheet.
+//! The derivation of the four-bar of the Maple sheet as one HTML file: formulas, numbers of a pose and a picture.
 //!
-//! `cargo run --example sheet` writes `target/sheet.html`; any browser shows it, no network needed.
+//! `cargo run --example sheet` writes `target/sheet.html`, for any browser, without network.
 
 use std::error::Error;
 
@@ -22,7 +21,7 @@ linkage! {
         point B = l2@theta2;
         point C = B + l3@theta3;
         point G3 = B + (l3/2)@theta3;
-        /// Transmission angle.
+        /// The transmission angle.
         output mu = theta3 - theta4;
     }
 }
@@ -54,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let ratios = four_bar.velocity_ratios(&pose)?;
     let mut sheet = Sheet::new(FourBar::DERIVATION);
     sheet
-        .title("A four-bar linkage from closure to acceleration")
+        .title("A four-bar linkage from loop equation to acceleration")
         .numbers("Given, mm", FourBar::<f64>::PARAMETERS.into_iter().zip(<[f64; 4]>::from(four_bar.clone())))
         .numbers("Position, rad", [("theta2", q.theta2), ("theta3", q.theta3), ("theta4", q.theta4)])
         .numbers("Jacobian, mm²", [("det J", four_bar.determinant(&pose))])
@@ -81,7 +80,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", FourBar::DERIVATION.to_text());
     println!("Sheet: {path}, {} kB", html.len() / 1000);
 
-    // The sheet prints what the Maple sheet derives, and the number that it gives for theta3' / theta2'.
+    // The formula and the value for theta3' / theta2' are those of the Maple sheet.
     assert_eq!(FourBar::DERIVATION.ratios[0].to_string(), "∂θ₃/∂θ₂ = −l₂·sin(θ₂ − θ₄)/(l₃·sin(θ₃ − θ₄))");
     assert!((ratios[0] + 0.439_871_260_155_996).abs() < 1e-14);
     Ok(())

@@ -1,16 +1,16 @@
 //! The N-four-bar of the benchmark library of IFToMM (problem A02, lim.ii.udc.es/mbsbenchmark) in its official size:
-//! forty windows of 81 uniform bars of 1 m and 1 kg start upright with 1 m/s, fall and turn for 20 s. Twice a turn all
-//! bars are in line and 41 motions meet.
+//! forty windows of 81 uniform bars of 1 m and 1 kg start upright with 1 m/s and turn for 20 s. Twice a turn all bars
+//! are in line, at a change point of 41 motions.
 //!
-//! `cargo run --release --example windows` prints how far the first joint is from the exact law, phi'' = k sin(phi) with
-//! k = g/l ((N + 1)/2 + N) / ((N + 1)/3 + N), whose values were computed with 25 digits.
+//! `cargo run --release --example windows` prints the error of the first joint relative to the exact solution of phi''
+//! = k sin(phi), k = g/l ((N + 1)/2 + N) / ((N + 1)/3 + N), computed with 25 digits.
 
 use std::time::Instant;
 
 use linkage::linkage;
 use linkage::simulation::simulate;
 
-/// A chain of windows, each by its left upright, its bar, its right upright, their bodies and its number.
+/// A chain of windows, each given by left upright, bar, right upright, their bodies and its number.
 macro_rules! windows {
     ($mechanism:ident, $scene:ident, $first:ident, $([$left:ident $bar:ident $right:ident $upright:ident $beam:ident $at:tt])*) => {
         linkage! {
@@ -37,7 +37,7 @@ macro_rules! windows {
                 Self { $first: up, $($bar: 0.0, $right: up),* }
             }
 
-            /// How far the uprights are from parallel, and the bars from level.
+            /// The deviations of the uprights from parallel, and of the bars from horizontal.
             fn spread(&self) -> f64 {
                 [$(self.$right - self.$first, self.$bar),*].into_iter().fold(0.0, |spread, angle| spread.max(angle.abs()))
             }
@@ -69,12 +69,12 @@ windows! {
     [phi38 psi39 phi39 upright39 bar39 39] [phi39 psi40 phi40 upright40 bar40 40]
 }
 
-/// The angle from upright at 10 s and 20 s.
+/// The exact angle from upright at 10 s and 20 s.
 const EXACT: [(f64, f64); 2] = [(10.0, 31.597_433_743_985_77), (20.0, 63.255_295_368_190_93)];
 
 fn main() -> Result<(), linkage::Error> {
     let scene = Falling::default();
-    println!("tolerance   joint B0 off by, m, at 10 s and 20 s   uprights   right-hand sides   change points    s");
+    println!("tolerance   error of joint B0, m, at 10 s and 20 s   uprights   right-hand sides   change points    s");
     for tolerance in [1e-8, 1e-10, 1e-12, 1e-14] {
         let clock = Instant::now();
         let mut motion = simulate(&scene, (0.0, FortyWindowsCoordinates::upright(), -1.0), 20.0, tolerance)?;

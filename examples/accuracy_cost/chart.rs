@@ -1,28 +1,32 @@
-//! The chart: error against time, both as powers of ten, the frontier marked.
+//! The chart: error against time on logarithmic axes, with the Pareto front.
 
 use std::fmt::Write;
 
+use crate::comparison::Comparison;
 use crate::price::axes::{self, Axes, LEFT};
 use crate::price::frontier::Prices;
-use crate::stall::Stall;
 use crate::{METHODS, QUANTITIES};
 
-/// A panel's size.
+/// The size of a panel, in pixels.
 const SIZE: [f64; 2] = [340.0, 240.0];
 
-/// Colours that tell themselves apart on light and on dark, and the text on them.
+/// Colours for light and dark mode, and the text on them.
 pub const STYLE: &str = ".front{fill:none;stroke:#d9730d;stroke-width:2}\
     .on circle{fill:#d9730d;stroke:#d9730d}.on text{fill:#fff}\
     .off circle{fill:var(--card,#fff);stroke:currentColor;stroke-opacity:.55}\
     circle{stroke-width:1.2}.mark text{font-size:10px;font-weight:600;text-anchor:middle}";
 
-/// The panels of a mechanism, each with its title: benign, from the input.
-pub fn panels(stall: &Stall) -> Vec<String> {
+/// The panels of a mechanism with their titles, for well-conditioned poses from the input.
+pub fn panels(comparison: &Comparison) -> Vec<String> {
     let from_input = |(_, point): &(usize, &crate::Point)| point.pose == "benign" && !point.angles_given;
-    let points = stall.points.iter().enumerate().filter(from_input);
+    let points = comparison.points.iter().enumerate().filter(from_input);
     points
         .map(|(index, point)| {
-            panel(&format!("{}, {}", stall.mechanism, QUANTITIES[point.order]), &stall.at(index), &stall.front(index))
+            panel(
+                &format!("{}, {}", comparison.mechanism, QUANTITIES[point.order]),
+                &comparison.at(index),
+                &comparison.front(index),
+            )
         })
         .collect()
 }
@@ -38,12 +42,12 @@ fn panel(title: &str, prices: &Prices, front: &[usize]) -> String {
     for (place, &method) in front.iter().enumerate() {
         let Some(price) = prices[method] else { continue };
         let [x, y] = axes.at(price);
-        // A step: until the next is paid for, the digits are those of the last.
+        // A staircase: between two points the best error is that of the faster method.
         let step = if place == 0 { format!("M{x:.1} {y:.1}") } else { format!("H{x:.1}V{y:.1}") };
         path.push_str(&step);
     }
     push(format_args!("<path class=\"front\" d=\"{path}\"/>"));
-    // What is on the frontier is drawn last, above all else.
+    // Points on the front are drawn last, on top.
     for is_on in [false, true] {
         for (method, price) in prices.iter().enumerate().filter(|(method, _)| front.contains(method) == is_on) {
             let Some(price) = price else { continue };
@@ -63,7 +67,7 @@ fn panel(title: &str, prices: &Prices, front: &[usize]) -> String {
     svg
 }
 
-/// One panel alone.
+/// One panel as an SVG.
 pub fn figure(panel: &str) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\">{panel}</svg>",
@@ -71,22 +75,22 @@ pub fn figure(panel: &str) -> String {
     )
 }
 
-/// All panels and the names of the methods.
-pub fn svg(stalls: &[Stall]) -> String {
-    let (width, height) = (3.0 * SIZE[0], stalls.len() as f64 * SIZE[1] + 110.0);
+/// All panels with the names of the methods.
+pub fn svg(comparisons: &[Comparison]) -> String {
+    let (width, height) = (3.0 * SIZE[0], comparisons.len() as f64 * SIZE[1] + 110.0);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\"><style>svg{{background:#fff;color:#1f2126}}{}{STYLE}</style>",
         axes::STYLE
     );
-    for (row, stall) in stalls.iter().enumerate() {
-        for (column, panel) in panels(stall).iter().enumerate() {
+    for (row, comparison) in comparisons.iter().enumerate() {
+        for (column, panel) in panels(comparison).iter().enumerate() {
             let (x, y) = (column as f64 * SIZE[0], row as f64 * SIZE[1]);
             let _ = write!(svg, "<g transform=\"translate({x} {y})\">{panel}</g>");
         }
     }
     for (method, name) in METHODS.iter().enumerate() {
         let (x, y) = (LEFT + (method % 4) as f64 * 245.0, height - 80.0 + (method / 4) as f64 * 26.0);
-        let note = if stalls[0].dominated[method].is_some() { " (dominated)" } else { "" };
+        let note = if comparisons[0].dominated[method].is_some() { " (dominated)" } else { "" };
         let _ = write!(
             svg,
             "<g class=\"mark off\"><circle cx=\"{x}\" cy=\"{y}\" r=\"8\"/><text x=\"{x}\" y=\"{}\">{}</text></g>\

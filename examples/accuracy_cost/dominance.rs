@@ -1,16 +1,16 @@
-//! Which methods another makes superfluous.
+//! Dominated methods.
 
 use super::frontier::{Price, Prices, SAME_ERROR};
 
-/// Times within this factor are alike: another run gives them in another order.
+/// Times within this factor count as equal: their order changes from run to run.
 const SAME_TIME: f64 = 1.1;
 
-/// Clearly less exact than the other, or clearly slower.
+/// Returns true if the error or the time is clearly larger.
 fn is_worse(one: Price, other: Price) -> bool {
     one.error > SAME_ERROR * other.error || one.time > SAME_TIME * other.time
 }
 
-/// Whether `other` has a result wherever `one` has, nowhere clearly worse in error or time, and somewhere clearly better.
+/// Returns true if `other` has a result wherever `one` has, is nowhere clearly worse, and is somewhere clearly better.
 pub fn is_dominated_by(one: &[Option<Price>], other: &[Option<Price>]) -> bool {
     let mut better = false;
     for (one, other) in one.iter().zip(other) {
@@ -24,7 +24,7 @@ pub fn is_dominated_by(one: &[Option<Price>], other: &[Option<Price>]) -> bool {
     better
 }
 
-/// For each method the one that makes it superfluous at every point, if there is one.
+/// For each method, one that dominates it over all points, or None.
 pub fn dominated(methods: &[Prices]) -> Vec<Option<usize>> {
     let by = |one: &Prices| methods.iter().position(|other| is_dominated_by(one, other));
     methods.iter().map(by).collect()

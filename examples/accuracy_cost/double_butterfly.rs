@@ -1,4 +1,4 @@
-//! The double butterfly's methods: six angles that are found together have no closed form.
+//! The methods for the double butterfly: its six angles are coupled, without closed form.
 
 works!(DoubleButterfly, 6, newton 4);
 

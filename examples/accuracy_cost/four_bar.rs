@@ -1,4 +1,4 @@
-//! The four-bar's methods.
+//! The methods for the four-bar.
 
 works!(FourBar, 2, closed, products by_products);
 

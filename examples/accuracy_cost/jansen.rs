@@ -1,10 +1,10 @@
-//! The Jansen leg's methods.
+//! The methods for the Jansen leg.
 
 works!(Jansen, 10, closed, products by_products);
 
 use linkage_gallery::jansen::*;
 
-/// Dyad after dyad.
+/// Solves J x = `right` dyad by dyad.
 fn by_products(m: &Jansen, pose: &JansenPose, right: &Unknowns<f64>) -> Unknowns<f64> {
     let turned = |length: f64, direction| methods::turned(length, direction);
     let minus = |[x, y]: [f64; 2]| [-x, -y];

@@ -1,4 +1,4 @@
-//! The methods of the price list.
+//! The methods under comparison.
 
 use std::borrow::Borrow;
 use std::hint::black_box;
@@ -7,16 +7,16 @@ use std::rc::Rc;
 use linkage::accuracy::{Newton, PositionMethod, Reached};
 use linkage::{Assembly, D, Mechanism, PerUnknown, PositionError, Real, position};
 
+use super::comparison::{Point, Work, largest};
 use super::oracle::Case;
-use super::stall::{Point, Work, largest};
 
-/// A position that was found as coordinates.
+/// A position found as coordinates.
 pub type Near<M> = Reached<<M as Mechanism>::Coordinates, <M as Mechanism>::Pose>;
 
 /// u, u' or u'' at a pose, by the order of the derivative.
 pub type Rates<M> = fn(&M, &<M as Mechanism>::Pose, usize) -> Result<PerUnknown<M>, PositionError>;
 
-/// Newton's method from the prediction of the velocity ratios until the closures are closed to rounding.
+/// Newton's method from the prediction by velocity ratios, until the residual is at rounding error.
 pub struct ToTolerance;
 
 impl<M: Mechanism> PositionMethod<M> for ToTolerance {
@@ -29,7 +29,7 @@ impl<M: Mechanism> PositionMethod<M> for ToTolerance {
     }
 }
 
-/// A table that several poses look into.
+/// A table shared by several poses.
 pub struct Shared<R>(R);
 
 impl<M: Mechanism, R: PositionMethod<M, From = R>> PositionMethod<M> for Shared<R> {
@@ -41,7 +41,7 @@ impl<M: Mechanism, R: PositionMethod<M, From = R>> PositionMethod<M> for Shared<
     }
 }
 
-/// u' or u'' by a solution of J x = `right`.
+/// u' or u'' by a given solver of J x = `right`.
 #[inline(always)]
 pub fn in_products<M: Mechanism<V = D<1>>>(
     m: &M,
@@ -53,7 +53,7 @@ pub fn in_products<M: Mechanism<V = D<1>>>(
     if order == 1 { rates } else { solution(&-m.gamma(pose, &M::rates(rates, [scalar(1.0)].into()))) }
 }
 
-/// A road to the position from where it starts in each case, and then rates.
+/// The work of a position method from the start of each case, followed by the rates.
 pub fn along<R: PositionMethod<M> + 'static, M: Mechanism<V = D<1>> + 'static>(
     method: &'static str,
     point: Point,
@@ -61,16 +61,16 @@ pub fn along<R: PositionMethod<M> + 'static, M: Mechanism<V = D<1>> + 'static>(
     rates: Rates<M>,
 ) -> Work {
     let order = point.order;
-    let road = |m: &M, from: &R::From, input: M::Scalar| R::position(m, from, M::Inputs::from([input].into()));
+    let method_at = |m: &M, from: &R::From, input: M::Scalar| R::position(m, from, M::Inputs::from([input].into()));
     let starts = starts.into_iter().map(|(case, m, from)| (scalar(case.input), case, m, from)).collect::<Vec<_>>();
     let error = largest(starts.iter().map(|(input, case, m, from)| {
-        let found = rates(m, road(m, from, *input)?.borrow(), order)?;
+        let found = rates(m, method_at(m, from, *input)?.borrow(), order)?;
         Ok(case.error(order, found.as_slice()))
     }));
     let cases = starts.len();
     let pass = move || {
         for (input, _, m, from) in &starts {
-            let Ok(position) = road(m, from, black_box(*input)) else { continue };
+            let Ok(position) = method_at(m, from, black_box(*input)) else { continue };
             if order == 0 {
                 black_box(position);
             } else {
@@ -81,7 +81,7 @@ pub fn along<R: PositionMethod<M> + 'static, M: Mechanism<V = D<1>> + 'static>(
     Work { method, point, error, cases, pass: Box::new(pass) }
 }
 
-/// At given angles.
+/// The work of computing rates at given angles.
 pub fn given<M: Mechanism<V = D<1>> + 'static>(
     method: &'static str,
     point: Point,
@@ -105,7 +105,7 @@ pub fn given<M: Mechanism<V = D<1>> + 'static>(
     Work { method, point, error, cases, pass: Box::new(pass) }
 }
 
-/// Numbers of the oracle as coordinates.
+/// Reference values as coordinates.
 pub fn coordinates<M: Mechanism<V = D<1>>>(unknowns: &[f64], input: f64) -> M::Coordinates {
     M::coordinates(PerUnknown::<M>::from_fn(|row| scalar(unknowns[row])), [scalar(input)].into())
 }
@@ -120,7 +120,7 @@ pub fn branch<M: Assembly<V = D<1>>>(case: &Case, m: &M) -> M::Branch {
     m.branch_of(&near(case, m).pose)
 }
 
-/// A number of the oracle as a scalar.
+/// A reference value as a scalar.
 pub fn scalar<T: Real>(value: f64) -> T {
     linkage::nalgebra::convert(value)
 }
@@ -132,7 +132,7 @@ pub fn dyad(first: [f64; 2], second: [f64; 2], right: [f64; 2]) -> [f64; 2] {
     [(right[0] * second[1] - right[1] * second[0]) * inverse, (first[0] * right[1] - first[1] * right[0]) * inverse]
 }
 
-/// The derivative by its angle of a link along a direction.
+/// The derivative of a link's vector with respect to its angle.
 #[inline]
 pub fn turned(length: f64, direction: linkage::nalgebra::UnitComplex<f64>) -> [f64; 2] {
     [-length * direction.im, length * direction.re]
@@ -143,7 +143,7 @@ pub fn less(right: [f64; 2], column: [f64; 2], rate: f64) -> [f64; 2] {
     [right[0] - column[0] * rate, right[1] - column[1] * rate]
 }
 
-/// What is emitted for every mechanism alike: `works()`, each method at each of its points.
+/// Defines `works()` for a mechanism: each method at each of its points.
 macro_rules! works {
     ($Mechanism:ident, $U:literal, $(closed, products $products:ident)? $(newton $steps:literal)?) => {
         use linkage::accuracy::{Newton, Table};
@@ -153,7 +153,7 @@ macro_rules! works {
 
         use super::methods::{self, Shared, ToTolerance, near};
         use super::oracle::{Case, poses_of};
-        use super::stall::{Work, points};
+        use super::comparison::{Work, points};
 
         type Pose<T> = <$Mechanism<T> as Mechanism>::Pose;
         type Unknowns<T> = PerUnknown<$Mechanism<T>>;
@@ -211,7 +211,7 @@ macro_rules! works {
                         })?
                         continue;
                     }
-                    macro_rules! road {
+                    macro_rules! from_input {
                         ($method:literal, $R:ty, $T:ty, $from:expr, $rates:expr) => {{
                             let all = cases(index).map(|case| {
                                 let m = mechanism::<$T>(&case);
@@ -222,22 +222,22 @@ macro_rules! works {
                         }};
                     }
                     $(
-                        road!("f32", ClosedForm, f32, branch, emitted);
-                        road!("f64", ClosedForm, f64, branch, emitted);
-                        road!("double-double", ClosedForm, DoubleDouble, branch, emitted);
+                        from_input!("f32", ClosedForm, f32, branch, emitted);
+                        from_input!("f64", ClosedForm, f64, branch, emitted);
+                        from_input!("double-double", ClosedForm, DoubleDouble, branch, emitted);
                         if point.order > 0 {
                             let _ = $products;
-                            road!("f64, products", ClosedForm, f64, branch, in_products);
+                            from_input!("f64, products", ClosedForm, f64, branch, in_products);
                         }
                     )?
                     $(
-                        road!("f32", Newton<3>, f32, near, emitted);
-                        road!("double-double", Newton<$steps>, DoubleDouble, near, emitted);
+                        from_input!("f32", Newton<3>, f32, near, emitted);
+                        from_input!("double-double", Newton<$steps>, DoubleDouble, near, emitted);
                     )?
-                    road!("Newton, 1 step", Newton<1>, f64, near, emitted);
-                    road!("Newton, 2 steps", Newton<2>, f64, near, emitted);
-                    road!("Newton, 3 steps", Newton<3>, f64, near, emitted);
-                    road!("Newton to tolerance", ToTolerance, f64, near, emitted);
+                    from_input!("Newton, 1 step", Newton<1>, f64, near, emitted);
+                    from_input!("Newton, 2 steps", Newton<2>, f64, near, emitted);
+                    from_input!("Newton, 3 steps", Newton<3>, f64, near, emitted);
+                    from_input!("Newton to tolerance", ToTolerance, f64, near, emitted);
                     if poses.pose == "benign" {
                         macro_rules! table {
                             ($method:literal, $N:literal) => {{
@@ -245,7 +245,7 @@ macro_rules! works {
                                 let m = mechanism::<f64>(&poses.cases[0]);
                                 let start = near(&poses.cases[0], &m).coordinates;
                                 let table = std::rc::Rc::new(Entries::turn(&m, &start).expect("a whole turn"));
-                                road!($method, Shared<Entries>, f64, |_: &Case, _: &$Mechanism| table.clone(), emitted);
+                                from_input!($method, Shared<Entries>, f64, |_: &Case, _: &$Mechanism| table.clone(), emitted);
                             }};
                         }
                         table!("table of 64", 65);

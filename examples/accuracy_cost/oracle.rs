@@ -1,4 +1,4 @@
-//! Positions, velocity ratios and accelerations to 45 digits, and how far a result is from them.
+//! Positions, velocity ratios and accelerations with 45 digits, and the errors of results.
 
 use std::any::Any;
 
@@ -7,26 +7,26 @@ use linkage_double::DoubleDouble;
 use nalgebra::RealField;
 use serde_json::Value;
 
-/// By `tests/oracle/accuracy.py`.
+/// Written by `tests/oracle/accuracy.py`.
 const VALUES: &str = include_str!("../../tests/oracle/accuracy.json");
 
 /// One pose.
 pub struct Case {
     pub parameters: Vec<f64>,
     pub input: f64,
-    /// The unknowns where they are given.
+    /// The unknowns, if the angles are given.
     pub unknowns: Vec<f64>,
-    /// An input nearby and the unknowns there, to rounding.
+    /// A nearby input with its unknowns in `f64`.
     pub before: (f64, Vec<f64>),
     /// u, u' and u'', each number as three doubles.
     expected: [Vec<[f64; 3]>; 3],
 }
 
-/// The poses of a mechanism that are alike.
+/// Poses of a mechanism with the same conditioning.
 pub struct Poses {
-    /// `benign`, or how small a sine is.
+    /// `benign` (well conditioned), or the sine of the transmission angle.
     pub pose: String,
-    /// Whether the unknowns are given or follow from the input.
+    /// True if the unknowns are given, false if they follow from the input.
     pub angles_given: bool,
     pub cases: Vec<Case>,
 }
@@ -59,9 +59,9 @@ fn case(value: &Value) -> Case {
 }
 
 impl Case {
-    /// How far the derivative of this order is from what it is: of the position the largest angle in radians,
-    /// whole turns aside; of the velocity the largest error beside the largest entry; of the acceleration beside the
-    /// larger of that and the square of the largest velocity, which it is made of.
+    /// The error of the derivative of this order. Position: the largest error of an angle in radians, modulo full
+    /// turns. Velocity: the largest error divided by the largest entry. Acceleration: divided by the larger of the
+    /// largest entry and the square of the largest velocity, of which it consists.
     pub fn error<T: Real>(&self, order: usize, found: &[T]) -> f64 {
         let expected = &self.expected[order];
         assert_eq!(found.len(), expected.len());
@@ -72,7 +72,7 @@ impl Case {
                 let turns = (error.high() / std::f64::consts::TAU).round();
                 error -= DoubleDouble::two_pi() * turns.into();
             }
-            // What is not a number must not be lost in a maximum.
+            // `max` would ignore a NaN.
             largest = if error.high().is_nan() { f64::INFINITY } else { largest.max(error.high().abs()) };
         }
         let size = |order: usize| self.expected[order].iter().fold(0.0_f64, |size, parts| size.max(parts[0].abs()));
@@ -84,7 +84,7 @@ impl Case {
     }
 }
 
-/// All digits of a scalar.
+/// Converts a scalar exactly.
 fn exactly<T: Real>(value: T) -> DoubleDouble {
     let value = &value as &dyn Any;
     let single = || value.downcast_ref::<f32>().map(|&value| f64::from(value).into());

@@ -1,20 +1,20 @@
-//! The page: charts, the practical answer, and every number.
+//! The page: charts, recommendations and all numbers.
 
 use std::fmt::Write;
 
+use crate::comparison::Comparison;
 use crate::price::{self, axes};
-use crate::stall::Stall;
 use crate::{METHODS, WANTED, answer, chart, describe};
 
-pub fn html(stalls: &[Stall]) -> String {
+pub fn html(comparisons: &[Comparison]) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>What digits cost</title>\n\
-         <style>{}{}{}</style>\n</head>\n<body>\n<header>\n<h1>What digits cost</h1>\n\
-         <p>The largest error against 45 digits, beside the median time of one evaluation, all methods timed in turns. \
-         Orange: clearly more exact than everything that is faster. Of positions the error is in radians; of \
-         velocities it is relative to the largest of them, of accelerations to the larger of those and the square of the \
-         velocities, which they are made of.</p>\n<ol class=\"methods\">",
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Accuracy and time of position methods</title>\n\
+         <style>{}{}{}</style>\n</head>\n<body>\n<header>\n<h1>Accuracy and time of position methods</h1>\n\
+         <p>The largest error against 45 digits and the median time of one evaluation; the methods are timed alternately. \
+         Orange: clearly more accurate than every faster method. The error of positions is in radians; that of \
+         velocities is relative to the largest one, that of accelerations to the larger of the largest one and the square of the \
+         largest velocity.</p>\n<ol class=\"methods\">",
         price::STYLE,
         axes::STYLE,
         chart::STYLE
@@ -23,32 +23,32 @@ pub fn html(stalls: &[Stall]) -> String {
         // Writing to a string does not fail.
         let _ = html.write_fmt(text);
     };
-    for (name, by) in METHODS.iter().zip(&stalls[0].dominated) {
+    for (name, by) in METHODS.iter().zip(&comparisons[0].dominated) {
         let note = by.map_or_else(String::new, |by| format!(" <i>dominated by {}</i>", METHODS[by]));
         push(format_args!("<li>{name}{note}</li>"));
     }
     push(format_args!("</ol>\n</header>\n<main>\n"));
-    for stall in stalls {
-        push(format_args!("<section>\n<h2>The {}</h2>\n<div class=\"charts\">", stall.mechanism));
-        for panel in chart::panels(stall) {
+    for comparison in comparisons {
+        push(format_args!("<section>\n<h2>The {}</h2>\n<div class=\"charts\">", comparison.mechanism));
+        for panel in chart::panels(comparison) {
             push(format_args!("<figure>{}</figure>", chart::figure(&panel)));
         }
-        push(format_args!("</div>\n<h3>Cheapest for {WANTED:.0e}</h3>\n<ul>"));
-        for point in stall.points.iter().filter(|point| point.pose == "benign" && !point.angles_given) {
-            let text = answer(stall, point);
+        push(format_args!("</div>\n<h3>Fastest with error {WANTED:.0e}</h3>\n<ul>"));
+        for point in comparison.points.iter().filter(|point| point.pose == "benign" && !point.angles_given) {
+            let text = answer(comparison, point);
             push(format_args!("<li>{}</li>", text.split_once(": ").map_or(&*text, |(_, text)| text)));
         }
         push(format_args!("</ul>\n<details><summary>All numbers</summary>\n"));
-        for (index, point) in stall.points.iter().enumerate() {
-            let (prices, front) = (stall.at(index), stall.front(index));
+        for (index, point) in comparison.points.iter().enumerate() {
+            let (prices, front) = (comparison.at(index), comparison.front(index));
             push(format_args!("<table><caption>{}</caption>", describe(point)));
             for (method, name) in METHODS.iter().enumerate() {
                 let class = if front.contains(&method) { " class=\"front\"" } else { "" };
                 if let Some(price) = prices[method] {
                     let (error, time) = (price.error, price.time);
                     push(format_args!("<tr{class}><th>{name}</th><td>{error:.1e}</td><td>{time:.0} ns</td></tr>"));
-                } else if stall.refusals.iter().any(|(m, p, _)| (*m, *p) == (method, index)) {
-                    push(format_args!("<tr><th>{name}</th><td>refused</td><td></td></tr>"));
+                } else if comparison.failures.iter().any(|(m, p, _)| (*m, *p) == (method, index)) {
+                    push(format_args!("<tr><th>{name}</th><td>error</td><td></td></tr>"));
                 }
             }
             push(format_args!("</table>\n"));

@@ -1,4 +1,4 @@
-//! The door in motion, and where its energy goes.
+//! Simulates the door and its energy balance.
 
 use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
@@ -9,29 +9,29 @@ use crate::machine::{Closing, DoorCloserBranch, DoorCloserCoordinates, DoorClose
 
 pub type Moment = State<Closing>;
 
-/// The relative error allowed of a step.
+/// The relative tolerance of a step.
 const TOLERANCE: f64 = 1e-12;
 
-/// Longer than it takes to close, in seconds.
+/// The end of the simulation in seconds, after the door has closed.
 pub const END: f64 = 6.0;
 
-/// From where the door is let go until it rests.
+/// The motion from the release of the door until it rests.
 pub struct Run {
     pub scene: Closing<f64>,
-    /// In order, several in each step; at an impact as it was before.
+    /// The states in order, several in each step; at an impact, the state before it.
     pub moments: Vec<Moment>,
-    /// Kinetic and potential energy at each of them.
+    /// Kinetic plus potential energy at each of them.
     pub energies: Vec<f64>,
-    /// Where the door hits its frame; at the last it comes to rest there.
+    /// The impacts on the door frame; at the last one the door comes to rest.
     pub impacts: Vec<Moment>,
-    /// What the damper has taken: its power by Gauss's quadrature within each step.
+    /// The energy dissipated by the damper, by Gauss quadrature of its power within each step.
     pub oil: f64,
-    /// What the impacts have taken.
+    /// The energy dissipated by the impacts.
     pub blows: f64,
 }
 
 impl Run {
-    /// Let go at this angle, at rest.
+    /// Simulates the door, released at rest at this angle.
     ///
     /// # Errors
     /// Those of the simulation.

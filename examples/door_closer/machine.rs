@@ -1,20 +1,20 @@
-//! A door with its closer, seen from above, in metres, kilograms and seconds.
+//! A door with its closer, in plan view; metres, kilograms and seconds.
 
 use linkage::linkage;
 
 linkage! {
-    /// A door closer with two arms: its spindle sits on the door, its elbow stands off, its shoe is fixed to the frame.
+    /// A door closer with two arms, from the spindle on the door over the elbow to the shoe on the frame.
     #[derive(Debug, Clone)]
     pub mechanism DoorCloser {
-        /// From the hinge to the spindle, along the door and off it; the two arms; the shoe.
+        /// The spindle relative to the hinge, along and normal to the door; the two arms; the shoe.
         param a = 0.23, h = 0.04, b = 0.26, c = 0.29, shoe = 0.35, off = 0.02;
         /// The door: 40 kg, 0.9 m wide. The arms are uniform rods.
         param m = 40, width = 0.9, m2 = 0.35, m3 = 0.3;
-        /// The spring at the spindle, and where it would be slack.
+        /// The spring at the spindle, and its unstretched angle.
         param k = 4, slack = 150deg;
-        /// The oil: damping at the spindle while the door sweeps, and for the last degrees, where it must latch.
+        /// Oil damping at the spindle: during the swing, and in the last degrees, where the door must latch.
         param sweep = 16, latch = 2.5, from = 9deg, softness = 1deg;
-        /// The part of the speed that the door frame gives back, and how wide the door opens.
+        /// The restitution of the door frame, and the opening angle.
         param restitution = 0.35, widest = 110deg;
 
         input door;

@@ -1,4 +1,4 @@
-//! The page.
+//! Draws the page.
 
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, point};
@@ -7,12 +7,12 @@ use linkage::simulation::simulate;
 use crate::closing::{END, Moment, Run};
 use crate::plot::{self, Plot};
 
-/// In each second of the animation, which plays as fast as the door closes.
+/// Frames per second of the animation, which runs in real time.
 const FRAMES: u32 = 16;
 
 fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
     let closer = &run.scene.mechanism;
-    // A second more than it takes.
+    // One second after the door has closed.
     let seconds = (run.impacts[run.impacts.len() - 1].t + 1.0).ceil().min(END);
     let count = seconds as u32 * FRAMES;
     let times = (0..=count).map(|frame| seconds * f64::from(frame) / f64::from(count));
@@ -44,39 +44,39 @@ pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::erro
     let near = |state: &&Moment| state.t > first - 0.04 && state.t < rest + 0.1;
     let bounces = || run.moments.iter().filter(near);
     let hits = || run.impacts.iter();
-    // The rate jumps at an impact: its curve goes straight down to the rebound.
+    // The rate jumps at an impact: a vertical line in its curve.
     let plots = [
         (
             Plot::new("Angle", "s", "degrees")
                 .every(1.0)
                 .curve("", run.moments.iter().map(angle))
                 .marks("impacts", hits().map(angle)),
-            "Let go at rest; near the frame the arms are at their best lever and the oil lets go, so that it latches.",
+            "Released at rest. Near the frame the arms have their best lever and the damping is low, so that the door latches.",
         ),
         (
             Plot::new("Rate", "s", "rad/s")
                 .every(1.0)
                 .curve("", run.moments.iter().map(rate))
                 .marks("impacts", hits().map(rate)),
-            "Slow where the oil brakes, fast for the last degrees.",
+            "Slow in the damped range, fast in the last degrees.",
         ),
         (
             Plot::new("Bounces", "s", "degrees").curve("", bounces().map(angle)).marks("impacts", hits().map(angle)),
-            "Each rebound takes a part of the speed; then it rests, on the stop exactly.",
+            "Each impact reduces the speed; finally the door rests exactly on the stop.",
         ),
         (
             Plot::new("Bounces", "s", "rad/s").curve("", bounces().map(rate)).marks("impacts", hits().map(rate)),
-            "What hits the frame with some speed leaves it with 0.35 of that.",
+            "The door leaves the frame with 0.35 of its impact speed.",
         ),
         (
             Plot::new("Energy", "s", "J")
                 .curve("", run.moments.iter().zip(&run.energies).map(|(state, energy)| [state.t, *energy])),
-            "Of the spring and of what moves: it never grows.",
+            "Potential energy of the spring plus kinetic energy: it never grows.",
         ),
     ];
-    let mut figures = vec![(animation(run)?, "From above, as fast as it is.".to_owned())];
+    let mut figures = vec![(animation(run)?, "From above, in real time.".to_owned())];
     figures.extend(plots.iter().map(|(plot, words)| (plot.svg(), (*words).to_owned())));
     let about = "A door of 40 kg with a closer of two arms: a spring and an oil damper at the spindle, whose valve opens \
-                 for the last degrees, and a stop that gives back a part of the speed.";
-    Ok(plot::page("A door closer", about, &[("Let go", figures)], rows))
+                 for the last degrees, and a stop with restitution.";
+    Ok(plot::page("A door closer", about, &[("Motion", figures)], rows))
 }

@@ -1,4 +1,4 @@
-//! What gas and rings do from one angle of the crank to another, whatever the motion between.
+//! Work of the gas and heat of the rings between two crank angles, from the laws alone.
 
 use std::f64::consts::PI;
 
@@ -7,14 +7,14 @@ use linkage::{Error, Slope};
 use crate::gauss::nodes;
 use crate::machine::{CYCLE, EngineBranch, KINKS, Running};
 
-/// The work of the gas and the heat of the rings: pressure over volume, and friction over way.
+/// The work of the gas (integral of p dV) and the heat of the rings (integral of friction times distance).
 ///
 /// # Errors
-/// Where no position can be assembled: with a rod shorter than the crank.
+/// If a position cannot be assembled: the rod is shorter than the crank.
 pub fn work(scene: &Running<f64>, [from, to]: [f64; 2]) -> Result<[f64; 2], Error> {
     let engine = &scene.mechanism;
     let mut ends = vec![from, to];
-    // Where a law has a kink, and the dead centres.
+    // Interval ends: the kinks of the laws, and the dead centres.
     for kink in KINKS.map(f64::to_radians).into_iter().chain([0.0, PI, 2.0 * PI, 3.0 * PI]) {
         let first = ((from - kink) / CYCLE).ceil();
         ends.extend((0..).map(|count| kink + (first + f64::from(count)) * CYCLE).take_while(|place| *place < to));

@@ -1,4 +1,4 @@
-//! What the joints carry.
+//! The joint forces.
 
 use linkage::nalgebra::{Vector2, vector};
 use linkage::{ContactLaw, Error};
@@ -6,23 +6,23 @@ use linkage::{ContactLaw, Error};
 use crate::machine::{Engine, Measured, Running};
 use crate::run::Moment;
 
-/// Forces in newtons and torques in newton metres, x along the cylinder, at a moment of the motion.
+/// Forces in newtons and torques in newton metres at one time; x along the cylinder.
 #[derive(Debug, Clone, Copy)]
 pub struct Loads {
     pub phi: f64,
-    /// Of the rod on the piston.
+    /// The force of the rod on the piston.
     pub piston_pin: Vector2<f64>,
-    /// Of the crank on the rod.
+    /// The force of the crank on the rod.
     pub crank_pin: Vector2<f64>,
-    /// Of the bearing on the crank.
+    /// The force of the main bearing on the crank.
     pub bearing: Vector2<f64>,
-    /// Of the piston on the cylinder, across.
+    /// The side force of the piston on the cylinder.
     pub side: f64,
-    /// Of the crank on the flywheel.
+    /// The torque of the crank on the flywheel.
     pub torque: f64,
-    /// Of the cylinder on the rings, along x.
+    /// The friction force of the cylinder on the rings, along x.
     pub drag: f64,
-    /// Of the crank.
+    /// The angular acceleration of the crank.
     pub acceleration: f64,
 }
 
@@ -33,7 +33,7 @@ impl Loads {
         let [rings] = scene.contacts(*t, q, rates)?;
         let ContactLaw::Friction { limit } = rings.law else { unreachable!("the only contact is a friction") };
         let drag = if rates.z > 0.0 { -limit } else { limit };
-        // M phi'' = Q and what the rings do by their lever.
+        // M phi'' = Q + friction force times its velocity ratio.
         let lever = rates.z / rates.phi;
         let mass = scene.mass_matrix(q)?[0];
         let acceleration = (scene.forces(*t, q, rates.phi)?[0] + drag * lever) / mass;

@@ -4,19 +4,19 @@ use std::f64::consts::TAU;
 
 use linkage::linkage;
 
-/// Where the accounts begin: firing top dead centre, the cylinder full of mixture.
+/// The start of the energy balance: firing top dead centre, with unburnt mixture in the cylinder.
 pub const START: EngineCoordinates<f64> = EngineCoordinates { phi: 0.0, psi: 0.0, z: 0.1865 };
 
-/// From one firing to the next.
+/// The crank angle from one firing to the next.
 pub const CYCLE: f64 = 2.0 * TAU;
 
-/// Where the laws of the gas have kinks, in degrees of the crank: valves open and close, the mixture catches fire.
+/// The crank angles in degrees at which the gas laws have kinks: valve events, start and end of combustion.
 pub const KINKS: [f64; 7] = [-200.0, -160.0, SPARK, 130.0, 180.0, 340.0, 380.0];
 
 /// Twenty degrees before top dead centre.
 const SPARK: f64 = -20.0;
 
-/// What the valves and the flame do over the angle of the crank, 0 being the top dead centre at which the mixture burns.
+/// The laws of valves and combustion over the crank angle, 0 at firing top dead centre.
 mod gas {
     use linkage::Real;
     use linkage::nalgebra::convert;
@@ -27,7 +27,7 @@ mod gas {
         phi - ((phi - first) / cycle).floor() * cycle
     }
 
-    /// From 0 to 1 between two angles, by the polynomial 3-4-5, with two derivatives.
+    /// The 3-4-5 polynomial from 0 to 1 between two angles, with two derivatives.
     pub fn gate<T: Real>(phi: T, from: T, to: T) -> (T, T, T) {
         let x = ((within(phi) - from) / (to - from)).clamp(T::zero(), T::one());
         let [two, six, ten, fifteen, thirty, sixty] = [2.0, 6.0, 10.0, 15.0, 30.0, 60.0].map(convert::<f64, T>);
@@ -39,7 +39,7 @@ mod gas {
         )
     }
 
-    /// The burnt part of the mixture, Wiebe's function of J. B. Heywood, "Internal Combustion Engine Fundamentals"
+    /// The burnt fraction of the mixture, Wiebe's function of J. B. Heywood, "Internal Combustion Engine Fundamentals"
     /// (1988), equation 9.30 with a = 5 and m = 2, with two derivatives.
     pub fn burnt<T: Real>(phi: T, start: T, duration: T) -> (T, T, T) {
         let [two, three, a] = [2.0, 3.0, 5.0].map(convert::<f64, T>);
@@ -55,31 +55,31 @@ linkage! {
     /// A slider-crank driven by gas.
     ///
     /// Pressure by L. Eriksson and I. Andersson, "An Analytic Model for Cylinder Pressure in a Four Stroke SI Engine",
-    /// SAE 2002-01-0371: between a polytrope of compression and one of expansion as the mixture burns, and that of
-    /// the manifolds while a valve is open.
+    /// SAE 2002-01-0371: interpolated between the polytropes of compression and expansion during combustion; the
+    /// manifold pressure while a valve is open.
     #[derive(Debug, Clone)]
     pub mechanism Engine {
         /// Crank radius and length of the rod.
         param r = 0.043, l = 0.1435;
-        /// Bore, and the ratio of compression.
+        /// Bore and compression ratio.
         param bore = 0.086, compression = 10;
-        /// Of the manifolds and outside, Pa.
+        /// Pressures of the manifolds and of the environment, Pa.
         param intake = 0.9e5, exhaust = 1.1e5, ambient = 1e5;
-        /// Exponents of compression and expansion, and how many times hotter the mixture gets by burning.
+        /// Polytropic exponents of compression and expansion, and the temperature ratio of combustion.
         param kc = 1.3, ke = 1.28, heat = 3.4;
-        /// Where burning begins, and how long it takes.
+        /// Start and duration of combustion, in crank angle.
         param spark = -20deg, duration = 60deg;
-        /// The crank with its counterweight: the mass centre lies opposite the pin.
+        /// The crank with counterweight: mass, distance of the mass centre opposite the pin, inertia.
         param m2 = 2.4, b2 = 0.012, j2 = 3.5e-3;
-        /// The rod: its centre from the crank's pin.
+        /// The rod: mass, distance of the mass centre from the crank pin, inertia.
         param m3 = 0.55, b3 = 0.043, j3 = 1.9e-3;
         param m4 = 0.45;
         param flywheel = 0.05, g = 9.81;
-        /// Piston rings: what presses them by themselves, and the area on which the gas presses them.
+        /// Piston rings: friction coefficient, tension force, and the area under gas pressure.
         param mu = 0.08, tension = 400, face = 8e-4;
-        /// An eddy current brake: its torque beside its speed.
+        /// An eddy current brake: torque divided by speed.
         param brake = 0.105;
-        /// For measuring: where the crank is, its rate and acceleration, and the friction there.
+        /// For the joint forces: angle, rate and acceleration of the crank, and the friction.
         param place = 0, speed = 0, gain = 0, drag = 0;
 
         input phi;
@@ -122,8 +122,7 @@ linkage! {
             energy;
             power;
         }
-        /// Its motion as it is, without flywheel and brake: what holds it is the torque in the shaft and the force at the
-        /// piston's pin.
+        /// The given motion without flywheel and brake: the reactions are the shaft torque and the joint forces.
         scene Measured {
             inertia crank, rod, piston;
             gravity (-g, 0);

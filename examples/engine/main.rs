@@ -1,7 +1,7 @@
-//! An engine on its brake: one cylinder, its gas, its rings, its flywheel.
+//! A single-cylinder engine on a brake, with gas pressure, ring friction and flywheel.
 //!
-//! `cargo run --example engine` lets it run up from 200 rad/s, prints what it does and what its joints carry, and writes
-//! `target/engine.html`: the engine in motion, and its speed, torque, pressure and forces over the angle of the crank.
+//! `cargo run --example engine` simulates it from 200 rad/s, prints performance and joint forces, and writes
+//! `target/engine.html`: an animation, and speed, torque, pressure and forces over the crank angle.
 
 use std::error::Error;
 
@@ -19,7 +19,7 @@ use loads::Loads;
 use machine::{CYCLE, Running};
 use run::{Moment, Run};
 
-/// Cycles of four strokes.
+/// The number of four-stroke cycles.
 const CYCLES: f64 = 20.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -34,13 +34,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The largest of a quantity, and where.
+/// The maximum of a quantity, and its state.
 fn largest<'a, T>(of: &'a [T], quantity: impl Fn(&T) -> f64) -> (f64, &'a T) {
     let better = |best: (f64, &'a T), next: &'a T| if quantity(next) > best.0 { (quantity(next), next) } else { best };
     of[1..].iter().fold((quantity(&of[0]), &of[0]), better)
 }
 
-/// Degrees since the last firing.
+/// The crank angle in degrees since the last firing.
 fn degrees(phi: f64) -> f64 {
     phi.rem_euclid(CYCLE).to_degrees()
 }
@@ -71,33 +71,33 @@ fn report(run: &Run) -> Result<Vec<[String; 2]>, Box<dyn Error>> {
     let worst = run.accounts.iter().map(|account| account.gap().abs()).fold(0.0, f64::max);
     let [all_gas, all_rings] = indicated::work(scene, [0.0, last.q.phi])?;
     let by_rings = run.integral(|state| heat_of_rings(scene, state))?;
-    assert!(worst < 1e-9 * account.applied, "energy is off by {worst:e} J");
+    assert!(worst < 1e-9 * account.applied, "energy error {worst:e} J");
     let share = |gap: f64| format!("{:.1e} of the work done", gap.abs() / account.applied);
     let rows = [
         ("turns, in seconds", format!("{:.0}, {:.3}", last.q.phi / CYCLE * 2.0, last.t)),
         ("mean speed of the last cycle", format!("{mean:.1} rad/s = {:.0} rpm", mean * 30.0 / std::f64::consts::PI)),
         ("(fastest - slowest) / mean", format!("{:.4}", (fastest + slowest) / mean)),
-        ("acceleration of the crank, most", format!("{:.0} rad/s² at {:.0}°", gain, degrees(gains.phi))),
+        ("maximum acceleration of the crank", format!("{:.0} rad/s² at {:.0}°", gain, degrees(gains.phi))),
         ("highest pressure", format!("{:.2} MPa at {:.1}°", peak / 1e6, degrees(at[0]))),
         ("indicated work, over the swept volume", format!("{gas:.1} J, {:.3} MPa", gas / swept / 1e6)),
         ("friction of the rings, over the swept volume", format!("{rings:.1} J, {:.3} MPa", rings / swept / 1e6)),
-        ("torque on the flywheel, most", format!("{twist:.1} N m at {:.0}°", degrees(twisted.phi))),
-        ("torque on the flywheel, least", format!("{:.1} N m at {:.0}°", -back, degrees(backward.phi))),
-        ("force on the piston's pin, most", force(|loads| loads.piston_pin.norm())),
-        ("force on the crank's pin, most", force(|loads| loads.crank_pin.norm())),
-        ("force on the main bearing, most", force(|loads| loads.bearing.norm())),
-        ("force of the piston on its side, most", force(|loads| loads.side.abs())),
+        ("maximum torque on the flywheel", format!("{twist:.1} N m at {:.0}°", degrees(twisted.phi))),
+        ("minimum torque on the flywheel", format!("{:.1} N m at {:.0}°", -back, degrees(backward.phi))),
+        ("maximum force on the piston pin", force(|loads| loads.piston_pin.norm())),
+        ("maximum force on the crank pin", force(|loads| loads.crank_pin.norm())),
+        ("maximum force on the main bearing", force(|loads| loads.bearing.norm())),
+        ("maximum side force of the piston", force(|loads| loads.side.abs())),
         ("work of the gas", format!("{:.6} J", account.applied)),
         ("heat of rings and brake", format!("{:.6} J", account.dissipated)),
-        ("more energy than at the start", format!("{:.6} J", account.gained)),
-        ("the largest gap between them", share(worst)),
-        ("work of the gas, pressure over volume", format!("{all_gas:.6} J, {}", share(all_gas - account.applied))),
-        ("heat of the rings, friction over way", format!("{all_rings:.6} J, {}", share(all_rings - by_rings))),
+        ("energy gained since the start", format!("{:.6} J", account.gained)),
+        ("largest error of the balance", share(worst)),
+        ("work of the gas, from pressure and volume", format!("{all_gas:.6} J, {}", share(all_gas - account.applied))),
+        ("heat of the rings, from friction and distance", format!("{all_rings:.6} J, {}", share(all_rings - by_rings))),
     ];
     Ok(rows.map(|(name, value)| [name.to_owned(), value]).into())
 }
 
-/// The power that the rings take.
+/// The power dissipated by the rings.
 fn heat_of_rings(scene: &Running<f64>, state: &Moment) -> Result<f64, linkage::Error> {
     let all = scene.power(state.t, &state.q, state.rates.phi)?.dissipated;
     Ok(all - scene.brake * state.rates.phi * state.rates.phi)

@@ -1,4 +1,4 @@
-//! The page.
+//! Draws the page.
 
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, Vector2, point, vector};
@@ -10,15 +10,15 @@ use crate::machine::{CYCLE, Engine, EngineBranch, EngineCoordinates};
 use crate::plot::{self, Plot};
 use crate::run::{Moment, Run};
 
-/// Pictures of the animation in a cycle, and the seconds that it takes: slower than life.
+/// Frames of the animation for one cycle, and its duration in seconds: slow motion.
 const FRAMES: u32 = 96;
 const SECONDS: f64 = 6.0;
 
-/// The piston above its pin, and below it.
+/// The height of the piston above and below its pin.
 const CROWN: f64 = 0.022;
 const SKIRT: f64 = 0.018;
 
-/// Upright: x of the engine points up.
+/// Rotates by a quarter turn: x of the engine points up.
 fn up(at: Point2<f64>) -> Point2<f64> {
     point![-at.y, at.x]
 }
@@ -32,7 +32,7 @@ fn frame(engine: &Engine<f64>, q: &EngineCoordinates<f64>) -> Result<[(&'static 
     Ok([("O", Point2::origin()), ("A", pin), ("G", middle), ("B", piston), ("Crown", crown)])
 }
 
-/// What is drawn at these points.
+/// Adds the parts at these points.
 fn draw(picture: &mut Animation, engine: &Engine<f64>) {
     let (wall, stroke) = (engine.bore / 2.0, 2.0 * engine.r);
     let top = engine.r + engine.l + CROWN;
@@ -55,7 +55,7 @@ fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
     Ok(picture.crank(&["O", "A"]).trace("G").to_svg()?)
 }
 
-/// The engine at rest in a picture.
+/// A still picture of the engine.
 fn station(engine: &Engine<f64>, (stroke, degrees): (&str, f64)) -> Result<String, Box<dyn std::error::Error>> {
     let pose = engine.assemble(degrees.to_radians(), EngineBranch { psi: Slope::Rising })?;
     let mut picture = Animation::new(stroke, SECONDS);
@@ -74,7 +74,7 @@ pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::erro
         cycle.iter().zip(&loads).map(|(state, loads)| [angle(state), quantity(loads)]).collect()
     };
     let outputs = cycle.iter().map(|state| engine.outputs(&engine.pose_at(&state.q))).collect::<Result<Vec<_>, _>>()?;
-    let crank = "degrees of the crank";
+    let crank = "crank angle, degrees";
     let mean = (cycle[cycle.len() - 1].q.phi - cycle[0].q.phi) / (cycle[cycle.len() - 1].t - cycle[0].t);
     let load = scene.brake * mean;
     let turns = |state: &&Moment| state.q.phi > start - 0.1 && state.changes().next().is_some();
@@ -82,59 +82,59 @@ pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::erro
         (
             Plot::new("Speed", "turns", "rad/s")
                 .curve("", run.moments.iter().map(|state| [state.q.phi / CYCLE * 2.0, state.rates.phi])),
-            "From 200 rad/s until the brake takes what the gas gives. The shaft is faster after each firing.",
+            "From 200 rad/s until the brake balances the gas. The shaft is faster after each firing.",
         ),
         (
             Plot::new("Speed", crank, "rad/s")
                 .every(180.0)
                 .curve("", cycle.iter().map(|state| [angle(state), state.rates.phi]))
                 .marks("rings change direction", run.ends().filter(turns).map(|state| [angle(state), state.rates.phi])),
-            "The last cycle: the flywheel gives back in three strokes what it got in one.",
+            "The last cycle: the flywheel returns in three strokes the energy of one.",
         ),
         (
             Plot::new("Torque", crank, "N m")
                 .every(180.0)
                 .curve("on the flywheel", over_angle(&|loads| loads.torque))
                 .curve("of the brake, mean", [[0.0, load], [720.0, load]]),
-            "Of gas, inertia, weight and friction, as the flange of the crank feels it.",
+            "Torque at the flange of the crank, from gas, inertia, weight and friction.",
         ),
         (
             Plot::new("Pressure", "cm³", "MPa")
                 .curve("", outputs.iter().map(|outputs| [outputs.volume * 1e6, outputs.pressure / 1e6])),
-            "Its area is the work of the gas: by this road, too, to the last digits.",
+            "The enclosed area is the work of the gas; it agrees with the simulation to the last digits.",
         ),
         (
             Plot::new("Pressure", crank, "MPa")
                 .every(180.0)
                 .curve("", cycle.iter().zip(&outputs).map(|(state, of)| [angle(state), of.pressure / 1e6])),
-            "Fired twenty degrees before top dead centre; Wiebe's function for the flame.",
+            "Ignition 20 degrees before top dead centre; combustion by Wiebe's function.",
         ),
         (
             Plot::new("Forces", crank, "kN")
                 .every(180.0)
-                .curve("piston's pin", over_angle(&|loads| loads.piston_pin.norm() / 1e3))
-                .curve("crank's pin", over_angle(&|loads| loads.crank_pin.norm() / 1e3))
+                .curve("piston pin", over_angle(&|loads| loads.piston_pin.norm() / 1e3))
+                .curve("crank pin", over_angle(&|loads| loads.crank_pin.norm() / 1e3))
                 .curve("main bearing", over_angle(&|loads| loads.bearing.norm() / 1e3)),
-            "Inertia relieves the pins while the gas burns, and loads them when it does not.",
+            "Inertia relieves the pins during combustion, and loads them otherwise.",
         ),
         (
             Plot::new("Forces on the cylinder", crank, "kN")
                 .every(180.0)
                 .curve("side of the piston", over_angle(&|loads| loads.side / 1e3))
                 .curve("friction of the rings", over_angle(&|loads| -loads.drag / 1e3)),
-            "Both change their signs at the dead centres; inertia has the piston change sides in between, too.",
+            "Both change sign at the dead centres; inertia makes the side force change sign in between, too.",
         ),
         (
             Plot::new("Main bearing", "kN across", "kN along the cylinder")
                 .curve("", loads.iter().map(|loads| [-loads.bearing.y / 1e3, loads.bearing.x / 1e3])),
-            "The force of the bearing on the crank, through a cycle; drawn wider than high.",
+            "The force of the bearing on the crank, over one cycle; the axes have different scales.",
         ),
         (
             Plot::new("Energy", "s", "kJ")
                 .curve("work of gas", run.accounts.iter().map(|account| [account.t, account.applied / 1e3]))
                 .curve("heat", run.accounts.iter().map(|account| [account.t, account.dissipated / 1e3]))
                 .curve("gained", run.accounts.iter().map(|account| [account.t, account.gained / 1e3])),
-            "What the gas gives is heat in rings and brake, or motion.",
+            "The work of the gas becomes heat in rings and brake, or kinetic energy.",
         ),
     ];
     let strokes =
@@ -147,11 +147,11 @@ pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::erro
             Ok((station(engine, (stroke, angle))?, format!("{stroke}: {angle:.0}°, {pressure:.2} MPa.")))
         })
         .collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;
-    let mut moving = vec![(animation(run)?, "One cycle of four strokes, slower than life.".to_owned())];
+    let mut moving = vec![(animation(run)?, "One four-stroke cycle, in slow motion.".to_owned())];
     moving.extend(stations);
     let plots = plots.iter().map(|(plot, words)| (plot.svg(), (*words).to_owned())).collect();
-    let about = "One cylinder of half a litre and four strokes, driven by its gas, from the laws of its parts: inertia of \
+    let about = "A four-stroke cylinder of half a litre, driven by gas pressure, with inertia of \
                  crank, rod, piston and flywheel, weight, dry friction of the rings, an eddy current brake.";
     let sections = [("In motion", moving), ("Over the cycle", plots)];
-    Ok(plot::page("An engine on its brake", about, &sections, rows))
+    Ok(plot::page("An engine on a brake", about, &sections, rows))
 }

@@ -1,4 +1,4 @@
-//! The engine in motion, and the accounts of its energy along it.
+//! Simulates the engine and its energy balance.
 
 use linkage::Error;
 use linkage::integrate::Crossing;
@@ -9,44 +9,44 @@ use crate::machine::{EngineInputs, KINKS, Running, START};
 
 pub type Moment = State<Running>;
 
-/// The relative error allowed of a step.
+/// The relative tolerance of a step.
 const TOLERANCE: f64 = 1e-13;
 
-/// What came and went from the start to a moment, in joules.
+/// The energy balance since the start, in joules.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Account {
     pub t: f64,
-    /// More kinetic and potential energy.
+    /// The gain of kinetic and potential energy.
     pub gained: f64,
-    /// Work of the gas.
+    /// The work of the gas.
     pub applied: f64,
-    /// Heat of rings and brake.
+    /// The heat of rings and brake.
     pub dissipated: f64,
 }
 
 impl Account {
-    /// What does not add up.
+    /// The error of the balance.
     pub fn gap(&self) -> f64 {
         self.gained - (self.applied - self.dissipated)
     }
 }
 
-/// From a firing on.
+/// A simulation that starts at a firing.
 pub struct Run {
     pub scene: Running<f64>,
-    /// In order, several in each step.
+    /// The states in order, several in each step.
     pub moments: Vec<Moment>,
-    /// At the end of each step: power by Gauss's quadrature within each.
+    /// The balance at the end of each step, by Gauss quadrature of the power.
     pub accounts: Vec<Account>,
 }
 
 impl Run {
-    /// From this speed, for a time, or until the crank is at this angle.
+    /// Simulates from this speed until `end` or until the crank is at `angle`.
     ///
     /// # Errors
     /// Those of the simulation.
     pub fn new(scene: Running<f64>, speed: f64, (end, angle): (f64, f64)) -> Result<Self, Error> {
-        // A step ends where a law has a kink: sin((phi - kink) / 2) rises there, once in a cycle.
+        // Steps end at the kinks of the laws: sin((phi - kink) / 2) rises through zero once a cycle.
         let kinks = KINKS.map(f64::to_radians);
         let mut motion = simulate(&scene, (0.0, START, speed), end, TOLERANCE)?.events(
             [Crossing::Rising; KINKS.len() + 1],
@@ -90,12 +90,12 @@ impl Run {
         Ok(Self { scene, moments, accounts })
     }
 
-    /// The ends of the steps: there the rings change their direction.
+    /// The ends of the steps, among them the reversals of the rings.
     pub fn ends(&self) -> impl Iterator<Item = &Moment> {
         self.moments.iter().step_by(9)
     }
 
-    /// A quantity over the time of the whole run, by the same quadrature.
+    /// The time integral of a quantity over the whole run, by the same quadrature.
     ///
     /// # Errors
     /// Those of the quantity.
@@ -109,7 +109,7 @@ impl Run {
         Ok(sum)
     }
 
-    /// The moments since the last but so many firings.
+    /// The states of the last `count` cycles.
     pub fn last_cycles(&self, count: f64) -> &[Moment] {
         let from = self.moments[self.moments.len() - 1].q.phi - count * crate::machine::CYCLE;
         &self.moments[self.moments.partition_point(|state| state.q.phi < from)..]

@@ -1,4 +1,4 @@
-//! Disc cams, by laws of motion that the user wrote.
+//! Disc cams with user-defined laws of motion.
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -16,7 +16,7 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![cam_follower()?, cam_rocker()?])
 }
 
-/// Angles of a turn, a degree and a half apart.
+/// The angles of a turn, in steps of 1.5 degrees.
 fn turn() -> impl Iterator<Item = f64> {
     (0..240).map(|step| TAU * f64::from(step) / 240.0)
 }
@@ -32,7 +32,7 @@ fn cam_follower() -> Result<Figure, Box<dyn Error>> {
     figure.picture.plate("O", "Nose", profile?).ground("O").wheel("Roller", "Contact", m.roller);
     figure.picture.link(&["Roller", "Stem"]).slider("Stem");
     Ok(figure.words(
-        "Rise and return by the 3-4-5 polynomial, a function of the user's; the profile is what the roller envelops.",
+        "Rise and return by the 3-4-5 polynomial, a user function; the profile is the envelope of the roller.",
         "R. L. Norton, Design of Machinery",
     ))
 }
@@ -49,7 +49,7 @@ fn cam_rocker() -> Result<Figure, Box<dyn Error>> {
     let pitch: Result<Vec<Vector2<f64>>, PositionError> =
         turn().map(|theta| Ok(m.points(&m.assemble(theta, CamRockerBranch::new(Left))?)?.pitch.coords)).collect();
     let pitch = pitch?;
-    // The profile lies a roller's radius inside the pitch curve, which is passed clockwise.
+    // The profile is offset inward from the pitch curve, which runs clockwise, by the radius of the roller.
     let inside = (0..pitch.len()).map(|index| {
         let along = (pitch[(index + 1) % pitch.len()] - pitch[(index + pitch.len() - 1) % pitch.len()]).normalize();
         pitch[index] + roller * vector![along.y, -along.x]
@@ -58,7 +58,7 @@ fn cam_rocker() -> Result<Figure, Box<dyn Error>> {
     figure.picture.link(&["O", "A", "Roller"]).link(&["A", "B"]).link(&["C", "B"]);
     figure.picture.ground("O").ground("C").trace("B");
     Ok(figure.words(
-        "A follower that swings by cycloidal motion drives a rocker: a cam first, and then a dyad in closed form.",
+        "An oscillating follower with cycloidal motion drives a rocker: a cam and a dyad, both in closed form.",
         "H. A. Rothbart, Cams (1956)",
     ))
 }

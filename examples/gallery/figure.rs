@@ -1,4 +1,4 @@
-//! A mechanism through its course: the positions, what is checked of each, and what is said of it.
+//! A figure of the gallery: its positions, their checks, and its text.
 
 use std::f64::consts::TAU;
 
@@ -6,25 +6,25 @@ use linkage::derivation::Derivation;
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, Vector2};
 
-/// Steps from the first frame to the last, which is the first again.
+/// The number of steps of a period; the last frame equals the first.
 pub const STEPS: u32 = 72;
 
-/// A picture plays in so many seconds.
+/// The duration of an animation in seconds.
 const SECONDS: f64 = 6.0;
 
-/// What the input does in one period of the picture.
+/// The motion of the input in one period of the animation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Course {
-    /// It turns all the way round, beginning here.
+    /// A full turn from this angle.
     Turn(f64),
-    /// It swings, beginning at the first, between the other two: the mechanism assembles nowhere beyond.
+    /// An oscillation between the limits of the input, starting at `from`.
     Swing { from: f64, low: f64, high: f64 },
-    /// What the figure says.
+    /// A motion that the figure describes.
     Own(&'static str),
 }
 
 impl Course {
-    /// All the inputs around one, in radians, at which the mechanism assembles: by trying every degree, and by
+    /// Finds the range of inputs around one, in radians, in which the mechanism assembles: by steps of a degree, and
     /// bisection at the ends.
     pub fn around(from: f64, assembles: impl Fn(f64) -> bool) -> Self {
         assert!(assembles(from), "no position at {from}");
@@ -50,7 +50,7 @@ impl Course {
         let input = |step: u32| match self {
             Self::Turn(from) => from + TAU * part(step),
             Self::Swing { from, low, high } => {
-                // At the very end two branches meet; a millionth of the way before it they are apart.
+                // Two branches meet at the exact limit: stop a millionth of the range before it.
                 let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0 * (1.0 - 1e-6));
                 middle + half * (TAU * part(step) + ((from - middle) / half).asin()).sin()
             }
@@ -68,36 +68,35 @@ pub struct Figure {
     pub picture: Animation,
     pub derivation: &'static Derivation,
     pub course: Course,
-    /// How many branches there could be, and how many there are in the first frame; none if positions come from
-    /// Newton's method.
+    /// The number of branches in general and in the first frame; None if positions come from Newton's method.
     pub branches: Option<[usize; 2]>,
-    /// The largest residual of any closure, in roundings of the sum of its links.
-    pub roundings: f64,
+    /// The largest residual of any loop equation, in ulps of the sum of its link lengths.
+    pub ulps: f64,
 }
 
 impl Figure {
     pub fn new(name: &'static str, derivation: &'static Derivation, course: Course) -> Self {
         let picture = Animation::new(name, SECONDS);
-        Self { name, about: "", source: "", picture, derivation, course, branches: None, roundings: 0.0 }
+        Self { name, about: "", source: "", picture, derivation, course, branches: None, ulps: 0.0 }
     }
 
-    /// A line about the mechanism, and whose it is.
+    /// Sets a sentence about the mechanism, and its source.
     pub fn words(mut self, about: &'static str, source: &'static str) -> Self {
         (self.about, self.source) = (about, source);
         self
     }
 
-    /// A position: its points, and how well it closes, which must be to a few roundings of the sum of its links.
+    /// Adds a position; its residual must be a few ulps of the sum of the link lengths.
     pub fn frame(&mut self, residual: f64, size: f64, points: Vec<(&'static str, Point2<f64>)>) {
-        // In the dwell of a cam nothing is left of either.
-        let roundings = if residual == 0.0 { 0.0 } else { residual / (f64::EPSILON * size) };
-        assert!(roundings <= 8.0, "{} closes to {roundings} roundings", self.name);
-        self.roundings = self.roundings.max(roundings);
+        // Both are zero in the dwell of a cam.
+        let ulps = if residual == 0.0 { 0.0 } else { residual / (f64::EPSILON * size) };
+        assert!(ulps <= 8.0, "{}: residual of {ulps} ulps", self.name);
+        self.ulps = self.ulps.max(ulps);
         self.picture.frame(points);
     }
 }
 
-/// The point that is so far from one in the direction of another.
+/// The point at a distance from one point towards another.
 pub fn along(from: Point2<f64>, towards: Point2<f64>, distance: f64) -> Point2<f64> {
     from + (towards - from).normalize() * distance
 }
@@ -112,7 +111,7 @@ pub fn polar(length: f64, angle: f64) -> Vector2<f64> {
     Vector2::new(length * angle.cos(), length * angle.sin())
 }
 
-/// Adds a position to a figure: the mechanism's own points and those that the picture needs besides.
+/// Adds a position to a figure: the mechanism's points and further points of the picture.
 macro_rules! frame {
     ($figure:ident, $mechanism:ident, $m:expr, $pose:expr, $points:ident => $more:expr) => {{
         let $points = $m.points($pose)?;
@@ -123,8 +122,8 @@ macro_rules! frame {
     }};
 }
 
-/// The figure of a mechanism with one input, on one branch, as far round as it goes from an input in degrees: every
-/// position in closed form.
+/// The figure of a mechanism with one input on one branch, over the whole input range around an angle in degrees, in
+/// closed form.
 macro_rules! assembled {
     ($name:expr, $mechanism:ident, $m:ident on $branch:ident::new($($side:expr),*), from $degrees:expr,
      |$pose:ident, $points:ident| $more:expr) => {{

@@ -1,4 +1,4 @@
-//! Machines: legs that walk, arms that copy, wipe and squeeze, an engine.
+//! Machines: walking legs, a pantograph, a wiper, an engine and a squeezer.
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -49,7 +49,7 @@ fn klann() -> Result<Figure, Box<dyn Error>> {
 
 fn pantograph() -> Result<Figure, Box<dyn Error>> {
     let m = Pantograph::default();
-    let course = Course::Own("a trefoil drawn by hand");
+    let course = Course::Own("a trefoil");
     let mut figure = Figure::new("Pantograph", Pantograph::DERIVATION, course);
     let branch = PantographBranch::new(Left, Right);
     for part in course.inputs() {
@@ -80,7 +80,7 @@ fn wiper() -> Result<Figure, Box<dyn Error>> {
     figure.picture.link(&["FirstPin", "SecondPin"]).link(&["Pin", "FirstPin"]).crank(&["Motor", "Pin"]);
     figure.picture.ground("Motor").ground("First").ground("Second").trace("FirstTip").trace("SecondTip");
     Ok(figure.words(
-        "A central crank-rocker swings the first wiper, and a parallelogram the second.",
+        "A central crank-rocker drives the first wiper, and a parallelogram the second.",
         "Dimensions of this gallery, with both strokes of the same time",
     ))
 }
@@ -96,7 +96,7 @@ fn v_twin() -> Result<Figure, Box<dyn Error>> {
     figure.picture.link(&["Pin", "M", "Front"]).link(&["Pin", "N", "Rear"]).slider("Front").slider("Rear");
     figure.picture.crank(&["O", "Pin"]).ground("O").trace("M").trace("N");
     Ok(figure.words(
-        "Two pistons on one crank pin; the rear one does what the front one did, 45° later.",
+        "Two pistons on one crank pin; the rear one follows the front one with a delay of 45°.",
         "The angle is that of Harley-Davidson's engines",
     ))
 }
@@ -110,7 +110,7 @@ fn andrews() -> Result<Figure, Box<dyn Error>> {
     figure.picture.link(&["A", "G"]).link(&["F", "E"]).crank(&["O", "F"]);
     figure.picture.ground("O").ground("A").ground("B").ground("C").trace("G").trace("E");
     Ok(figure.words(
-        "Seven bodies and a spring, the benchmark of programs for multibody systems.",
+        "Seven bodies and a spring: a benchmark for multibody programs.",
         "W. Schiehlen (editor), Multibody Systems Handbook (1990)",
     ))
 }

@@ -1,8 +1,7 @@
 //! The gallery: classic mechanisms in motion on one page, with their coupler curves.
 //!
-//! `cargo run --example gallery` writes `target/gallery.html`; any browser plays it, no network and no script
-//! needed. Each picture is made of positions that `assemble` gives in closed form on the branch that is asked for,
-//! and each of them is checked as it is drawn.
+//! `cargo run --example gallery` writes `target/gallery.html` for any browser, without network or script. Each picture
+//! consists of positions that `assemble` computes in closed form on the given branch; each position is checked.
 
 use std::error::Error;
 
@@ -43,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     assert!(figures.len() >= 30);
     for figure in figures {
         let size = figure.picture.to_svg()?.len();
-        println!("{:>6.1} kB  {:.1} roundings  {}", size as f64 / 1000.0, figure.roundings, figure.name);
+        println!("{:>6.1} kB  {:.1} ulps  {}", size as f64 / 1000.0, figure.ulps, figure.name);
         assert!(size < 25_000, "the picture of {} has {size} bytes", figure.name);
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! The page: a grid of pictures and what is known of each.
+//! The page: a grid of pictures with a description of each.
 
 use std::fmt::Write;
 
@@ -13,8 +13,8 @@ pub fn html(families: &[Family]) -> Result<String, DrawingError> {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Gallery of linkages</title>\n\
          <style>{}</style>\n</head>\n<body>\n<header>\n<h1>Gallery of linkages</h1>\n\
-         <p>{count} pictures of classic mechanisms, each from its closure equations. Every frame is a position on one \
-         branch, assembled group by group in closed form where there is one. Orange drives, red is drawn.</p>\n\
+         <p>{count} pictures of classic mechanisms, each computed from its loop equations. Every frame is a position on one \
+         branch, assembled group by group, in closed form if possible. Orange: driving link; red: traced path.</p>\n\
          </header>\n<main>\n",
         include_str!("style.css")
     );
@@ -42,16 +42,16 @@ fn figure(figure: &Figure) -> Result<String, DrawingError> {
         .blocks
         .iter()
         .map(|block| {
-            // What stands before the colon is the name of the group.
+            // The text before the colon is the name of the group.
             let group = block.group.split(':').next().unwrap_or_default();
             let unknowns: Vec<String> = block.unknowns.iter().map(ToString::to_string).collect();
             format!("<li>{} <i>{}</i></li>", escape(group), escape(&unknowns.join(", ")))
         })
         .collect();
     let branches = match figure.branches {
-        None => "followed by Newton's method".to_owned(),
+        None => "positions by Newton's method".to_owned(),
         Some([all, here]) if all == here => all.to_string(),
-        Some([all, here]) => format!("{all}, of which {here} exist in the first frame"),
+        Some([all, here]) => format!("{all}, {here} of them in the first frame"),
     };
     Ok(format!(
         "<figure>\n{}\n<figcaption>\n<h3>{}</h3>\n<p>{}</p>\n<dl>\

@@ -1,4 +1,4 @@
-//! Linkages of revolute joints: one loop, two and three.
+//! Linkages with revolute joints and one, two or three loops.
 
 use std::error::Error;
 
@@ -38,7 +38,7 @@ fn four_bar(name: &'static str, side: Elbow) -> Result<Figure, Box<dyn Error>> {
     figure.picture.crank(&["A", "B"]).link(&["B", "G3", "C"]).link(&["D", "C"]);
     figure.picture.ground("A").ground("D").trace("G3");
     Ok(figure.words(
-        "Crank and rocker. C stands left or right of the line from B to D, and no motion leads over.",
+        "Crank-rocker. C is left or right of the line from B to D: two circuits that no motion connects.",
         "Analisi cinematica mediante il metodo delle equazioni di vincolo, La Sapienza (2009-2010)",
     ))
 }
@@ -61,7 +61,7 @@ fn five_bar() -> Result<Figure, Box<dyn Error>> {
     }
     figure.picture.crank(&["A", "B"]).crank(&["D", "C"]).link(&["B", "P", "Pen"]).link(&["C", "P"]);
     figure.picture.ground("A").ground("D").trace("Pen");
-    Ok(figure.words("Both cranks are driven, each as one likes.", "A textbook mechanism"))
+    Ok(figure.words("Both cranks are driven independently.", "A textbook mechanism"))
 }
 
 fn watt_i() -> Result<Figure, Box<dyn Error>> {
@@ -101,7 +101,7 @@ fn stephenson_i() -> Result<Figure, Box<dyn Error>> {
     ))
 }
 
-/// Four angles are found together: Newton's method from the position before, every degree.
+/// Four coupled angles: Newton's method from the previous position, every degree.
 fn stephenson_ii() -> Result<Figure, Box<dyn Error>> {
     let m = StephensonII::default();
     let mut figure = Figure::new("Stephenson II six-bar", StephensonII::DERIVATION, Course::Turn(0.0));
@@ -120,7 +120,7 @@ fn stephenson_ii() -> Result<Figure, Box<dyn Error>> {
     figure.picture.crank(&["O", "A", "B"]).link(&["A", "C"]).link(&["B", "D"]).link(&["C", "D", "E"]);
     figure.picture.link(&["G", "E"]).ground("O").ground("G").trace("D");
     Ok(figure.words(
-        "No loop of two unknowns stands alone: four angles are found together.",
+        "No loop has only two unknowns: four angles are coupled.",
         "J. M. McCarthy, G. S. Soh, Geometric Design of Linkages",
     ))
 }
@@ -132,12 +132,12 @@ fn stephenson_iii() -> Result<Figure, Box<dyn Error>> {
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C"]).link(&["P", "Q"]);
     figure.picture.link(&["F", "Q"]).ground("A").ground("D").ground("F").trace("P");
     Ok(figure.words(
-        "A coupler point drives a dyad, as wherever a coupler curve is used for a dwell.",
+        "A coupler point drives a dyad, as in dwell mechanisms.",
         "J. M. McCarthy, G. S. Soh, Geometric Design of Linkages",
     ))
 }
 
-/// Six angles are found together: Newton's method from the position before, every degree.
+/// Six coupled angles: Newton's method from the previous position, every degree.
 fn double_butterfly() -> Result<Figure, Box<dyn Error>> {
     let m = DoubleButterfly::default();
     let mut q = DoubleButterflyCoordinates {
@@ -164,7 +164,7 @@ fn double_butterfly() -> Result<Figure, Box<dyn Error>> {
     figure.picture.crank(&["A", "C", "D"]).link(&["E", "F", "G"]).link(&["D", "H", "I"]).link(&["B", "F", "J"]);
     figure.picture.link(&["C", "E"]).link(&["G", "H"]).link(&["I", "J"]).ground("A").ground("B").trace("E");
     Ok(figure.words(
-        "An eight-bar of four ternary links without any loop of four bars: six angles are found together.",
+        "An eight-bar of four ternary links without a four-bar loop: six angles are coupled.",
         "J. Nielsen, B. Roth (1999); C. W. Wampler (2001)",
     ))
 }

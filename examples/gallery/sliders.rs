@@ -33,7 +33,7 @@ fn offset_slider_crank() -> Result<Figure, Box<dyn Error>> {
         |pose, points| [("M", center(&points.a, &points.b))]);
     figure.picture.crank(&["O", "A"]).link(&["A", "M", "B"]).slider("B").ground("O").trace("M");
     Ok(figure.words(
-        "The slider runs beside the crank's pivot, so that one stroke is slower than the other.",
+        "The line of the slider misses the crank pivot, so that one stroke is slower than the other.",
         "R. L. Norton, Design of Machinery, chapter 4",
     ))
 }
@@ -46,7 +46,7 @@ fn inverted_slider_crank() -> Result<Figure, Box<dyn Error>> {
     figure.picture.bent(&["D", "B", "Tip"]).crank(&["O", "A"]).sleeve("A", ["B", "A"]);
     figure.picture.ground("O").ground("D").trace("Tip");
     Ok(figure.words(
-        "The crank's pin slides on an arm that swings, as in a steam engine with an oscillating cylinder.",
+        "The crank pin slides on a rocking arm, as in a steam engine with an oscillating cylinder.",
         "R. L. Norton, Design of Machinery, section 4.7",
     ))
 }
@@ -62,7 +62,7 @@ fn whitworth() -> Result<Figure, Box<dyn Error>> {
     figure.picture.link(&["E", "C", "Tip"]).crank(&["O", "Pin"]).sleeve("Pin", ["E", "C"]);
     figure.picture.link(&["E", "M", "Ram"]).slider("Ram").ground("O").ground("C").trace("M");
     Ok(figure.words(
-        "The crank drives a slotted arm all the way round, slowly forward and fast back.",
+        "The crank drives a slotted arm through full turns, slowly forward and fast back.",
         "J. Whitworth, British patent 12907 (1849)",
     ))
 }
@@ -76,7 +76,7 @@ fn crank_shaper() -> Result<Figure, Box<dyn Error>> {
     figure.picture.link(&["E", "M", "Ram"]).slider("Ram").ground("O").ground("C").trace("M");
     Ok(figure.words(
         "The slotted lever of the shaping machine swings, and cuts slowly and returns fast.",
-        "R. Willis, Principles of Mechanism (1841), knows the slotted lever",
+        "R. Willis, Principles of Mechanism (1841)",
     ))
 }
 
@@ -92,7 +92,7 @@ fn scotch_yoke() -> Result<Figure, Box<dyn Error>> {
     ]);
     figure.picture.bent(&["Top", "Bottom", "Slider", "End"]).slider("End").crank(&["O", "Pin"]);
     figure.picture.sleeve("Pin", ["Bottom", "Top"]).ground("O").trace("Pin");
-    Ok(figure.words("The pin in the slot of the yoke: a motion that is a cosine.", "A textbook mechanism"))
+    Ok(figure.words("A pin in the slot of a yoke: the motion of the yoke is a cosine.", "A textbook mechanism"))
 }
 
 fn elliptic_trammel() -> Result<Figure, Box<dyn Error>> {
@@ -101,7 +101,7 @@ fn elliptic_trammel() -> Result<Figure, Box<dyn Error>> {
         |pose, points| []);
     figure.picture.crank(&["A", "B", "Pen"]).slider("A").slider("B").trace("Pen");
     Ok(figure.words(
-        "The ends of a rod slide on two lines at right angles, and every point of it draws an ellipse.",
+        "The ends of a rod slide on two perpendicular lines; every point of it draws an ellipse.",
         "Proclus, commentary on the first book of Euclid",
     ))
 }

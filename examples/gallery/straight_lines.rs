@@ -1,4 +1,4 @@
-//! Linkages that draw lines which are straight, or nearly so.
+//! Exact and approximate straight-line linkages.
 
 use std::error::Error;
 
@@ -17,8 +17,8 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
     Ok(vec![watt_line()?, roberts()?, chebyshev()?, hoecken()?, peaucellier()?, hart()?])
 }
 
-/// To and fro on one branch the pen draws half of its curve. At both ends of the swing the other branch begins, and
-/// back on that one it draws the rest.
+/// On one branch the pen draws half of its curve. At the limits of the input the branches meet, and the other one draws
+/// the rest.
 fn watt_line() -> Result<Figure, Box<dyn Error>> {
     let m = WattLine::default();
     let [there, back] = [Right, Left].map(|phi_psi| WattLineBranch { phi_psi });
@@ -49,7 +49,7 @@ fn roberts() -> Result<Figure, Box<dyn Error>> {
     figure.picture.crank(&["A", "B"]).link(&["B", "C", "P"]).link(&["D", "C"]);
     figure.picture.ground("A").ground("D").trace("P");
     Ok(figure.words(
-        "The apex of the middle one of three equal triangles follows the line between the pivots.",
+        "The apex of the middle one of three equal triangles approximates the line between the pivots.",
         "R. Willis, Principles of Mechanism (1841), who credits Richard Roberts",
     ))
 }
@@ -61,7 +61,7 @@ fn chebyshev() -> Result<Figure, Box<dyn Error>> {
     figure.picture.link(&["A", "B"]).link(&["D", "C"]).crank(&["B", "P", "C"]);
     figure.picture.ground("A").ground("D").trace("P");
     Ok(figure.words(
-        "Crossed equal rockers; the coupler drives and turns all the way round.",
+        "Crossed equal rockers; the coupler drives and makes full turns.",
         "P. L. Chebyshev, Théorie des mécanismes connus sous le nom de parallélogrammes (1854)",
     ))
 }
@@ -87,7 +87,7 @@ fn peaucellier() -> Result<Figure, Box<dyn Error>> {
     figure.picture.link(&["P", "Upper"]).link(&["P", "Lower"]).link(&["Q", "Upper"]).link(&["Q", "Lower"]);
     figure.picture.ground("O").ground("Centre").trace("P").trace("Q");
     Ok(figure.words(
-        "The rhombus turns the circle of P through O inside out: Q draws a straight line, exactly.",
+        "The rhombus inverts the circle of P through O: Q draws an exact straight line.",
         "C.-N. Peaucellier (1864, 1873); L. I. Lipkin (1871)",
     ))
 }

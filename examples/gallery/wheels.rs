@@ -27,7 +27,7 @@ fn geared_five_bar() -> Result<Figure, Box<dyn Error>> {
         let theta4 = m.ratio * theta1 + m.phase;
         [("A", at(0.0, 0.0)), ("D", at(m.e, 0.0)), ("B", polar(m.a, theta1).into()), ("C", at(m.e, 0.0) + polar(m.d, theta4))]
     });
-    // Two pitch circles that touch, and turn two to one.
+    // Two pitch circles in contact, with ratio two to one.
     let pitch = m.e / (1.0 - m.ratio);
     figure.picture.wheel("A", "B", -m.ratio * pitch).wheel("D", "C", pitch);
     figure.picture.crank(&["A", "B"]).link(&["D", "C"]).link(&["B", "P"]).link(&["C", "P"]);
@@ -46,8 +46,8 @@ fn cardan() -> Result<Figure, Box<dyn Error>> {
     ))
 }
 
-/// The parallelogram passes through both its change points, where it could become an antiparallelogram; at each the
-/// branch changes, and no frame stands there.
+/// The parallelogram passes both its change points, where it could become an antiparallelogram; the branch changes at
+/// each. No frame is exactly there.
 fn parallelogram() -> Result<Figure, Box<dyn Error>> {
     let mut figure = coupled_wheels("Coupled wheels", [Left, Right])?;
     let CoupledWheels { crank, base } = CoupledWheels::default();
@@ -56,12 +56,12 @@ fn parallelogram() -> Result<Figure, Box<dyn Error>> {
     figure.picture.wheel("A", "B", radius).wheel("D", "C", radius);
     figure.picture.crank(&["A", "B"]).link(&["D", "C"]).link(&["B", "Middle", "C"]).trace("Middle");
     Ok(figure.words(
-        "A parallelogram through both its change points: each of the two branches for half a turn.",
+        "A parallelogram that passes both its change points: half a turn on each branch.",
         "F. Reuleaux, Theoretische Kinematik (1875)",
     ))
 }
 
-/// The same links on the other branches.
+/// The antiparallelogram: the same links on the other branches.
 fn antiparallelogram() -> Result<Figure, Box<dyn Error>> {
     let mut figure = coupled_wheels("Antiparallelogram", [Right, Left])?;
     figure.picture.crank(&["A", "B"]).link(&["D", "C"]).link(&["B", "Middle", "C"]);
@@ -72,10 +72,10 @@ fn antiparallelogram() -> Result<Figure, Box<dyn Error>> {
     ))
 }
 
-/// A full turn on one branch while the crank is above the line of the pivots and on the other while it is below.
+/// A full turn, on one branch while the crank is above the line of the pivots and on the other while it is below.
 fn coupled_wheels(name: &'static str, [above, below]: [Elbow; 2]) -> Result<Figure, Box<dyn Error>> {
     let m = CoupledWheels::default();
-    // Half a step past the change point.
+    // Start half a step after the change point.
     let course = Course::Turn((180.0 / f64::from(STEPS)).to_radians());
     let mut figure = Figure::new(name, CoupledWheels::DERIVATION, course);
     for theta in course.inputs() {
@@ -88,8 +88,7 @@ fn coupled_wheels(name: &'static str, [above, below]: [Elbow; 2]) -> Result<Figu
     Ok(figure)
 }
 
-/// While the pin is in a slot the mechanism is that of the closure; for the rest of the turn the locking disc holds
-/// the wheel.
+/// While the pin is in a slot the loop equation holds; for the rest of the turn the locking disc holds the wheel.
 fn geneva() -> Result<Figure, Box<dyn Error>> {
     let m = Geneva::default();
     let branch = GenevaBranch { psi_s: Far };
@@ -97,7 +96,7 @@ fn geneva() -> Result<Figure, Box<dyn Error>> {
     let course = Course::Own("in the slot between −45° and 45°, then a dwell");
     let mut figure = Figure::new("Geneva drive", Geneva::DERIVATION, course);
     for part in course.inputs() {
-        // From the middle of one dwell to that of the next.
+        // From the middle of one dwell to the middle of the next.
         let theta = PI + TAU * part;
         let turned = (theta - TAU).clamp(-engaged, engaged);
         figure.branches.get_or_insert([GenevaBranch::all().count(), m.branches(turned).count()]);
@@ -108,15 +107,15 @@ fn geneva() -> Result<Figure, Box<dyn Error>> {
     figure.picture.plate("Wheel", "Mouth", cross(&m)).plate("O", "Crank", locking_disc(&m));
     figure.picture.crank(&["O", "Crank"]).ground("O").ground("Wheel").trace("Crank");
     Ok(figure.words(
-        "The pin enters a slot square to its path, turns the wheel by one slot, and leaves it to the locking disc.",
+        "The pin enters a slot tangentially and turns the wheel by one slot; then the locking disc holds the wheel.",
         "J. H. Bickford, Mechanisms for Intermittent Motion (1972)",
     ))
 }
 
-/// The radius of the locking disc, in cranks.
+/// The radius of the locking disc, relative to the crank.
 const LOCK: f64 = 0.72;
 
-/// The wheel's outline: slots towards x and every slot's angle on, and between them hollows for the locking disc.
+/// The outline of the wheel: slots at equal angles from x, and hollows for the locking disc between them.
 fn cross(m: &Geneva) -> Vec<Vector2<f64>> {
     let base = m.crank / (PI / m.slots).sin();
     let (reach, depth, half_width) = (m.crank / (PI / m.slots).tan(), base - m.crank, 0.07 * m.crank);
@@ -125,7 +124,7 @@ fn cross(m: &Geneva) -> Vec<Vector2<f64>> {
         let angle = TAU / m.slots * f64::from(slot);
         let turned = |x: f64, y: f64| polar(x, angle) + polar(y, angle + FRAC_PI_2);
         outline.push(turned(reach, -half_width));
-        // Round the bottom, clockwise.
+        // Around the bottom, clockwise.
         for step in 0..=8 {
             let round = angle - FRAC_PI_2 - PI * f64::from(step) / 8.0;
             outline.push(turned(depth, 0.0) + polar(half_width, round));
@@ -141,7 +140,7 @@ fn cross(m: &Geneva) -> Vec<Vector2<f64>> {
     outline
 }
 
-/// The locking disc, cut away where the wheel turns.
+/// The locking disc, with a cut-out for the turning wheel.
 fn locking_disc(m: &Geneva) -> Vec<Vector2<f64>> {
     let base = m.crank / (PI / m.slots).sin();
     let reach = 1.03 * m.crank / (PI / m.slots).tan();

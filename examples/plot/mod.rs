@@ -1,21 +1,21 @@
-//! Curves over a common axis as SVG, and the page they stand on.
+//! Plots of curves as SVG, and an HTML page for them.
 
 use std::fmt::Write;
 
-/// A plot's size, and the room that its axes and its names take.
+/// The size of a plot and its margins, in pixels.
 const SIZE: [f64; 2] = [360.0, 250.0];
 const LEFT: f64 = 50.0;
 const RIGHT: f64 = 14.0;
 const TOP: f64 = 46.0;
 const BOTTOM: f64 = 40.0;
 
-/// The page of the gallery, and colours that tell themselves apart on light and on dark.
+/// The style of the gallery, and colours for light and dark mode.
 const STYLE: &str = concat!(include_str!("../gallery/style.css"), include_str!("style.css"));
 
-/// Colours in turn.
+/// The colours of curves, used in turn.
 const COLOURS: [&str; 4] = ["a", "b", "c", "d"];
 
-/// Curves over one axis.
+/// A plot of curves over one axis.
 pub struct Plot {
     title: String,
     axes: [String; 2],
@@ -30,25 +30,25 @@ struct Curve {
 }
 
 impl Plot {
-    /// Without curves yet; the axes by what is on them, with its unit.
+    /// Creates a plot without curves; the axes are named by their units.
     pub fn new(title: &str, x: &str, y: &str) -> Self {
         let axes = [x, y].map(str::to_owned);
         Self { title: title.to_owned(), axes, step: None, curves: Vec::new(), marks: Vec::new() }
     }
 
-    /// A line of the grid every so often along x.
+    /// Sets the distance of grid lines along x.
     pub fn every(mut self, step: f64) -> Self {
         self.step = Some(step);
         self
     }
 
-    /// A line through points; one that is alone needs no name.
+    /// Adds a line through points; a single curve needs no name.
     pub fn curve(mut self, name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         self.curves.push(Curve { name: name.to_owned(), points: points.into_iter().collect() });
         self
     }
 
-    /// Dots at points.
+    /// Adds dots at points.
     pub fn marks(mut self, name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         self.marks.push((name.to_owned(), points.into_iter().collect()));
         self
@@ -59,12 +59,12 @@ impl Plot {
         points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at[axis]), high.max(at[axis])])
     }
 
-    /// The picture.
+    /// Writes the SVG.
     pub fn svg(&self) -> String {
         let [x_range, y_range] = [self.range(0), self.range(1)];
         assert!([x_range, y_range].as_flattened().iter().all(|end| end.is_finite()), "{}: nothing to plot", self.title);
         let (x_step, y_step) = (self.step.unwrap_or_else(|| nice(x_range, 6.0)), nice(y_range, 5.0));
-        // What rounding has left beyond a line of the grid opens no room.
+        // A rounding error beyond a grid line does not extend the range.
         let [low, high] = [(y_range[0] / y_step + 1e-6).floor(), (y_range[1] / y_step - 1e-6).ceil()];
         let [low, high] = [low * y_step, high * y_step];
         let x = |at: f64| LEFT + (at - x_range[0]) / (x_range[1] - x_range[0]) * (SIZE[0] - LEFT - RIGHT);
@@ -98,7 +98,7 @@ impl Plot {
             let mut last: Option<[f64; 2]> = None;
             for (place, at) in curve.points.iter().enumerate() {
                 let next = [x(at[0]), y(at[1])];
-                // What is nearer than a pixel is not seen.
+                // Skip points closer than a pixel.
                 let is_near = last.is_some_and(|last| (next[0] - last[0]).hypot(next[1] - last[1]) < 0.7);
                 if !is_near || place + 1 == curve.points.len() {
                     let _ = write!(path, "{}{:.1} {:.1}", if last.is_none() { "M" } else { "L" }, next[0], next[1]);
@@ -127,7 +127,7 @@ impl Plot {
     }
 }
 
-/// The step of 1, 2 or 5 times a power of ten with about so many of them in a range.
+/// The grid step, 1, 2 or 5 times a power of ten, for about so many lines in a range.
 fn nice([low, high]: [f64; 2], count: f64) -> f64 {
     let rough = (high - low) / count;
     let power = 10_f64.powf(rough.log10().floor());
@@ -145,10 +145,10 @@ fn label(at: f64, step: f64) -> String {
     format!("{at:.digits$}").replace('-', "−")
 }
 
-/// A section of a page: its name, and pictures with a line below each.
+/// A section of a page: its name, and pictures with captions.
 pub type Section = (&'static str, Vec<(String, String)>);
 
-/// A page: its title, what it is about, pictures, and numbers with their names.
+/// Writes a page: title, introduction, pictures, and a table of numbers.
 pub fn page(title: &str, about: &str, sections: &[Section], rows: &[[String; 2]]) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\

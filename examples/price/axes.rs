@@ -1,26 +1,26 @@
-//! Axes of error against time, both as powers of ten.
+//! Logarithmic axes of error against time.
 
 use std::fmt::Write;
 
 use super::frontier::Price;
 
-/// The room that the labels take.
+/// The margins for the labels, in pixels.
 pub const LEFT: f64 = 48.0;
 const BOTTOM: f64 = 26.0;
 const TOP: f64 = 30.0;
 const RIGHT: f64 = 14.0;
 
-/// More decades than this are labelled every eighth, fewer every fourth, the fewest every other.
+/// Above the first number of decades every eighth has a grid line, above the second every fourth, else every second.
 const MANY: [f64; 2] = [16.0, 9.0];
 
-/// What the axes look like, on light and on dark.
+/// The style of the axes, for light and dark mode.
 pub const STYLE: &str = "text{font:12px system-ui,sans-serif;fill:currentColor}\
     .grid{stroke:currentColor;stroke-opacity:.13}.soft{fill-opacity:.65}.title{font-weight:600}";
 
 const TIMES: [&str; 11] =
     ["1 ns", "10 ns", "100 ns", "1 µs", "10 µs", "100 µs", "1 ms", "10 ms", "100 ms", "1 s", "10 s"];
 
-/// A panel of this size whose axes go over whole decades.
+/// The axes of a panel, over whole decades.
 pub struct Axes {
     size: [f64; 2],
     times: [f64; 2],
@@ -28,7 +28,7 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// Around all of these.
+    /// Creates axes around all these points.
     pub fn around<'a>(size: [f64; 2], prices: impl Iterator<Item = &'a Price> + Clone) -> Self {
         Self {
             size,
@@ -37,7 +37,7 @@ impl Axes {
         }
     }
 
-    /// Where a price is.
+    /// The position of a point, in pixels.
     pub fn at(&self, price: Price) -> [f64; 2] {
         let (times, errors) = (self.times, self.errors);
         let right = (price.time.log10() - times[0]) / (times[1] - times[0]);
@@ -83,7 +83,7 @@ impl Axes {
     }
 }
 
-/// From the largest power of ten below all values to the smallest above.
+/// The exponents of the largest power of ten below all values and the smallest above.
 fn decades(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
     let low = values.clone().fold(f64::INFINITY, f64::min).log10().floor();
     let high = values.fold(0.0, f64::max).log10().ceil();

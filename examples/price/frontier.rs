@@ -1,19 +1,19 @@
-//! Which of several methods are worth their price.
+//! The Pareto front of error and time.
 
-/// What a method costs at one point: its largest error and its time in nanoseconds.
+/// The largest error of a method at one point, and its time in nanoseconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Price {
     pub error: f64,
     pub time: f64,
 }
 
-/// Errors within this factor are alike: three bits are what roundings happen to do at a few poses.
+/// Errors within this factor count as equal: with few poses the largest rounding error varies by about three bits.
 pub const SAME_ERROR: f64 = 8.0;
 
-/// The price of each point where there is a result.
+/// Error and time of each method or run; None without a result.
 pub type Prices = Vec<Option<Price>>;
 
-/// The methods at one point of which each is clearly more exact than all that are faster, by rising time.
+/// Returns the methods at one point that are clearly more accurate than every faster one, by rising time.
 pub fn frontier(prices: &[Option<Price>]) -> Vec<usize> {
     let mut order = by_time(prices);
     let mut least = f64::INFINITY;
@@ -27,7 +27,7 @@ pub fn frontier(prices: &[Option<Price>]) -> Vec<usize> {
     order.into_iter().map(|(index, _)| index).collect()
 }
 
-/// The least time among those as exact as this, and what is faster but not, if anything is.
+/// Returns the fastest method with at most this error, and the next faster method, if there is one.
 pub fn cheapest(prices: &[Option<Price>], error: f64) -> Option<(usize, Option<usize>)> {
     let order = by_time(prices);
     let place = order.iter().position(|(_, price)| price.error <= error)?;

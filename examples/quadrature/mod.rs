@@ -1,6 +1,6 @@
-//! Quadrature.
+//! Gauss quadrature.
 
-/// Gauss's nodes and weights on [-1, 1], of eight those on the right.
+/// Nodes and weights of 8-point Gauss quadrature on [-1, 1]: the positive half.
 const GAUSS: [[f64; 2]; 4] = [
     [0.183_434_642_495_649_8, 0.362_683_783_378_362],
     [0.525_532_409_916_329, 0.313_706_645_877_887_29],
@@ -8,7 +8,7 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.960_289_856_497_536_2, 0.101_228_536_290_376_26],
 ];
 
-/// Nodes and weights on an interval, in order.
+/// The nodes and weights on an interval, in order.
 pub fn nodes([from, to]: [f64; 2]) -> [[f64; 2]; 8] {
     let (middle, half) = (f64::midpoint(from, to), (to - from) / 2.0);
     core::array::from_fn(|k| {

@@ -1,4 +1,4 @@
-//! The charts: error against time, both as powers of ten, a curve for each method.
+//! The charts: error against time on logarithmic axes, a curve for each method.
 
 use std::fmt::Write;
 
@@ -7,27 +7,27 @@ use super::price::axes::{self, Axes, LEFT};
 use super::price::frontier::Price;
 use super::report::setting;
 
-/// A panel's size.
+/// The size of a panel, in pixels.
 const SIZE: [f64; 2] = [400.0, 320.0];
 
-/// Rows of the legend, and the width of its columns.
+/// The rows of the legend, and the width of its columns.
 const LEGEND: (usize, f64) = (5, 265.0);
 
-/// Colours that tell themselves apart on light and on dark.
+/// Colours for light and dark mode.
 pub const STYLE: &str = ".curve{fill:none;stroke:var(--ink);stroke-width:1.8;stroke-linejoin:round}\
     .dot{fill:var(--ink)}.five .curve,.curve.five{stroke-dasharray:5 3}.ring{fill:none;stroke:currentColor;stroke-width:1.3}\
     .simulate{--ink:#e0700b}.integrate{--ink:#b8930a}.ode-solvers{--ink:#3b82d6}.differential-equations{--ink:#1f9d63}\
     .diffsol{--ink:#9a5fe0}.real-time{--ink:#9c6b3f}.accelerations{--ink:#8b8b8b}.weakly{--ink:#17a2a8}\
     .strongly{--ink:#3b6fd6}.projected{--ink:#d6459a}";
 
-/// The panels of a mechanism: steps by tolerance, and steps of one length where there are any.
+/// The panels of a mechanism: adaptive steps, and fixed steps if there are any.
 pub fn panels(list: &List) -> Vec<String> {
     let of = |index: usize| list.rows[index].method;
     let by_tolerance = |method: usize| method < REAL_TIME;
     let of_one_length = |method: usize| method >= REAL_TIME || method == SIMULATE_8;
     let mut panels = vec![panel(list, "By tolerance", by_tolerance)];
     if (0..list.rows.len()).any(|index| of(index) >= ACCELERATIONS) {
-        panels.push(panel(list, "Steps of one length, and simulate", of_one_length));
+        panels.push(panel(list, "Fixed steps, and simulate", of_one_length));
     }
     panels
 }
@@ -72,26 +72,26 @@ fn panel(list: &List, title: &str, shown: impl Fn(usize) -> bool) -> String {
     svg
 }
 
-/// One panel alone.
+/// One panel as an SVG.
 pub fn figure(panel: &str) -> String {
     let [width, height] = SIZE;
     format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\">{panel}</svg>")
 }
 
-/// A piece of a method's curve.
+/// The legend symbol of a method.
 pub fn swatch(class: &str) -> String {
     format!(
         "<g class=\"{class}\"><path class=\"curve\" d=\"M1 7H27\"/><circle class=\"dot\" cx=\"14\" cy=\"7\" r=\"2.4\"/></g>"
     )
 }
 
-/// The methods that some list has rows of.
+/// The methods with rows in some list.
 pub fn methods(lists: &[List]) -> impl Iterator<Item = (usize, &'static str, &'static str)> {
     let is_there = |method: usize| lists.iter().any(|list| list.rows.iter().any(|row| row.method == method));
     METHODS.iter().enumerate().filter(move |(at, _)| is_there(*at)).map(|(at, method)| (at, method.name, method.class))
 }
 
-/// All panels and the names of the methods.
+/// All panels with the names of the methods.
 pub fn svg(lists: &[List]) -> String {
     let ([width, height], (rows, column)) = (SIZE, LEGEND);
     let row_height = height + 26.0;

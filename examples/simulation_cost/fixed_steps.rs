@@ -1,4 +1,4 @@
-//! Steps of one length by Kutta's method: ours in the inputs, and the formulations with multipliers.
+//! Fixed steps by Kutta's method: `RealTime` in the inputs, and the formulations with multipliers.
 
 use std::error::Error;
 use std::rc::Rc;
@@ -11,10 +11,10 @@ use super::formulations::{Hold, Multipliers};
 use super::list::{ACCELERATIONS, Outcome, PROJECTED, REAL_TIME, STRONGLY, WEAKLY, Work};
 use super::problem::{Problem, State};
 
-/// Doublings of the number of steps: code that is not optimised is not timed for long.
+/// The number of doublings of the number of steps; 0 for unoptimised code.
 const DOUBLINGS: u32 = if cfg!(debug_assertions) { 0 } else { 4 };
 
-/// With so many steps at the least, and Baumgarte's two alphas in 1/s.
+/// The runs from `least` steps upwards, with two values of Baumgarte's alpha in 1/s.
 pub fn works<const N: usize, const U: usize, S>(
     problem: &Rc<Problem<S>>,
     least: u32,
@@ -50,7 +50,7 @@ where
         .collect()
 }
 
-/// The end by `RealTime`.
+/// The final state by `RealTime`.
 fn in_the_inputs<S>(problem: &Problem<S>, steps: u32) -> Result<State<S>, MotionError>
 where
     S: Scene<Scalar = f64, Contacts = D<0>>,
@@ -63,7 +63,7 @@ where
     Ok(S::state(&clock.state()?.q, &rates))
 }
 
-/// The end by index 1.
+/// The final state by the index-1 formulation.
 fn with_multipliers<const N: usize, const U: usize, S>(
     problem: &Problem<S>,
     hold: Hold,

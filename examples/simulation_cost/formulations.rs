@@ -1,7 +1,7 @@
-//! The same motion in all coordinates, by Lagrange's multipliers: index 1, alone, with Baumgarte's stabilisation, and
-//! projected.
+//! The motion in all coordinates with Lagrange multipliers, index 1: plain, with Baumgarte stabilisation, and with
+//! projection.
 //!
-//! With Psi(q) = 0 the closures and K = [J A] their Jacobian,
+//! With the constraints Psi(q) = 0 and their Jacobian K = [J A],
 //!
 //! ```text
 //! [ M  K' ] [   q''  ]   [                F                 ]
@@ -9,7 +9,7 @@
 //! ```
 //!
 //! (J. Baumgarte, "Stabilization of constraints and integrals of motion in dynamical systems", Computer Methods in
-//! Applied Mechanics and Engineering 1 (1972) 1-16), by Kutta's method with steps of one length.
+//! Applied Mechanics and Engineering 1 (1972) 1-16), by Kutta's method with fixed steps.
 
 use std::error::Error;
 
@@ -18,18 +18,18 @@ use linkage::{Column, D, Dim, Matrix, Mechanism, PositionError, Scene};
 
 use super::problem::{Problem, State};
 
-/// What holds the closures.
+/// The treatment of the constraints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hold {
-    /// The accelerations alone.
+    /// Acceleration constraints only.
     Accelerations,
-    /// Baumgarte's alpha = beta, in 1/s.
+    /// Baumgarte stabilisation with alpha = beta, in 1/s.
     Baumgarte(f64),
-    /// After each step positions and rates are put back the shortest way, angles and lengths counted alike.
+    /// Orthogonal projection of positions and rates after each step, with angles and lengths weighted equally.
     Projection,
 }
 
-/// A number for each coordinate, those of the unknowns and those of the inputs apart.
+/// A number for each coordinate, unknowns and inputs separately.
 type All<U, V> = (Column<f64, U>, Column<f64, V>);
 
 /// All coordinates and their rates.
@@ -46,16 +46,16 @@ impl<U: Dim, V: Dim> Moving<U, V> {
     }
 }
 
-/// A motion in all coordinates, with `N` unknowns, accelerations and multipliers, in each system of equations.
+/// A motion in all coordinates; each linear system has `N` unknowns, accelerations and multipliers.
 pub struct Multipliers<'a, S: Scene<Scalar = f64>, const U: usize, const N: usize> {
     problem: &'a Problem<S>,
     hold: Hold,
     pub state: Moving<S::U, S::V>,
 }
 
-const DEPENDENT: &str = "the closures are not independent";
+const DEPENDENT: &str = "the constraints are not independent";
 
-/// A projection that takes more steps than this will not end.
+/// The iteration limit of a projection.
 const MOST_ITERATIONS: usize = 8;
 
 impl<'a, S, const U: usize, const N: usize> Multipliers<'a, S, U, N>
@@ -105,7 +105,7 @@ where
         Ok(Moving { q: rates, rates: accelerations })
     }
 
-    /// dq = -K' (K K')^-1 Psi until rounding; then the same of the rates, which K q' = 0 gives at once.
+    /// dq = -K' (K K')^-1 Psi until rounding error; then one such step for the rates, K q' = 0.
     fn project(
         &self,
         Moving { q: (mut u, mut v), rates }: Moving<S::U, S::V>,
@@ -123,7 +123,7 @@ where
             };
             let step = shortest(mechanism.residual(&pose));
             let size = step.0.largest().max(step.1.largest());
-            // The steps of Newton's method fall until they are rounding.
+            // Newton steps shrink until they are rounding error.
             if size == 0.0 || size >= last || last < f64::EPSILON.sqrt() {
                 let excess = shortest(j * rates.0 + a * rates.1);
                 return Ok(Moving { q: (u, v), rates: (rates.0 - excess.0, rates.1 - excess.1) });
@@ -131,10 +131,10 @@ where
             (u, v) = (u - step.0, v - step.1);
             last = size;
         }
-        Err("no position is near".into())
+        Err("the projection found no position".into())
     }
 
-    /// A step of Kutta's method.
+    /// Takes a step of Kutta's method.
     pub fn step(&mut self, t: f64, h: f64) -> Result<(), Box<dyn Error>> {
         let at = self.state;
         let first = self.slope(t, &at)?;
@@ -148,7 +148,7 @@ where
     }
 }
 
-/// Gives a block of a symmetric matrix its entries, and its mirror image.
+/// Sets a block of a symmetric matrix and its transpose.
 fn place<const N: usize, R: Dim, C: Dim>(
     matrix: &mut SMatrix<f64, N, N>,
     (top, left): (usize, usize),

@@ -1,4 +1,4 @@
-//! Steps by a tolerance: ours with the closures held, ours and other crates' on the bare right-hand side.
+//! Adaptive steps: `simulate` with projection, and `integrate` and other crates on the right-hand side alone.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -15,13 +15,13 @@ use super::list::{
 };
 use super::problem::{Problem, State};
 
-/// Steps after which any of them gives up: the bound that ours and `ode_solvers` have by themselves.
+/// The limit on steps: the default of `linkage` and `ode_solvers`.
 pub const MOST_STEPS: usize = 100_000;
 
-/// The end of a run and the right-hand sides it took, or why there is none.
+/// The final state of a run and its number of right-hand sides, or its error.
 pub type End<S> = Result<(State<S>, usize), String>;
 
-/// From a tolerance to an end.
+/// A run with a given tolerance.
 type Run<S> = fn(&Problem<S>, f64) -> End<S>;
 
 pub fn works<S: Scene<Scalar = f64, State = D<N>> + 'static, const N: usize>(problem: &Rc<Problem<S>>) -> Vec<Work> {
@@ -38,10 +38,10 @@ pub fn works<S: Scene<Scalar = f64, State = D<N>> + 'static, const N: usize>(pro
     methods.into_iter().flat_map(|(method, end)| by_tolerance(problem, method, end)).collect()
 }
 
-/// Digits of the tightest tolerance: code that is not optimised is not timed for long.
+/// The digits of the tightest tolerance; fewer for unoptimised code.
 const MOST_DIGITS: i32 = if cfg!(debug_assertions) { 7 } else { 13 };
 
-/// A method at tolerances from 1e-3 on.
+/// The runs of a method at tolerances from 1e-3 downwards.
 pub fn by_tolerance<S: Scene<Scalar = f64> + 'static>(
     problem: &Rc<Problem<S>>,
     method: usize,
@@ -79,7 +79,7 @@ impl<S: Scene<Scalar = f64>> Problem<S> {
         end().map_err(|error: MotionError| error.to_string())
     }
 
-    /// y', or what is not a number where there is none, for integrators that know no failure.
+    /// y', or NaN on an error, for integrators without error handling.
     #[inline]
     pub fn rate(&self, t: f64, y: &State<S>) -> State<S> {
         self.scene.derivative(t, y).unwrap_or_else(|_| Column::repeat(f64::NAN))
@@ -122,7 +122,7 @@ impl<S: Scene<Scalar = f64, State = D<N>>, const N: usize> Problem<S> {
     }
 }
 
-/// The right-hand side and how often it is called.
+/// The right-hand side with a count of its calls.
 struct Called<'a, S: Scene<Scalar = f64>>(&'a Problem<S>, &'a Cell<usize>);
 
 impl<S, const N: usize> ode_solvers::System<f64, ode_solvers::SVector<f64, N>> for Called<'_, S>

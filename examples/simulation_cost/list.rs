@@ -1,4 +1,4 @@
-//! Every run of every method, evaluated and timed.
+//! All runs of all methods, evaluated and timed.
 
 use std::time::Instant;
 
@@ -7,9 +7,9 @@ use super::price::frontier::{Price, Prices, cheapest, frontier};
 /// A curve of the charts.
 pub struct Method {
     pub name: &'static str,
-    /// Its colour, and whether it is dashed.
+    /// The style class: colour and dashes.
     pub class: &'static str,
-    /// What its settings are.
+    /// The kind of its settings.
     pub setting: Setting,
 }
 
@@ -37,7 +37,7 @@ pub const WEAKLY: usize = 11;
 pub const STRONGLY: usize = 12;
 pub const PROJECTED: usize = 13;
 
-/// Every method, in the order of the list.
+/// All methods, in the order of the tables.
 pub const METHODS: [Method; 14] = [
     method("simulate, 8(5,3)", "simulate", Setting::Tolerance),
     method("simulate, 5(4)", "simulate five", Setting::Tolerance),
@@ -55,14 +55,14 @@ pub const METHODS: [Method; 14] = [
     method("index 1, projected", "projected", Setting::Step),
 ];
 
-/// What a run gives.
+/// The result of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Outcome {
-    /// In radians.
+    /// The largest error of an angle, in radians.
     pub error: f64,
-    /// By how much the closures are open at the end, in metres.
+    /// The largest residual of the constraints at the end, in metres.
     pub gap: f64,
-    /// Of the right-hand side.
+    /// The evaluations of the right-hand side.
     pub evaluations: usize,
 }
 
@@ -74,25 +74,25 @@ pub struct Work {
     pub run: Box<dyn Fn() -> Result<Outcome, String>>,
 }
 
-/// A run and what it costs, or why it came to no end.
+/// A run with its result and time, or its error.
 pub struct Row {
     pub method: usize,
     pub setting: f64,
     pub outcome: Result<(Outcome, Price), String>,
 }
 
-/// All runs with a mechanism.
+/// All runs for one mechanism.
 pub struct List {
     pub title: &'static str,
     pub about: &'static str,
     pub rows: Vec<Row>,
 }
 
-/// What takes longer than this, in nanoseconds, needs fewer readings.
+/// Runs longer than this, in nanoseconds, are timed fewer times.
 const LONG: f64 = 1e7;
 const ROUNDS_OF_LONG: usize = 3;
 
-/// A smaller error is a rounding's good luck, and has no place on an axis.
+/// Errors are raised to this value for the logarithmic axis: smaller ones are coincidences of rounding errors.
 const LEAST: f64 = 1e-17;
 
 fn timed(work: &Work) -> (Result<Outcome, String>, f64) {
@@ -102,7 +102,7 @@ fn timed(work: &Work) -> (Result<Outcome, String>, f64) {
 }
 
 impl List {
-    /// Times every work in turns, `rounds` times; the medians count.
+    /// Times all runs alternately, `rounds` times, and keeps the medians.
     pub fn open(title: &'static str, about: &'static str, works: Vec<Work>, rounds: usize) -> Self {
         let (outcomes, mut times): (Vec<_>, Vec<_>) =
             works.iter().map(timed).map(|(outcome, time)| (outcome, vec![time])).unzip();
@@ -117,24 +117,24 @@ impl List {
             times.sort_by(f64::total_cmp);
             let priced = |outcome: Outcome| {
                 let price = Price { error: outcome.error.max(LEAST), time: times[times.len() / 2] };
-                if outcome.error.is_finite() { Ok((outcome, price)) } else { Err("not a number".to_owned()) }
+                if outcome.error.is_finite() { Ok((outcome, price)) } else { Err("the error is NaN".to_owned()) }
             };
             Row { method: work.method, setting: work.setting, outcome: outcome.and_then(priced) }
         });
         Self { title, about, rows: rows.collect() }
     }
 
-    /// What each row costs.
+    /// Error and time of each row.
     pub fn prices(&self) -> Prices {
         self.rows.iter().map(|row| row.outcome.as_ref().ok().map(|(_, price)| *price)).collect()
     }
 
-    /// The rows that are clearly more exact than all that are faster.
+    /// The rows that are clearly more accurate than every faster one.
     pub fn front(&self) -> Vec<usize> {
         frontier(&self.prices())
     }
 
-    /// The cheapest row of these methods with this error or less.
+    /// The fastest row of these methods with at most this error.
     pub fn cheapest(&self, methods: &[usize], error: f64) -> Option<(&Row, Outcome, Price)> {
         let priced = self.rows.iter().zip(self.prices());
         let prices: Prices = priced.map(|(row, price)| price.filter(|_| methods.contains(&row.method))).collect();
@@ -143,7 +143,7 @@ impl List {
         row.outcome.as_ref().ok().map(|&(outcome, price)| (row, outcome, price))
     }
 
-    /// What came out of a method at a setting.
+    /// The result of a method at a setting.
     pub fn at(&self, method: usize, setting: f64) -> Option<(Outcome, Price)> {
         let is_it = |row: &&Row| row.method == method && (row.setting / setting - 1.0).abs() < 1e-9;
         self.rows.iter().find(is_it)?.outcome.as_ref().ok().copied()

@@ -1,10 +1,8 @@
-//! The price of accuracy for simulation: error against time of methods, tolerances and formulations, ours beside other
-//! crates', on Andrews' squeezing mechanism, on falling windows with change points and on a four-bar, with a spring and
-//! without.
+//! Accuracy and time of simulation by method, tolerance and formulation, compared with other crates: Andrews' squeezing
+//! mechanism, windows with change points, and a four-bar with and without a spring.
 //!
-//! `cargo run --release --example simulation_cost` prints it and writes `target/simulation_cost.html` and `.svg`; with
-//! `-- --patient` it times more often. With the crate `diffsol` beside the others, which brings 52 packages along that
-//! nothing else here needs:
+//! `cargo run --release --example simulation_cost` prints the tables and writes `target/simulation_cost.html` and
+//! `.svg`; with `-- --patient` it measures more often. With the crate `diffsol`, which adds 52 packages to the build:
 //! `cargo run --release --manifest-path examples/simulation_cost/with_diffsol/Cargo.toml`.
 
 use std::error::Error;

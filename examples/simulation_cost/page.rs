@@ -1,4 +1,4 @@
-//! The page: charts, what they say, and every number.
+//! The page: conclusions, charts and all numbers.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use super::price::{self, axes};
 use super::reading::Paragraph;
 use super::report::setting;
 
-/// What the shared style does not have.
+/// Additions to the shared style.
 const STYLE: &str = ".legend{list-style:none;columns:17rem;max-width:64rem;margin:1rem 0 0;padding:0}\
     .legend svg{width:28px;height:14px;margin-right:.5rem;vertical-align:-2px}\
     main p,main li,main h3{max-width:52rem}.charts{max-width:64rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,22rem),1fr))}.about{color:var(--soft)}table{width:min(100%,38rem)}\
@@ -17,12 +17,12 @@ const STYLE: &str = ".legend{list-style:none;columns:17rem;max-width:64rem;margi
 pub fn html(lists: &[List], reading: &[Paragraph]) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>What a simulation's digits cost</title>\n\
-         <style>{}{}{}{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>What a simulation's digits cost</h1>\n\
-         <p>The largest error of an angle at the end, in radians, beside the median time of a whole run, all methods \
-         timed in turns. Ringed: clearly more exact than everything that is faster, steps of one length included. Dashed: \
-         order 5. All but the formulations with multipliers (index 1) take the same right-hand side; on it alone the \
-         absolute tolerance is the relative one, in rad and rad/s.</p>\n<ul class=\"legend\">",
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Accuracy and time of simulation</title>\n\
+         <style>{}{}{}{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>Accuracy and time of simulation</h1>\n\
+         <p>The largest error of an angle at the end, in radians, and the median time of a whole run; the methods are \
+         timed alternately. Ringed: clearly more accurate than every faster run, fixed steps included. Dashed: \
+         order 5. All but the formulations with multipliers (index 1) use the same right-hand side. Without projection the \
+         absolute tolerance equals the relative one, in rad and rad/s.</p>\n<ul class=\"legend\">",
         price::STYLE,
         axes::STYLE,
         chart::STYLE
@@ -34,7 +34,7 @@ pub fn html(lists: &[List], reading: &[Paragraph]) -> String {
     for (_, name, class) in chart::methods(lists) {
         push(format_args!("<li><svg viewBox=\"0 0 28 14\">{}</svg>{name}</li>", chart::swatch(class)));
     }
-    push(format_args!("</ul>\n</header>\n<main>\n<h2>What it says</h2>\n"));
+    push(format_args!("</ul>\n</header>\n<main>\n<h2>Conclusions</h2>\n"));
     for paragraph in reading {
         push(format_args!("<h3>{}</h3>\n<ul>", paragraph.question));
         paragraph.answers.iter().for_each(|answer| push(format_args!("<li>{answer}</li>")));

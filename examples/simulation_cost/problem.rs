@@ -1,4 +1,4 @@
-//! Motions whose ends are known.
+//! Motions with known final states.
 
 use linkage::{Column, Dim, Mechanism, Scene};
 
@@ -8,18 +8,18 @@ type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
 /// The state y = (q, v') of a scene.
 pub type State<S> = Column<f64, <S as Scene>::State>;
 
-/// A motion whose end is known.
+/// A motion with known final state.
 pub struct Problem<S: Scene<Scalar = f64>> {
     pub scene: S,
     pub start: State<S>,
-    /// From 0 to here.
+    /// The end time; the start is 0.
     pub end: f64,
-    /// All coordinates there; the rates are not looked at.
+    /// All coordinates at the end; the rates are not compared.
     pub expected: State<S>,
 }
 
 impl<S: Scene<Scalar = f64>> Problem<S> {
-    /// From a position and the rates of the inputs to a time and the position then.
+    /// Creates a problem from the initial position and input rates, and the end time with its position.
     pub fn new(
         scene: S,
         (start, input_rates): (Coordinates<S>, impl Into<Inputs<S>>),
@@ -29,15 +29,15 @@ impl<S: Scene<Scalar = f64>> Problem<S> {
         Self { scene, start: S::state(&start, &input_rates), end, expected: S::state(&expected, &input_rates) }
     }
 
-    /// How far the coordinates are off at the end: the largest error of an angle, in radians.
+    /// The largest error of an angle at the end, in radians.
     pub fn error(&self, y: &State<S>) -> f64 {
         let error = (*y - self.expected).abs();
-        // What is not a number must not be lost in a maximum.
+        // `max` would ignore a NaN.
         let largest = |most: f64, &error: &f64| if error.is_nan() { f64::INFINITY } else { most.max(error) };
         error.iter().take(S::U::COUNT + S::V::COUNT).fold(0.0, largest)
     }
 
-    /// The largest residual of a closure.
+    /// The largest residual of the constraints.
     pub fn gap(&self, y: &State<S>) -> f64 {
         let (mechanism, (q, _)) = (self.scene.mechanism(), S::parts(y));
         mechanism.residual(&mechanism.pose_at(&q)).largest()

@@ -1,4 +1,4 @@
-//! The list as text and as files.
+//! The results as text and as files.
 
 use std::error::Error;
 use std::rc::Rc;
@@ -7,7 +7,7 @@ use super::list::{ACCELERATIONS, List, METHODS, PROJECTED, REAL_TIME, Setting, W
 use super::problem::Problem;
 use super::{chart, fixed_steps, four_bars, integrators, page, problems, reading};
 
-/// The squeezer, the windows, the sprung four-bar and the turning one.
+/// The squeezer, the windows, the four-bar with a spring and the turning one.
 pub struct Problems {
     pub squeezer: Rc<Problem<problems::Squeezing>>,
     pub windows: Rc<Problem<problems::TwoFalling>>,
@@ -25,7 +25,7 @@ impl Problems {
         }
     }
 
-    /// The works with each that every build has.
+    /// The runs with each that exist in every build.
     pub fn works(&self) -> [Vec<Work>; 4] {
         let Self { squeezer, windows, sprung, turning } = self;
         let mut works = [
@@ -42,7 +42,7 @@ impl Problems {
     }
 }
 
-/// Times all of it, prints it and writes the files.
+/// Times all runs, prints the results and writes the files.
 pub fn write(works: [Vec<Work>; 4]) -> Result<(), Box<dyn Error>> {
     let is_patient = std::env::args().any(|argument| argument == "--patient");
     let rounds = match (cfg!(debug_assertions), is_patient) {
@@ -60,9 +60,9 @@ pub fn write(works: [Vec<Work>; 4]) -> Result<(), Box<dyn Error>> {
         ),
         List::open(
             "Two windows",
-            "The N-four-bar, N = 2, 10 s: ten times all bars are in line, and the closures alone do not say how it goes \
-             on. The right-hand sides of simulate's steps over such places are not counted. Baumgarte's alpha = beta = \
-             5/s and 50/s.",
+            "The N-four-bar, N = 2, 10 s: all bars are in line ten times, at change points, where the constraints alone do \
+             not determine the motion. The right-hand sides of the steps of simulate over them are not counted. \
+             Baumgarte's alpha = beta = 5/s and 50/s.",
             windows,
             rounds,
         ),
@@ -88,13 +88,13 @@ pub fn write(works: [Vec<Work>; 4]) -> Result<(), Box<dyn Error>> {
         println!("{}\n", paragraph.remark);
     }
     if cfg!(debug_assertions) {
-        println!("The times are those of code that is not optimised: run with --release.");
+        println!("The times are for unoptimised code: run with --release.");
     }
     std::fs::create_dir_all("target")?;
     std::fs::write("target/simulation_cost.svg", chart::svg(&lists))?;
     let html = page::html(&lists, &reading);
     std::fs::write("target/simulation_cost.html", &html)?;
-    println!("Price list: target/simulation_cost.html, {} kB, and .svg", html.len() / 1000);
+    println!("Tables: target/simulation_cost.html, {} kB, and .svg", html.len() / 1000);
     Ok(())
 }
 
@@ -119,13 +119,13 @@ fn print(list: &List) {
     println!();
 }
 
-/// What holds on every machine.
+/// Checks relations that hold on every machine.
 fn check([squeezer, _, sprung, turning]: &[List; 4]) {
     for list in [squeezer, sprung] {
         let prices = list.prices();
         let errors: Vec<f64> =
             list.front().iter().filter_map(|&index| prices[index]).map(|price| price.error).collect();
-        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "a frontier buys digits with time");
+        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "errors fall along the front");
         for row in list.rows.iter().filter(|row| row.method < REAL_TIME && row.setting < 2e-7) {
             let (name, error) = (METHODS[row.method].name, row.outcome.as_ref().map(|(_, price)| price.error));
             assert!(matches!(error, Ok(error) if error < 2e4 * row.setting), "{name} at {:e}: {error:?}", row.setting);
@@ -135,11 +135,14 @@ fn check([squeezer, _, sprung, turning]: &[List; 4]) {
         let (outcome, _) = turning.at(method, reading::STEP).expect("an end");
         (outcome.gap, outcome.error)
     });
-    assert!(held.0 < 1e-2 * open.0 && held.1 < open.1, "Baumgarte holds: {held:?} {open:?}");
-    assert!(projected.0 < 1e-2 * held.0 && projected.1 < held.1, "projection closes: {projected:?} {held:?}");
+    assert!(held.0 < 1e-2 * open.0 && held.1 < open.1, "Baumgarte stabilises: {held:?} {open:?}");
+    assert!(
+        projected.0 < 1e-2 * held.0 && projected.1 < held.1,
+        "projection satisfies the constraints: {projected:?} {held:?}"
+    );
 }
 
-/// A tolerance as it is, a step with its unit.
+/// A tolerance as a number, a step with its unit.
 pub fn setting(method: usize, setting: f64) -> String {
     match METHODS[method].setting {
         Setting::Tolerance => format!("{setting:.0e}"),

@@ -1,4 +1,4 @@
-//! The modes of many contacts at once, against the conditions that they must meet.
+//! Modes of many simultaneous contacts: tests the conditions of the complementarity problem.
 
 use linkage_dynamics::contact::{ContactLaw, Contacts, ReducedContact, ReducedEquations};
 use linkage_dynamics::{Mode, MotionError};
@@ -10,7 +10,7 @@ use rand::{Rng, SeedableRng};
 const V: usize = 3;
 const C: usize = 6;
 
-/// Bodies at rest with frictions and stops that all touch, many of them dependent, by units of any size.
+/// Bodies at rest with frictions and closed stops, many of them redundant, in units of any size.
 fn random(random: &mut SmallRng) -> ReducedEquations<f64, D<V>, D<C>> {
     let units: [f64; V] = std::array::from_fn(|_| 10.0_f64.powi(random.random_range(-3..4)));
     let mut root = SMatrix::<f64, V, V>::from_fn(|_, _| random.random_range(-1.0..1.0));
@@ -23,7 +23,7 @@ fn random(random: &mut SmallRng) -> ReducedEquations<f64, D<V>, D<C>> {
     let forces = SVector::<f64, V>::from_fn(|i, _| units[i] * units[i] * whole(random));
     let mut rows: Vec<SVector<f64, V>> = vec![];
     for place in 0..C {
-        // Some are combinations of those before.
+        // Some rows are combinations of earlier ones.
         let row = if place > 1 && random.random_range(0..2) == 0 {
             let [a, b] = [random.random_range(0..place), random.random_range(0..place)];
             rows[a] * whole(random) + rows[b] * whole(random)
@@ -51,7 +51,7 @@ fn random(random: &mut SmallRng) -> ReducedEquations<f64, D<V>, D<C>> {
     }
 }
 
-/// The first condition that the motion that begins does not meet, but for rounding errors.
+/// Returns the first condition that the accelerations violate by more than rounding error.
 fn wrong(equations: &ReducedEquations<f64, D<V>, D<C>>) -> Option<String> {
     let at = |rates: &Column<f64, D<V>>| Ok::<_, MotionError>(ReducedEquations { rates: *rates, ..*equations });
     let (contacts, _) = match Contacts::begin(0.0, &Column::zeros(), at) {
@@ -62,7 +62,7 @@ fn wrong(equations: &ReducedEquations<f64, D<V>, D<C>>) -> Option<String> {
         Ok(motion) => motion,
         Err(error) => return Some(error.to_string()),
     };
-    // M v'' = Q + S' f, by the energies of what is left and of the terms.
+    // M v'' = Q + S' f, measured by the energy of the residual relative to the energies of the terms.
     let inverse = Matrix::from(SMatrix::from(equations.mass).try_inverse()?);
     let energy = |force: &Column<f64, D<V>>| force.dot(&(inverse * *force));
     let mut left = equations.mass * motion.acceleration - equations.forces;
@@ -72,7 +72,7 @@ fn wrong(equations: &ReducedEquations<f64, D<V>, D<C>>) -> Option<String> {
         let limit = if let ContactLaw::Friction { limit } = contact.law { limit } else { 0.0 };
         size += energy(&(contact.row * force.abs().max(limit)));
     }
-    // The masses are conditioned to some 1e6, of which the forces of dependent contacts see the root.
+    // The condition number of M is about 1e6; its square root enters the forces of redundant contacts.
     if energy(&left) > 1e-12 * size {
         return Some(format!("forces off by {:e}", (energy(&left) / size).sqrt()));
     }
@@ -102,14 +102,14 @@ fn wrong(equations: &ReducedEquations<f64, D<V>, D<C>>) -> Option<String> {
     None
 }
 
-/// Where rounding alone lets contacts go, and where they must be let go in the order of what is gained.
+/// Seeds where rounding error releases contacts, and where the order of release matters.
 const HARD: [u64; 4] = [281_594, 314_198, 496_082, 1_266_200];
 
-/// Known failures of the first two million: contacts that depend on one another to rounding are let go and caught again
-/// until the search gives up, with a typed error.
+/// Known failures of the first two million: contacts that are redundant within rounding error are released and fixed
+/// again until the iteration limit, a typed error.
 const REFUSED: [u64; 2] = [131_815, 1_560_156];
 
-/// By convexity these conditions leave one acceleration. `TRIALS=2000000` tries as many.
+/// By convexity these conditions have one solution v''. `TRIALS=2000000` sets the number of trials.
 #[test]
 fn every_choice_meets_its_conditions() {
     let few = if cfg!(debug_assertions) { 10_000 } else { 100_000 };

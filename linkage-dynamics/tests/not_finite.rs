@@ -1,4 +1,4 @@
-//! Searches and integrations whose numbers leave the range: they are refused, wherever the number stands.
+//! Searches and integrations with numbers that overflow or are NaN: every position of such a number gives an error.
 
 use linkage_dynamics::__rt::equilibrium;
 use linkage_dynamics::integrate::{FixedStep, Tolerance, dop853, dopri5};
@@ -9,7 +9,7 @@ use linkage_runtime::nalgebra::SVector;
 
 const IDENTITY: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 
-/// The largest of several residuals is not a number if one of them is none, whichever that is.
+/// The largest of several residuals is NaN if any of them is.
 #[test]
 fn a_residual_that_is_not_a_number_is_not_lost() {
     for row in 0..2 {
@@ -22,7 +22,7 @@ fn a_residual_that_is_not_a_number_is_not_lost() {
     }
 }
 
-/// Relative to an infinite size every residual would be zero, and the start a position.
+/// Relative to an infinite scale every residual would be zero, and the start accepted as a position.
 #[test]
 fn a_size_that_is_not_finite_closes_nothing() {
     for size in [f64::INFINITY, f64::NAN] {
@@ -37,7 +37,7 @@ fn a_size_that_is_not_finite_closes_nothing() {
     }
 }
 
-/// A closure may be zero at infinity; a step there is too long.
+/// A residual may tend to zero at infinity; a step there must be rejected.
 #[test]
 fn no_unknown_is_infinite() {
     let found = newton_group("mechanism", "a", [0.0], |[a]: [f64; 1]| {
@@ -46,7 +46,7 @@ fn no_unknown_is_infinite() {
     assert!(matches!(found, Err(PositionError::NotConverged { .. })), "{found:?}");
 }
 
-/// Forces beside which any other is zero.
+/// An infinite scale, relative to which every force would be zero.
 #[test]
 fn an_equilibrium_of_infinite_forces_is_none() {
     for (scales, slopes) in [([f64::INFINITY], [[1.0]]), ([1.0], [[1e308]])] {
@@ -81,7 +81,7 @@ fn an_integration_begins_and_ends_at_finite_states() {
     }
 }
 
-/// Time leaves the range as well.
+/// The time may overflow too.
 #[test]
 fn a_fixed_step_ends_at_a_finite_time() {
     let rate = |_: f64, _: &SVector<f64, 1>| Ok(SVector::from([0.0]));

@@ -1,6 +1,6 @@
-//! Linkages on paper.
+//! Documents and drawings of linkages.
 //!
-//! - [`Document`]: a derivation in plain text and as a part of a LaTeX document;
+//! - [`Document`]: a derivation as plain text and as LaTeX;
 //! - [`sheet`]: a derivation as HTML, with numbers and pictures;
 //! - [`drawing`]: a linkage as SVG.
 

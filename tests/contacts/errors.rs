@@ -49,5 +49,7 @@ fn errors_name_the_friction_or_the_stop() {
     let named = MotionError::NoContactForces { scene: "Driven", contact: "stop on z" };
     assert_eq!(motion.finish(|_, _| true), Err(named));
     close("there", motion.t(), 2.0, 1e-12);
-    assert_eq!(named.to_string(), "no forces of frictions and stops agree with the motion of Driven: stop on z");
+    let text = "no contact forces satisfy the motion of Driven, stop on z included: a prescribed motion drives through a stop, \
+                or stops contradict each other";
+    assert_eq!(named.to_string(), text);
 }

@@ -103,8 +103,8 @@ fn stiffness_by_dual_numbers() {
         let moved = four_bar_at([Dual64::new(v[0], 1.0)]).unwrap();
         let force = scene.clone().map(constant::<Dual64>).forces(constant(t), &moved, Dual64::from(0.0)).unwrap()[0];
         let balance = scene.balance(t, &q).unwrap();
-        close("Q", balance.forces[0], force.re, balance.sizes[0]);
-        close("dQ/dv", balance.slopes[0][0], force.eps, balance.sizes[0]);
+        close("Q", balance.forces[0], force.re, balance.scales[0]);
+        close("dQ/dv", balance.slopes[0][0], force.eps, balance.scales[0]);
 
         let pair = Pair::default().map(constant::<Dual64>);
         let Ok(pose) = free.mechanism.assemble(PairInputs { theta1: v[0], theta4: v[1] }, PAIR) else { return };
@@ -115,8 +115,8 @@ fn stiffness_by_dual_numbers() {
             let rest = PairInputs { theta1: Dual64::from(0.0), theta4: Dual64::from(0.0) };
             let forces = free.clone().map(constant::<Dual64>).forces(constant(t), &q, rest).unwrap();
             for (row, slope) in slopes.into_iter().enumerate() {
-                let scale = balance.sizes[row] + slopes[0].abs() + slopes[1].abs();
-                close("Q", balance.forces[row], forces[row].re, balance.sizes[row]);
+                let scale = balance.scales[row] + slopes[0].abs() + slopes[1].abs();
+                close("Q", balance.forces[row], forces[row].re, balance.scales[row]);
                 close("dQ/dv", slope, forces[row].eps, scale);
             }
         }

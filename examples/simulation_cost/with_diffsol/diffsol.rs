@@ -1,4 +1,4 @@
-//! `diffsol` on the bare right-hand side: Tsitouras's pair of order 5(4), on vectors of nalgebra.
+//! `diffsol` on the right-hand side alone: Tsitouras's pair of order 5(4), on vectors of nalgebra.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -28,7 +28,7 @@ fn end<S: Scene<Scalar = f64>>(problem: &Problem<S>, tolerance: f64) -> End<S> {
     solver.set_stop_time(problem.end).map_err(|error| error.to_string())?;
     for step in 0.. {
         if step == MOST_STEPS {
-            return Err(format!("{MOST_STEPS} steps lead to t = {} only", solver.state().t));
+            return Err(format!("the limit of {MOST_STEPS} steps is reached at t = {}", solver.state().t));
         }
         if solver.step().map_err(|error| error.to_string())? == OdeSolverStopReason::TstopReached {
             break;

@@ -1,4 +1,4 @@
-//! The price list of simulation with `diffsol` beside the other integrators.
+//! Accuracy and time of simulation, with `diffsol` among the integrators.
 
 use std::error::Error;
 

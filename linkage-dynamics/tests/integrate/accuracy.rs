@@ -1,4 +1,4 @@
-//! Published motions, and that equal runs are equal.
+//! Published motions, and reproducibility.
 
 use linkage_dynamics::integrate::{Counts, FixedStep, Integration, Method, System, Tolerance, dop853, dopri5};
 use linkage_runtime::D;
@@ -31,9 +31,9 @@ fn cost<S: System<Scalar = f64, N = D<N>>, M: Method, const N: usize>(
     (motion.counts(), (*motion.state()).into())
 }
 
-/// The Fortran codes DOP853 and DOPRI5 of Hairer and Wanner on Arenstorf's orbit, with first step 1e-4 and relative
-/// and absolute tolerance the same, run through scipy 1.13: tolerance, evaluations, accepted steps, and how far the
-/// orbit misses its start.
+/// The Fortran codes DOP853 and DOPRI5 of Hairer and Wanner on Arenstorf's orbit, with first step 1e-4 and relative and
+/// absolute tolerance the same, run through scipy 1.13: tolerance, evaluations, accepted steps, and the distance of the
+/// end from the start.
 const DOP853: [(f64, usize, usize, f64); 6] = [
     (1e-3, 622, 38, 1.198_966_977_5),
     (1e-5, 857, 53, 0.121_118_771_3),
@@ -56,7 +56,7 @@ fn costs_and_errors_are_those_of_the_published_codes() {
     let check = |(relative, evaluations, accepted, miss): (f64, usize, usize, f64), (ours, end): (Counts, State<4>)| {
         assert_eq!((ours.evaluations, ours.accepted), (evaluations, accepted), "{relative:e}");
         let missed = (end - ORBIT).amax();
-        // Rounding, which the orbit magnifies by more than 1e5, is all that is different.
+        // Only rounding errors differ, which the orbit magnifies by more than 1e5.
         assert!((missed - miss).abs() < 1e-5 * miss + 1e-9, "{relative:e}: {missed:e} and {miss:e}");
     };
     for row in DOP853 {
@@ -77,7 +77,7 @@ fn equal_runs_are_equal_to_the_bit_however_they_are_looked_at() {
     let mut asked = new();
     let states = asked.at((0..=100).map(|i| ORBIT_PERIOD * f64::from(i) / 100.0)).count();
     assert_eq!((states, asked.state()), (101, &steps[steps.len() - 1].state));
-    // Dense output takes three evaluations in the steps that are asked.
+    // Dense output takes three evaluations in each step with an output.
     assert!(asked.counts().evaluations <= cost(new()).0.evaluations + 3 * 99);
     let mut paused = new();
     let mut done = 0.0;
@@ -95,7 +95,7 @@ fn equal_runs_are_equal_to_the_bit_however_they_are_looked_at() {
 
 #[test]
 fn units_change_nothing() {
-    // Lengths 2^20 times and times 2^-9 times as large: all numbers are the same up to their exponents.
+    // Lengths 2^20 times and times 2^-9 times as large: all numbers differ only in their exponents.
     let (length, time) = (2f64.powi(20), 2f64.powi(-9));
     let free = |length: f64, time: f64| {
         let mu = length * length * length / (time * time);
@@ -112,7 +112,8 @@ fn units_change_nothing() {
     };
     assert_eq!(free(1.0, 1.0), free(length, time));
     assert!(free(1.0, 1.0).len() > 20);
-    // From rest at zero, where the first step has nothing to go by, and with a slope that is nothing beside the scale.
+    // From rest at zero, where the first step has no estimate, and with a slope that is negligible relative to the
+    // scale.
     for speed in [0.0, 1e-7] {
         let pulled = |length: f64, time: f64| {
             let rate = move |_: f64, y: &State<2>| Ok(vector![y[1], (1e-7 * length - y[0]) / (time * time)]);
@@ -136,7 +137,7 @@ fn backwards_leads_back() {
         let back = cost(dop853(pendulum, (end, there), 0.0, tolerance(1e-13)).unwrap()).1;
         assert!((back - HORIZONTAL).amax() < 1e-11, "{back}");
     }
-    // Backwards the outputs descend.
+    // Backwards in time the outputs descend.
     let mut motion = dopri5(pendulum, (0.0, HORIZONTAL), -2.0, tolerance(1e-10)).unwrap();
     let states: Vec<_> = motion.at([-0.5, -1.0, -2.0]).map(Result::unwrap).collect();
     for ((t, y), (time, [x, _])) in states.into_iter().zip(BOB) {
@@ -178,7 +179,7 @@ fn fixed_steps_keep_an_undamped_oscillation() {
     assert_eq!(motion.t(), 10.0);
     let y = motion.state();
     assert!((y[0].sin() - BOB[4].1[0]).abs() < 1e-8);
-    // At the border of stability 2 sqrt(2): just below it an oscillation dies, just above it grows.
+    // At the stability limit 2 sqrt(2): just below it an oscillation decays, just above it grows.
     let amplitude = |h: f64| {
         let rate = |_: f64, y: &State<2>| Ok(vector![y[1], -y[0]]);
         let mut motion = FixedStep::new(rate, (0.0, vector![1.0, 0.0]), h).unwrap();

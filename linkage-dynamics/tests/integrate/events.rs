@@ -1,4 +1,4 @@
-//! Events at times that are known.
+//! Events at known times.
 
 use std::cell::RefCell;
 
@@ -27,7 +27,7 @@ fn events<const N: usize>(steps: impl Iterator<Item = Result<Step<f64, D<N>>, Mo
     steps.map(Result::unwrap).filter(|step| step.event.is_some()).collect()
 }
 
-/// The times at which a ball that falls from 1 m hits the ground: fall + 2 fall (r + r^2 + ...).
+/// The impact times of a ball that falls from 1 m: fall + 2 fall (r + r^2 + ...).
 fn impacts(restitution: f64) -> impl Iterator<Item = f64> {
     let fall = (2.0 / GRAVITY).sqrt();
     let mut flight = 2.0 * fall;
@@ -39,7 +39,7 @@ fn impacts(restitution: f64) -> impl Iterator<Item = f64> {
 
 #[test]
 fn a_bouncing_ball_hits_the_ground_when_the_law_says() {
-    // Steps far longer than a flight, over which dense output rounds off more, and shorter ones.
+    // Steps far longer than a flight, with larger rounding errors of dense output, and shorter ones.
     for (parts, largest, bound) in [(1, 100.0, 1e-12), (4, 100.0, 1e-12), (4, 0.05, 2e-14)] {
         let motion = dop853(ball(0.8), (0.0, vector![1.0, 0.0]), 3.5, tolerance(1e-9)).unwrap();
         let motion = motion.event_parts(parts).largest_step(largest).unwrap();
@@ -56,7 +56,7 @@ fn a_bouncing_ball_hits_the_ground_when_the_law_says() {
 
 #[test]
 fn a_ball_that_bounces_without_end_is_an_error() {
-    // fall (1 + 2 (r + r^2 + ...)). Of the small r rounding leaves the ball below the ground by more than it rises.
+    // fall (1 + 2 (r + r^2 + ...)). At small r the rounding error of the place exceeds the height of the rebound.
     for (restitution, flights, bound) in [(0.5, 3.0, 1e-12), (1e-10, 1.0 + 2e-10, 1e-10)] {
         let mut motion = dop853(ball(restitution), (0.0, vector![1.0, 0.0]), 10.0, tolerance(1e-9)).unwrap();
         let error = motion.find_map(Result::err).unwrap();
@@ -80,11 +80,11 @@ fn a_pendulum_passes_its_lowest_place_each_half_period() {
             let exact = PERIOD * (first + between * n as f64);
             assert!((step.t - exact).abs() < 2e-11, "{crossing:?} {n}: {:e}", step.t - exact);
         }
-        // What is only recorded changes nothing.
+        // Recorded events do not change the motion.
         let mut alone = dop853(pendulum, (0.0, HORIZONTAL), 20.0, tolerance(1e-13)).unwrap();
         alone.finish(|_, _| true).unwrap();
         assert_eq!(alone.state(), motion.state());
-        // Dense output only in steps with an event.
+        // Dense output is used only in steps with an event.
         let more = motion.counts().evaluations - alone.counts().evaluations;
         assert!(more <= 3 * found.len(), "{more} for {}", found.len());
     }
@@ -139,13 +139,13 @@ fn what_starts_on_zero_has_no_event_there_and_one_at_the_end_counts() {
         let found = times(start, end);
         assert!(found.len() == 1 && (found[0] - exact).abs() < 1e-14, "{start} to {end}: {found:?}");
     }
-    // A function that stays zero never has one.
+    // A function that stays zero has no event.
     let system = watched(falling, [Crossing::Either], |_, _: &State<2>| Ok([0.0]), |_, _, _| Ok(Action::Stop));
     assert_eq!(events(dop853(system, (0.0, vector![1.0, 0.0]), 1.0, tolerance(1e-9)).unwrap()), []);
 }
 
-/// A block that a spring pulls over a rough floor, its other end moving at speed 1 from where it is slack: mass 1,
-/// stiffness 1, friction at most 2 at rest and 1 in motion. The state: place and speed of the block.
+/// A block pulled over a rough floor by a spring, whose other end moves at speed 1 from the unstretched state: mass 1,
+/// stiffness 1, friction at most 2 at rest and 1 in motion. The state is position and speed of the block.
 #[derive(Default)]
 struct Block {
     slips: bool,
@@ -161,7 +161,7 @@ impl System for Block {
         Ok(if self.slips { [y[1], t - y[0] - 1.0] } else { [0.0, 0.0] }.into())
     }
 
-    /// The spring pulls it loose; it comes to rest.
+    /// The block begins to slip; it comes to rest.
     fn events(&mut self, t: f64, y: &Entries<2>) -> Result<Entries<2>, MotionError> {
         Ok(if self.slips { [-1.0, y[1]] } else { [t - y[0] - 2.0, 1.0] }.into())
     }

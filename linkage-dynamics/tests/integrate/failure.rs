@@ -1,4 +1,4 @@
-//! What cannot be integrated, and what was computed until then.
+//! Failing integrations, and the results before the failure.
 
 use std::cell::Cell;
 
@@ -13,8 +13,8 @@ use super::{Entries, State, tolerance};
 #[test]
 fn tolerances_that_cannot_be_met_are_refused() {
     for relative in [0.0, -1e-9, 2e-15, 1.5, f64::NAN, f64::INFINITY] {
-        let refused = Tolerance::<f64, D<1>>::new(relative, [1.0]).unwrap_err();
-        assert!(matches!(refused, InputError::OutOfRange { quantity: "the relative tolerance", .. }), "{refused}");
+        let error = Tolerance::<f64, D<1>>::new(relative, [1.0]).unwrap_err();
+        assert!(matches!(error, InputError::OutOfRange { quantity: "the relative tolerance", .. }), "{error}");
     }
     assert!(Tolerance::<f64, D<1>>::new(2.5e-15, [1.0]).is_ok());
     assert!(Tolerance::<f32, D<1>>::new(1e-7, [1.0]).is_err());
@@ -65,7 +65,7 @@ fn output_times_must_lie_ahead() {
     }
 }
 
-/// y' = 1 / sqrt(1 - t), which ends at t = 1 with y = 2; the rate is then not a number or an error.
+/// y' = 1 / sqrt(1 - t), which ends at t = 1 with y = 2; beyond it the rate is NaN or an error.
 #[test]
 fn a_motion_that_ends_is_followed_to_its_end() {
     let own = MotionError::from(PositionError::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 });
@@ -78,7 +78,7 @@ fn a_motion_that_ends_is_followed_to_its_end() {
             let mut motion = dop853(rate, (0.0, vector![0.0]), end, tolerance(1e-9)).unwrap();
             let mut states: Vec<_> = motion.at([0.25, 0.75, 1.5, 1.6]).collect();
             let error = states.pop().unwrap().unwrap_err();
-            // The root itself ends in steps too small for either.
+            // The square root itself ends with steps that are too small.
             assert!(
                 expected == Some(error)
                     || matches!(error, MotionError::NotFinite { .. } | MotionError::StepTooSmall { .. }),
@@ -106,10 +106,10 @@ fn the_own_error_of_a_rate_comes_back_at_its_place() {
         assert!(fails(error), "{error}");
         assert!(motion.t() <= 1.0 && motion.t() > 1.0 - 1e-14, "{:e}", motion.t() - 1.0);
         assert!(motion.counts().evaluations < 2000, "{:?}", motion.counts());
-        // Nothing is left that could be asked of the step that failed.
+        // The failed step has no dense output.
         assert_eq!(motion.interpolant().unwrap().interval(), (motion.t(), motion.t()));
 
-        // At once.
+        // An error at the first call.
         let start = (2.0, HORIZONTAL);
         let mut motion = dop853(rate, start, 3.0, tolerance(1e-9)).unwrap();
         assert!(fails(motion.next().unwrap().unwrap_err()) && motion.next().is_none());
@@ -148,7 +148,7 @@ fn stiff_equations_are_told_from_others() {
     assert!((motion.state()[0] - 10f64.cos()).abs() < 1e-3);
     let error = dopri5(rate, (0.0, vector![0.0]), 10.0, tolerance(1e-4)).unwrap().find_map(Result::err).unwrap();
     assert!(matches!(error, MotionError::Stiff { .. }), "{error}");
-    // A long motion that is not stiff.
+    // A long motion without stiffness.
     let mut motion = dopri5(pendulum, (0.0, HORIZONTAL), 200.0, tolerance(1e-10)).unwrap().stiffness_test(1);
     motion.finish(|_, _| true).unwrap();
     assert!(motion.counts().accepted > 5000);
@@ -173,8 +173,8 @@ fn an_event_function_that_is_not_a_number_ends_the_motion() {
     assert!(matches!(error, MotionError::NotFinite { quantity: "an event function", .. }), "{error}");
 }
 
-/// A pendulum of 1 m by an angle from a direction that follows it in quarters of a turn: its other coordinates are
-/// singular elsewhere.
+/// A pendulum of 1 m by an angle from a direction that changes in quarter turns: coordinates with a singularity
+/// elsewhere.
 #[derive(Default)]
 struct Quarters {
     quarter: f64,
@@ -214,7 +214,7 @@ fn coordinates_may_be_switched_between_steps() {
     let start = vector![0.0, 7.0];
     let mut plain = dop853(pendulum, (0.0, start), 5.0, tolerance(1e-11)).unwrap();
     let mut switched = dop853(Quarters::default(), (0.0, start), 5.0, tolerance(1e-11)).unwrap();
-    // Outputs within a step come in the coordinates of that step.
+    // Outputs within a step are in the coordinates of that step.
     let times: Vec<f64> = (1..=500).map(|i| 0.01 * f64::from(i)).collect();
     for &t in &times {
         let (_, y) = switched.at([t]).next().unwrap().unwrap();
@@ -223,12 +223,12 @@ fn coordinates_may_be_switched_between_steps() {
         assert!((angle - exact[0]).abs() < 1e-8, "{t}: {:e}", angle - exact[0]);
     }
     assert!(switched.system().switches > 8, "{}", switched.system().switches);
-    // One evaluation each, and the steps are about as many.
+    // One evaluation for each switch, and about as many steps.
     let (plain, switched) = (plain.counts(), switched.counts());
     assert!(switched.accepted.abs_diff(plain.accepted) <= plain.accepted / 5, "{plain:?} {switched:?}");
 }
 
-/// y' = y, as z = y / 4^n with n raised wherever z has passed 2: another state and another rate.
+/// y' = y with the state z = y / 4^n, where n grows by one when z passes 2: the state and the rate change.
 #[derive(Default)]
 struct Rescaled(i32);
 

@@ -1,4 +1,4 @@
-//! Integrations against exact solutions, published figures and the counts of the published codes.
+//! Compares integrations with exact solutions, published values and the step counts of published codes.
 
 mod accuracy;
 mod events;
@@ -15,7 +15,7 @@ use linkage_runtime::{Column, D};
 
 type State<const N: usize> = SVector<f64, N>;
 type Rate<const N: usize> = Result<State<N>, MotionError>;
-/// A state as a system takes it.
+/// A state column.
 type Entries<const N: usize> = Column<f64, D<N>>;
 
 /// `relative` (1 + |y|).

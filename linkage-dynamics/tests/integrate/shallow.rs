@@ -1,4 +1,4 @@
-//! Events inside a step that begin and end between two places at which the functions are looked at.
+//! Events inside a step that begin and end between two samples of the functions.
 
 use std::cell::Cell;
 
@@ -11,7 +11,7 @@ use rand::{Rng, SeedableRng};
 
 use super::{Entries, State, tolerance};
 
-/// A function of the time that has one minimum, at `place`, where it is less than zero by `depth`.
+/// A function of time with one minimum, of value -`depth` at `place`.
 #[derive(Debug, Clone, Copy)]
 struct Dip {
     place: f64,
@@ -21,7 +21,7 @@ struct Dip {
 }
 
 impl Dip {
-    /// In the first unit of time, with a depth from 1e-9 to a tenth.
+    /// A random one in the first unit of time, with a depth from 1e-9 to a tenth.
     fn random(random: &mut SmallRng) -> Self {
         Self {
             place: random.random_range(0.0..1.0),
@@ -40,14 +40,14 @@ impl Dip {
             2 => [1.0 - (-u * u).exp(), 2.0 * u * (-u * u).exp()],
             3 => [u * u / (1.0 + u * u), 2.0 * u / (1.0 + u * u).powi(2)],
             4 => [(1.0 + u * u).sqrt() - 1.0, u / (1.0 + u * u).sqrt()],
-            // Steeper on one side.
+            // Asymmetric: steeper on one side.
             _ => [u.exp() - 1.0 - u, u.exp() - 1.0],
         };
         [value - self.depth, slope / self.width]
     }
 }
 
-/// y = t, with a guard by its rate or without.
+/// y = t with a guard, with or without known rate.
 struct Guarded<'a> {
     guard: &'a dyn Fn(f64) -> [f64; 2],
     knows: bool,
@@ -81,7 +81,7 @@ impl System for Guarded<'_> {
     }
 }
 
-/// When the guard ends the motion, the looks at it and the cost, in steps of this length.
+/// The time at which the guard ends the motion, its evaluations and the cost, with steps of this length.
 fn guarded(guard: &dyn Fn(f64) -> [f64; 2], knows: bool, step: f64) -> (Option<f64>, usize, Counts) {
     let system = Guarded { guard, knows, hit: None, looks: 0 };
     let mut motion = dop853(system, (0.0, vector![0.0]), 1.0, tolerance(1e-9)).unwrap();
@@ -90,7 +90,7 @@ fn guarded(guard: &dyn Fn(f64) -> [f64; 2], knows: bool, step: f64) -> (Option<f
     (motion.system().hit, motion.system().looks, motion.counts())
 }
 
-/// The same as an event of the user's.
+/// Does the same with a user-defined event.
 fn recorded(function: &dyn Fn(f64) -> [f64; 2], crossing: Crossing, parts: usize, step: f64) -> Vec<f64> {
     let looks = Cell::new(0);
     let system = watched(
@@ -107,7 +107,7 @@ fn recorded(function: &dyn Fn(f64) -> [f64; 2], crossing: Crossing, parts: usize
     motion.map(Result::unwrap).filter(|step| step.event.is_some()).map(|step| step.t).collect()
 }
 
-/// Where the function falls through zero, and where it rises again, by bisection about its minimum.
+/// The times at which the function falls and rises through zero, by bisection around its minimum.
 fn zeros(dip: &Dip) -> [Option<f64>; 2] {
     let zero = |outer: f64| {
         let (mut above, mut below) = (outer, dip.place);
@@ -123,7 +123,7 @@ fn zeros(dip: &Dip) -> [Option<f64>; 2] {
     [zero(0.0), zero(1.0)]
 }
 
-/// Ten thousand guards, half with known rates: none is missed, and each is found where it is.
+/// Ten thousand guards, half with known rates: each is found at its exact time.
 #[test]
 fn one_minimum_in_a_step_is_never_missed() {
     let mut random = SmallRng::seed_from_u64(20_261_122);
@@ -133,7 +133,7 @@ fn one_minimum_in_a_step_is_never_missed() {
         let dip = Dip::random(&mut random);
         let [Some(falls), rises] = zeros(&dip) else { continue };
         let knows = found[0] % 2 == 0;
-        // Where it crosses less than the roots of rounding errors tell is not asked.
+        // Skip crossings that are closer together than the square root of rounding error.
         let bound = 1e-14 + 1e-15 / dip.at(falls)[1].abs();
         let (hit, by_dip, _) = guarded(&|t| dip.at(t), knows, 1.0);
         let (_, by_line, _) = guarded(&|t| [2.0 - t, -1.0], knows, 1.0);
@@ -142,7 +142,7 @@ fn one_minimum_in_a_step_is_never_missed() {
         let hit = hit.unwrap_or_else(|| panic!("{} {dip:?}", found[0]));
         assert!((hit - falls).abs() < bound, "{hit} and {falls}");
         found[0] += 1;
-        // As an event, either way, and up alone.
+        // As an event in either direction, and rising only.
         let both = recorded(&|t| dip.at(t), Crossing::Either, 4, 1.0);
         let expected: Vec<_> = [Some(falls), rises].into_iter().flatten().collect();
         assert_eq!(both.len(), expected.len(), "{both:?} {expected:?}");
@@ -153,11 +153,11 @@ fn one_minimum_in_a_step_is_never_missed() {
         found[2] += 1;
     }
     let [by_values, by_rates, monotone, by_rates_monotone] = looks.map(|looks| f64::from(looks as u32) / 5000.0);
-    println!("none of {found:?} missed; looks a step by rates {by_rates:.1}, by values {by_values:.1}");
-    println!("beside {by_rates_monotone:.1} and {monotone:.1} where nothing turns");
+    println!("none of {found:?} missed; evaluations a step with rates {by_rates:.1}, with values {by_values:.1}");
+    println!("compared with {by_rates_monotone:.1} and {monotone:.1} without an extremum");
 }
 
-/// The oscillator x = a sin(w t) and a wall just below a: its contacts, of which each lasts a small part of a step.
+/// The oscillator x = a sin(w t) and a wall just below a: each contact lasts a small fraction of a step.
 #[test]
 fn an_oscillator_grazes_its_wall() {
     let first = |frequency: f64, place: f64, relative: f64, knows: bool| {
@@ -170,14 +170,14 @@ fn an_oscillator_grazes_its_wall() {
     let mut random = SmallRng::seed_from_u64(7);
     for _ in 0..1000 {
         let shallow = 10.0_f64.powf(random.random_range(-11.0..-1.0));
-        // An error of the place beside which the wall is still met.
+        // The wall is still met with this error of the position.
         let relative = (1e-3 * shallow).clamp(1e-14, 1e-5);
         let frequency = 10.0_f64.powf(random.random_range(-1.0..1.0));
         for knows in [true, false] {
             let (hit, counts) = first(frequency, 1.0 - shallow, relative, knows);
             let exact = (1.0 - shallow).asin();
             let hit = hit.unwrap_or_else(|| panic!("{shallow:e} missed at {relative:e}, {counts:?}"));
-            // The error of the place, by which the wall is nearer or farther, over the slope there.
+            // The time error is the position error divided by the slope.
             let bound = 100.0 * relative / (2.0 * shallow).sqrt();
             assert!((hit - exact).abs() < bound, "{shallow:e}: {:e} of {bound:e}", hit - exact);
             let (beyond, counts) = first(frequency, 1.0 + shallow, relative, knows);
@@ -218,8 +218,8 @@ impl System for Wall {
     }
 }
 
-/// Sums of sines with several extrema in a step, of which the deepest goes below zero by a ten thousandth of their
-/// height: how often an event is missed, by the number of minima and the parts at which the function is looked at.
+/// Sums of sines with several extrema in a step, the deepest 1e-4 of the amplitude below zero: the fraction of missed
+/// events, by the number of minima and the parts of the step.
 #[test]
 fn of_several_extrema_in_a_step_some_are_missed() {
     let mut random = SmallRng::seed_from_u64(3);
@@ -248,7 +248,7 @@ fn of_several_extrema_in_a_step_some_are_missed() {
         let ends = grid[0].min(grid[2000]);
         let height = grid.iter().fold(f64::MIN, |most, value| most.max(*value)) - grid[lowest];
         let depth = 1e-4 * height;
-        // Positive at both ends, and below zero about one of its minima.
+        // Positive at both ends, and below zero at one of its minima.
         if turns == 0 || ends - grid[lowest] < 2.0 * depth || grid[lowest] >= ends {
             continue;
         }
@@ -275,7 +275,7 @@ fn of_several_extrema_in_a_step_some_are_missed() {
             counts[0][1]
         );
     }
-    // What the manual says: with one extremum none, with two 0.1 %, with three 1 %, in sixteen parts 0.06 %.
+    // The documented values: none with one extremum, 0.1 % with two, 1 % with three; 0.06 % with sixteen parts.
     assert!(missed[0].iter().all(|[missed, _]| *missed == 0), "{missed:?}");
     for (counts, most) in missed[1..].iter().zip([0.002, 0.015, 0.06, 0.3, 0.7]) {
         let within = |[missed, all]: [u32; 2], most: f64| f64::from(missed) <= most * f64::from(all);
@@ -283,7 +283,7 @@ fn of_several_extrema_in_a_step_some_are_missed() {
     }
 }
 
-/// The cost of looking for a minimum relative to looking at the places alone: an oscillator far from its wall and near it.
+/// The cost of searching for a minimum relative to sampling alone: an oscillator far from its wall and near it.
 #[test]
 fn what_looking_costs() {
     for knows in [true, false] {
@@ -302,7 +302,7 @@ fn what_looking_costs() {
         alone.finish(|_, _| true).unwrap();
         evaluations[2] = alone.counts().evaluations;
         println!(
-            "rate known {knows}: {looks:?} looks far, near, steps; {evaluations:?} evaluations of the rate far, near, alone"
+            "rate known {knows}: {looks:?} guard evaluations far, near, steps; {evaluations:?} evaluations of the rate far, near, alone"
         );
         assert!(evaluations[1] as f64 <= 1.2 * evaluations[2] as f64);
     }

@@ -1,4 +1,4 @@
-//! Motions that are known.
+//! Systems with known motions.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,16 +8,16 @@ use super::{Rate, State};
 
 pub const GRAVITY: f64 = 9.81;
 
-/// The angle from below of a pendulum of 1 m, and its speed.
+/// The state of a pendulum of 1 m: the angle from the lowest position, and its rate.
 pub fn pendulum(_: f64, y: &State<2>) -> Rate<2> {
     Ok(vector![y[1], -GRAVITY * y[0].sin()])
 }
 
 pub const HORIZONTAL: State<2> = State::<2>::new(FRAC_PI_2, 0.0);
 
-/// The place of the bob of a pendulum of 1 m let go at (1, 0), g = 9.81: problem A01, simple pendulum, of the IFToMM
-/// library of computational benchmark problems of multibody dynamics. By its exact law, the angle phi from below with
-/// sin(phi/2) = sn(K + sqrt(g) t, 1/2) / sqrt(2), computed to 20 digits.
+/// The position of the bob of a pendulum of 1 m let go at (1, 0), g = 9.81: problem A01, simple pendulum, of the IFToMM
+/// library of computational benchmark problems of multibody dynamics. The exact solution: the angle phi from the lowest
+/// position with sin(phi/2) = sn(K + sqrt(g) t, 1/2) / sqrt(2), computed to 20 digits.
 pub const BOB: [(f64, [f64; 2]); 8] = [
     (0.5, [0.391_048_791_550_546_4, -0.920_369_948_785_192_2]),
     (1.0, [-0.986_291_751_131_875_3, -0.165_010_853_125_541_17]),

@@ -16,14 +16,14 @@ impl Tree {
         self.nodes() as f64 * self.0.iter().map(Tree::density).product::<f64>()
     }
 
-    /// For each slope the product over the subtrees of sum `a_ij` (theirs)_j, as it grows from the single node.
+    /// For each slope the product over the subtrees of sum `a_ij` (theirs)_j; 1 for the single node.
     fn weights(&self, a: &[Vec<f64>]) -> Vec<f64> {
         let below: Vec<Vec<f64>> = self.0.iter().map(|tree| tree.weights(a)).collect();
         a.iter().map(|row| below.iter().map(|w| row.iter().zip(w).map(|(a, w)| a * w).sum::<f64>()).product()).collect()
     }
 }
 
-/// The trees of up to `most` nodes, by adding a leaf everywhere.
+/// The trees of up to `most` nodes, built by adding a leaf at every node.
 fn trees(most: usize) -> Vec<Tree> {
     fn grown(tree: &Tree) -> Vec<Tree> {
         let mut all = vec![];
@@ -77,7 +77,7 @@ fn matrix(tableau: &Tableau) -> (Vec<Vec<f64>>, Vec<f64>) {
     rows.into_iter().unzip()
 }
 
-/// The largest that the conditions of this many nodes miss at part s of the step.
+/// The largest error of the conditions of this many nodes at fraction s of the step.
 fn missed(a: &[Vec<f64>], b: &[f64], s: f64, nodes: usize) -> f64 {
     let all = trees(nodes);
     all.iter().filter(|tree| tree.nodes() == nodes).fold(0.0, |most: f64, tree| {
@@ -86,7 +86,7 @@ fn missed(a: &[Vec<f64>], b: &[f64], s: f64, nodes: usize) -> f64 {
     })
 }
 
-/// Order p exactly: all conditions of up to p nodes hold to rounding, those of p + 1 do not.
+/// Tests for exact order p: all conditions of up to p nodes hold to rounding error, those of p + 1 do not.
 fn assert_order(name: &str, a: &[Vec<f64>], b: &[f64], s: f64, order: usize) {
     for nodes in 1..=order {
         let missed = missed(a, b, s, nodes);
@@ -96,7 +96,7 @@ fn assert_order(name: &str, a: &[Vec<f64>], b: &[f64], s: f64, order: usize) {
     assert!(missed > 1e-7, "{name} at {s} is of higher order than {order}: {missed:e}");
 }
 
-/// The weights of dense output at part s, from the polynomial as it is documented.
+/// The weights of dense output at fraction s, from the documented polynomial.
 fn dense_weights(tableau: &Tableau, s: f64) -> Vec<f64> {
     let b = dense(tableau.solution);
     let unit = |j: usize| -> Vec<f64> { (0..16).map(|i| f64::from(u8::from(i == j))).collect() };

@@ -1,11 +1,11 @@
-//! A derivation as a part of a LaTeX document.
+//! A derivation as LaTeX.
 
 use core::fmt::{self, Write};
 
 use super::outline::{Law, Pen};
 use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel};
 
-/// A matrix with more rows or columns than this is a list of its entries.
+/// A matrix with more rows or columns than this is written as a list of its entries.
 const LARGEST_MATRIX: usize = 6;
 
 pub(super) struct Latex<'a> {
@@ -18,7 +18,7 @@ impl<'a> Latex<'a> {
     }
 }
 
-/// Identifiers in running text.
+/// Escapes identifiers in running text.
 fn escape(name: &str) -> String {
     name.replace('_', "\\_")
 }

@@ -1,4 +1,4 @@
-//! Derivations in plain text and LaTeX, their equations numbered.
+//! Derivations as plain text and LaTeX, with numbered equations.
 
 mod latex;
 pub(crate) mod outline;
@@ -6,7 +6,7 @@ mod text;
 
 use linkage_runtime::derivation::{Derivation, SceneDerivation};
 
-/// What can be written down as a document.
+/// A derivation that can be written as a document.
 ///
 /// ```
 /// use linkage::Document;
@@ -23,9 +23,9 @@ use linkage_runtime::derivation::{Derivation, SceneDerivation};
 /// assert!(Crank::<f64>::DERIVATION.to_text().contains("J = ∂Ψ/∂u"));
 /// ```
 pub trait Document {
-    /// The whole of it in plain text.
+    /// Writes the document as plain text.
     fn to_text(&self) -> String;
-    /// The whole of it as a part of a LaTeX document that uses `amsmath`.
+    /// Writes the document as LaTeX, for inclusion in a file that uses `amsmath`.
     fn to_latex(&self) -> String;
 }
 

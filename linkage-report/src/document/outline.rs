@@ -1,4 +1,4 @@
-//! The order of a derivation, whatever it is written in.
+//! The outline of a derivation, independent of the format.
 
 use core::fmt;
 
@@ -6,7 +6,7 @@ use linkage_runtime::derivation::{
     Block, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, SceneDerivation,
 };
 
-/// An equation between whole matrices, in every notation.
+/// A matrix equation in all notations.
 pub(crate) struct Law {
     pub(crate) text: &'static str,
     pub(crate) latex: &'static str,
@@ -14,7 +14,7 @@ pub(crate) struct Law {
 }
 
 /// Ψ(u, v) = 0.
-pub(crate) const CLOSURE: Law = Law {
+pub(crate) const CONSTRAINTS: Law = Law {
     text: "Ψ(u, v) = 0",
     latex: "\\Psi(u, v) = 0",
     mathml: "<mrow><mi>Ψ</mi><mo>(</mo><mi>u</mi><mo>,</mo><mi>v</mi><mo>)</mo><mo>=</mo><mn>0</mn></mrow>",
@@ -85,10 +85,10 @@ pub(crate) const MOTION: Law = Law {
     mathml: "<mrow><mi>M</mi><mover><mi>v</mi><mo>¨</mo></mover><mo>=</mo><mi>Q</mi></mrow>",
 };
 
-/// The headings and what leads each section in.
+/// The headings and introductory sentences of the sections.
 pub(crate) mod words {
     pub(crate) const COORDINATES: &str = "Coordinates";
-    pub(crate) const CLOSURE: &str = "Closure equations";
+    pub(crate) const CONSTRAINTS: &str = "Constraint equations";
     pub(crate) const JACOBIAN: &str = "Jacobian";
     pub(crate) const STRUCTURE: &str = "Order of solution";
     pub(crate) const RATIOS: &str = "Velocity ratios";
@@ -107,27 +107,27 @@ pub(crate) mod words {
     pub(crate) const DRIVEN: &str = "Driven";
     pub(crate) const UNKNOWN: &str = "Unknown";
 
-    pub(crate) const LEAD_CLOSURE: &str = "The mechanism closes where";
+    pub(crate) const LEAD_CONSTRAINTS: &str = "The mechanism is assembled where";
     pub(crate) const LEAD_JACOBIAN: &str =
-        "The derivatives of the closure equations with respect to the unknowns and the inputs:";
+        "The derivatives of the constraint equations with respect to the unknowns and the inputs:";
     pub(crate) const LEAD_DETERMINANT: &str = "All blocks together:";
-    pub(crate) const LEAD_RATIOS: &str = "With the closure equations held, the unknowns move by";
+    pub(crate) const LEAD_RATIOS: &str = "Differentiated once, the constraint equations give";
     pub(crate) const LEAD_VELOCITY: &str = "so that";
-    pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the closure equations give";
-    pub(crate) const LEAD_GAMMA: &str = "with the terms that remain where no coordinate accelerates:";
+    pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the constraint equations give";
+    pub(crate) const LEAD_GAMMA: &str = "with the terms that contain no acceleration:";
     pub(crate) const LEAD_RATIO_DERIVATIVES: &str = "With w, the motion of all coordinates for a unit rate of one input, and γ as the bilinear form of two motions,";
-    pub(crate) const LEAD_JERK: &str = "Differentiated three times, the closure equations give";
-    pub(crate) const LEAD_ETA: &str = "with the terms that remain where no coordinate jerks:";
-    pub(crate) const LEAD_SENSITIVITY: &str = "With the inputs held, the unknowns follow the parameters p by";
+    pub(crate) const LEAD_JERK: &str = "Differentiated three times, the constraint equations give";
+    pub(crate) const LEAD_ETA: &str = "with the terms that contain no jerk:";
+    pub(crate) const LEAD_SENSITIVITY: &str = "With fixed inputs, the unknowns depend on the parameters p by";
     pub(crate) const LEAD_PARAMETERS: &str =
-        "with the derivatives of the closure equations with respect to the parameters, where they are not zero:";
-    pub(crate) const LEAD_MOTION: &str = "The velocity ratios carry all inertia and all forces to the inputs:";
+        "with the nonzero derivatives of the constraint equations with respect to the parameters:";
+    pub(crate) const LEAD_MOTION: &str = "The velocity ratios reduce all inertia and all forces to the inputs:";
     pub(crate) const LEAD_MASS_MATRIX: &str = "with the reduced mass matrix";
-    pub(crate) const LEAD_FORCES: &str = "and the generalised forces, the sum of what follows; the bias of an unknown is its acceleration while no input accelerates:";
-    pub(crate) const LEAD_CONDITIONS: &str = "The formulas take for granted that";
+    pub(crate) const LEAD_FORCES: &str = "and the generalised forces, the sum of the following; the bias of an unknown is its acceleration if no input accelerates:";
+    pub(crate) const LEAD_CONDITIONS: &str = "The formulas assume that";
 }
 
-/// What a kind of document must be able to write.
+/// The writer of one document format.
 pub(super) trait Pen {
     fn title(&mut self, mechanism: &str) -> fmt::Result;
     fn heading(&mut self, heading: &str) -> fmt::Result;
@@ -143,7 +143,7 @@ pub(super) trait Pen {
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result;
 }
 
-/// Writes a derivation with this pen.
+/// Writes a derivation.
 pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     let mut number = 0;
     pen.title(derivation.mechanism)?;
@@ -157,9 +157,9 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
         pen.list(role, &mut symbols.iter().map(|symbol| symbol.formula))?;
     }
 
-    pen.heading(words::CLOSURE)?;
-    pen.lead(words::LEAD_CLOSURE)?;
-    pen.law(&CLOSURE)?;
+    pen.heading(words::CONSTRAINTS)?;
+    pen.lead(words::LEAD_CONSTRAINTS)?;
+    pen.law(&CONSTRAINTS)?;
     equations(pen, &mut number, derivation.residual)?;
 
     pen.heading(words::JACOBIAN)?;
@@ -243,7 +243,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     Ok(())
 }
 
-/// Writes the equations of motion with this pen.
+/// Writes the equations of motion of a scene.
 pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Result {
     let mut number = 0;
     pen.title(scene.scene)?;

@@ -1,11 +1,10 @@
-//! A linkage in motion: its links, pivots and slides as engineers draw them, in one SVG that moves without a
-//! script.
+//! An animated linkage: links, pivots and sliders in one SVG, animated without a script.
 
 use nalgebra::{Point2, Vector2};
 
 use super::{DrawingError, smil};
 
-/// What is drawn, by the names of its points.
+/// A part to draw, by the names of its points.
 #[derive(Debug, Clone)]
 pub(super) enum Part {
     Ground(String),
@@ -32,7 +31,7 @@ impl Part {
         }
     }
 
-    /// The points at which the part is held.
+    /// The joints of the part.
     pub(super) fn joins(&self) -> impl Iterator<Item = &String> {
         let held = match self {
             Self::Trace(_) => 0,
@@ -43,10 +42,10 @@ impl Part {
     }
 }
 
-/// A moving picture in the making: frames of named points, and the parts that join them. Lengths are those of the
-/// mechanism, y points up.
+/// A builder for an animation: frames of named points, and the parts that connect them. Lengths are those of the
+/// mechanism; y points up.
 ///
-/// The first frame is the picture where nothing moves: on paper, and for those who want less motion.
+/// The first frame is the still picture, for print and for readers who prefer reduced motion.
 ///
 /// ```
 /// use linkage_report::drawing::Animation;
@@ -73,7 +72,7 @@ fn owned(names: &[&str]) -> Vec<String> {
 }
 
 impl Animation {
-    /// An empty picture that plays its frames in so many seconds, again and again.
+    /// Creates an empty animation that repeats its frames every so many seconds.
     pub fn new(title: impl Into<String>, seconds: f64) -> Self {
         Self { title: title.into(), seconds, frames: Vec::new(), parts: Vec::new() }
     }
@@ -83,9 +82,8 @@ impl Animation {
         self
     }
 
-    /// The next frame: where the points are, of the same names each time. Frames are equally far apart in time and
-    /// near enough that nothing turns by half a turn between them; the last is the first again where the motion
-    /// is to be smooth.
+    /// Adds a frame: the positions of the points, with the same names in each frame. Frames have equal time steps, in
+    /// which nothing turns by half a turn; for a smooth loop the last frame repeats the first.
     pub fn frame<N, P>(&mut self, points: impl IntoIterator<Item = (N, P)>) -> &mut Self
     where
         N: Into<String>,
@@ -95,72 +93,71 @@ impl Animation {
         self
     }
 
-    /// A pivot on the frame.
+    /// Adds a pivot on the ground.
     pub fn ground(&mut self, point: &str) -> &mut Self {
         self.part(Part::Ground(point.to_owned()))
     }
 
-    /// A line of the frame, hatched on the right of those who walk along it.
+    /// Adds a line of the ground, hatched on its right side.
     pub fn ground_line(&mut self, line: impl IntoIterator<Item = impl Into<Point2<f64>>>) -> &mut Self {
         self.part(Part::GroundLine(line.into_iter().map(|point| point.into().coords).collect()))
     }
 
-    /// A rigid link through points: a bar through two, a plate through more.
+    /// Adds a rigid link through points: a bar through two, a plate through more.
     pub fn link(&mut self, points: &[&str]) -> &mut Self {
         self.part(Part::Link { points: owned(points), driven: false })
     }
 
-    /// The link that drives; an arrow shows how it turns, if its first point is at rest.
+    /// Adds the driving link; an arrow shows its rotation if its first point is at rest.
     pub fn crank(&mut self, points: &[&str]) -> &mut Self {
         self.part(Part::Link { points: owned(points), driven: true })
     }
 
-    /// A rigid link whose bars run from point to point, such as an L.
+    /// Adds a rigid link with bars from point to point, such as an L.
     pub fn bent(&mut self, points: &[&str]) -> &mut Self {
         self.part(Part::Bent(owned(points)))
     }
 
-    /// A block at a point, on the straight guide of the frame along which the point moves.
+    /// Adds a sliding block at a point, on the straight guide along which the point moves.
     pub fn slider(&mut self, point: &str) -> &mut Self {
         self.part(Part::Slider(point.to_owned()))
     }
 
-    /// A block at a pin, sliding on an arm that has the direction from one point to another.
+    /// Adds a block at a pin that slides on an arm with the direction from one point to another.
     pub fn sleeve(&mut self, pin: &str, [from, to]: [&str; 2]) -> &mut Self {
         self.part(Part::Sleeve { pin: pin.to_owned(), arm: [from, to].map(str::to_owned) })
     }
 
-    /// A wheel, or the pitch circle of a gear, that turns with the direction from its centre to a point.
+    /// Adds a wheel, or the pitch circle of a gear, that turns with the direction from its centre to a point.
     pub fn wheel(&mut self, centre: &str, towards: &str, radius: f64) -> &mut Self {
         self.part(Part::Wheel { centre: centre.to_owned(), towards: towards.to_owned(), radius })
     }
 
-    /// A plate of any outline, such as a cam: its corners as seen from its centre, x being the direction to the
-    /// point with which it turns.
+    /// Adds a plate of any outline, such as a cam: its corners relative to its centre, with x towards the point with
+    /// which it turns.
     pub fn plate(&mut self, centre: &str, towards: &str, outline: impl IntoIterator<Item = Vector2<f64>>) -> &mut Self {
         let outline = outline.into_iter().collect();
         self.part(Part::Plate { centre: centre.to_owned(), towards: towards.to_owned(), outline })
     }
 
-    /// A spring between two points.
+    /// Adds a spring between two points.
     pub fn spring(&mut self, from: &str, to: &str) -> &mut Self {
         self.part(Part::Spring([from, to].map(str::to_owned)))
     }
 
-    /// The path of a point, such as a coupler curve.
+    /// Adds the path of a point, such as a coupler curve.
     pub fn trace(&mut self, point: &str) -> &mut Self {
         self.part(Part::Trace(point.to_owned()))
     }
 
-    /// The picture.
+    /// Writes the SVG.
     ///
     /// # Errors
-    /// [`DrawingError`] if there is nothing to draw, a name is unknown or used twice, a number is not finite, or
-    /// the parts contradict the frames: a link that changes its shape, a pivot of the frame that moves, a slider
-    /// that leaves its straight line.
+    /// [`DrawingError`] if there is nothing to draw, a name is unknown or used twice, a number is not finite, or the
+    /// parts contradict the frames: a link changes its shape, a ground pivot moves, a slider leaves its straight line.
     pub fn to_svg(&self) -> Result<String, DrawingError> {
         if !(self.seconds.is_finite() && self.seconds > 0.0) {
-            return Err(DrawingError::NotFinite("the time that an animation takes".to_owned()));
+            return Err(DrawingError::NotFinite("the duration of an animation".to_owned()));
         }
         smil::svg(self)
     }

@@ -1,23 +1,22 @@
 //! Round numbers for axes.
 
-/// The multiples of a round step (1, 2 or 5 times a power of ten) between `low` and `high`, some five
-/// to ten of them.
+/// The multiples of a round step (1, 2 or 5 times a power of ten) between `low` and `high`, about five to ten.
 pub(super) fn ticks(low: f64, high: f64) -> Vec<f64> {
     let step = round_step((high - low) / 6.0);
     let first = (low / step).ceil();
     let count = ((high / step).floor() - first).max(0.0);
-    // A step is about a sixth of the range, so there are never many.
+    // A step is about a sixth of the range, which bounds their number.
     (0..=20_u32).map(f64::from).take_while(|index| *index <= count).map(|index| (first + index) * step).collect()
 }
 
-/// The round number nearest above `rough`.
+/// The next round number above `rough`.
 fn round_step(rough: f64) -> f64 {
     let power = 10_f64.powf(rough.log10().floor());
     let digit = [1.0, 2.0, 5.0, 10.0].into_iter().find(|digit| digit * power >= rough * (1.0 - 1e-9));
     digit.unwrap_or(10.0) * power
 }
 
-/// A tick as people write it: no more digits than its step needs.
+/// The label of a tick, with the digits that its step needs.
 pub(super) fn label(value: f64, low: f64, high: f64) -> String {
     let step = round_step((high - low) / 6.0);
     let largest = low.abs().max(high.abs());

@@ -1,4 +1,4 @@
-//! Points in pixels through all frames, and bodies that move with them.
+//! The points of all frames in pixels, and the motion of bodies.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,11 +8,11 @@ use super::DrawingError;
 use super::animation::{Animation, Part};
 use super::frame::bounds;
 
-/// The picture is so large, with so much room around.
+/// The size of the picture and its margin, in pixels.
 pub(super) const SIZE: Vector2<f64> = Vector2::new(480.0, 360.0);
 const MARGIN: f64 = 40.0;
 
-/// What moves or bends by less than this is at rest, or rigid.
+/// Tolerance in pixels: a point that moves less is at rest, and a link that changes less is rigid.
 const UNSEEN: f64 = 0.02;
 
 fn finite(vector: &Vector2<f64>) -> bool {
@@ -22,14 +22,14 @@ fn finite(vector: &Vector2<f64>) -> bool {
 /// The points of all frames in pixels.
 pub(super) struct Film {
     names: Vec<String>,
-    /// One row a frame.
+    /// One row for each frame.
     frames: Vec<Vec<Vector2<f64>>>,
     pub pixels_per_unit: f64,
     centre: Vector2<f64>,
 }
 
 impl Film {
-    /// All that the parts show fits into the picture.
+    /// Scales the points so that all parts fit into the picture.
     pub(super) fn of(animation: &Animation) -> Result<Self, DrawingError> {
         let first = animation.frames.first().ok_or(DrawingError::Empty)?;
         let names: Vec<String> = first.iter().map(|(name, _)| name.clone()).collect();
@@ -57,13 +57,13 @@ impl Film {
         film.pixels_per_unit = (room.x / size.x).min(room.y / size.y);
         film.centre = centre;
         if !(film.pixels_per_unit.is_normal() && finite(&centre)) {
-            return Err(DrawingError::NotFinite("the size of the drawing".to_owned()));
+            return Err(DrawingError::NotFinite("the extent of the drawing".to_owned()));
         }
         film.frames = film.frames.iter().map(|frame| frame.iter().map(|at| film.pixel(*at)).collect()).collect();
         Ok(film)
     }
 
-    /// All that must be in the picture.
+    /// The points that must be in the picture.
     fn shown(&self, animation: &Animation) -> Result<Vec<Vector2<f64>>, DrawingError> {
         let mut shown = Vec::new();
         for part in &animation.parts {
@@ -82,7 +82,7 @@ impl Film {
                 _ => continue,
             };
             if !(reach.is_finite() && reach > 0.0) {
-                return Err(DrawingError::NotFinite(format!("the radius of what turns about `{centre}`")));
+                return Err(DrawingError::NotFinite(format!("the radius of the part about `{centre}`")));
             }
             let corners = [-reach, reach].map(Vector2::repeat);
             shown.extend(self.track(self.index(centre)?).iter().flat_map(|at| corners.map(|corner| at + corner)));
@@ -90,11 +90,11 @@ impl Film {
         if shown.iter().all(finite) {
             Ok(shown)
         } else {
-            Err(DrawingError::NotFinite("a line of the frame".to_owned()))
+            Err(DrawingError::NotFinite("a line of the ground".to_owned()))
         }
     }
 
-    /// Pixels from the top left corner of the picture.
+    /// Converts a point to pixels from the top left corner.
     pub(super) fn pixel(&self, point: Vector2<f64>) -> Vector2<f64> {
         let offset = (point - self.centre) * self.pixels_per_unit;
         SIZE / 2.0 + Vector2::new(offset.x, -offset.y)
@@ -113,25 +113,25 @@ impl Film {
         &self.frames
     }
 
-    /// One point through all frames.
+    /// The positions of one point in all frames.
     pub(super) fn track(&self, index: usize) -> Vec<Vector2<f64>> {
         self.frames.iter().map(|frame| frame[index]).collect()
     }
 
-    /// What stands where a point is and turns with the direction from one point to another.
+    /// The motion of a body with its origin at a point and the direction from one point to another.
     pub(super) fn body(&self, origin: usize, [from, to]: [usize; 2]) -> Body {
         let mut angles: Vec<f64> = Vec::with_capacity(self.frames.len());
         for frame in &self.frames {
             let along = frame[to] - frame[from];
             let last = angles.last().copied().unwrap_or_default();
-            // By the shorter way round; where there is no direction, as before.
+            // The shorter rotation; the last angle if the direction is zero.
             let turn = (along.y.atan2(along.x) - last + PI).rem_euclid(TAU) - PI;
             angles.push(if along.amax() < UNSEEN { last } else { last + turn });
         }
         Body { places: self.track(origin), angles }
     }
 
-    /// A link through points, if it is rigid.
+    /// The motion of a link through points; an error if it is not rigid.
     pub(super) fn link(&self, points: &[usize]) -> Result<Body, DrawingError> {
         if points.is_empty() {
             return Err(DrawingError::Empty);
@@ -153,7 +153,7 @@ impl Film {
         Ok(body)
     }
 
-    /// The two ends of the straight line on which a point moves.
+    /// The ends of the straight line on which a point moves.
     pub(super) fn guide(&self, point: usize) -> Result<[Vector2<f64>; 2], DrawingError> {
         let track = self.track(point);
         let farthest = |from: Vector2<f64>| {
@@ -167,11 +167,11 @@ impl Film {
         if along.amax() < UNSEEN || track.iter().any(off) {
             return Err(DrawingError::NotStraight(self.names[point].clone()));
         }
-        // From left to right, or upwards.
+        // Order: from left to right, or upwards.
         Ok(if along.x > UNSEEN || (along.x > -UNSEEN && along.y < 0.0) { [one, other] } else { [other, one] })
     }
 
-    /// A point that stands still.
+    /// The position of a point at rest; an error if it moves.
     pub(super) fn fixed(&self, point: usize) -> Result<Vector2<f64>, DrawingError> {
         let track = self.track(point);
         if track.iter().any(|at| (at - track[0]).amax() > UNSEEN) {
@@ -181,19 +181,19 @@ impl Film {
     }
 }
 
-/// Places of its origin, and angles on the screen that go on from one frame to the next.
+/// The positions of a body's origin, and its angles on the screen, continuous from frame to frame.
 pub(super) struct Body {
     pub places: Vec<Vector2<f64>>,
     pub angles: Vec<f64>,
 }
 
 impl Body {
-    /// What moves and never turns.
+    /// A body without rotation.
     pub(super) fn sliding(places: Vec<Vector2<f64>>) -> Self {
         Self { angles: vec![0.0; places.len()], places }
     }
 
-    /// Where it looks in the first frame.
+    /// Its direction in the first frame.
     pub(super) fn direction(&self) -> Vector2<f64> {
         Vector2::new(self.angles[0].cos(), self.angles[0].sin())
     }

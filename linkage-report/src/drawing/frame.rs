@@ -1,24 +1,24 @@
-//! From the lengths of the mechanism to the pixels of the picture: one scale for x and y, y up.
+//! Conversion from lengths of the mechanism to pixels: one scale for x and y, y up.
 
 use nalgebra::Vector2;
 
-/// The window of the plane that is shown and the place of the plot in the picture.
+/// The visible window of the plane and its position in the picture.
 pub(super) struct Frame {
     pub low: Vector2<f64>,
     pub high: Vector2<f64>,
     pixels_per_unit: f64,
 }
 
-/// Width of the plot; its height follows from the drawing within these bounds.
+/// The width of the plot in pixels; its height follows from the drawing, within these bounds.
 pub(super) const WIDTH: f64 = 640.0;
 const LEAST_HEIGHT: f64 = 240.0;
 const MOST_HEIGHT: f64 = 640.0;
-/// Room for the numbers and the title.
+/// Margins for the numbers and the title, in pixels.
 pub(super) const LEFT: f64 = 56.0;
 pub(super) const TOP: f64 = 44.0;
 
 impl Frame {
-    /// A window around all the points, a twelfth wider on each side.
+    /// A window around all points, with a margin of a twelfth on each side.
     pub(super) fn around(points: &[Vector2<f64>]) -> Self {
         let (centre, size) = bounds(points);
         let width = (size.x * 7.0 / 6.0).max(size.y * 7.0 / 6.0 * WIDTH / MOST_HEIGHT);
@@ -31,14 +31,14 @@ impl Frame {
         (self.high.y - self.low.y) * self.pixels_per_unit
     }
 
-    /// Pixels from the top left corner of the picture, to a hundredth.
+    /// Converts a point to pixels from the top left corner, to a hundredth.
     pub(super) fn pixel(&self, point: Vector2<f64>) -> Vector2<f64> {
         let offset = (point - self.low) * self.pixels_per_unit;
         Vector2::new(LEFT + offset.x, TOP + self.height() - offset.y).map(|value| (value * 100.0).round() / 100.0)
     }
 }
 
-/// Middle and size of what holds all the points; of a single point some size that is not zero.
+/// Centre and size of the bounding box of all points; the size is never zero.
 pub(super) fn bounds(points: &[Vector2<f64>]) -> (Vector2<f64>, Vector2<f64>) {
     let fold = |pick: fn(f64, f64) -> f64, start: f64| {
         points.iter().fold(Vector2::repeat(start), |a, b| Vector2::new(pick(a.x, b.x), pick(a.y, b.y)))

@@ -28,7 +28,7 @@ use nalgebra::{Point2, Vector2};
 
 pub use animation::Animation;
 
-/// What stands at a point.
+/// The symbol at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mark {
     Ground,
@@ -36,7 +36,7 @@ enum Mark {
     Point,
 }
 
-/// Which vector is drawn.
+/// The kind of a vector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Quantity {
     Velocity,
@@ -57,7 +57,7 @@ struct Arrow {
     quantity: Quantity,
 }
 
-/// A picture in the making. Lengths are those of the mechanism, y points up.
+/// A builder for a drawing. Lengths are those of the mechanism; y points up.
 #[derive(Debug, Clone)]
 pub struct Drawing {
     title: String,
@@ -69,39 +69,43 @@ pub struct Drawing {
     acceleration_scale: f64,
 }
 
-/// Why there is no picture.
+/// The error of a drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DrawingError {
-    /// Nothing was drawn.
+    /// The drawing is empty.
     Empty,
-    /// A bar or a vector starts or ends at a point that was not drawn.
+    /// A bar or a vector refers to an unknown point.
     UnknownPoint(String),
-    /// Two points have one name.
+    /// Two points have the same name.
     DuplicatePoint(String),
-    /// A coordinate or a scale is infinite, not a number, or a scale is not positive.
+    /// A number is infinite or NaN, or a scale, a radius or a duration is not positive.
     NotFinite(String),
-    /// This frame, counted from 0, has other points than the first.
+    /// This frame, counted from 0, has different points than the first.
     OtherPoints(usize),
     /// A link changes its shape.
     NotRigid(String),
-    /// A pivot of the frame moves.
+    /// A ground pivot moves.
     Moves(String),
-    /// A slider's point rests, or leaves its straight line.
+    /// The point of a slider rests, or leaves its straight line.
     NotStraight(String),
 }
 
 impl fmt::Display for DrawingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Empty => f.write_str("the drawing is empty"),
-            Self::UnknownPoint(name) => write!(f, "no point of the drawing is called `{name}`"),
-            Self::DuplicatePoint(name) => write!(f, "two points of the drawing are called `{name}`"),
-            Self::NotFinite(what) => write!(f, "{what} is not a finite number, or a scale that is not positive"),
-            Self::OtherPoints(frame) => write!(f, "frame {frame} has other points than the first"),
-            Self::NotRigid(link) => write!(f, "the link `{link}` changes its shape"),
-            Self::Moves(point) => write!(f, "`{point}` is a pivot of the frame, and moves"),
-            Self::NotStraight(point) => write!(f, "`{point}` does not move along a straight line"),
+            Self::Empty => f.write_str("the drawing is empty: add points"),
+            Self::UnknownPoint(name) => write!(f, "the drawing has no point `{name}`: add it first"),
+            Self::DuplicatePoint(name) => write!(f, "the drawing has two points `{name}`: rename one"),
+            Self::NotFinite(what) => {
+                write!(f, "{what} must be finite, and positive if it is a scale, a radius or a duration")
+            }
+            Self::OtherPoints(frame) => {
+                write!(f, "frame {frame} has different points than frame 0: give every frame the same names")
+            }
+            Self::NotRigid(link) => write!(f, "the link `{link}` changes its shape between frames"),
+            Self::Moves(point) => write!(f, "the ground pivot `{point}` moves between frames"),
+            Self::NotStraight(point) => write!(f, "the slider `{point}` does not move along a straight line"),
         }
     }
 }
@@ -109,7 +113,7 @@ impl fmt::Display for DrawingError {
 impl std::error::Error for DrawingError {}
 
 impl Drawing {
-    /// An empty drawing. Vectors are drawn one to one until a scale is given.
+    /// Creates an empty drawing. The default scale of vectors is 1.
     pub fn new(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -127,58 +131,58 @@ impl Drawing {
         self
     }
 
-    /// A pivot on the frame.
+    /// Adds a pivot on the ground.
     pub fn ground(&mut self, name: &str, at: impl Into<Point2<f64>>) -> &mut Self {
         self.place(name, at.into().coords, Mark::Ground)
     }
 
-    /// A moving joint.
+    /// Adds a moving joint.
     pub fn joint(&mut self, name: &str, at: impl Into<Point2<f64>>) -> &mut Self {
         self.place(name, at.into().coords, Mark::Joint)
     }
 
-    /// A point that is not a joint, such as a centre of mass.
+    /// Adds a point that is not a joint, such as a centre of mass.
     pub fn point(&mut self, name: &str, at: impl Into<Point2<f64>>) -> &mut Self {
         self.place(name, at.into().coords, Mark::Point)
     }
 
-    /// A straight bar between two points, given by name.
+    /// Adds a straight bar between two points, given by name.
     pub fn bar(&mut self, from: &str, to: &str) -> &mut Self {
         self.bars.push((from.to_owned(), to.to_owned()));
         self
     }
 
-    /// The path of a point, such as a coupler curve.
+    /// Adds the path of a point, such as a coupler curve.
     pub fn path(&mut self, points: impl IntoIterator<Item = impl Into<Point2<f64>>>) -> &mut Self {
         self.paths.push(points.into_iter().map(|point| point.into().coords).collect());
         self
     }
 
-    /// Drawn length for a velocity of one.
+    /// Sets the drawn length of a unit velocity.
     pub fn velocity_scale(&mut self, scale: f64) -> &mut Self {
         self.velocity_scale = scale;
         self
     }
 
-    /// Drawn length for an acceleration of one.
+    /// Sets the drawn length of a unit acceleration.
     pub fn acceleration_scale(&mut self, scale: f64) -> &mut Self {
         self.acceleration_scale = scale;
         self
     }
 
-    /// The velocity of a point, given by name.
+    /// Adds the velocity of a point, given by name.
     pub fn velocity(&mut self, of: &str, vector: impl Into<Vector2<f64>>) -> &mut Self {
         self.arrows.push(Arrow { from: of.to_owned(), vector: vector.into(), quantity: Quantity::Velocity });
         self
     }
 
-    /// The acceleration of a point, given by name.
+    /// Adds the acceleration of a point, given by name.
     pub fn acceleration(&mut self, of: &str, vector: impl Into<Vector2<f64>>) -> &mut Self {
         self.arrows.push(Arrow { from: of.to_owned(), vector: vector.into(), quantity: Quantity::Acceleration });
         self
     }
 
-    /// The picture.
+    /// Writes the SVG.
     ///
     /// # Errors
     /// [`DrawingError`] if the drawing is empty, a name is unknown or used twice, or a number is not
@@ -228,7 +232,7 @@ impl Drawing {
         self.places.iter().find(|place| place.name == name).map(|place| place.at)
     }
 
-    /// Where an arrow ends.
+    /// The end of an arrow.
     fn tip(&self, arrow: &Arrow) -> Vector2<f64> {
         let scale = match arrow.quantity {
             Quantity::Velocity => self.velocity_scale,

@@ -1,27 +1,27 @@
-//! Where names stand: beside their points, clear of links and of one another.
+//! Placement of names: next to their points, clear of links and of one another.
 
 use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-/// Names stand this far from their points, or, where points are crowded, that far.
+/// The distances of a name from its point, in pixels: near, or far where points are crowded.
 const NEAR: f64 = 18.0;
 const FAR: f64 = 30.0;
 
-/// More room than this counts for little, so that no name is far that has it near.
+/// Room beyond this, in pixels, counts little, so that names stay near if they have enough.
 const ENOUGH: f64 = 16.0;
 
-/// Half the width of a letter of a name.
+/// Half the width of a letter, in pixels.
 const HALF_LETTER: f64 = 4.0;
 
-/// What names keep clear of at one moment, in pixels.
+/// The obstacles for names at one time, in pixels.
 #[derive(Default)]
 pub(super) struct Scene {
     /// Bars and vectors.
     pub segments: Vec<[Vector2<f64>; 2]>,
     /// Points.
     pub points: Vec<Vector2<f64>>,
-    /// Beginning, middle and end of the names that stand already.
+    /// Beginning, middle and end of the names already placed.
     names: Vec<Vector2<f64>>,
 }
 
@@ -30,8 +30,8 @@ impl Scene {
         Self { segments, points, names: Vec::new() }
     }
 
-    /// Others keep clear of a name that stands here.
-    pub(super) fn stand(&mut self, name: &str, at: Vector2<f64>) {
+    /// Adds a placed name as an obstacle.
+    pub(super) fn place_name(&mut self, name: &str, at: Vector2<f64>) {
         self.names.extend(extent(name).map(|part| at + part));
     }
 }
@@ -42,14 +42,14 @@ fn extent(name: &str) -> [Vector2<f64>; 3] {
     [-1.0, 0.0, 1.0].map(|side| Vector2::new(side * HALF_LETTER * letters, 0.0))
 }
 
-/// The sides of the triangle under a pivot on the frame.
+/// The sides of the triangle under a ground pivot.
 pub(super) fn foot(at: Vector2<f64>) -> [[Vector2<f64>; 2]; 3] {
     let [left, right] = [-11.0, 11.0].map(|side| at + Vector2::new(side, 17.0));
     [[at, left], [left, right], [right, at]]
 }
 
-/// Of sixteen directions from a point the one that is farthest from bars, vectors and other names, on the
-/// average over all scenes; `inside` says which places are in the picture.
+/// Returns the offset, of sixteen directions, that is farthest from bars, vectors and other names on average over all
+/// scenes; `inside` tells whether a position is in the picture.
 pub(super) fn offset(
     name: &str,
     inside: impl Fn(Vector2<f64>) -> bool,

@@ -1,10 +1,10 @@
-//! Paths in few characters.
+//! Compact SVG paths.
 
 use std::fmt::Write;
 
 use nalgebra::Vector2;
 
-/// A number to some decimals, without the zeros that say nothing.
+/// A number with at most so many decimals, without superfluous zeros.
 pub(super) fn short(value: f64, decimals: usize) -> String {
     let mut text = format!("{value:.decimals$}");
     if text.contains('.') {
@@ -19,7 +19,8 @@ pub(super) fn short(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Draws with steps from point to point, each rounded from where the last one really ended.
+/// A writer of relative path steps; each starts at the rounded end of the last, so that rounding errors do not
+/// accumulate.
 #[derive(Default)]
 pub(super) struct Pen {
     path: String,
@@ -28,7 +29,7 @@ pub(super) struct Pen {
 }
 
 impl Pen {
-    /// A tenth of a pixel is the finest step.
+    /// Writes a step, rounded to tenths of a pixel.
     fn step(&mut self, command: char, before: &[f64], to: Vector2<f64>) -> &mut Self {
         let to = to.map(|value| (value * 10.0).round() / 10.0);
         let (mut separate, steps) = (self.command == Some(command), to - self.at);
@@ -48,7 +49,7 @@ impl Pen {
     }
 
     pub(super) fn move_to(&mut self, to: Vector2<f64>) -> &mut Self {
-        // A path says where it begins whatever stands before it; a second pair after `m` would be a line.
+        // A second pair after `m` would be a line, so every path begins with its own command.
         let first = self.path.is_empty();
         self.command = None;
         self.step(if first { 'M' } else { 'm' }, &[], to)
@@ -58,7 +59,7 @@ impl Pen {
         self.step('l', &[], to)
     }
 
-    /// The arc of at most half a turn, clockwise on the screen or not.
+    /// An arc of at most half a turn, clockwise on the screen or not.
     pub(super) fn arc_to(&mut self, radius: f64, clockwise: bool, to: Vector2<f64>) -> &mut Self {
         self.step('a', &[radius, radius, 0.0, 0.0, f64::from(u8::from(clockwise))], to)
     }
@@ -74,8 +75,8 @@ impl Pen {
         self
     }
 
-    /// The smooth curve through points equally far apart in time: at each it has the direction from the one before
-    /// to the one after (Catmull and Rom, 1974).
+    /// A smooth curve through points at equal time steps: the tangent at each has the direction from the previous to
+    /// the next point (Catmull and Rom, 1974).
     pub(super) fn curve(&mut self, points: &[Vector2<f64>]) -> &mut Self {
         let (Some(first), Some(last)) = (points.first(), points.last()) else { return self };
         let closed = (first - last).amax() < 0.05;
@@ -89,7 +90,7 @@ impl Pen {
         };
         self.move_to(*first);
         for place in 1..points.len() {
-            // From `place` to the next; the command `s` begins as the curve before it ended.
+            // From `place` to the next; the command `s` continues the tangent of the previous curve.
             let [before, from, to, after] = [-1_isize, 0, 1, 2].map(|offset| at(place.wrapping_add_signed(offset)));
             let [leave, arrive] =
                 [from + (to - before) / 6.0, to - (after - from) / 6.0].map(|handle| handle - self.at);
@@ -104,7 +105,7 @@ impl Pen {
 
     pub(super) fn circle(&mut self, centre: Vector2<f64>, radius: f64) -> &mut Self {
         let [left, right] = [-radius, radius].map(|x| centre + Vector2::new(x, 0.0));
-        // A closed path goes on from where it began.
+        // After a closed path the pen is at its start.
         self.move_to(left).arc_to(radius, true, right).arc_to(radius, true, left)
     }
 
@@ -131,13 +132,14 @@ mod tests {
         assert_eq!(numbers.map(|value| short(value, 1)), ["0", "0", ".2", "-.5", "12", "12.3", "-100", "1000000"]);
     }
 
-    /// Quarters of a circle: handles of a third of half the chord over the next point, where a circle has 0.552 radii.
+    /// Quarters of a circle: the handles are a sixth of the chord between the neighbours, 0.333 radii; exact circles
+    /// have 0.552.
     #[test]
     fn curves_pass_through_their_points() {
         let point = |x: f64, y: f64| Vector2::new(x, y);
         let circle = [point(9.0, 0.0), point(0.0, 9.0), point(-9.0, 0.0), point(0.0, -9.0), point(9.0, 0.0)];
         assert_eq!(Pen::default().curve(&circle).path(), "M9 0c0 3-6 9-9 9s-9-6-9-9 6-9 9-9 9 6 9 9");
-        // An open one ends straight.
+        // An open curve ends straight.
         assert_eq!(Pen::default().curve(&circle[..2]).path(), "M9 0c-1.5 1.5-7.5 7.5-9 9");
         assert_eq!(Pen::default().curve(&circle[..1]).path(), "M9 0");
         assert_eq!(Pen::default().curve(&[]).path(), "");

@@ -1,4 +1,4 @@
-//! The SVG itself.
+//! Writes the SVG of a drawing.
 
 use nalgebra::Vector2;
 use svg::Document;
@@ -23,10 +23,10 @@ text{font-family:sans-serif}
 .name{fill:#eee;stroke:#16181c}}
 ";
 
-/// Length of an arrow head.
+/// The length of an arrow head, in pixels.
 const HEAD: f64 = 10.0;
 
-/// The picture of a drawing that has been checked.
+/// The SVG of a validated drawing.
 pub(super) fn svg(drawing: &Drawing) -> String {
     let tips = drawing.arrows.iter().map(|arrow| drawing.tip(arrow));
     let all: Vec<Vector2<f64>> = drawing
@@ -67,16 +67,16 @@ pub(super) fn svg(drawing: &Drawing) -> String {
     for place in &drawing.places {
         let at = frame.pixel(place.at);
         if place.mark == Mark::Ground {
-            // Names keep clear of the triangle as of a bar.
+            // The triangle is an obstacle for names like a bar.
             scene.segments.extend(foot(at));
         }
         document = document.add(mark(at, place.mark));
     }
     scene.points = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
     for (index, place) in drawing.places.iter().enumerate() {
-        let beside = offset(&place.name, |_| true, std::slice::from_ref(&scene), |scene| scene.points[index]);
-        let at = scene.points[index] + beside;
-        scene.stand(&place.name, at);
+        let offset_of_name = offset(&place.name, |_| true, std::slice::from_ref(&scene), |scene| scene.points[index]);
+        let at = scene.points[index] + offset_of_name;
+        scene.place_name(&place.name, at);
         document = document.add(text(&place.name, "name", at + Vector2::new(0.0, 5.0), "middle"));
     }
     let mut x = LEFT;
@@ -154,7 +154,7 @@ fn axes(frame: &Frame) -> Group {
     )
 }
 
-/// A shaft and a head; of a vector too short for a head the shaft alone.
+/// An arrow with shaft and head, or the shaft alone if it is too short.
 fn vector(ends: [Vector2<f64>; 2], quantity: Quantity) -> Group {
     let class = match quantity {
         Quantity::Velocity => "velocity",

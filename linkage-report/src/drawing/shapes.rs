@@ -1,4 +1,4 @@
-//! What engineers draw: links, blocks, hatching, springs, arrows; all sizes in pixels.
+//! Shapes of engineering drawings: links, blocks, hatching, springs, arrows. All sizes are in pixels.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ fn angle(vector: Vector2<f64>) -> f64 {
     vector.y.atan2(vector.x)
 }
 
-/// To the right of somebody who walks along `vector`, on the screen.
+/// The direction to the right of `vector` on the screen.
 fn right(vector: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(-vector.y, vector.x)
 }
@@ -49,7 +49,7 @@ fn hull(points: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
     if lower.is_empty() { sorted } else { lower }
 }
 
-/// A link: all that is within half its width of the hull of its points.
+/// The outline of a link: the hull of its points, widened by half the width of a link.
 pub(super) fn link(points: &[Vector2<f64>]) -> String {
     let (corners, mut pen) = (hull(points), Pen::default());
     if let [centre] = corners[..] {
@@ -71,7 +71,7 @@ pub(super) fn link(points: &[Vector2<f64>]) -> String {
     pen.close().path()
 }
 
-/// A block around the origin that slides along a direction.
+/// A block around the origin, along its direction of sliding.
 pub(super) fn block(along: Vector2<f64>) -> String {
     let [half_length, half_width] = BLOCK;
     let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]];
@@ -79,7 +79,7 @@ pub(super) fn block(along: Vector2<f64>) -> String {
     Pen::default().lines(&corners).close().path()
 }
 
-/// Strokes along a line, on its right.
+/// Strokes along the right side of a line.
 pub(super) fn hatching(line: &[Vector2<f64>]) -> String {
     let mut pen = Pen::default();
     let mut walked = HATCH / 2.0;
@@ -99,7 +99,7 @@ pub(super) fn hatching(line: &[Vector2<f64>]) -> String {
     pen.path()
 }
 
-/// The triangle under a pivot on the frame, and the line on which it stands.
+/// The triangle under a ground pivot, and the hatched line below it.
 pub(super) fn ground(at: Vector2<f64>) -> [String; 2] {
     let point = |x: f64, y: f64| at + Vector2::new(x, y);
     let triangle = Pen::default().lines(&[at, point(10.0, 16.0), point(-10.0, 16.0)]).close().path();
@@ -120,7 +120,7 @@ pub(super) fn spring(length: f64) -> String {
     Pen::default().lines(&points).path()
 }
 
-/// A wheel around the origin, with two diameters to see it turn.
+/// A wheel around the origin, with two diameters that show its rotation.
 pub(super) fn wheel(radius: f64, towards: Vector2<f64>) -> [String; 2] {
     let mut spokes = Pen::default();
     for spoke in [towards, right(towards)] {
@@ -129,15 +129,14 @@ pub(super) fn wheel(radius: f64, towards: Vector2<f64>) -> [String; 2] {
     [Pen::default().circle(Vector2::zeros(), radius).close().path(), spokes.path()]
 }
 
-/// An arrow about a pivot: over it and with a head in the sense of a full turn, or with heads at both ends of a
-/// swing. The angles are those of the crank on the screen, followed through the motion. With the paths of arc
-/// and heads come points along both.
+/// A curved arrow around a pivot: with one head for a full turn, with two for a swing. The angles are those of the
+/// crank on the screen, continuous through the motion. Returns the paths of arc and heads, and points along both.
 pub(super) fn turning(pivot: Vector2<f64>, angles: &[f64]) -> ([String; 2], Vec<Vector2<f64>>) {
     let radius = 24.0;
     let fold = |pick: fn(f64, f64) -> f64| angles.iter().copied().reduce(pick).unwrap_or_default();
     let (least, largest) = (fold(f64::min), fold(f64::max));
     let turns = largest - least > 1.9 * PI;
-    // Over the pivot, clear of its foot.
+    // Above the pivot, clear of its triangle.
     let (from, to) = if turns { (-1.1 * PI, 0.1 * PI) } else { (least, largest) };
     let (mut arc, mut heads) = (Pen::default(), Pen::default());
     let at = |angle: f64| pivot + direction(angle) * radius;

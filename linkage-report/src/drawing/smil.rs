@@ -1,5 +1,5 @@
-//! The moving picture as SVG. Every body is drawn once, as it stands in the first frame, and carried along by
-//! `animateTransform`; a second copy without motion is shown instead to those who want less of it.
+//! The animation as SVG. Every body is drawn once, in its first position, and moved by `animateTransform`; readers who
+//! prefer reduced motion see a still copy instead.
 
 use nalgebra::Vector2;
 use svg::Document;
@@ -12,31 +12,31 @@ use super::names::{Scene, foot, offset};
 use super::pen::{Pen, short};
 use super::shapes::{BLOCK, block, ground, hatching, link, spring, turning, wheel};
 
-/// Every rule is for this class, so that the picture may also stand inside a page.
+/// Every style rule is limited to this class, so that the picture can be part of a page.
 const CLASS: &str = "linkage";
 const STYLE: &str = include_str!("animation.css");
 
-/// The colours of links in turn.
+/// The colours of links, used in turn.
 const COLOURS: [&str; 4] = ["a", "b", "c", "d"];
 
-/// Names look for room in so many of the frames.
+/// The number of frames that the placement of names considers.
 const SAMPLES: usize = 12;
 
-/// What is drawn once and carried along.
+/// A shape and its motion.
 struct Item {
     body: Body,
     drawn: Group,
-    /// Of a spring its lengths; it lies along x.
+    /// The lengths of a spring, which is drawn along x; empty for other shapes.
     lengths: Vec<f64>,
 }
 
-/// The picture as it grows, part by part.
+/// The picture under construction.
 struct Stage<'a> {
     film: &'a Film,
     back: Group,
     items: Vec<Item>,
     links: usize,
-    /// Where arrows are, roughly.
+    /// Points along the arrows: obstacles for names.
     arrows: Vec<[Vector2<f64>; 2]>,
 }
 
@@ -118,7 +118,7 @@ impl Stage<'_> {
                 let (points, body) = self.link(points)?;
                 let colour = self.colour();
                 let bars = Pen::default().lines(&self.around(&points)).path();
-                // Three strokes, so that bars that meet are one link.
+                // Three strokes, so that connected bars look like one link.
                 self.item(body, colour, ["edge", "core", "tint"].map(|class| path(class, bars.clone())));
             }
             Part::Slider(point) => {
@@ -185,13 +185,13 @@ impl Stage<'_> {
         Ok((points, body))
     }
 
-    /// Points of the first frame as seen from the first of them.
+    /// The points of the first frame relative to the first of them.
     fn around(&self, points: &[usize]) -> Vec<Vector2<f64>> {
         let frame = &self.film.frames()[0];
         points.iter().map(|point| frame[*point] - frame[points[0]]).collect()
     }
 
-    /// Circles where parts meet, dots where a point draws its path, and the names of both.
+    /// Draws circles at joints, dots at traced points, and the names of both.
     fn joints(&mut self, animation: &Animation) -> Result<(), DrawingError> {
         let film = self.film;
         let (mut met, mut traced) = (vec![0; film.names().len()], vec![false; film.names().len()]);
@@ -204,34 +204,34 @@ impl Stage<'_> {
             }
         }
         let named: Vec<usize> = (0..met.len()).filter(|point| met[*point] > 1 || traced[*point]).collect();
-        let beside = self.beside(&named, self.scenes(animation, &named)?);
-        for (&point, beside) in named.iter().zip(beside) {
+        let offsets = self.name_offsets(&named, self.scenes(animation, &named)?);
+        for (&point, at) in named.iter().zip(offsets) {
             let class = if traced[point] { "dot" } else { "joint" };
-            let drawn = Group::new().add(path(class, Pen::default().circle(Vector2::zeros(), 4.5).close().path())).add(
-                Text::new(film.names()[point].as_str()).set("x", short(beside.x, 1)).set("y", short(beside.y + 4.5, 1)),
-            );
+            let drawn = Group::new()
+                .add(path(class, Pen::default().circle(Vector2::zeros(), 4.5).close().path()))
+                .add(Text::new(film.names()[point].as_str()).set("x", short(at.x, 1)).set("y", short(at.y + 4.5, 1)));
             self.items.push(Item { body: Body::sliding(film.track(point)), drawn, lengths: Vec::new() });
         }
         Ok(())
     }
 
-    /// Where the names stand beside their points. Long names are the hardest to place, and come first.
-    fn beside(&self, named: &[usize], mut scenes: Vec<Scene>) -> Vec<Vector2<f64>> {
+    /// The positions of names relative to their points. Long names are placed first: they are the hardest.
+    fn name_offsets(&self, named: &[usize], mut scenes: Vec<Scene>) -> Vec<Vector2<f64>> {
         let inside = |at: Vector2<f64>| at >= Vector2::repeat(6.0) && at <= SIZE - Vector2::repeat(6.0);
         let name = |place: usize| self.film.names()[named[place]].as_str();
         let mut order: Vec<usize> = (0..named.len()).collect();
         order.sort_by_key(|place| std::cmp::Reverse(name(*place).len()));
-        let mut beside = vec![Vector2::zeros(); named.len()];
+        let mut offsets = vec![Vector2::zeros(); named.len()];
         for place in order {
-            beside[place] = offset(name(place), inside, &scenes, |scene| scene.points[place]);
+            offsets[place] = offset(name(place), inside, &scenes, |scene| scene.points[place]);
             for scene in &mut scenes {
-                scene.stand(name(place), scene.points[place] + beside[place]);
+                scene.place_name(name(place), scene.points[place] + offsets[place]);
             }
         }
-        beside
+        offsets
     }
 
-    /// What the names keep clear of, in some of the frames.
+    /// The obstacles for names, in some of the frames.
     fn scenes(&self, animation: &Animation, named: &[usize]) -> Result<Vec<Scene>, DrawingError> {
         let frames = self.film.frames();
         let mut scenes = Vec::new();
@@ -257,7 +257,7 @@ impl Stage<'_> {
 }
 
 impl Item {
-    /// The item as it stands in the first frame, or on its way through all of them in so many seconds.
+    /// The item in its first position, or animated through all frames in so many seconds.
     fn group(&self, seconds: Option<f64>) -> Group {
         let first = self.body.places[0];
         let mut drawn = self.drawn.clone();
@@ -283,7 +283,7 @@ impl Item {
         let moves = animate("translate", self.body.places.iter().map(place).collect());
         let angle = |angle: &f64| short((angle - self.body.angles[0]).to_degrees(), 2);
         let turns = animate("rotate", self.body.angles.iter().map(angle).collect());
-        // The turn comes after the place, whether that one moves or not.
+        // The rotation is applied after the translation, animated or not.
         let turns = turns.map(|turns| turns.set("additive", "sum"));
         let group = drawn.set("transform", format!("translate({})", place(&first)));
         moves.into_iter().chain(turns).fold(group, Group::add)

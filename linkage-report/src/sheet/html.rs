@@ -1,9 +1,9 @@
-//! Small pieces of HTML.
+//! Helpers for HTML.
 
 use crate::document::outline::Law;
 use linkage_runtime::derivation::{Formula, FormulaMatrix};
 
-/// Text for the inside of an element or of an attribute in double quotes.
+/// Escapes text for an element or for an attribute in double quotes.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -19,12 +19,12 @@ pub(super) fn escape(text: &str) -> String {
     escaped
 }
 
-/// A formula in a line of text.
+/// An inline formula.
 pub(super) fn inline(formula: &Formula) -> String {
     format!("<math>{}</math>", formula.mathml)
 }
 
-/// A formula on its own line, with its LaTeX source for those who copy it.
+/// A displayed formula, with its LaTeX source as an annotation for copying.
 pub(super) fn display(mathml: &str, latex: &str) -> String {
     format!(
         "<div class=\"scroll\"><math display=\"block\"><semantics>{mathml}<annotation encoding=\"application/x-tex\">\
@@ -33,11 +33,11 @@ pub(super) fn display(mathml: &str, latex: &str) -> String {
     )
 }
 
-/// A matrix with more rows or columns than this is a list of its entries.
+/// A matrix with more rows or columns than this is written as a list of its entries.
 const LARGEST_MATRIX: usize = 6;
 
-/// The MathML and LaTeX of `name = matrix`, or of each entry if there are many. A `law` such as
-/// J = ∂Ψ/∂u says what the matrix is.
+/// The MathML and LaTeX of `name = matrix`, or of each entry of a large matrix. A `law` such as J = ∂Ψ/∂u defines the
+/// matrix.
 pub(super) fn matrix(matrix: &FormulaMatrix, law: Option<&Law>) -> Vec<(String, String)> {
     let FormulaMatrix { name, factor, rows, columns, .. } = matrix;
     let (before, before_latex) =
@@ -65,12 +65,12 @@ pub(super) fn matrix(matrix: &FormulaMatrix, law: Option<&Law>) -> Vec<(String, 
             entries.iter().map(|entry| entry.map_or_else(|| "0".to_owned(), |entry| entry.latex.to_owned())).collect();
         latex.push_str(&format!(" {} \\\\", entries.join(" & ")));
     }
-    // J = ∂Ψ/∂u = (…) reads as one chain.
+    // J = ∂Ψ/∂u = (…) is one chain of equations.
     let (name, name_latex) = match law {
         Some(law) => (law.mathml.to_owned(), law.latex.to_owned()),
         None => (name.mathml.to_owned(), name.latex.to_owned()),
     };
-    // Fractions stay large while there is room.
+    // Fractions are large if there is room.
     let large = *columns <= 3;
     let mathml = format!(
         "<mrow>{name}<mo>=</mo>{before}<mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>"
@@ -78,7 +78,7 @@ pub(super) fn matrix(matrix: &FormulaMatrix, law: Option<&Law>) -> Vec<(String, 
     vec![(mathml, format!("{name_latex} = {before_latex} \\begin{{pmatrix}}{latex} \\end{{pmatrix}}"))]
 }
 
-/// An SVG file as the address of an image.
+/// An SVG file as a data URL.
 pub(super) fn svg_address(svg: &str) -> String {
     let mut address = String::from("data:image/svg+xml,");
     for byte in svg.trim().bytes() {

@@ -1,11 +1,11 @@
-//! Long sums on several lines.
+//! Breaks long sums into lines.
 
 use linkage_runtime::derivation::Equation;
 
-/// A right side wider than this, in characters, is broken at its terms.
+/// The widest right side, in characters; a wider one is broken at its terms.
 const WIDEST: usize = 58;
 
-/// The MathML of an equation; a long sum stands on lines of its own terms.
+/// The MathML of an equation; a long sum is broken into lines.
 pub(super) fn equation(equation: &Equation) -> String {
     let (left, right) = (equation.left.mathml.to_owned(), equation.right.mathml.to_owned());
     if equation.right.to_string().chars().count() > WIDEST {
@@ -22,7 +22,7 @@ pub(super) fn equation(equation: &Equation) -> String {
     format!("<mrow>{left}<mo>=</mo>{right}</mrow>")
 }
 
-/// The terms of a sum, packed into lines; a single line if it is no sum.
+/// The terms of a sum, packed into lines; a single line for any other formula.
 fn lines(mathml: &str) -> Vec<String> {
     let Some(inside) = mathml.strip_prefix("<mrow>").and_then(|inside| inside.strip_suffix("</mrow>")) else {
         return Vec::new();
@@ -43,7 +43,7 @@ fn lines(mathml: &str) -> Vec<String> {
     for element in elements(inside) {
         if matches!(element, "<mo>+</mo>" | "<mo>−</mo>") && !term.is_empty() {
             flush(&mut term, &mut lines);
-            // A sign that starts a line still stands between two terms.
+            // A sign at the start of a line is still a binary operator.
             let sign = &element["<mo>".len()..];
             term.push_str("<mo form=\"infix\">");
             term.push_str(sign);
@@ -55,7 +55,7 @@ fn lines(mathml: &str) -> Vec<String> {
     lines.into_iter().map(|(line, _)| line).collect()
 }
 
-/// The elements that stand side by side.
+/// The top-level elements.
 fn elements(mathml: &str) -> Vec<&str> {
     let (mut elements, mut depth, mut start) = (Vec::new(), 0_usize, 0);
     for (at, _) in mathml.match_indices('<') {

@@ -1,6 +1,6 @@
-//! A mechanism's derivation as one HTML file: formulas in MathML, numbers, a picture.
+//! A mechanism's derivation as one HTML file: formulas in MathML, numbers and pictures.
 //!
-//! The file stands alone: it loads nothing, runs no script, follows light and dark, and prints.
+//! The file is self-contained: it loads nothing, runs no script, supports light and dark mode, and can be printed.
 //!
 //! ```
 //! use linkage_runtime::derivation::Derivation;
@@ -32,7 +32,7 @@ struct Picture {
     caption: String,
 }
 
-/// A sheet in the making.
+/// A builder for a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet<'a> {
     derivation: &'a Derivation,
@@ -43,25 +43,25 @@ pub struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// The sheet of a derivation, without numbers or pictures.
+    /// Creates the sheet of a derivation, without numbers or pictures.
     #[must_use]
     pub fn new(derivation: &'a Derivation) -> Self {
         Self { derivation, title: None, scenes: Vec::new(), tables: Vec::new(), pictures: Vec::new() }
     }
 
-    /// The heading; without it the name of the mechanism.
+    /// Sets the heading; the default is the name of the mechanism.
     pub fn title(&mut self, title: impl Into<String>) -> &mut Self {
         self.title = Some(title.into());
         self
     }
 
-    /// The equations of motion of a scene of this mechanism, behind the kinematics.
+    /// Adds the equations of motion of a scene of this mechanism, after the kinematics.
     pub fn scene(&mut self, scene: &'a SceneDerivation) -> &mut Self {
         self.scenes.push(scene);
         self
     }
 
-    /// A row of the table "Parameters", whatever the unit.
+    /// Adds a row to the table "Parameters".
     pub fn parameter(&mut self, name: impl Into<String>, value: f64) -> &mut Self {
         const CAPTION: &str = "Parameters";
         let row = (name.into(), value);
@@ -72,11 +72,11 @@ impl<'a> Sheet<'a> {
         self
     }
 
-    /// A table of numbers, such as the coordinates of a pose; units belong into the caption.
+    /// Adds a table of numbers, such as the coordinates of a pose; write units in the caption.
     ///
-    /// A name is shown as a formula if it is that of a parameter or coordinate (`theta3`), of its rate
-    /// or acceleration (`theta3_rate`, `theta3_acceleration`), of a velocity ratio (`theta3/theta2`), or
-    /// the text of what an equation of the derivation gives (`det J`).
+    /// A name is shown as a formula if it is a parameter or coordinate (`theta3`), its rate or acceleration
+    /// (`theta3_rate`, `theta3_acceleration`), a velocity ratio (`theta3/theta2`), or the left side of an equation of
+    /// the derivation (`det J`).
     pub fn numbers<N: Into<String>>(
         &mut self,
         caption: impl Into<String>,
@@ -87,14 +87,14 @@ impl<'a> Sheet<'a> {
         self
     }
 
-    /// A picture, such as that of a `Drawing`, and what it shows. It is
-    /// embedded as an image, so that neither its style nor any script in it reaches the sheet.
+    /// Adds a picture, such as a `Drawing`, with a caption. It is embedded as an image, so that its styles and scripts
+    /// do not affect the sheet.
     pub fn picture(&mut self, svg: impl Into<String>, caption: impl Into<String>) -> &mut Self {
         self.pictures.push(Picture { svg: svg.into(), caption: caption.into() });
         self
     }
 
-    /// The HTML file.
+    /// Writes the HTML file.
     #[must_use]
     pub fn to_html(&self) -> String {
         page::html(self)

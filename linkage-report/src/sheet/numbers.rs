@@ -1,13 +1,13 @@
-//! Tables of numbers: how names and values are shown.
+//! Formats names and values in tables of numbers.
 
 use linkage_runtime::derivation::{Derivation, Equation, Quantity, Symbol};
 
 use super::html::escape;
 
-/// Significant digits of a number.
+/// The significant digits of a number.
 const DIGITS: i32 = 7;
 
-/// A name as a formula, or as it was given.
+/// A name as a formula if it is known, else as text.
 pub(super) fn name(derivation: &Derivation, name: &str) -> String {
     match formula(derivation, name) {
         Some(mathml) => format!("<math>{mathml}</math>"),
@@ -57,7 +57,7 @@ fn dot(symbol: &Symbol, dots: &str) -> String {
     }
 }
 
-/// The values of a column, their decimal points below each other if the numerals are of one width.
+/// The values of a column, aligned at the decimal points in fonts with digits of equal width.
 pub(super) fn column(values: &[f64]) -> Vec<String> {
     let texts: Vec<String> = values.iter().map(|&value| number(value)).collect();
     let places =
@@ -67,7 +67,7 @@ pub(super) fn column(values: &[f64]) -> Vec<String> {
         let missing = most - places(&text);
         let mut padding = String::new();
         for index in 0..missing {
-            // As wide as a point, as wide as a numeral.
+            // Spaces with the width of a decimal point and of a digit.
             let point = index == 0 && places(&text) == 0;
             padding.push(if point { '\u{2008}' } else { '\u{2007}' });
         }

@@ -1,4 +1,4 @@
-//! The page, section by section.
+//! Writes the page, section by section.
 
 use crate::document::outline::{self, Law, words};
 use linkage_runtime::derivation::{
@@ -21,7 +21,7 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     let derivation = sheet.derivation;
     let mut page = Page::default();
     page.header(sheet);
-    page.closures(derivation);
+    page.constraints(derivation);
     page.jacobian(derivation);
     page.structure(derivation);
     page.ratios(derivation);
@@ -65,7 +65,7 @@ impl Page {
         self.push(&format!("<p>{words}</p>"));
     }
 
-    /// Without a number.
+    /// An equation without a number.
     fn law(&mut self, law: &Law) {
         self.push(&format!("<div class=\"law\">{}</div>", display(law.mathml, law.latex)));
     }
@@ -111,10 +111,10 @@ impl Page {
         self.push("</dl>\n</header>");
     }
 
-    fn closures(&mut self, derivation: &Derivation) {
-        self.section(words::CLOSURE, |page| {
-            page.lead(words::LEAD_CLOSURE);
-            page.law(&outline::CLOSURE);
+    fn constraints(&mut self, derivation: &Derivation) {
+        self.section(words::CONSTRAINTS, |page| {
+            page.lead(words::LEAD_CONSTRAINTS);
+            page.law(&outline::CONSTRAINTS);
             page.equations(derivation.residual);
         });
     }
@@ -181,7 +181,7 @@ impl Page {
         });
     }
 
-    /// What the mechanism asks for beyond acceleration.
+    /// The derivatives that the mechanism requests beyond acceleration.
     fn requests(&mut self, derivation: &Derivation) {
         if let Some(formulas) = derivation.ratio_derivatives {
             self.section(words::RATIO_DERIVATIVES, |page| {
@@ -289,7 +289,7 @@ impl Page {
         }
         let of = scene.map_or_else(String::new, |scene| format!(": <code>{}</code>", escape(scene)));
         self.section(&format!("{}{of}", words::OPERATIONS), |page| {
-            page.lead("What one call of each function costs:");
+            page.lead("The operations of one call of each function:");
             let mut rows = String::new();
             for kernel in kernels {
                 let counts = kernel.operations;
@@ -326,7 +326,7 @@ fn list<'a>(formulas: impl Iterator<Item = &'a Formula>) -> String {
     formulas.map(inline).collect::<Vec<_>>().join(", ")
 }
 
-/// With a capital at the start.
+/// The text with a capital at the start.
 fn sentence(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

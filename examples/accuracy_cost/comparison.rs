@@ -1,4 +1,4 @@
-//! A mechanism's methods, evaluated and timed.
+//! The methods for one mechanism, evaluated and timed.
 
 use linkage::PositionError;
 
@@ -6,10 +6,10 @@ use crate::dominance::dominated;
 use crate::oracle::Poses;
 use crate::price::frontier::{Price, Prices, frontier};
 
-/// What is asked for, by its order.
+/// The computed quantities, by order of derivative.
 pub const QUANTITIES: [&str; 3] = ["position", "velocity", "acceleration"];
 
-/// A kind of pose and a quantity there.
+/// A kind of pose and a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     pub pose: String,
@@ -21,29 +21,29 @@ pub struct Point {
 pub struct Work {
     pub method: &'static str,
     pub point: Point,
-    /// The largest error of its cases, or why there is none.
+    /// The largest error over its cases, or the error value of the method.
     pub error: Result<f64, PositionError>,
     /// Evaluations per pass.
     pub cases: usize,
-    /// All cases once, results thrown away.
+    /// Evaluates all cases once and drops the results.
     pub pass: Box<dyn Fn()>,
 }
 
-/// The prices of a mechanism: of each method, at each point.
-pub struct Stall {
+/// Error and time of each method at each point, for one mechanism.
+pub struct Comparison {
     pub mechanism: &'static str,
     pub points: Vec<Point>,
     pub prices: Vec<Prices>,
-    /// Why there is no price, where a method was tried.
-    pub refusals: Vec<(usize, usize, PositionError)>,
-    /// For each method the one that makes it superfluous on all stalls, if there is one.
+    /// The errors of methods that failed: method, point, error.
+    pub failures: Vec<(usize, usize, PositionError)>,
+    /// For each method, one that dominates it on all mechanisms, or None.
     pub dominated: Vec<Option<usize>>,
 }
 
-/// The largest of some errors; a result that is not a number, given without a word, is none.
+/// The largest of some errors; a NaN returned as Ok is turned into an error.
 pub fn largest(errors: impl Iterator<Item = Result<f64, PositionError>>) -> Result<f64, PositionError> {
     let largest = errors.collect::<Result<Vec<f64>, PositionError>>()?.into_iter().fold(0.0, f64::max);
-    let silent = PositionError::NotFinite { mechanism: "the mechanism", quantity: "without a word: a result" };
+    let silent = PositionError::NotFinite { mechanism: "the mechanism", quantity: "a result returned as Ok" };
     if largest.is_finite() { Ok(largest) } else { Err(silent) }
 }
 
@@ -52,9 +52,15 @@ pub fn points(poses: &Poses) -> impl Iterator<Item = Point> {
     (first..3).map(|order| Point { pose: poses.pose.clone(), angles_given: poses.angles_given, order })
 }
 
-impl Stall {
-    /// Times every work in turns, `rounds` times; the medians count.
-    pub fn open(mechanism: &'static str, methods: &[&'static str], works: Vec<Work>, rounds: usize, span: f64) -> Self {
+impl Comparison {
+    /// Times all works alternately, `rounds` times, and keeps the medians.
+    pub fn measure(
+        mechanism: &'static str,
+        methods: &[&'static str],
+        works: Vec<Work>,
+        rounds: usize,
+        span: f64,
+    ) -> Self {
         let mut points: Vec<Point> = Vec::new();
         for work in &works {
             if !points.contains(&work.point) {
@@ -62,7 +68,7 @@ impl Stall {
             }
         }
         let mut times = vec![Vec::with_capacity(rounds); works.len()];
-        // As many passes as fill the span of time, found once.
+        // The number of passes that fill `span`, measured once.
         let passes: Vec<usize> =
             works.iter().map(|work| (span / seconds(&*work.pass, 2)).ceil().max(1.0) as usize).collect();
         for _ in 0..rounds {
@@ -73,45 +79,46 @@ impl Stall {
             }
         }
         let mut prices = vec![vec![None; points.len()]; methods.len()];
-        let mut refusals = Vec::new();
+        let mut failures = Vec::new();
         for (work, mut times) in works.into_iter().zip(times) {
             let method = methods.iter().position(|name| *name == work.method).expect("a method of the list");
             let point = points.iter().position(|point| *point == work.point).expect("a point of the list");
             times.sort_by(f64::total_cmp);
             match work.error {
                 Ok(error) => prices[method][point] = Some(Price { error, time: times[times.len() / 2] }),
-                Err(error) => refusals.push((method, point, error)),
+                Err(error) => failures.push((method, point, error)),
             }
         }
-        Self { mechanism, points, prices, refusals, dominated: vec![None; methods.len()] }
+        Self { mechanism, points, prices, failures, dominated: vec![None; methods.len()] }
     }
 
-    /// What each method costs at one point.
+    /// Error and time of each method at one point.
     pub fn at(&self, point: usize) -> Prices {
         self.prices.iter().map(|prices| prices[point]).collect()
     }
 
-    /// The same of those that are offered.
+    /// Error and time of the methods that are not dominated, at one point.
     pub fn offered(&self, point: usize) -> Prices {
         let prices = self.prices.iter().zip(&self.dominated);
         prices.map(|(prices, by)| prices[point].filter(|_| by.is_none())).collect()
     }
 
-    /// The methods that are worth their price at one point.
+    /// The methods on the Pareto front at one point.
     pub fn front(&self, point: usize) -> Vec<usize> {
         frontier(&self.offered(point))
     }
 }
 
-/// Marks what is dominated at every point of all stalls together.
-pub fn compare(stalls: &mut [Stall]) {
-    let methods = stalls.first().map_or(0, |stall| stall.prices.len());
-    let everywhere = (0..methods).map(|method| stalls.iter().flat_map(|stall| stall.prices[method].clone()).collect());
+/// Marks the methods that are dominated over all points of all mechanisms.
+pub fn compare(comparisons: &mut [Comparison]) {
+    let methods = comparisons.first().map_or(0, |comparison| comparison.prices.len());
+    let everywhere = (0..methods)
+        .map(|method| comparisons.iter().flat_map(|comparison| comparison.prices[method].clone()).collect());
     let dominated = dominated(&everywhere.collect::<Vec<Prices>>());
-    stalls.iter_mut().for_each(|stall| stall.dominated.clone_from(&dominated));
+    comparisons.iter_mut().for_each(|comparison| comparison.dominated.clone_from(&dominated));
 }
 
-/// Seconds for one pass.
+/// The seconds for one pass.
 fn seconds(pass: &dyn Fn(), passes: usize) -> f64 {
     let start = std::time::Instant::now();
     (0..passes).for_each(|_| pass());
