@@ -33,7 +33,7 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
     /// Computes the response with these forces along the contacts; matrix rows for the contacts in `asked`.
     ///
     /// # Errors
-    /// [`MotionError::NoInertia`], [`PositionError::NotFinite`] as for [`Inertia::new`].
+    /// Those of [`Inertia::new`].
     pub(super) fn new(
         equations: &ReducedEquations<T, V, C>,
         forces: &Column<T, C>,

@@ -9,12 +9,12 @@
 //! use linkage_dynamics::integrate::{Tolerance, dop853};
 //! use linkage_runtime::nalgebra::{SVector, vector};
 //!
-//! // A pendulum of 1 m let go at the horizontal: the angle from below in radians, and its speed.
+//! // A pendulum of 1 m released at the horizontal: the angle from the lowest position, and its rate.
 //! let pendulum = |_t: f64, y: &SVector<f64, 2>| Ok(vector![y[1], -9.81 * y[0].sin()]);
 //! let start = (0.0, vector![std::f64::consts::FRAC_PI_2, 0.0]);
 //! let mut motion = dop853(pendulum, start, 10.0, Tolerance::new(1e-12, [1.0, 1.0])?)?;
 //!
-//! // Seconds, and the horizontal place of the bob.
+//! // Seconds, and the horizontal position of the bob.
 //! for state in motion.at([0.5, 1.0, 2.0, 5.0, 10.0]) {
 //!     let (t, y) = state?;
 //!     println!("{t:4} {:9.6}", y[0].sin());

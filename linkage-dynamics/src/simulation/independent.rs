@@ -7,8 +7,8 @@ use linkage_runtime::__shared::smallest;
 use linkage_runtime::jacobian::{Elimination, Order, Scales, Vector};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
 
-/// A choice of independent coordinates, and the elimination order of the others. Coordinates are column indices of [J
-/// A]; those from U on are inputs.
+/// A choice of independent coordinates, and the elimination order of the others. Coordinates are column indices of
+/// [J A]; those from U on are inputs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Independent<T: Real, U: Dim, V: Dim> {
     pub(super) order: Order<U>,
