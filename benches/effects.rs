@@ -14,7 +14,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use linkage::contact::{Contacts, ReducedEquations};
-use linkage::{Column, D, Mode, MotionError, PerInput, Scene, linkage};
+use linkage::{Column, D, Mode, MotionError, PerInput, Scene};
 use linkage_compiler::program::Operations;
 use work::{Work, work};
 

@@ -42,7 +42,7 @@ fn pick(q: &[f64], columns: &[ColumnId]) -> DVector<f64> {
 fn each_close(what: &str, found: &[f64], expected: &[f64], scale: impl Fn(usize) -> f64) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (index, (&found, &expected)) in found.iter().zip(expected).enumerate() {
-        close(&format!("{what}[{index}]"), found, expected, scale(index), TOLERANCE);
+        close(format_args!("{what}[{index}]"), found, expected, TOLERANCE * scale(index));
     }
 }
 
@@ -71,7 +71,7 @@ fn emitted_is_interpreted<F: Fixture>() {
         all_close("A", &entries(&m.jacobian_inputs(&pose)), a.as_slice(), 0.0, TOLERANCE);
         // The simplified determinant against that of the matrix.
         let scale: f64 = j.column_iter().map(|column| column.norm()).product();
-        close("determinant", m.determinant(&pose), j.determinant(), scale, TOLERANCE);
+        close("determinant", m.determinant(&pose), j.determinant(), TOLERANCE * scale);
 
         let [value, rate, acceleration] = orders(&d.points);
         same("points", &m.points(&pose).unwrap(), &value, 0.0);

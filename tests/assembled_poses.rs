@@ -3,6 +3,7 @@
 //! `assemble` finds algebraically what `pose_at` finds from the angles, and J itself says what a determinant is.
 
 use linkage::{Assembly, D, Dim, Mechanism, linkage};
+use linkage_oracle::close;
 use nalgebra::{DMatrix, DVector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -24,24 +25,19 @@ linkage! {
     }
 }
 
-#[track_caller]
-fn close(found: f64, expected: f64, size: f64, what: &str) {
-    assert!((found - expected).abs() <= 1e-12 * size.max(1e-3), "{what}: {found} is not {expected}");
-}
-
 /// Determinants and velocity ratios of a pose against those of the matrices that it gives.
 fn agrees_with_its_matrices<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, pose: &M::Pose) {
     let jacobian = m.jacobian_unknowns(pose);
     let jacobian = DMatrix::from_fn(M::U::COUNT, M::U::COUNT, |row, column| jacobian[(row, column)]);
     let determinant = jacobian.clone().lu().determinant();
     let size: f64 = jacobian.column_iter().map(|column| column.norm()).product();
-    close(m.determinant(pose), determinant, size, "det J");
+    close("det J", m.determinant(pose), determinant, 1e-12 * size.max(1e-3));
     let right = m.jacobian_inputs(pose).column(0);
     let expected = jacobian.lu().solve(&DVector::from_column_slice(right.as_slice())).unwrap();
     let found = m.solve_jacobian(pose, &right).unwrap();
     let size = expected.amax().max(1.0);
     for (found, expected) in found.iter().zip(&expected) {
-        close(*found, *expected, size, "velocity ratio");
+        close("velocity ratio", *found, *expected, 1e-12 * size.max(1e-3));
     }
 }
 
@@ -63,7 +59,7 @@ fn agrees<M>(
             let again = m.pose_at(&coordinates(&pose));
             let [these, those] = [&pose, &again].map(|pose| m.block_determinants(pose));
             for ((this, that), group) in these.iter().zip(&those).zip(M::GROUPS) {
-                close(*this, *that, 100.0, group.name);
+                close(group.name, *this, *that, 1e-10);
             }
             assert!(m.residual(&pose).largest() < 1e-13 && m.same_branch(&pose, &again));
             agrees_with_its_matrices(m, &pose);
@@ -117,8 +113,8 @@ fn multiples_of_solved_angles() {
                     assert!((found.coords - expected).amax() < 1e-13, "{found} is not {expected}");
                 }
                 let outputs = m.outputs(pose).unwrap();
-                close(outputs.difference, (q.u - q.w).sin(), 1.0, "sin(u - w)");
-                close(outputs.opposite, (1.0 - q.w).cos() - (2.0 * q.u).sin(), 1.0, "cos(1 - w) + sin(-2 u)");
+                close("sin(u - w)", outputs.difference, (q.u - q.w).sin(), 1e-12);
+                close("cos(1 - w) + sin(-2 u)", outputs.opposite, (1.0 - q.w).cos() - (2.0 * q.u).sin(), 1e-12);
             }
         },
     );

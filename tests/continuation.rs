@@ -1,5 +1,6 @@
 //! Mechanisms followed along their motion: what a path promises beside the hard cases.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Along, AlongCoordinates, AlongRates, Direction, Event, Options, Path, PathStep};
@@ -12,11 +13,6 @@ use linkage_gallery::five_bar::*;
 use linkage_gallery::four_bar::*;
 use linkage_gallery::offset_slider_crank::*;
 use linkage_gallery::slider_crank::*;
-
-#[track_caller]
-fn close(found: f64, expected: f64, error: f64) {
-    assert!((found - expected).abs() <= error, "{found} is not {expected} to {error:e}");
-}
 
 fn left(m: &FourBar, theta2: f64) -> FourBarCoordinates {
     m.assemble(theta2, FourBarBranch::new(Elbow::Left)).unwrap().coordinates()
@@ -39,8 +35,8 @@ fn a_turn_driven_by_the_rocker() {
         match step.event {
             Some(Event::DeadPoint { group }) => {
                 assert_eq!(group, "theta3, theta4");
-                close((step.position.theta3 - step.position.theta4).sin(), 0.0, 1e-15);
-                close(step.rates.theta2, 0.0, 1e-14);
+                assert_abs_diff_eq!((step.position.theta3 - step.position.theta4).sin(), 0.0, epsilon = 1e-15);
+                assert_abs_diff_eq!(step.rates.theta2, 0.0, epsilon = 1e-14);
                 dead_points.push(step.position.theta2);
             }
             Some(Event::Zero) if (step.position.theta4 - start.theta4).abs() > 6.0 => break,
@@ -49,15 +45,15 @@ fn a_turn_driven_by_the_rocker() {
         assert!(step.length < 100.0);
     }
     let q = path.position();
-    close(q.theta2, start.theta2, 1e-14);
-    close(q.theta3, start.theta3, 1e-14);
-    close((q.theta4 - start.theta4).abs(), TAU, 1e-14);
+    assert_abs_diff_eq!(q.theta2, start.theta2, epsilon = 1e-14);
+    assert_abs_diff_eq!(q.theta3, start.theta3, epsilon = 1e-14);
+    assert_abs_diff_eq!((q.theta4 - start.theta4).abs(), TAU, epsilon = 1e-14);
     // The rocker turns back where coupler and crank reach 70 and 30 together: by the law of cosines.
     let angle = |reach: f64| ((80.0_f64.powi(2) + 70.0_f64.powi(2) - reach * reach) / (2.0 * 80.0 * 70.0)).acos();
     dead_points.sort_by(f64::total_cmp);
     assert_eq!(dead_points.len(), 2);
-    close(dead_points[0], angle(30.0), 1e-14);
-    close(dead_points[1], angle(70.0), 1e-14);
+    assert_abs_diff_eq!(dead_points[0], angle(30.0), epsilon = 1e-14);
+    assert_abs_diff_eq!(dead_points[1], angle(70.0), epsilon = 1e-14);
 }
 
 /// The rates along the path are those that the velocity ratios give.
@@ -69,9 +65,9 @@ fn rates_are_velocity_ratios() {
         let PathStep { position, rates, .. } = step.unwrap();
         assert!(rates.theta2 < 0.0);
         let w = m.velocity_ratios(&m.pose_at(&position)).unwrap();
-        close(rates.theta3, w[0] * rates.theta2, 1e-13);
-        close(rates.theta4, w[1] * rates.theta2, 1e-13);
-        close(rates.theta2.hypot(rates.theta3).hypot(rates.theta4), 1.0, 1e-14);
+        assert_abs_diff_eq!(rates.theta3, w[0] * rates.theta2, epsilon = 1e-13);
+        assert_abs_diff_eq!(rates.theta4, w[1] * rates.theta2, epsilon = 1e-13);
+        assert_abs_diff_eq!(rates.theta2.hypot(rates.theta3).hypot(rates.theta4), 1.0, epsilon = 1e-14);
     }
 }
 
@@ -85,15 +81,15 @@ fn zero_of_an_output() {
     while path.position().theta2 < 0.35 + TAU {
         let step = path.advance_watching(right_angle).unwrap();
         if step.event == Some(Event::Zero) {
-            close((step.position.theta3 - step.position.theta4).cos(), 0.0, 1e-15);
+            assert_abs_diff_eq!((step.position.theta3 - step.position.theta4).cos(), 0.0, epsilon = 1e-15);
             found.push(step.position.theta2);
         }
     }
     // B is then sqrt(50^2 + 70^2) from D.
     let expected = ((80.0_f64.powi(2) + 20.0_f64.powi(2) - 7400.0) / (2.0 * 80.0 * 20.0)).acos();
     assert_eq!(found.len(), 2);
-    close(found[0], expected, 1e-14);
-    close(found[1], TAU - expected, 1e-14);
+    assert_abs_diff_eq!(found[0], expected, epsilon = 1e-14);
+    assert_abs_diff_eq!(found[1], TAU - expected, epsilon = 1e-14);
 }
 
 /// A range is kept at both ends, to the last digit.
@@ -178,7 +174,7 @@ fn coarse_and_fine_steps_agree() {
     };
     for (coarse, fine) in turn(1.0, 1).into_iter().zip(turn(0.02, 7)) {
         let [coarse, fine] = [coarse, fine].map(|step| DoubleButterfly::unknowns(&step.position));
-        close((coarse - fine).largest(), 0.0, 1e-13);
+        assert_abs_diff_eq!((coarse - fine).largest(), 0.0, epsilon = 1e-13);
     }
 }
 
@@ -199,11 +195,11 @@ fn along_a_path_of_two_inputs() {
         let reached = path.advance_to(s).unwrap();
         let pose = m.pose_at(&along.position(&reached.position));
         let expected = assemble(s);
-        close((m.jacobian_unknowns(&pose) - m.jacobian_unknowns(&expected)).amax(), 0.0, 1e-13);
+        assert_abs_diff_eq!((m.jacobian_unknowns(&pose) - m.jacobian_unknowns(&expected)).amax(), 0.0, epsilon = 1e-13);
         // dq/ds beside the velocity that the inputs' rates give.
         let rate = m.velocity(&pose, FiveBarInputs::from(inputs(s)[1])).unwrap();
-        close(reached.rates.rates.theta2 / reached.rates.parameter, rate.theta2, 1e-12);
-        close(reached.rates.rates.theta3 / reached.rates.parameter, rate.theta3, 1e-12);
+        assert_abs_diff_eq!(reached.rates.rates.theta2 / reached.rates.parameter, rate.theta2, epsilon = 1e-12);
+        assert_abs_diff_eq!(reached.rates.rates.theta3 / reached.rates.parameter, rate.theta3, epsilon = 1e-12);
     }
     // gamma of the whole: d2/ds2 of Psi, by differences of its first derivative.
     let at = |s: f64| AlongCoordinates { parameter: s, ..start };
@@ -218,7 +214,7 @@ fn along_a_path_of_two_inputs() {
         along.jacobian_unknowns(&pose) * Column::from([0.3, -0.7]) + along.jacobian_inputs(&pose) * Column::from([1.3])
     };
     let difference = (slope(1e-5) - slope(-1e-5)) / 2e-5;
-    close((difference - along.gamma(&moved(0.0), &rates)).largest(), 0.0, 1e-9);
+    assert_abs_diff_eq!((difference - along.gamma(&moved(0.0), &rates)).largest(), 0.0, epsilon = 1e-9);
 }
 
 /// In single precision the same path, to its rounding.
@@ -249,7 +245,7 @@ fn strokes_of_a_slider() {
     while path.position().theta2 < 1.0 + TAU {
         let step = path.advance_watching(|_, rates| rates.d).unwrap();
         if step.event == Some(Event::Zero) {
-            close((step.position.theta2 - step.position.theta3).sin(), 0.0, 1e-14);
+            assert_abs_diff_eq!((step.position.theta2 - step.position.theta3).sin(), 0.0, epsilon = 1e-14);
             ends.push(step.position.d);
         }
     }

@@ -1,5 +1,6 @@
 //! The example `engine`: its accounts, the loads of its joints and its cycle, by roads of their own.
 
+use linkage_oracle::close;
 use std::f64::consts::PI;
 
 use linkage::nalgebra::{Point2, Vector2, vector};
@@ -22,10 +23,6 @@ use run::Run;
 
 fn run() -> Run {
     Run::new(Running::default(), 200.0, (5.0, 3.0 * CYCLE)).unwrap()
-}
-
-fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected}, off {:e}", found - expected);
 }
 
 /// The power along the motion, the energy that it leaves, and pressure over volume and friction over way.

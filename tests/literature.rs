@@ -1,6 +1,7 @@
 //! The lecture notes (chapter 1, "Analisi cinematica di velocità per meccanismi articolati piani"): each
 //! formula in the book's letters, written by hand, beside what was emitted, at random poses.
 
+use linkage_oracle::all_close;
 use nalgebra::{Matrix2, Vector2, matrix, vector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -16,15 +17,6 @@ use linkage_gallery::slider_crank::*;
 const TOLERANCE: f64 = 1e-13;
 
 const POSES: usize = 200;
-
-#[track_caller]
-fn close(found: &[f64], expected: &[f64], scale: f64) {
-    let scale = expected.iter().fold(scale, |scale, value| scale.max(value.abs()));
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() <= TOLERANCE * scale, "{found:?} is not {expected:?}");
-    }
-}
 
 fn random() -> SmallRng {
     SmallRng::seed_from_u64(1)
@@ -54,12 +46,12 @@ fn equation_1_1() {
             z2 * phi2.cos() + z3 * (phi2 - delta).cos(), phi2.sin()
         ];
         let a = vector![-z1 * phi1.sin(), z1 * phi1.cos()];
-        close(m.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0);
-        close(m.jacobian_inputs(&pose).as_slice(), a.as_slice(), 0.0);
-        close(&[m.determinant(&pose)], &[-z2 - z3 * delta.cos()], z2 + z3);
+        all_close("", m.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0, TOLERANCE);
+        all_close("", m.jacobian_inputs(&pose).as_slice(), a.as_slice(), 0.0, TOLERANCE);
+        all_close("", &[m.determinant(&pose)], &[-z2 - z3 * delta.cos()], z2 + z3, TOLERANCE);
         // {phi2'; z2'} = -J^-1 A phi1'.
         let w = m.velocity_ratios(&pose).unwrap();
-        close((j * w).as_slice(), (-a).as_slice(), (j.norm() * w.norm()).max(z1));
+        all_close("", (j * w).as_slice(), (-a).as_slice(), (j.norm() * w.norm()).max(z1), TOLERANCE);
     }
 }
 
@@ -77,7 +69,13 @@ fn equation_1_3() {
             m.velocity(&pose, length(&mut random)).unwrap_or(IntroductoryRates { phi1: 1.0, phi2: 2.0, z2: 3.0 });
         let expected = block(z1, phi1) * vector![0.0, rate.phi1] + block(z2, phi2) * vector![rate.z2, rate.phi2];
         let found = m.point_velocities(&pose, &rate).unwrap().p;
-        close(found.as_slice(), expected.as_slice(), z1 * rate.phi1.abs() + z2 * rate.phi2.abs() + rate.z2.abs());
+        all_close(
+            "",
+            found.as_slice(),
+            expected.as_slice(),
+            z1 * rate.phi1.abs() + z2 * rate.phi2.abs() + rate.z2.abs(),
+            TOLERANCE,
+        );
     }
 }
 
@@ -97,12 +95,12 @@ fn both_drivers_of_the_slider_crank() {
         let q = SliderCrankCoordinates { z3, phi1, phi2 };
         let pose = engine.pose_at(&q);
         let j = matrix![-z1 * phi1.sin(), -z2 * phi2.sin(); z1 * phi1.cos(), z2 * phi2.cos()];
-        close(engine.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0);
-        close(&[engine.determinant(&pose)], &[z1 * z2 * (phi2 - phi1).sin()], 0.0);
+        all_close("", engine.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0, TOLERANCE);
+        all_close("", &[engine.determinant(&pose)], &[z1 * z2 * (phi2 - phi1).sin()], 0.0, TOLERANCE);
         let pose = compressor.pose_at(&q);
         let j = matrix![-1.0, -z2 * phi2.sin(); 0.0, z2 * phi2.cos()];
-        close(compressor.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0);
-        close(&[compressor.determinant(&pose)], &[-z2 * phi2.cos()], 0.0);
+        all_close("", compressor.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0, TOLERANCE);
+        all_close("", &[compressor.determinant(&pose)], &[-z2 * phi2.cos()], 0.0, TOLERANCE);
     }
 }
 
@@ -148,7 +146,13 @@ fn dyad_rrr() {
         let expected = inverse * (a - b);
         let rate = RrrInputs { xa: a.x, ya: a.y, xb: b.x, yb: b.y };
         let velocity = m.velocity(&pose, rate).unwrap();
-        close(&[velocity.phi1, velocity.phi2], expected.as_slice(), inverse.norm() * (a.norm() + b.norm()));
+        all_close(
+            "",
+            &[velocity.phi1, velocity.phi2],
+            expected.as_slice(),
+            inverse.norm() * (a.norm() + b.norm()),
+            TOLERANCE,
+        );
     }
 }
 
@@ -168,11 +172,11 @@ fn dyad_rpr() {
             -z1 * phi1.sin() + z2 * phi2.sin() + z3 * phi3.sin(), -phi2.cos();
             z1 * phi1.cos() - z2 * phi2.cos() - z3 * phi3.cos(), -phi2.sin()
         ];
-        close(m.jacobian_unknowns(&pose).as_slice(), j.as_slice(), z1 + z2 + z3);
+        all_close("", m.jacobian_unknowns(&pose).as_slice(), j.as_slice(), z1 + z2 + z3, TOLERANCE);
         let [a, b]: [Vector2<f64>; 2] = [(); 2].map(|()| vector![angle(&mut random), angle(&mut random)]);
         let velocity = m.velocity(&pose, RprInputs { xa: a.x, ya: a.y, xb: b.x, yb: b.y }).unwrap();
         let x = vector![velocity.phi1, velocity.z2];
-        close((j * x).as_slice(), (b - a).as_slice(), j.norm() * x.norm());
+        all_close("", (j * x).as_slice(), (b - a).as_slice(), j.norm() * x.norm(), TOLERANCE);
     }
 }
 
@@ -188,7 +192,7 @@ fn columns_of_the_velocity_ratios() {
         [FiveBarInputs { theta1: 1.0, theta4: 0.0 }, FiveBarInputs { theta1: 0.0, theta4: 1.0 }].into_iter().enumerate()
     {
         let velocity = m.velocity(&pose, rate).unwrap();
-        close(&[velocity.theta2, velocity.theta3], w.column(column).as_slice(), 0.0);
+        all_close("", &[velocity.theta2, velocity.theta3], w.column(column).as_slice(), 0.0, TOLERANCE);
     }
     // Property 2: W is the derivative of the position by the inputs, here by central differences.
     let step = 1e-5;
@@ -229,7 +233,7 @@ fn two_loops_agree_with_the_cascade_of_dyads() {
     let first = solve(column(b, q.theta2), -column(c, q.theta3), -column(a, q.theta1));
     // Second dyad: f@theta4 - g@theta5 = h - d - e@(theta3 - delta).
     let second = solve(column(f, q.theta4), -column(g, q.theta5), -column(e, q.theta3 - delta) * first[1]);
-    close(w.as_slice(), &[first[0], first[1], second[0], second[1]], 0.0);
+    all_close("", w.as_slice(), &[first[0], first[1], second[0], second[1]], 0.0, TOLERANCE);
     let determinant = column(b, q.theta2).perp(&-column(c, q.theta3)) * column(f, q.theta4).perp(&-column(g, q.theta5));
-    close(&[m.determinant(&pose)], &[determinant], 0.0);
+    all_close("", &[m.determinant(&pose)], &[determinant], 0.0, TOLERANCE);
 }

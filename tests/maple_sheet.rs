@@ -4,6 +4,7 @@
 //! four-bar l = (80, 20, 50, 70) at theta2 = 20 deg, 400 rpm. The sheet's arithmetic has ten digits; the
 //! references below are the same formulas in 40-digit arithmetic.
 
+use approx::assert_relative_eq;
 use linkage::{PointMotion, position};
 
 use linkage_gallery::four_bar::*;
@@ -13,12 +14,6 @@ const EXACT: f64 = 1e-13;
 
 /// The sheet agrees with exact arithmetic to this.
 const PRINTED: f64 = 1e-8;
-
-#[track_caller]
-fn close(found: f64, expected: f64, tolerance: f64) {
-    let error = (found - expected).abs() / expected.abs();
-    assert!(error <= tolerance, "{found:?} is not {expected:?}: {error:e}");
-}
 
 const THETA2: f64 = 0.349_065_850_398_865_9;
 const OMEGA2: f64 = 41.887_902_047_863_91;
@@ -46,16 +41,16 @@ fn newton_iterates() {
         if step > 0 {
             q = position::newton_step(&four_bar, &q).unwrap();
         }
-        close(q.theta3, theta3, EXACT);
-        close(q.theta4, theta4, EXACT);
-        close(q.theta2, THETA2, EXACT);
+        assert_relative_eq!(q.theta3, theta3, max_relative = EXACT);
+        assert_relative_eq!(q.theta4, theta4, max_relative = EXACT);
+        assert_relative_eq!(q.theta2, THETA2, max_relative = EXACT);
     }
     let solution = four_bar.solve(&start()).unwrap();
-    close(solution.coordinates.theta3, iterates[4][0], EXACT);
-    close(solution.coordinates.theta4, iterates[4][1], EXACT);
+    assert_relative_eq!(solution.coordinates.theta3, iterates[4][0], max_relative = EXACT);
+    assert_relative_eq!(solution.coordinates.theta4, iterates[4][1], max_relative = EXACT);
     assert!(solution.residual < 1e-15 && solution.iterations <= 5);
-    close(solution.coordinates.theta3, 1.231_343_146_814_298_8, PRINTED);
-    close(solution.coordinates.theta4, -0.880_796_908_651_079_8, PRINTED);
+    assert_relative_eq!(solution.coordinates.theta3, 1.231_343_146_814_298_8, max_relative = PRINTED);
+    assert_relative_eq!(solution.coordinates.theta4, -0.880_796_908_651_079_8, max_relative = PRINTED);
 }
 
 #[test]
@@ -63,18 +58,18 @@ fn ratios_velocities_accelerations() {
     let four_bar = FourBar::default();
     let pose = four_bar.pose_at(&solved());
     let ratios = four_bar.velocity_ratios(&pose).unwrap();
-    close(ratios[0], -0.439_871_260_155_996, EXACT);
-    close(ratios[1], -0.257_433_739_305_082, EXACT);
+    assert_relative_eq!(ratios[0], -0.439_871_260_155_996, max_relative = EXACT);
+    assert_relative_eq!(ratios[1], -0.257_433_739_305_082, max_relative = EXACT);
     let velocity = four_bar.velocity(&pose, OMEGA2).unwrap();
-    close(velocity.theta3, -18.425_284_259_084_822, EXACT);
-    close(velocity.theta4, -10.783_359_255_826_607, EXACT);
-    close(velocity.theta3, -18.425_284_25, PRINTED);
-    close(velocity.theta4, -10.783_359_24, PRINTED);
+    assert_relative_eq!(velocity.theta3, -18.425_284_259_084_822, max_relative = EXACT);
+    assert_relative_eq!(velocity.theta4, -10.783_359_255_826_607, max_relative = EXACT);
+    assert_relative_eq!(velocity.theta3, -18.425_284_25, max_relative = PRINTED);
+    assert_relative_eq!(velocity.theta4, -10.783_359_24, max_relative = PRINTED);
     let acceleration = four_bar.acceleration(&pose, &velocity, 0.0).unwrap();
-    close(acceleration.theta3, -259.655_463_740_965, EXACT);
-    close(acceleration.theta4, 584.710_757_984_326_3, EXACT);
-    close(acceleration.theta3, -259.655_463_7, PRINTED);
-    close(acceleration.theta4, 584.710_757_2, PRINTED);
+    assert_relative_eq!(acceleration.theta3, -259.655_463_740_965, max_relative = EXACT);
+    assert_relative_eq!(acceleration.theta4, 584.710_757_984_326_3, max_relative = EXACT);
+    assert_relative_eq!(acceleration.theta3, -259.655_463_7, max_relative = PRINTED);
+    assert_relative_eq!(acceleration.theta4, 584.710_757_2, max_relative = PRINTED);
 }
 
 /// Position, velocity and acceleration in exact arithmetic.
@@ -129,14 +124,14 @@ fn points() {
     {
         assert_eq!(name, label);
         for axis in 0..2 {
-            close(found.position[axis], position[axis], EXACT);
-            close(found.velocity[axis], velocity[axis], EXACT);
-            close(found.acceleration[axis], acceleration[axis], EXACT);
+            assert_relative_eq!(found.position[axis], position[axis], max_relative = EXACT);
+            assert_relative_eq!(found.velocity[axis], velocity[axis], max_relative = EXACT);
+            assert_relative_eq!(found.acceleration[axis], acceleration[axis], max_relative = EXACT);
         }
         for (_, velocity, acceleration) in SHEET.into_iter().filter(|(printed, ..)| *printed == name) {
             for axis in 0..2 {
-                close(found.velocity[axis], velocity[axis], PRINTED);
-                close(found.acceleration[axis], acceleration[axis], PRINTED);
+                assert_relative_eq!(found.velocity[axis], velocity[axis], max_relative = PRINTED);
+                assert_relative_eq!(found.acceleration[axis], acceleration[axis], max_relative = PRINTED);
             }
         }
     }

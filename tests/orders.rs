@@ -68,7 +68,7 @@ fn jerk_closes_to_third_order<F: WithHigherOrders>() {
         let found = m.output_jerks(&pose, [rates, accelerations, &given]).unwrap();
         for (found, Dual3_64 { v1, v2, v3, .. }) in found.into_iter().zip(dual.outputs(&moving).unwrap()) {
             let scale = v3.abs() + (v1 * v2).abs() + v1.abs().powi(3) + 0.01;
-            close("output jerk", found, v3, scale, TOLERANCE);
+            close("output jerk", found, v3, TOLERANCE * scale);
         }
 
         let inputs = pick(&given, &d.inputs);
@@ -135,7 +135,7 @@ fn ratio_derivatives_close_to_second_order<F: WithHigherOrders>() {
             for (found, expected) in outputs.iter().zip(dual.outputs(&moving).unwrap()) {
                 let product = expected.eps1.abs() * expected.eps2.abs();
                 let scale = 1.0 + expected.eps1eps2.abs() + product + curvature.sqrt() + w.norm_squared();
-                close("output ratio derivatives", found[(row, column)], expected.eps1eps2, scale, TOLERANCE);
+                close("output ratio derivatives", found[(row, column)], expected.eps1eps2, TOLERANCE * scale);
             }
         }
 
@@ -150,7 +150,7 @@ fn ratio_derivatives_close_to_second_order<F: WithHigherOrders>() {
         let scale = inverse * (gamma + a.norm() * v2.norm()) * inverse * j.norm();
         for (unknown, place) in d.unknowns.iter().enumerate() {
             let found = w.row(unknown).transpose().dot(&v2) + v1.dot(&(&l[unknown] * &v1));
-            close("W v'' + v' L v'", found, acceleration[place.index()], scale, TOLERANCE);
+            close("W v'' + v' L v'", found, acceleration[place.index()], TOLERANCE * scale);
         }
     }
     assert!(regular > POSES / 2, "{}: {regular} regular poses", F::FILE);
@@ -195,7 +195,7 @@ fn sensitivities_close_to_first_order<F: WithHigherOrders>() {
             }
             for (found, expected) in outputs.iter().zip(dual.outputs(&following).unwrap()) {
                 let scale = 1.0 + expected.eps.abs() + s.column(p).norm();
-                close("output sensitivities", found[p], expected.eps, scale, TOLERANCE);
+                close("output sensitivities", found[p], expected.eps, TOLERANCE * scale);
             }
         }
     }
@@ -254,7 +254,7 @@ fn same(what: &str, unknowns: &[f64], points: &[f64], outputs: &[f64], expected:
     all_close(what, unknowns, of_unknowns, 0.0, TOLERANCE);
     all_close(&format!("{what} of points"), points, of_points, 0.0, TOLERANCE);
     for (output, expected) in outputs.iter().zip(of_outputs) {
-        close(&format!("{what} of an output"), *output, *expected, expected.abs().max(0.01), TOLERANCE);
+        close(format_args!("{what} of an output"), *output, *expected, TOLERANCE * expected.abs().max(0.01));
     }
 }
 

@@ -2,6 +2,7 @@
 //! meccanismi articolati piani", section 1.2 on singular configurations, 1.3 on Assur groups), and against nalgebra's
 //! singular value decomposition of the plain Jacobian.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 use linkage::{Dim, Mechanism, PositionError, Slope, singularity};
@@ -19,9 +20,10 @@ use linkage_gallery::slider_crank::*;
 
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// Equal up to rounding errors.
 #[track_caller]
-fn close(found: f64, expected: f64) {
-    assert!((found - expected).abs() <= 4.0 * ROUNDING * (1.0 + expected.abs()), "{found:e} is not {expected:e}");
+fn is_rounded(found: f64, expected: f64) {
+    assert_abs_diff_eq!(found, expected, epsilon = 4.0 * ROUNDING * (1.0 + expected.abs()));
 }
 
 fn names<M: Mechanism>(report: &singularity::Singularity<M>) -> Vec<(&'static str, &'static str)> {
@@ -41,8 +43,8 @@ fn slider_crank_driven_by_its_slider() {
         assert_eq!(found.rank_with_inputs(), 2);
         assert_eq!(found.admissible().count(), 0);
         let [free] = found.free().collect::<Vec<_>>()[..] else { panic!("{found}") };
-        close(m.z1 * free[0] + sign * m.z2 * free[1], 0.0);
-        close(free[0].abs().max(free[1].abs()), free.largest());
+        is_rounded(m.z1 * free[0] + sign * m.z2 * free[1], 0.0);
+        is_rounded(free[0].abs().max(free[1].abs()), free.largest());
         assert_eq!(names(&found), [("phi1", "z3"), ("phi2", "z3")]);
         assert!(m.velocity_ratios(&pose).is_err());
         let text = found.to_string();
@@ -76,7 +78,7 @@ fn slider_crank_driven_by_its_crank() {
         let regular: Vec<bool> = found.groups().map(|group| group.is_regular).collect();
         assert_eq!(regular.iter().filter(|is_regular| !**is_regular).count(), 1);
         let free = found.free().next().unwrap();
-        close(
+        is_rounded(
             equal.jacobian_unknowns(&pose).column(0)[0] * free[0]
                 + equal.jacobian_unknowns(&pose).column(1)[0] * free[1],
             0.0,
@@ -106,12 +108,12 @@ fn dyad_of_two_links() {
     let found = singularity::report(&m, &pose).unwrap();
     assert_eq!((found.rank(), found.rank_with_inputs()), (1, 2));
     let free = found.free().next().unwrap();
-    close(m.z1 * free[0] - m.z2 * free[1], 0.0);
+    is_rounded(m.z1 * free[0] - m.z2 * free[1], 0.0);
     let along = vector![angle.cos(), angle.sin()];
     let admissible: Vec<_> = found.admissible().collect();
     assert_eq!(admissible.len(), 3);
     for rates in &admissible {
-        close(along.dot(&vector![rates[2] - rates[0], rates[3] - rates[1]]), 0.0);
+        is_rounded(along.dot(&vector![rates[2] - rates[0], rates[3] - rates[1]]), 0.0);
     }
     // Any of the four can be let go; in its place either angle can drive.
     assert_eq!(names(&found).len(), 8);
@@ -152,8 +154,8 @@ fn six_bar_with_its_second_dyad_stretched() {
     let found = singularity::report(&m, &pose).unwrap();
     assert_eq!((found.rank(), found.rank_with_inputs(), found.admissible().count()), (3, 4, 0));
     let free = found.free().next().unwrap();
-    close(free[0].abs() + free[1].abs(), 0.0);
-    close(m.f * free[2] - -m.g * free[3], 0.0);
+    is_rounded(free[0].abs() + free[1].abs(), 0.0);
+    is_rounded(m.f * free[2] - -m.g * free[3], 0.0);
     let groups: Vec<_> = found.groups().copied().collect();
     assert_eq!([groups[0].name, groups[1].name], ["theta2, theta3", "theta4, theta5"]);
     assert!(groups[0].is_regular && !groups[1].is_regular && groups[1].regularity <= 2.0 * ROUNDING, "{groups:?}");

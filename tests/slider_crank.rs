@@ -4,6 +4,7 @@
 
 use linkage::nalgebra::{Vector2, vector};
 use linkage::{Slope, linkage};
+use linkage_oracle::close;
 
 linkage! {
     mechanism SliderCrank {
@@ -69,11 +70,6 @@ fn row(step: usize) -> [f64; 7] {
     [-psi, x, psi1, -x1, -psi2, x2, -determinant]
 }
 
-fn close(what: &str, found: f64, expected: f64, size: f64) {
-    let gap = (found - expected).abs();
-    assert!(gap <= 2e-14 * size, "{what}: {found} instead of {expected}, off {gap:e}");
-}
-
 #[test]
 fn motion_through_a_turn() {
     let crank = Crank::default();
@@ -83,15 +79,15 @@ fn motion_through_a_turn() {
         let [psi, x, psi1, x1, psi2, x2, determinant] = row(step as usize);
         let pose = crank.assemble(theta, CrankBranch { psi: Slope::Rising }).unwrap();
         let q = pose.coordinates();
-        close("psi", q.psi, psi, 1.0);
-        close("x", q.x, x, 0.45);
+        close("psi", q.psi, psi, 2e-14);
+        close("x", q.x, x, 2e-14 * 0.45);
         let rate = crank.velocity(&pose, 150.0).unwrap();
-        close("psi'", rate.psi, psi1, 75.0);
-        close("x'", rate.x, x1, 30.0);
+        close("psi'", rate.psi, psi1, 2e-14 * 75.0);
+        close("x'", rate.x, x1, 2e-14 * 30.0);
         let second = crank.acceleration(&pose, &rate, 0.0).unwrap();
-        close("psi''", second.psi, psi2, 1.3e4);
-        close("x''", second.x, x2, 5e3);
-        close("determinant", block.determinant(&block.pose_at(&q)), determinant, 0.045);
+        close("psi''", second.psi, psi2, 2e-14 * 1.3e4);
+        close("x''", second.x, x2, 2e-14 * 5e3);
+        close("determinant", block.determinant(&block.pose_at(&q)), determinant, 2e-14 * 0.045);
     }
 }
 
@@ -111,15 +107,15 @@ fn forces_through_a_turn() {
         let acceleration: Vector2<f64> = vector![x2, 0.0] - (across * psi2 - along * (psi1 * psi1)) * (l / 2.0);
         let kinetic = (scene.m2 * velocity.norm_squared() + scene.j2 * psi1 * psi1 + scene.m3 * x1 * x1) / 2.0;
         let power = scene.m2 * velocity.dot(&acceleration) + scene.j2 * psi1 * psi2 + scene.m3 * x1 * x2;
-        close("energy", scene.energy(&q, omega).unwrap().kinetic, kinetic, 80.0);
-        close("power", scene.power(t, &q, omega).unwrap().applied, power, 2e4);
-        close("torque", scene.drive_forces(t, &q, omega).unwrap()[0], power / omega, 130.0);
+        close("energy", scene.energy(&q, omega).unwrap().kinetic, kinetic, 2e-14 * 80.0);
+        close("power", scene.power(t, &q, omega).unwrap().applied, power, 2e-14 * 2e4);
+        close("torque", scene.drive_forces(t, &q, omega).unwrap()[0], power / omega, 2e-14 * 130.0);
         // The rod on the block; what holds the rod at the other end turns it about its centre, too.
         let force = scene.reactions(t, &q, omega).unwrap();
-        close("along", force.x, scene.m3 * x2, 400.0);
+        close("along", force.x, scene.m3 * x2, 2e-14 * 400.0);
         // About the pin: j psi'' + m (G - P) x G'' = -(B - P) x F.
         let euler = scene.j2 * psi2 + scene.m2 * l / 2.0 * along.perp(&acceleration);
-        close("moment", -l * along.perp(&force), euler, 60.0);
+        close("moment", -l * along.perp(&force), euler, 2e-14 * 60.0);
     }
 }
 

@@ -3,7 +3,9 @@
 use linkage::{Mode, Scene};
 
 use super::machines::*;
-use super::moving::{close, run};
+use linkage_oracle::close;
+
+use super::moving::run;
 
 /// It stops after v0 / (mu g) at v0^2 / (2 mu g), and stays.
 #[test]

@@ -4,7 +4,9 @@ use linkage::integrate::{Tolerance, dop853};
 use linkage::{InputError, MotionError, PositionError, Scene};
 
 use super::machines::*;
-use super::moving::{Moving, close};
+use linkage_oracle::close;
+
+use super::moving::Moving;
 
 fn outside(of: &'static str, quantity: &'static str, value: f64, most: f64) -> MotionError {
     InputError::OutOfRange { of: Some(of), quantity, value, least: 0.0, most }.into()

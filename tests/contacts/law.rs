@@ -5,7 +5,7 @@ use linkage::nalgebra::vector;
 use linkage::{Column, D, Matrix, Mode};
 
 use super::machines::*;
-use super::moving::close;
+use linkage_oracle::close;
 
 /// The scalar of a contact, its derivatives and its quadratic terms, beside the outputs of the mechanism; the
 /// equations in one kernel beside those put together.

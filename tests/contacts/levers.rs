@@ -4,7 +4,9 @@ use linkage::contact::ReducedEquations;
 use linkage::{Mode, Scene};
 
 use super::machines::*;
-use super::moving::{Moving, close, run};
+use linkage_oracle::close;
+
+use super::moving::{Moving, run};
 
 /// The slider by hand: z = r cos phi + sqrt(l^2 - r^2 sin^2 phi), M = j + m z_1^2, Q = t0 - m z_1 z_2 phi'^2 - F z_1,
 /// by the classical method of Runge and Kutta from dead centre to dead centre, where the friction changes its sign.

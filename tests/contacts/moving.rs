@@ -104,7 +104,3 @@ pub(super) fn run<S: Scene<Scalar = f64>>(scene: &S, y: State<S>, end: f64) -> E
     let events = moving.history.iter().zip(states).map(|(&(t, before, after), y)| (t, y, before, after)).collect();
     End { y: *motion.state(), modes: moving.contacts.modes, events }
 }
-
-pub(super) fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected}, off {:e}", found - expected);
-}

@@ -5,7 +5,9 @@ use linkage::nalgebra::vector;
 use linkage::{Column, D, Mode, Scene};
 
 use super::machines::*;
-use super::moving::{Moving, close, run};
+use linkage_oracle::close;
+
+use super::moving::{Moving, run};
 
 /// One crank is held by its friction while the other slips: as if it were clamped.
 #[test]

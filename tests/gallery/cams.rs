@@ -1,9 +1,10 @@
 //! Cams and their followers: published peaks, pressure angles and profiles.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::{PI, TAU};
 
 use super::course::{degrees, turn};
-use super::exactness::{close, exact};
+use super::exactness::exact;
 
 use linkage_gallery::cam_follower::*;
 use linkage_gallery::cam_rocker::*;
@@ -18,9 +19,9 @@ fn cams_reach_their_published_peaks() {
     let velocity = course.range(|q| m.velocity(&m.pose_at(q), 1.0).unwrap().s);
     let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().accelerations.s);
     for (sign, velocity, acceleration) in [(-1.0, velocity[0], acceleration[0]), (1.0, velocity[1], acceleration[1])] {
-        close(velocity * m.rise / m.height, sign * 1.875, 1e-14);
-        close(acceleration * m.rise.powi(2) / m.height, sign * 10.0 / 3.0_f64.sqrt(), 1e-12);
-        close(acceleration * m.rise.powi(2) / m.height, sign * 5.7735, 5e-5);
+        assert_abs_diff_eq!(velocity * m.rise / m.height, sign * 1.875, epsilon = 1e-14);
+        assert_abs_diff_eq!(acceleration * m.rise.powi(2) / m.height, sign * 10.0 / 3.0_f64.sqrt(), epsilon = 1e-12);
+        assert_abs_diff_eq!(acceleration * m.rise.powi(2) / m.height, sign * 5.7735, epsilon = 5e-5);
     }
     let m = CamRocker::default();
     let start = CamRockerCoordinates { theta: 0.0, psi: degrees(75.0), phi: 0.2, beta: degrees(100.0) };
@@ -28,8 +29,8 @@ fn cams_reach_their_published_peaks() {
     let velocity = course.range(|q| m.velocity(&m.pose_at(q), 1.0).unwrap().psi);
     let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().accelerations.psi);
     for (sign, velocity, acceleration) in [(-1.0, velocity[0], acceleration[0]), (1.0, velocity[1], acceleration[1])] {
-        close(velocity * m.rise / m.swing, sign * 2.0, 1e-14);
-        close(acceleration * m.rise.powi(2) / m.swing, sign * TAU, 1e-12);
+        assert_abs_diff_eq!(velocity * m.rise / m.swing, sign * 2.0, epsilon = 1e-14);
+        assert_abs_diff_eq!(acceleration * m.rise.powi(2) / m.swing, sign * TAU, epsilon = 1e-12);
     }
 }
 

@@ -1,10 +1,11 @@
 //! A mechanism followed through its motion by Newton's method.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::TAU;
 
 use linkage::{D, Mechanism, position};
 
-use super::exactness::{close, exact};
+use super::exactness::exact;
 
 /// Steps of a full turn: one a degree.
 pub(super) const STEPS: u32 = 360;
@@ -58,7 +59,7 @@ pub(super) fn turn<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
     let difference = M::unknowns(&course.positions[STEPS as usize]) - M::unknowns(&course.positions[0]);
     for change in difference.iter() {
         // An angle may have made turns of its own.
-        close(*change, (change / TAU).round() * TAU, 1e-12);
+        assert_abs_diff_eq!(*change, (change / TAU).round() * TAU, epsilon = 1e-12);
     }
     course
 }

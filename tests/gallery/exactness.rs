@@ -3,16 +3,10 @@
 /// A length that follows from a closed loop is right to this many roundings of the sum of all lengths.
 pub(super) const ROUNDINGS: f64 = 8.0;
 
-#[track_caller]
-pub(super) fn close(found: f64, expected: f64, error: f64) {
-    let found_error = (found - expected).abs();
-    assert!(found_error <= error, "{found:?} is not {expected:?}: off by {found_error:e}, {error:e} is allowed");
-}
-
 /// Equal to the rounding of lengths whose sum is `size`.
 #[track_caller]
 pub(super) fn exact(found: f64, expected: f64, size: f64) {
-    close(found, expected, ROUNDINGS * f64::EPSILON * size);
+    approx::assert_abs_diff_eq!(found, expected, epsilon = ROUNDINGS * f64::EPSILON * size);
 }
 
 /// Every position of a course in closed form, on the branch that the course is on: the same position, loops
@@ -27,9 +21,9 @@ macro_rules! closed_form {
             $crate::exactness::exact($mechanism.residual(&found).amax(), 0.0, size);
             let (ours, theirs) = ($mechanism.block_determinants(&found), $mechanism.block_determinants(&pose));
             let (j, other) = ($mechanism.jacobian_unknowns(&found), $mechanism.jacobian_unknowns(&pose));
-            $crate::exactness::close((j - other).amax(), 0.0, 1e-9 * (1.0 + j.amax()));
+            approx::assert_abs_diff_eq!((j - other).amax(), 0.0, epsilon = 1e-9 * (1.0 + j.amax()));
             for (ours, theirs) in ours.into_iter().zip(theirs) {
-                $crate::exactness::close(ours, theirs, 1e-9 * (1.0 + theirs.abs() + size));
+                approx::assert_abs_diff_eq!(ours, theirs, epsilon = 1e-9 * (1.0 + theirs.abs() + size));
             }
         }
         // Whichever way a position is come by, it is the same to the bit.
@@ -57,7 +51,7 @@ macro_rules! from_the_last {
             let size = $mechanism.closure_sizes(&found).sum();
             $crate::exactness::exact($mechanism.residual(&found).amax(), 0.0, size);
             let (j, other) = ($mechanism.jacobian_unknowns(&found), $mechanism.jacobian_unknowns(&expected));
-            $crate::exactness::close((j - other).amax(), 0.0, 1e-12 * (1.0 + j.amax()));
+            approx::assert_abs_diff_eq!((j - other).amax(), 0.0, epsilon = 1e-12 * (1.0 + j.amax()));
         }
     };
 }

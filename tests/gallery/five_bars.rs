@@ -1,9 +1,10 @@
 //! Two cranks and a pair of arms.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::{PI, TAU};
 
 use super::course::{STEPS, degrees, turn};
-use super::exactness::{close, exact};
+use super::exactness::exact;
 
 use linkage_gallery::five_bar::*;
 use linkage_gallery::geared_five_bar::*;
@@ -25,7 +26,7 @@ fn five_bar_is_symmetric() {
         exact(motion.points.p.position.x, m.e / 2.0, size);
         exact(motion.points.p.velocity.x, 0.0, size);
         exact(motion.points.p.acceleration.x, 0.0, size);
-        close(q.theta2 + q.theta3, PI, 1e-14);
+        assert_abs_diff_eq!(q.theta2 + q.theta3, PI, epsilon = 1e-14);
     }
 }
 
@@ -37,8 +38,8 @@ fn geared_five_bar_has_the_period_of_its_slower_crank() {
     let course = turn(&m, start, |q| &mut q.theta1);
     closed_form!(m, course, theta1);
     let [first, half, last] = [0, 180, 360].map(|step: usize| course.positions[step]);
-    close(last.theta4 - first.theta4, m.ratio * TAU, 1e-13);
+    assert_abs_diff_eq!(last.theta4 - first.theta4, m.ratio * TAU, epsilon = 1e-13);
     let p = point!(m, p);
-    close((p(&last) - p(&first)).norm(), 0.0, 1e-13);
+    assert_abs_diff_eq!((p(&last) - p(&first)).norm(), 0.0, epsilon = 1e-13);
     assert!((p(&half) - p(&first)).norm() > 0.1);
 }

@@ -1,9 +1,10 @@
 //! One loop of four links, and two of them in a row.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::course::{degrees, turn};
-use super::exactness::{close, exact};
+use super::exactness::exact;
 
 use linkage_gallery::four_bar::*;
 use linkage_gallery::wiper::*;
@@ -52,14 +53,14 @@ fn wiper_sweeps() {
     let sweep = 2.0 * (m.crank / m.arm).asin();
     for of in [|q: &WiperCoordinates| q.first, |q: &WiperCoordinates| q.second] {
         let [least, largest] = course.range(of);
-        close(largest - least, sweep, 1e-13);
+        assert_abs_diff_eq!(largest - least, sweep, epsilon = 1e-13);
     }
     // Both strokes take half a turn.
     let [first, second] = course.roots(|q| m.velocity(&m.pose_at(q), 1.0).unwrap().first)[..] else {
         panic!("two dead centres")
     };
-    close(second - first, PI, 1e-13);
+    assert_abs_diff_eq!(second - first, PI, epsilon = 1e-13);
     for q in &course.positions {
-        close(q.rod, m.tilt, 1e-14);
+        assert_abs_diff_eq!(q.rod, m.tilt, epsilon = 1e-14);
     }
 }

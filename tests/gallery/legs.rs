@@ -1,9 +1,10 @@
 //! Legs that walk.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::{PI, TAU};
 
 use super::course::{degrees, turn};
-use super::exactness::{close, exact};
+use super::exactness::exact;
 
 use linkage_gallery::jansen::*;
 use linkage_gallery::klann::*;
@@ -61,9 +62,9 @@ fn jansen_walks() {
     exact(top - bottom, 22.457_173_584_316_21, size);
     // The foot is within 1 of the lowest point from one crossing, through 0, to the other.
     let [lifts, lands] = course.roots(|q| foot(q).y - (bottom + 1.0))[..] else { panic!("two crossings") };
-    close(lifts, degrees(81.187_870_798_704_8), 1e-12);
-    close(lands, degrees(286.012_419_030_292), 1e-12);
-    close(1.0 - (lands - lifts) / TAU, 0.431_042_921_579, 1e-12);
+    assert_abs_diff_eq!(lifts, degrees(81.187_870_798_704_8), epsilon = 1e-12);
+    assert_abs_diff_eq!(lands, degrees(286.012_419_030_292), epsilon = 1e-12);
+    assert_abs_diff_eq!(1.0 - (lands - lifts) / TAU, 0.431_042_921_579, epsilon = 1e-12);
 }
 
 /// The reference pose of the patent's table 1, to its digits: foot (0, 0), knee (.232, .866), hip (.866, 1.5).
@@ -95,17 +96,17 @@ fn klann_walks() {
         foot - hip = third(m.knee_hip, m.knee_foot, m.knee_bend),
         upper - hip = m.upper
     );
-    close(third(m.pin_elbow, m.elbow_knee, PI + m.elbow_bend), 1.1051, 5e-5);
-    close(third(m.knee_hip, m.knee_foot, m.knee_bend), 1.732, 5e-4);
+    assert_abs_diff_eq!(third(m.pin_elbow, m.elbow_knee, PI + m.elbow_bend), 1.1051, epsilon = 5e-5);
+    assert_abs_diff_eq!(third(m.knee_hip, m.knee_foot, m.knee_bend), 1.732, epsilon = 5e-4);
     let points = m.points(&m.pose_at(&course.positions[0])).unwrap();
     for (found, expected) in [(points.foot, [0.0, 0.0]), (points.knee, [0.232, 0.866]), (points.hip, [0.866, 1.5])] {
-        close(found.x, expected[0], 5e-4);
-        close(found.y, expected[1], 5e-4);
+        assert_abs_diff_eq!(found.x, expected[0], epsilon = 5e-4);
+        assert_abs_diff_eq!(found.y, expected[1], epsilon = 5e-4);
     }
     let size = m.crank + m.lower + m.upper + m.pin_elbow + m.elbow_knee + m.knee_hip + m.knee_foot;
     let [left, right] = course.range(point!(m, foot, x));
     let [bottom, top] = course.range(point!(m, foot, y));
     exact(right - left, 1.008_627_899_360_890_7, size);
     exact(top - bottom, 0.527_549_050_784_531_3, size);
-    close((top - bottom) / (right - left), 0.523, 5e-4);
+    assert_abs_diff_eq!((top - bottom) / (right - left), 0.523, epsilon = 5e-4);
 }

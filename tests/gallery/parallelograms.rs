@@ -1,9 +1,10 @@
 //! Links that stay parallel.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::TAU;
 
 use super::course::{STEPS, degrees, follow};
-use super::exactness::{ROUNDINGS, close, exact};
+use super::exactness::{ROUNDINGS, exact};
 
 use linkage_gallery::coupled_wheels::*;
 use linkage_gallery::pantograph::*;
@@ -45,10 +46,10 @@ fn coupled_wheels_stay_parallel() {
         // The Jacobian is singular with the sine of the crank's angle.
         let sine = q.theta.sin().abs();
         let error = ROUNDINGS * f64::EPSILON / sine;
-        close(q.rod, 0.0, error);
-        close(q.follower, q.theta, TAU * error);
+        assert_abs_diff_eq!(q.rod, 0.0, epsilon = error);
+        assert_abs_diff_eq!(q.follower, q.theta, epsilon = TAU * error);
         let ratios = m.velocity_ratios(&m.pose_at(q)).unwrap();
-        close(ratios[0], 0.0, error / sine);
-        close(ratios[1], 1.0, error / sine);
+        assert_abs_diff_eq!(ratios[0], 0.0, epsilon = error / sine);
+        assert_abs_diff_eq!(ratios[1], 1.0, epsilon = error / sine);
     }
 }

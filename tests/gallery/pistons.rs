@@ -1,9 +1,10 @@
 //! What slides in the frame: pistons, rams and trammels.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::FRAC_PI_2;
 
 use super::course::{degrees, turn};
-use super::exactness::{close, exact};
+use super::exactness::exact;
 
 use linkage_gallery::elliptic_trammel::*;
 use linkage_gallery::offset_slider_crank::*;
@@ -30,7 +31,7 @@ fn scotch_yoke_is_a_cosine() {
     let course = turn(&m, ScotchYokeCoordinates { phi: 0.0, x: 0.5 }, |q| &mut q.phi);
     closed_form!(m, course, phi);
     for q in &course.positions {
-        close(q.x, m.r * q.phi.cos(), f64::EPSILON * m.r);
+        assert_abs_diff_eq!(q.x, m.r * q.phi.cos(), epsilon = f64::EPSILON * m.r);
         let motion = m.motion(q, 2.0, 0.0).unwrap();
         exact(motion.rates.x, -2.0 * m.r * q.phi.sin(), m.r);
         exact(motion.accelerations.x, -4.0 * q.x, m.r);

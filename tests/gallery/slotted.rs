@@ -1,9 +1,10 @@
 //! Slots in links that turn: slotted cranks and levers, quick returns, and the wheel of Geneva.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::course::{STEPS, degrees, follow, turn};
-use super::exactness::{close, exact};
+use super::exactness::exact;
 
 use linkage_gallery::crank_shaper::*;
 use linkage_gallery::geneva::*;
@@ -39,14 +40,14 @@ fn whitworth_returns_faster() {
     let dip = (m.offset / m.crank).asin();
     let velocity = |q: &WhitworthCoordinates| m.velocity(&m.pose_at(q), 1.0).unwrap().x;
     let [first, second] = course.roots(velocity)[..] else { panic!("two dead centres") };
-    close(first, PI + dip, 1e-13);
-    close(second, TAU - dip, 1e-13);
+    assert_abs_diff_eq!(first, PI + dip, epsilon = 1e-13);
+    assert_abs_diff_eq!(second, TAU - dip, epsilon = 1e-13);
     let back = second - first;
-    close((TAU - back) / back, (PI + 2.0 * dip) / (PI - 2.0 * dip), 1e-12);
+    assert_abs_diff_eq!((TAU - back) / back, (PI + 2.0 * dip) / (PI - 2.0 * dip), epsilon = 1e-12);
     let [least, largest] = course.range(|q| q.x);
     exact(largest - least, 2.0 * m.arm, m.arm + m.rod);
     // The slotted arm turns all the way round.
-    close(course.positions[STEPS as usize].psi - course.positions[0].psi, TAU, 1e-13);
+    assert_abs_diff_eq!(course.positions[STEPS as usize].psi - course.positions[0].psi, TAU, epsilon = 1e-13);
 }
 
 /// The ram turns back with the lever, where the crank stands square to it.
@@ -60,14 +61,14 @@ fn crank_shaper_returns_faster() {
     let swing = (m.crank / m.offset).asin();
     let velocity = |q: &CrankShaperCoordinates| m.velocity(&m.pose_at(q), 1.0).unwrap().x;
     let [first, second] = course.roots(velocity)[..] else { panic!("two dead centres") };
-    close(first, PI + swing, 1e-13);
-    close(second, TAU - swing, 1e-13);
+    assert_abs_diff_eq!(first, PI + swing, epsilon = 1e-13);
+    assert_abs_diff_eq!(second, TAU - swing, epsilon = 1e-13);
     let back = second - first;
-    close((TAU - back) / back, (PI + 2.0 * swing) / (PI - 2.0 * swing), 1e-12);
+    assert_abs_diff_eq!((TAU - back) / back, (PI + 2.0 * swing) / (PI - 2.0 * swing), epsilon = 1e-12);
     let [least, largest] = course.range(|q| q.x);
     exact(largest - least, 2.0 * m.lever * m.crank / m.offset, m.lever + m.rod);
     let [least, largest] = course.range(|q| q.psi);
-    close((largest - least) / 2.0, swing, 1e-14);
+    assert_abs_diff_eq!((largest - least) / 2.0, swing, epsilon = 1e-14);
 }
 
 /// The wheel starts and stops without a jolt, and turns by one slot.
@@ -80,15 +81,15 @@ fn geneva_turns_one_slot() {
     closed_form!(m, course, theta);
     rigid!(course, o - pin = m.crank, o - wheel = m.crank / (PI / m.slots).sin());
     let [first, middle, last] = [0, 180, 360].map(|step: usize| &course.positions[step]);
-    close(last.psi - first.psi, -TAU / m.slots, 1e-15);
+    assert_abs_diff_eq!(last.psi - first.psi, -TAU / m.slots, epsilon = 1e-15);
     for end in [first, last] {
         let motion = m.motion(end, 1.0, 0.0).unwrap();
-        close(motion.rates.psi, 0.0, 1e-15);
+        assert_abs_diff_eq!(motion.rates.psi, 0.0, epsilon = 1e-15);
         exact(motion.outputs.depth.value, 0.0, m.crank);
         // Not without a jerk: omega^2 tan(pi / slots).
-        close(motion.accelerations.psi.abs(), (PI / m.slots).tan(), 1e-14);
+        assert_abs_diff_eq!(motion.accelerations.psi.abs(), (PI / m.slots).tan(), epsilon = 1e-14);
     }
     // Fastest in the middle: omega sin / (1 - sin) of half a slot.
     let half = (PI / m.slots).sin();
-    close(m.velocity(&m.pose_at(middle), 1.0).unwrap().psi, -half / (1.0 - half), 1e-14);
+    assert_abs_diff_eq!(m.velocity(&m.pose_at(middle), 1.0).unwrap().psi, -half / (1.0 - half), epsilon = 1e-14);
 }

@@ -1,9 +1,10 @@
 //! Lines that are straight, and nearly so.
 
+use approx::assert_abs_diff_eq;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::course::{STEPS, degrees, follow, turn};
-use super::exactness::{close, exact};
+use super::exactness::exact;
 
 use linkage_gallery::cardan::*;
 use linkage_gallery::chebyshev::*;
@@ -133,7 +134,7 @@ fn watt_line_touches_fivefold() {
         let found = p(&course.at(theta));
         let ratio = found.x * 8.0 * m.arm.powi(3) * m.half_link / found.y.powi(5);
         // The next term of the series is theta^2.
-        close((ratio - 1.0) / (theta * theta), 1.0, 0.02);
+        assert_abs_diff_eq!((ratio - 1.0) / (theta * theta), 1.0, epsilon = 0.02);
     }
 }
 

@@ -45,7 +45,7 @@ fn start() -> FreudensteinRothCoordinates {
 }
 
 #[track_caller]
-fn close(q: &FreudensteinRothCoordinates, expected: [f64; 3]) {
+fn agrees(q: &FreudensteinRothCoordinates, expected: [f64; 3]) {
     for (found, expected) in [q.x1, q.x2, q.x3].into_iter().zip(expected) {
         assert!((found - expected).abs() <= 4e-15 * expected.abs().max(1.0), "{found} is not {expected}");
     }
@@ -76,9 +76,9 @@ fn driven_by_x3() {
         }
     }
     assert_eq!((of_x1.len(), of_x3.len()), (2, 2));
-    of_x1.iter().zip(LIMITS_OF_X1).for_each(|(q, expected)| close(q, expected));
-    of_x3.iter().zip(LIMITS_OF_X3).for_each(|(q, expected)| close(q, expected));
-    close(&path.advance_to(1.0).unwrap().position, [5.0, 4.0, 1.0]);
+    of_x1.iter().zip(LIMITS_OF_X1).for_each(|(q, expected)| agrees(q, expected));
+    of_x3.iter().zip(LIMITS_OF_X3).for_each(|(q, expected)| agrees(q, expected));
+    agrees(&path.advance_to(1.0).unwrap().position, [5.0, 4.0, 1.0]);
     // By the input alone it is not reached.
     let error = Path::new(&m, &start(), Direction::Increasing).unwrap().advance_to(1.0);
     assert!(matches!(error, Err(PathError::DeadPoint { mechanism: "FoldsOfX3", .. })), "{error:?}");
@@ -98,7 +98,7 @@ fn driven_by_x1() {
             _ => {}
         }
     }
-    of_x1.iter().zip(LIMITS_OF_X1).for_each(|(q, expected)| close(q, expected));
-    of_x3.iter().zip(LIMITS_OF_X3).for_each(|(q, expected)| close(q, expected));
+    of_x1.iter().zip(LIMITS_OF_X1).for_each(|(q, expected)| agrees(q, expected));
+    of_x3.iter().zip(LIMITS_OF_X3).for_each(|(q, expected)| agrees(q, expected));
     assert_eq!((of_x1.len(), of_x3.len()), (2, 2));
 }

@@ -3,7 +3,7 @@
 use num_dual::Dual64;
 
 use super::machines::*;
-use super::virtual_work::{at_random, close, constant};
+use super::virtual_work::{agrees, at_random, constant};
 
 /// dE/dt along the motion that a scene gives, by dual numbers, against the power of what drives and brakes.
 macro_rules! balance {
@@ -15,10 +15,10 @@ macro_rules! balance {
         let moved = $Inputs { $($input: Dual64::new(rates.$input, acceleration.$input)),* };
         let energy = dual.energy(&q, moved).unwrap();
         let (power, now) = (scene.power($t, &$v, rates).unwrap(), scene.energy(&$v, rates).unwrap());
-        close("kinetic energy", energy.kinetic.re, now.kinetic, 0.0);
-        close("potential energy", energy.potential.re, now.potential, 0.0);
+        agrees("kinetic energy", energy.kinetic.re, now.kinetic, 0.0);
+        agrees("potential energy", energy.potential.re, now.potential, 0.0);
         let scale = energy.kinetic.eps.abs() + energy.potential.eps.abs() + power.applied.abs() + power.dissipated.abs();
-        close("power", power.applied - power.dissipated, energy.kinetic.eps + energy.potential.eps, scale);
+        agrees("power", power.applied - power.dissipated, energy.kinetic.eps + energy.potential.eps, scale);
     }};
 }
 

@@ -4,7 +4,7 @@ use linkage::Real;
 use num_dual::Dual64;
 
 use super::machines::*;
-use super::virtual_work::{Placed, Positions, at_random, close, constant, virtual_work};
+use super::virtual_work::{Placed, Positions, agrees, at_random, constant, virtual_work};
 
 /// The reaction where the rocker meets the ground, and then each body by Newton's and Euler's laws: forces from
 /// joint to joint, moments about each centre, and what is left at the crank is the torque of the drive.
@@ -33,10 +33,10 @@ fn reactions_hold_every_body() {
         let (at_b, coupler) = held(scene.m3, points.g3, points.b.position, points.c.position, -at_c);
         let (at_a, crank) = held(scene.m2, points.g2, Point2::origin(), points.b.position, -at_b);
         let size = lambda.norm() + at_c.norm() + at_b.norm() + at_a.norm();
-        close("rocker", rocker - scene.ct * velocity.theta4, scene.j4 * turning.theta4, size);
-        close("coupler", coupler, scene.j3 * turning.theta3, size);
+        agrees("rocker", rocker - scene.ct * velocity.theta4, scene.j4 * turning.theta4, size);
+        agrees("coupler", coupler, scene.j3 * turning.theta3, size);
         let torque = scene.drive_forces(t, &q, rate[0]).unwrap()[0];
-        close("crank", crank + torque, scene.j2 * turning.theta2, size);
+        agrees("crank", crank + torque, scene.j2 * turning.theta2, size);
     });
 }
 
@@ -58,7 +58,7 @@ fn statics_by_virtual_work() {
         let q = four_bar_at(v).unwrap();
         let mut expected = virtual_work(&Heavy, v, [0.0], [0.0, -scene.g]);
         expected.add(1, |angle, _| -scene.kt * (angle - scene.phi0));
-        close("Q", scene.forces(t, &q, 3.0).unwrap()[0], expected.forces[0], expected.sizes[0]);
+        agrees("Q", scene.forces(t, &q, 3.0).unwrap()[0], expected.forces[0], expected.sizes[0]);
     });
 }
 
@@ -103,8 +103,8 @@ fn stiffness_by_dual_numbers() {
         let moved = four_bar_at([Dual64::new(v[0], 1.0)]).unwrap();
         let force = scene.clone().map(constant::<Dual64>).forces(constant(t), &moved, Dual64::from(0.0)).unwrap()[0];
         let balance = scene.balance(t, &q).unwrap();
-        close("Q", balance.forces[0], force.re, balance.scales[0]);
-        close("dQ/dv", balance.slopes[0][0], force.eps, balance.scales[0]);
+        agrees("Q", balance.forces[0], force.re, balance.scales[0]);
+        agrees("dQ/dv", balance.slopes[0][0], force.eps, balance.scales[0]);
 
         let pair = Pair::default().map(constant::<Dual64>);
         let Ok(pose) = free.mechanism.assemble(PairInputs { theta1: v[0], theta4: v[1] }, PAIR) else { return };
@@ -116,8 +116,8 @@ fn stiffness_by_dual_numbers() {
             let forces = free.clone().map(constant::<Dual64>).forces(constant(t), &q, rest).unwrap();
             for (row, slope) in slopes.into_iter().enumerate() {
                 let scale = balance.scales[row] + slopes[0].abs() + slopes[1].abs();
-                close("Q", balance.forces[row], forces[row].re, balance.scales[row]);
-                close("dQ/dv", slope, forces[row].eps, scale);
+                agrees("Q", balance.forces[row], forces[row].re, balance.scales[row]);
+                agrees("dQ/dv", slope, forces[row].eps, scale);
             }
         }
     });

@@ -3,7 +3,7 @@
 use linkage::{Column, D, Scene};
 
 use super::machines::*;
-use super::virtual_work::close;
+use super::virtual_work::agrees;
 
 /// The state of a scene as plain numbers, integrated by the classical method of Runge and Kutta.
 #[test]
@@ -42,17 +42,17 @@ fn a_state_for_integrators() {
     let derivative = idle.derivative(0.0, &start).unwrap();
     let equations = idle.equations(0.0, &start).unwrap();
     let acceleration = equations.forces / equations.mass[(0, 0)];
-    close("v''", acceleration[0], derivative[3], 0.0);
+    agrees("v''", acceleration[0], derivative[3], 0.0);
     let (q, rates) = Idle::parts(&start);
     let moving = equations.ratios.column(0) * rates.theta2;
-    (0..2).for_each(|at| close("u'", moving[at], derivative[at], 0.0));
+    (0..2).for_each(|at| agrees("u'", moving[at], derivative[at], 0.0));
     let four_bar = &idle.mechanism;
     let pose = four_bar.pose_at(&q);
     let rates = four_bar.velocity(&pose, rates).unwrap();
     let all = four_bar.acceleration(&pose, &rates, acceleration[0]).unwrap();
     let of_unknowns = equations.ratios * acceleration + equations.bias;
-    close("theta3''", of_unknowns[0], all.theta3, 0.0);
-    close("theta4''", of_unknowns[1], all.theta4, 0.0);
+    agrees("theta3''", of_unknowns[0], all.theta3, 0.0);
+    agrees("theta4''", of_unknowns[1], all.theta4, 0.0);
     assert_eq!(idle.contacts(0.0, &q, &rates).unwrap(), []);
     // The crank has made more than a turn, and the angles say so.
     let end = run(&idle, start, 0.005, 200);

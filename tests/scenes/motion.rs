@@ -4,7 +4,7 @@ use linkage::Real;
 use num_dual::{Dual2_64, Dual64};
 
 use super::machines::*;
-use super::virtual_work::{Placed, Positions, at_random, close, constant, lagrange, virtual_work};
+use super::virtual_work::{Placed, Positions, agrees, at_random, constant, lagrange, virtual_work};
 
 #[test]
 fn four_bar_by_virtual_work() {
@@ -12,16 +12,16 @@ fn four_bar_by_virtual_work() {
     at_random(|v: [f64; 1], rate: [f64; 1], t| {
         let q = four_bar_at(v).unwrap();
         let mut expected = virtual_work(&FourBarPositions, v, rate, [0.0, -idle.g]);
-        close("M", idle.mass_matrix(&q).unwrap()[0], expected.mass[0][0], 0.0);
+        agrees("M", idle.mass_matrix(&q).unwrap()[0], expected.mass[0][0], 0.0);
         assert_eq!(loaded.mass_matrix(&q), idle.mass_matrix(&q));
-        close("Q", idle.forces(t, &q, rate[0]).unwrap()[0], expected.forces[0], expected.sizes[0]);
+        agrees("Q", idle.forces(t, &q, rate[0]).unwrap()[0], expected.forces[0], expected.sizes[0]);
         let by_lagrange =
             lagrange(|v| [[idle.clone().map(constant).mass_matrix(&four_bar_at(v).unwrap()).unwrap()[0]]], v, rate);
         let mut weightless = idle.clone();
         weightless.g = 0.0;
-        close("Eksergian", weightless.forces(t, &q, rate[0]).unwrap()[0], by_lagrange[0], expected.sizes[0]);
+        agrees("Eksergian", weightless.forces(t, &q, rate[0]).unwrap()[0], by_lagrange[0], expected.sizes[0]);
         let acceleration = idle.acceleration(t, &q, rate[0]).unwrap().theta2;
-        close("v''", acceleration * expected.mass[0][0], expected.forces[0], expected.sizes[0]);
+        agrees("v''", acceleration * expected.mass[0][0], expected.forces[0], expected.sizes[0]);
 
         // The torque that drives is what is missing to the law.
         let mut resisted = virtual_work(&FourBarPositions, v, rate, [0.0, -idle.g]);
@@ -29,12 +29,12 @@ fn four_bar_by_virtual_work() {
         let bent = -9.0 * (3.0 * t).sin();
         let torque = driven.drive_forces(t, &q, rate[0]).unwrap()[0];
         let scale = resisted.sizes[0] + (expected.mass[0][0] * bent).abs();
-        close("drive", torque, expected.mass[0][0] * bent - resisted.forces[0], scale);
-        close("v'' of the drive", driven.acceleration(t, &q, rate[0]).unwrap().theta2, bent, 1.0);
+        agrees("drive", torque, expected.mass[0][0] * bent - resisted.forces[0], scale);
+        agrees("v'' of the drive", driven.acceleration(t, &q, rate[0]).unwrap().theta2, bent, 1.0);
         let [law] = driven.drives(t);
-        close("law", law.value, 12.0 * t + (3.0 * t).sin(), 1.0);
-        close("law", law.rate, 12.0 + 3.0 * (3.0 * t).cos(), 1.0);
-        close("law", law.acceleration, bent, 1.0);
+        agrees("law", law.value, 12.0 * t + (3.0 * t).sin(), 1.0);
+        agrees("law", law.rate, 12.0 + 3.0 * (3.0 * t).cos(), 1.0);
+        agrees("law", law.acceleration, bent, 1.0);
 
         expected.add(0, |length, _| -loaded.k * (length - loaded.s0));
         expected.add(0, |_, speed| -loaded.c * speed);
@@ -43,7 +43,7 @@ fn four_bar_by_virtual_work() {
         expected.add(2, |_, _| -1.0);
         expected.add(3, |_, _| -loaded.f * t);
         let motor = loaded.t0 - loaded.kw * rate[0] + t.sin();
-        close("loaded", loaded.forces(t, &q, rate[0]).unwrap()[0], expected.forces[0] + motor, expected.sizes[0]);
+        agrees("loaded", loaded.forces(t, &q, rate[0]).unwrap()[0], expected.forces[0] + motor, expected.sizes[0]);
     });
 }
 
@@ -65,16 +65,16 @@ fn five_bar_by_virtual_work() {
         for row in 0..2 {
             for column in 0..2 {
                 let scale = (expected.mass[row][row] * expected.mass[column][column]).sqrt();
-                close("M", mass[(row, column)], expected.mass[row][column], scale);
+                agrees("M", mass[(row, column)], expected.mass[row][column], scale);
             }
         }
         let mut inert = free.clone();
         (inert.g, inert.kt, inert.ct) = (0.0, 0.0, 0.0);
         let quadratic = lagrange(|v| inert.clone().map(constant).mass_matrix(&at(v)).unwrap().into(), v, rate);
         let found = inert.forces(t, &q, rates).unwrap();
-        close("Lagrange", found[0] - 2.0 * t.sin() + q.theta4, quadratic[0], size);
-        close("Lagrange", found[1], quadratic[1], size);
-        close("virtual work", bare.forces[1], quadratic[1], size);
+        agrees("Lagrange", found[0] - 2.0 * t.sin() + q.theta4, quadratic[0], size);
+        agrees("Lagrange", found[1], quadratic[1], size);
+        agrees("virtual work", bare.forces[1], quadratic[1], size);
 
         let mut held = virtual_work(&PairPositions, v, rate, [0.0, -free.g]);
         expected.add(0, |opening, _| -free.kt * (opening - 0.4));
@@ -84,10 +84,10 @@ fn five_bar_by_virtual_work() {
         let acceleration = free.acceleration(t, &q, rates).unwrap();
         let size = size.max(expected.sizes[0]).max(expected.sizes[1]);
         for row in 0..2 {
-            close("Q", found[row], expected.forces[row], size);
+            agrees("Q", found[row], expected.forces[row], size);
             let left = mass[(row, 0)] * acceleration.theta1 + mass[(row, 1)] * acceleration.theta4;
             let scale = (mass[(row, 0)] * acceleration.theta1).abs() + size;
-            close("M v''", left, expected.forces[row], scale);
+            agrees("M v''", left, expected.forces[row], scale);
         }
 
         // theta4 is driven: the torque there, and theta1 as it falls.
@@ -98,7 +98,7 @@ fn five_bar_by_virtual_work() {
         for (row, force) in [(0, 0.0), (1, torque)] {
             let left = mass[(row, 0)] * acceleration.theta1 + mass[(row, 1)];
             let scale = (mass[(row, 0)] * acceleration.theta1).abs() + size;
-            close("half driven", left, held.forces[row] + force, scale);
+            agrees("half driven", left, held.forces[row] + force, scale);
         }
     });
 }
@@ -131,22 +131,22 @@ fn slider_crank_by_either_driver() {
         let mut expected = virtual_work(&OfCrank, v, rate, [0.0, -turning.g]);
         let light = virtual_work(&OfCrank, v, rate, [0.0, 0.0]);
         let mass = turning.mass_matrix(&q).unwrap()[0];
-        close("M", mass, expected.mass[0][0], 0.0);
-        close("inverse dynamics", steady.drive_forces(t, &q, rate[0]).unwrap()[0], -light.forces[0], light.sizes[0]);
+        agrees("M", mass, expected.mass[0][0], 0.0);
+        agrees("inverse dynamics", steady.drive_forces(t, &q, rate[0]).unwrap()[0], -light.forces[0], light.sizes[0]);
         expected.add(0, |z, speed| -turning.k * (z - turning.z0) - turning.c * speed);
-        close("Q", turning.forces(t, &q, rate[0]).unwrap()[0], expected.forces[0], expected.sizes[0]);
+        agrees("Q", turning.forces(t, &q, rate[0]).unwrap()[0], expected.forces[0], expected.sizes[0]);
 
         // The same motion seen from the piston: the crank has no inertia there.
         let slope = expected.scalars[0].1[0];
         let crank = turning.m2 * (turning.mechanism.r / 4.0).powi(2) + turning.j2;
         let reduced = pushed.mass_matrix(&q).unwrap()[0];
-        close("M of the piston", reduced * slope * slope, mass - crank, mass);
+        agrees("M of the piston", reduced * slope * slope, mass - crank, mass);
         let force = pushed.forces(t, &q, rate[0] * slope).unwrap()[0];
         // M_phi = M_z z_phi^2, so that Q of the crank is Q_z z_phi - M_z z_phi z_phiphi phi'^2.
         let along = Dual2_64::new(v[0], rate[0], 0.0);
         let bent = OfCrank.scalars([along])[0].v2;
         let by_crank = light.forces[0] - pushed.c * rate[0] + 30.0 * (9.0 * t).cos() * slope;
         let scale = light.sizes[0] + (pushed.c * rate[0]).abs() + (reduced * slope * bent).abs();
-        close("Q of the piston", force * slope - reduced * slope * bent, by_crank, scale);
+        agrees("Q of the piston", force * slope - reduced * slope * bent, by_crank, scale);
     });
 }

@@ -2,6 +2,7 @@
 
 use linkage::Real;
 use linkage::nalgebra::RealField;
+use linkage_oracle::close;
 use num_dual::{Dual2_64, Dual64};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -13,10 +14,8 @@ const POSES: usize = 300;
 const TOLERANCE: f64 = 1e-11;
 
 #[track_caller]
-pub(super) fn close(what: &str, found: f64, expected: f64, scale: f64) {
-    let error = (found - expected).abs();
-    let scale = scale.max(expected.abs());
-    assert!(error <= TOLERANCE * scale, "{what}: {found:e} is not {expected:e}, off by {error:e} of {scale:e}");
+pub(super) fn agrees(what: &str, found: f64, expected: f64, scale: f64) {
+    close(what, found, expected, TOLERANCE * scale.max(expected.abs()));
 }
 
 /// A body at a position: mass, moment of inertia, centre and angle.

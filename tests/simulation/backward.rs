@@ -3,7 +3,7 @@
 use linkage::simulation::{State, simulate};
 use linkage::{MotionError, linkage};
 
-use super::contacts::close;
+use linkage_oracle::close;
 
 linkage! {
     /// A block between a spring, a damper, a friction and a stop.

@@ -4,13 +4,10 @@ use linkage::contact::Change;
 use linkage::integrate::Crossing;
 use linkage::simulation::{State, Then, simulate};
 use linkage::{InputError, Mode, MotionError};
+use linkage_oracle::close;
 
 use linkage_gallery::belt::*;
 use linkage_gallery::block::*;
-
-pub(super) fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected}, off {:e}", found - expected);
-}
 
 fn block(x: f64) -> BlockCoordinates {
     BlockCoordinates { x, y: x }

@@ -6,7 +6,7 @@ use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
 use linkage::{Mode, MotionError, PathError, linkage};
 
-use super::contacts::close;
+use linkage_oracle::close;
 
 linkage! {
     /// Two equal cranks and a coupler that stays parallel to the frame, without gravity.

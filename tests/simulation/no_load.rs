@@ -4,7 +4,7 @@ use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
 use linkage::{Mode, linkage};
 
-use super::contacts::close;
+use linkage_oracle::close;
 
 linkage! {
     /// A block on a frictionless table.

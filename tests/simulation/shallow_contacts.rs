@@ -4,7 +4,7 @@ use linkage::integrate::{Crossing, Dopri5};
 use linkage::linkage;
 use linkage::simulation::{Then, simulate};
 
-use super::contacts::close;
+use linkage_oracle::close;
 
 linkage! {
     /// An oscillator and its walls.
@@ -43,7 +43,7 @@ fn a_wall_within_the_last_part_of_the_amplitude() {
             let bound = tolerance / depth.sqrt() * 100.0;
             let check = |what: &str, found: [f64; 2], exact: [f64; 2]| {
                 for (found, exact) in found.into_iter().zip(exact) {
-                    close(&format!("{what} {tolerance:e} {depth:e}"), 10.0 * found, exact, bound);
+                    close(format_args!("{what} {tolerance:e} {depth:e}"), 10.0 * found, exact, bound);
                 }
             };
             let walled = Walled { upper, ..Walled::default() };

@@ -4,7 +4,9 @@ use linkage::contact::Change;
 use linkage::linkage;
 use linkage::simulation::simulate;
 
-use super::{ROUNDINGS, close};
+use linkage_oracle::close;
+
+use super::ROUNDINGS;
 
 linkage! {
     /// An engine that its piston drives, but not in its dead centres.

@@ -8,7 +8,9 @@ use linkage::nalgebra::{RowVector2, Vector2};
 use linkage::simulation::{Touch, simulate};
 use linkage::{Mechanism, Mode, linkage};
 
-use super::{ROUNDINGS, close};
+use linkage_oracle::close;
+
+use super::ROUNDINGS;
 
 linkage! {
     /// A five-bar on a table whose springs pull its arms straight.

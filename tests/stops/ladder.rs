@@ -4,7 +4,9 @@ use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
 use linkage::{InputError, Mode, MotionError, linkage};
 
-use super::{ROUNDINGS, close};
+use linkage_oracle::close;
+
+use super::ROUNDINGS;
 
 linkage! {
     /// A ladder whose ends slide in two slots at right angles, askew to the axes. All its mass is at the upper end, and

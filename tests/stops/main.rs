@@ -6,10 +6,3 @@ mod ladder;
 
 /// What rounding may leave of a place, beside what is large for it.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
-
-fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (found - expected).abs() <= tolerance,
-        "{what}: {found:e} instead of {expected:e}, tolerance {tolerance:e}"
-    );
-}
