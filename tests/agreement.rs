@@ -59,8 +59,8 @@ fn emitted_is_interpreted<F: Fixture>() {
             all_close(what, found, &oracle.values(&sample, nodes), scale, TOLERANCE);
         };
 
-        let scales = m.closure_sizes(&pose);
-        same("scales", scales.as_slice(), &d.sizes, 0.0);
+        let scales = m.residual_scales(&pose);
+        same("scales", scales.as_slice(), &d.residual_scales, 0.0);
         same("residual", m.residual(&pose).as_slice(), &d.residual, scales.largest());
         same("gamma", &m.gamma_of(&pose, rates), &d.gamma, 0.0);
         let full = oracle.matrix(&sample, &d.jacobian, d.coordinates.len());

@@ -26,7 +26,7 @@ fn both_branches_of_a_four_bar() {
         assert_eq!(m.branch_of(&right), branch(Elbow::Right));
         assert_eq!(left.determinant.to_bits(), (-right.determinant).to_bits());
         for pose in [left, right] {
-            assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).sum());
+            assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.residual_scales(&pose).sum());
         }
         // C lies as far left of the line from B to D in one as right of it in the other.
         let [b, d] = [m.points(&left).unwrap().b, nalgebra::point![m.l1, 0.0]];
@@ -143,7 +143,7 @@ fn a_group_without_closed_form() {
             let branch = KeplerBranch { theta3_theta4 };
             let pose = m.assemble_near(&guess, branch).unwrap();
             assert_eq!(m.branch_of(&pose), branch);
-            assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).max());
+            assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.residual_scales(&pose).max());
             let solved = m.solve(&pose.coordinates()).unwrap();
             let (found, whole) = (pose.coordinates(), solved.coordinates);
             assert!(
@@ -202,7 +202,7 @@ fn a_guide_with_an_offset_link() {
         for degrees in (0..360).step_by(5) {
             for phi2_z2 in [Slider::Far, Slider::Near] {
                 let pose = m.assemble(f64::from(degrees).to_radians(), IntroductoryBranch::new(phi2_z2)).unwrap();
-                let size = m.closure_sizes(&pose).sum();
+                let size = m.residual_scales(&pose).sum();
                 assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * size, "{delta}, {degrees} deg");
                 let other = m.pose_at(&pose.coordinates());
                 assert!((pose.determinant - other.determinant).abs() <= 8.0 * f64::EPSILON * size);
@@ -222,7 +222,7 @@ fn steps_leave_no_trace() {
         let Ok(pose) = m.assemble(crank, branch) else { continue };
         found += 1;
         assert_eq!(m.branch_of(&pose), branch);
-        assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).sum());
+        assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.residual_scales(&pose).sum());
         for step in [36, 170] {
             let mut at = degrees;
             for _ in 0..18 {

@@ -180,7 +180,7 @@ where
             let step = (0..4).map(|_| path.advance().unwrap()).last().unwrap();
             assert!(step.event.is_none(), "{step:?}");
             let pose = m.pose_at(&step.position);
-            assert!(m.residual(&pose).zip_map(&m.closure_sizes(&pose), |psi, size| psi / size).largest() < 1e-14);
+            assert!(m.residual(&pose).zip_map(&m.residual_scales(&pose), |psi, size| psi / size).largest() < 1e-14);
             let ((u, v), (w, x)) = (M::parts(&step.position), M::parts(at));
             let gone = M::rates(u - w, v - x);
             assert!(apart::<M>(&gone, &way) < 10.0 * step.length, "{gone:?} is not along {way:?}");

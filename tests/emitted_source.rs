@@ -96,7 +96,7 @@ fn main() {
     let near = SVector::from_fn(|place, _| if place % 2 == 0 { 0.4 } else { 1.5 });
     let branch = chain.branch_of(&chain.pose_at(&ChainCoordinates::from(near)));
     let pose = chain.assemble(0.5, branch).unwrap();
-    let (residual, sizes) = (chain.residual(&pose), chain.closure_sizes(&pose));
+    let (residual, sizes) = (chain.residual(&pose), chain.residual_scales(&pose));
     let coordinates: ChainCoordinates = pose.coordinates();
     let rates = chain.velocity(&pose, 2.0).unwrap();
     let accelerations = chain.acceleration(&pose, &rates, 0.0).unwrap();
@@ -130,8 +130,8 @@ fn main() {
     black_box((
         (Chain::<f64>::jacobian_unknowns as fn(&_, &_) -> _, Chain::<f64>::jacobian_inputs as fn(&_, &_) -> _),
         (Chain::<f64>::jacobian as fn(&_, &_) -> _, Chain::<f64>::solve_any_branch as fn(&_, &_) -> _),
-        Chain::<f64>::jacobian_unknowns_sizes as fn(&_, &_) -> _,
-        Chain::<f64>::jacobian_inputs_sizes as fn(&_, &_) -> _,
+        Chain::<f64>::jacobian_unknowns_scales as fn(&_, &_) -> _,
+        Chain::<f64>::jacobian_inputs_scales as fn(&_, &_) -> _,
         (Chain::<f64>::determinant as fn(&_, &_) -> _, Chain::<f64>::block_determinants as fn(&_, &_) -> _),
         (Chain::<f64>::solve_jacobian as fn(&_, &_, &_) -> _, Chain::<f64>::gamma as fn(&_, &_, &_) -> _),
         (Chain::<f64>::velocity_ratios as fn(&_, &_) -> _, Chain::<f64>::point_ratios as fn(&_, &_) -> _),

@@ -62,7 +62,7 @@ snapshot!(
     four_bar_closures,
     functions(
         "four_bar",
-        &["pose_at", "residual", "closure_sizes", "jacobian_unknowns", "jacobian_inputs", "jacobian", "determinant"]
+        &["pose_at", "residual", "residual_scales", "jacobian_unknowns", "jacobian_inputs", "jacobian", "determinant"]
     )
 );
 snapshot!(

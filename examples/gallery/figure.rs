@@ -118,7 +118,7 @@ macro_rules! frame {
         let own: [linkage::nalgebra::Point2<f64>; $mechanism::<f64>::DERIVATION.points.len()] = $points.into();
         let names = $mechanism::<f64>::DERIVATION.points.iter().map(|point| point.name);
         let points = names.zip(own).chain($more).collect();
-        $figure.frame($m.residual($pose).amax(), $m.closure_sizes($pose).sum(), points);
+        $figure.frame($m.residual($pose).amax(), $m.residual_scales($pose).sum(), points);
     }};
 }
 

@@ -1,6 +1,6 @@
-//! The `linkage!` macro: closure equations in, specialised Rust out.
+//! The `linkage!` macro: compiles the loop equations of a mechanism to specialised Rust.
 //!
-//! Use it through the `linkage` crate. [`linkage!`] is the manual of the language.
+//! Use it through the `linkage` crate. The documentation of [`linkage!`] is the manual of the language.
 
 #![warn(missing_docs)]
 
@@ -8,9 +8,9 @@ use linkage_compiler::Facade;
 use linkage_compiler::budget::Budget;
 use proc_macro::TokenStream;
 
-/// A mechanism from its closure equations.
+/// Defines mechanisms by their loop equations.
 ///
-/// The macro differentiates the closures symbolically at compile time and emits functions for the
+/// The macro differentiates the equations symbolically at compile time and emits functions for the
 /// constraint Jacobian, the velocity ratios, velocities, accelerations, points and outputs.
 ///
 /// # A mechanism
@@ -19,7 +19,7 @@ use proc_macro::TokenStream;
 /// use linkage::linkage;
 ///
 /// linkage! {
-///     /// Four-bar linkage; the closure runs A-B-C-D with l4 from C to D.
+///     /// Four-bar linkage; the loop is A-B-C-D with l4 from C to D.
 ///     #[derive(Debug, Clone, PartialEq)]
 ///     pub mechanism FourBar {
 ///         param l1 = 80.0, l2 = 20.0, l3 = 50.0, l4 = 70.0;
@@ -46,40 +46,40 @@ use proc_macro::TokenStream;
 /// ```
 ///
 /// `mechanism NAME { statements }`: attributes, doc comments and visibility go to the type of the
-/// parameters. Several mechanisms may stand in one invocation, and an invocation may stand in a module,
-/// a function body or a test. Statements may stand in any order, but for `let`, `point` and `output`,
-/// which use only what is above them. Doc comments on a statement reach the fields it declares.
+/// parameters. One invocation may define several mechanisms; it may be placed in a module, a function
+/// body or a test. Statements may come in any order, except that an expression uses only the `let`s,
+/// `point`s and `output`s above it. Doc comments on a statement become those of the fields it declares.
 ///
-/// Attributes go where they have a meaning, and are refused elsewhere:
+/// Attributes are forwarded as follows; in other places they are an error:
 ///
-/// | on | what becomes of it |
+/// | on | effect |
 /// |---|---|
-/// | `mechanism` | `cfg` applies to all items that are emitted, so that a mechanism is there as a whole or not at all; `allow`, `warn`, `deny` and `forbid` as well; everything else, such as `derive` and its like, goes to the types that hold parameters |
+/// | `mechanism` | `cfg`, `allow`, `warn`, `deny` and `forbid` apply to every emitted item; all others, such as `derive`, go to the types that hold parameters |
 /// | `drive`, `scene` | all go to its type |
 /// | `param` | all go to its field, such as `#[serde(rename = "…")]` |
-/// | `input`, `unknown`, `coordinate`, `point`, `output`, `loop`, `equation`, `extern fn` | doc comments go to the documentation |
-/// | `let`, `derive`, `body`, effects | doc comments, for the reader of the source |
+/// | `input`, `unknown`, `coordinate`, `point`, `output`, `loop`, `equation`, `extern fn` | doc comments go to the emitted documentation |
+/// | `let`, `derive`, `body`, effects | doc comments only; they are not emitted |
 ///
-/// `cfg` on a part of a mechanism is refused, since a macro runs before it is evaluated: write one mechanism for each case.
-/// A mechanism that is configured out is read all the same. `deprecated` is refused, since emitted code would warn of itself.
+/// `cfg` on a part of a mechanism is an error, since macros run before it is evaluated: write one mechanism for each case.
+/// The macro also checks a mechanism that `cfg` removes. `deprecated` is an error, since the emitted code would trigger it.
 ///
 /// | statement | meaning |
 /// |---|---|
-/// | `param a = 1, b;` | geometric and physical data; a default is a number. With defaults for all there is `Default` |
-/// | `input v;` | independent coordinates, one per degree of freedom |
-/// | `unknown u;` | dependent coordinates, as many as there are closure rows |
-/// | `loop VECTOR = VECTOR;` | a vector closure, two rows; the right side may be `0` |
-/// | `equation SCALAR = SCALAR;` | a scalar closure, one row: gears, rolling, cams, loops by component |
+/// | `param a = 1, b;` | geometric and physical data; a default is a number. If all have defaults, the type implements `Default` |
+/// | `input v;` | independent coordinates, one for each degree of freedom |
+/// | `unknown u;` | dependent coordinates, as many as scalar equations (two for each `loop`, one for each `equation`) |
+/// | `loop VECTOR = VECTOR;` | a vector loop equation, that is two scalar equations; the right side may be `0` |
+/// | `equation SCALAR = SCALAR;` | a scalar constraint: gears, rolling, cams, loops by component |
 /// | `let NAME = EXPRESSION;` | a named subexpression, scalar or vector |
-/// | `point NAME = VECTOR;` | a point whose position, velocity and acceleration are wanted |
-/// | `output NAME = SCALAR;` | any scalar quantity of interest |
-/// | `extern fn PATH(x, p) -> (f, df, ddf);` | a function of your own with its derivatives, see below |
-/// | `coordinate q;` and `drive NAME by q;` | the same mechanism with a choice of input, see below |
-/// | `derive jerk, sensitivity;` | higher orders and sensitivities, see below |
+/// | `point NAME = VECTOR;` | a point; functions for its position, velocity and acceleration are emitted |
+/// | `output NAME = SCALAR;` | a scalar quantity; functions for its value, rate and acceleration are emitted |
+/// | `extern fn PATH(x, p) -> (f, df, ddf);` | a user function with its derivatives, see below |
+/// | `coordinate q;` and `drive NAME by q;` | a mechanism with several choices of input, see below |
+/// | `derive jerk, sensitivity;` | higher derivatives and sensitivities, see below |
 /// | `body NAME { mass m; inertia j; center G; angle phi; }` | a rigid body, see below |
 /// | `scene NAME { inertia; gravity (0, -g); }` | the mechanism with forces, see below |
 ///
-/// Fields are snake case: the point `G3` is the field `g3`.
+/// Field names are converted to snake case: the point `G3` becomes the field `g3`.
 ///
 /// # Expressions
 ///
@@ -89,19 +89,19 @@ use proc_macro::TokenStream;
 /// | `(x, y)` | a vector by components |
 /// | `(x, y)@phi` | the local vector (x, y) rotated by `phi` |
 /// | `+ - * /`, unary `-` | as usual; vector plus vector, scalar times vector |
-/// | `x^n`, `powi(x, n)`, `x.powi(n)` | whole powers |
+/// | `x^n`, `powi(x, n)`, `x.powi(n)` | integer powers |
 /// | `sin cos tan asin acos atan atan2 sqrt abs exp ln hypot` | scalar functions; `x.sqrt()` is `sqrt(x)` |
-/// | `x(P) y(P) norm(V) angle(V) dot(A, B) cross(A, B)` | of vectors |
-/// | `f(x, p)` | a function of your own, or a derivative of one, under the name that `extern fn` gives it |
+/// | `x(P) y(P) norm(V) angle(V) dot(A, B) cross(A, B)` | functions of vectors |
+/// | `f(x, p)` | a user function or one of its derivatives, under the name that `extern fn` gives it |
 /// | `pi`, `20deg`, `1.5`, `3` | constants; integers, decimals and their ratios stay exact |
 ///
-/// A constant, also one that comes of several or of a derivative, is zero or a normal number of `f64`, 2.3e-308 to 1.7e308;
-/// else it is refused. Another scalar takes it from `f64`: an `f32` rounds it, to infinity beyond 3.4e38, which functions
-/// that return a `Result` report as `NotFinite`, and to zero below 7e-46.
+/// A constant must be zero or a normal `f64`, 2.3e-308 to 1.7e308 in magnitude, also if it is computed from others or arises
+/// in a derivative; otherwise the macro reports an error. Other scalars convert it from `f64`: in `f32` it becomes infinite
+/// above 3.4e38, which functions that return a `Result` report as `NotFinite`, and zero below 7e-46.
 ///
 /// `@` binds tighter than `+ -` and looser than `* /`, so `l3/2 @ phi + s @ (phi - delta)` needs no
-/// more parentheses than these. Angles are in radians. Whether a name is an angle or a length follows
-/// from its use, and stands in the documentation of its field.
+/// further parentheses. Angles are in radians. The macro infers from its use if a name is an angle or a length,
+/// and says so in the documentation of its field.
 ///
 /// ```
 /// linkage::linkage! {
@@ -124,7 +124,7 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// A scalar closure where there is no loop to close:
+/// A scalar constraint without a loop:
 ///
 /// ```
 /// linkage::linkage! {
@@ -141,9 +141,9 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// # Functions of your own
+/// # User functions
 ///
-/// A cam law or a table is a generic function that returns its value and its derivatives by the first argument:
+/// A cam law or a table is a generic function that returns its value and its derivatives with respect to the first argument:
 ///
 /// ```
 /// use linkage::{Real, linkage};
@@ -175,21 +175,20 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// The function behind the path takes as many `T` as there are arguments, and returns a tuple of as many `T` as
-/// there are names: its value, and its first, second, ... derivative by the first argument. In expressions each
-/// of these is a function under its name. The further arguments are parameters: what is written there must not
-/// move. Closures, points and outputs take two derivatives more than the highest that they name; an error says
-/// if the function gives fewer.
+/// The function at the path takes one `T` for each argument and returns a tuple with one `T` for each name after `->`:
+/// its value and its first, second, ... derivative with respect to the first argument. Each name is a function in
+/// expressions. The other arguments are held constant: expressions there must not depend on coordinates. A loop equation,
+/// point or output needs two derivatives more than the highest that it names; an error says if the function returns fewer.
 ///
-/// The function is called once for each argument at which it is used, however many derivatives are taken, and a
-/// pose holds the values. NaN, where it has no value, becomes the error `NotFinite`. The argument may be an
-/// unknown; such a position is found by `solve`, and there is no `assemble`.
+/// The function is called once for each distinct argument list, for all derivatives together, and a pose stores the
+/// values. Return NaN where the function is undefined: this becomes the error `NotFinite`. The first argument may depend
+/// on an unknown; the position is then found by `solve`, and `assemble` is not emitted.
 ///
-/// # Driven by another coordinate
+/// # Choice of the driving coordinate
 ///
-/// Which configurations are singular depends on the coordinate that drives. A mechanism may leave the
-/// choice open; each `drive` is a type of its own with the same parameters, and the coordinates are the
-/// same for all, so that a position found with one driver is good for every other.
+/// The singular configurations of a mechanism depend on the coordinate that drives it. A mechanism may leave the
+/// choice open: each `drive` defines a type with the same parameters. All share the type of the coordinates, so that
+/// a position found with one driver can be used with the others.
 ///
 /// ```
 /// linkage::linkage! {
@@ -209,21 +208,21 @@ use proc_macro::TokenStream;
 /// assert!(engine.velocity_ratios(&engine.pose_at(&dead_centre)).is_err());
 /// ```
 ///
-/// # Higher orders and sensitivities
+/// # Higher derivatives and sensitivities
 ///
-/// What not every mechanism needs is derived where a `derive` statement names it, for every driver, with the
-/// same formulas of the blocks or the same factorisation as velocity:
+/// A `derive` statement adds functions for every driver. They solve linear systems in J with the same formulas or
+/// the same factorisation as `velocity`:
 ///
-/// | word | functions |
+/// | keyword | functions |
 /// |---|---|
-/// | `limits` | `limits(v, branch)`, of several inputs `limits_of_NAME`: the input interval about a position in which the mechanism can be assembled, exact where a group depends on the inputs alone, also through linear equations, bracketed by search where groups depend on others; inputs at which a group is undetermined are passed |
-/// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), of any number of inputs and along any input path; `point_jerks`, `output_jerks` |
-/// | `velocity_ratio_derivatives` | the function of this name: d2u/dv dv, of each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
-/// | `sensitivity` | the function of this name: du/dp = -J^-1 `Psi_p` at fixed inputs, one column a parameter; `point_sensitivities`, `output_sensitivities`, which hold what depends on the parameters directly, too |
+/// | `limits` | `limits(v, branch)`, or `limits_of_NAME` for each of several inputs: the interval of the input about a position in which the mechanism can be assembled. Limits of groups that depend on the inputs alone, directly or through linear equations, are exact; those of other groups are bracketed by search. Isolated inputs at which a group is undetermined do not end the interval |
+/// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), for any number of inputs; `point_jerks`, `output_jerks` |
+/// | `velocity_ratio_derivatives` | `velocity_ratio_derivatives(&pose)`: d2u/dv dv, for each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
+/// | `sensitivity` | `sensitivity(&pose)`: du/dp = -J^-1 `Psi_p` at fixed inputs, one column for each parameter; `point_sensitivities`, `output_sensitivities`: the total derivatives dl/dp = `l_p` + `l_u` du/dp |
 ///
 /// ```
 /// linkage::linkage! {
-///     /// A piston: what a tolerance of its rod does to it, and how smoothly it moves.
+///     /// A slider-crank: sensitivity to the rod's length, and jerk of the piston.
 ///     pub mechanism Piston {
 ///         param r = 1, l = 3;
 ///         input phi;
@@ -236,29 +235,29 @@ use proc_macro::TokenStream;
 /// let piston = Piston::default();
 /// let q = piston.solve(&PistonCoordinates { phi: 0.0, psi: 0.1, x: 3.9 })?.coordinates;
 /// let pose = piston.pose_at(&q);
-/// // At the dead centre: x = 4, dx/dr = dx/dl = 1, and the output less its l does not depend on the rod.
+/// // At the dead centre: x = r + l = 4, dx/dr = dx/dl = 1, and the output x - l does not depend on l.
 /// assert_eq!(piston.sensitivity(&pose)?.row(1).iter().copied().collect::<Vec<f64>>(), [1.0, 1.0]);
 /// assert_eq!(piston.output_sensitivities(&pose)?.stroke[1], 0.0);
 /// // d2x/dphi2 = -r (1 + r/l).
 /// let [_, x] = piston.velocity_ratio_derivatives(&pose)?;
 /// assert!((x[(0, 0)] + 4.0 / 3.0).abs() < 1e-14);
-/// // x is even in phi, so that at constant speed there is no jerk here.
+/// // x is even in phi, so that its jerk at constant speed is zero at phi = 0.
 /// let rates = piston.velocity(&pose, 1.0)?;
 /// let accelerations = piston.acceleration(&pose, &rates, 0.0)?;
 /// assert!(piston.jerk(&pose, &rates, &accelerations, 0.0)?.x.abs() < 1e-14);
-/// // With a rod half as long as the crank the joint stays within 30 degrees of the line.
+/// // With a rod half as long as the crank, the crank turns at most 30 degrees from the line of the slider.
 /// let short = Piston::new(2.0, 1.0);
 /// let limits = short.limits(0.1, PistonBranch { psi: linkage::Slope::Rising })?;
 /// assert!((limits.upper.input().unwrap() - std::f64::consts::FRAC_PI_6).abs() < 1e-15);
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// # Scenes: only the effects called for
+/// # Scenes: dynamics
 ///
-/// A mechanism alone is kinematics. A `scene` adds effects, and is a type of its own: it holds the mechanism and the
-/// parameters of the effects that it names. What it does not name is not in the type, not in the code and costs
-/// nothing: `cargo bench --bench effects` prints the operations and the time of each. Parameters are declared together;
-/// one that no closure, point or output holds belongs to the scenes that hold it and not to the mechanism.
+/// A mechanism alone is kinematics. A `scene` adds forces and inertia. It is a type that holds the mechanism and the
+/// parameters of its effects. An effect that the scene does not name adds no field, no code and no run time
+/// (`cargo bench --bench effects` prints the operations and the time of each). All parameters are declared with `param`;
+/// one that appears in no loop equation, point or output becomes a field of the scenes that use it, not of the mechanism.
 ///
 /// ```
 /// linkage::linkage! {
@@ -282,7 +281,7 @@ use proc_macro::TokenStream;
 ///             torque t0 on theta2;
 ///             energy;
 ///         }
-///         /// What it takes to turn the crank like this.
+///         /// Inverse dynamics: the torque that turns the crank at constant speed.
 ///         scene Driven {
 ///             inertia;
 ///             drive theta2 = omega * t;
@@ -300,7 +299,7 @@ use proc_macro::TokenStream;
 /// let (mass, force) = (loaded.mass_matrix(&q)?[0], loaded.forces(0.0, &q, 41.9)?[0]);
 /// assert!((mass * acceleration - force).abs() < 1e-12 * force.abs());
 /// assert!(loaded.energy(&q, 41.9)?.kinetic > 0.0);
-/// // What an integrator takes: y = (q, v') and y' = (q', v'').
+/// // For an integrator: the state y = (q, v') and its derivative y' = (q', v'').
 /// let state = loaded.start(0.0, &q, &41.9.into())?;
 /// assert_eq!(loaded.derivative(0.0, &state)?[3], acceleration);
 ///
@@ -313,44 +312,44 @@ use proc_macro::TokenStream;
 ///
 /// | in a scene | meaning |
 /// |---|---|
-/// | `inertia;` | of all bodies; `inertia crank, rod;` of these. Without it nothing accelerates: the scene is statics |
-/// | `gravity (0, -g);` | the weight of all bodies; `gravity (0, -g) on rod;` of these |
-/// | `spring k, s0 between P and Q;` | a linear spring: stiffness and free length, which may be left out |
+/// | `inertia;` | the inertia of all bodies; `inertia crank, rod;` that of the bodies named. Without it the scene is static |
+/// | `gravity (0, -g);` | the weight of all bodies; `gravity (0, -g) on rod;` that of the bodies named |
+/// | `spring k, s0 between P and Q;` | a linear spring: stiffness and free length, which may be omitted |
 /// | `spring k, phi0 on phi;` | a spring on any scalar: coordinate, output or expression |
-/// | `damper c between P and Q;`, `damper c on phi;` | a force against the rate; c may be a law |
+/// | `damper c between P and Q;`, `damper c on phi;` | the force -c s' along the distance or scalar s; c may be a LAW |
 /// | `torque LAW on phi;` | a torque on an angle, or a force on a length: its work is LAW times the change of `phi` |
 /// | `force (fx, fy) at P;` | a force at a point |
-/// | `potential V;` | forces from any potential energy |
-/// | `friction mu, radius, normal on phi;` | dry friction in a joint: its greatest torque is the product, of which each factor may be a law |
-/// | `friction mu, normal on s;` | the same along a length |
-/// | `stop s in lower..upper, restitution e;` | s stays within this range, and goes back with the part e of its rate |
-/// | `drive v = LAW;` | the motion of an input is given: what drives it is found by inverse dynamics |
-/// | `energy;`, `power;`, `reactions;`, `equilibrium;` | more functions |
+/// | `potential V;` | the forces -dV/dq of any potential energy V |
+/// | `friction mu, radius, normal on phi;` | dry friction in a joint: its largest torque is the product mu radius normal; each factor may be a LAW |
+/// | `friction mu, normal on s;` | dry friction along a length: its largest force is mu normal |
+/// | `stop s in lower..upper, restitution e;` | lower <= s <= upper; at an impact s'+ = -e s'- |
+/// | `drive v = LAW;` | a prescribed input; the force that drives it is found by inverse dynamics |
+/// | `energy;`, `power;`, `reactions;`, `equilibrium;` | further functions, see the next table |
 ///
-/// A LAW may hold parameters, coordinates, outputs, their rates as `rate(x)`, and time `t`; that of a `drive` time and
-/// parameters alone. Where a mechanism leaves its input open, a scene says which driver it takes:
+/// A LAW is an expression of parameters, coordinates, outputs, their rates as `rate(x)`, and time `t`; that of a `drive`
+/// depends on time and parameters only. In a mechanism with several drivers a scene names its driver:
 /// `scene Fired of Engine { … }`.
 ///
-/// | item of a scene | what |
+/// | item of a scene | meaning |
 /// |---|---|
 /// | `mechanism`, `new`, `Default`, `map`, conversion from the mechanism and an array | the kinematics, and the parameters of the effects |
 /// | `mass_matrix(&q)` | M = sum m `W_G`' `W_G` + j w' w, reduced to the inputs; with `inertia` |
-/// | `forces(t, &q, v')` | Q with the quadratic velocity terms |
-/// | `acceleration(t, &q, v')`, `rates(t, &q, v')` | v'', and q' with v''; with `inertia` |
-/// | `drives(t)`, `drive_forces(t, &q, v')` | value, rate and acceleration of what is driven, and the forces that it takes: M v'' - Q |
-/// | `DERIVATION` | the equations of motion as data: M, the share of each body and each effect in Q, the potential energy; `sheet` shows them |
-/// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; the power that is applied, also by drives, and that is dissipated |
-/// | `reactions(t, &q, v')` | Lagrange's multipliers: the force where a loop is cut, of its left side on its right side |
-/// | `equilibrium(t, &guess)` | the position near the guess where the forces of the inputs that are not driven vanish at rest, by Newton's method; `balance(t, &q)`: these forces and their derivatives, whose signs tell what is stable |
-/// | `check()` | refuses by their name negative masses, inertias and frictions, empty ranges of stops, and restitutions that are not between 0 and 1 |
-/// | `unreduced(t, &q, &q')` | with `inertia`: M and F of `M q'' + Psi_q' lambda = F` in all coordinates, whichever are independent; without frictions and stops |
-/// | the trait `Scene` | with `inertia`: the state (q, v') of an integrator, its derivative, its projection on the closures; `contacts`: each friction and stop with its scalar and its limits; `equations`: M, Q, W and u'' at v'' = 0, without them |
+/// | `forces(t, &q, v')` | the generalised forces Q, including the quadratic velocity terms: M v'' = Q |
+/// | `acceleration(t, &q, v')`, `rates(t, &q, v')` | v''; the pair (q', v''); with `inertia` |
+/// | `drives(t)`, `drive_forces(t, &q, v')` | value, rate and acceleration of each prescribed input; the forces that drive them, M v'' - Q |
+/// | `DERIVATION` | the equations of motion as data: M, the contribution of each body and effect to Q, the potential energy; `sheet` prints them |
+/// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; applied power (forces, torques, drives) and dissipated power |
+/// | `reactions(t, &q, v')` | the Lagrange multipliers: for a `loop`, the force of its left side on its right side where it is cut |
+/// | `equilibrium(t, &guess)` | the position of static equilibrium near the guess, by Newton's method, with prescribed inputs at their values; `balance(t, &q)`: the forces at rest and their derivatives, whose signs decide stability |
+/// | `check()` | an error that names the parameter if a mass, an inertia or a friction is negative, the range of a stop is empty, or a restitution is not between 0 and 1 |
+/// | `unreduced(t, &q, &q')` | with `inertia`: M and F of `M q'' + Psi_q' lambda = F` in all coordinates, without frictions and stops |
+/// | the trait `Scene` | with `inertia`: the state (q, v') for an integrator, its derivative, its projection onto the constraints; `contacts`: each friction and stop with its scalar and its limits; `equations`: M, Q, W, and u'' at v'' = 0, without frictions and stops |
 ///
 /// ## Simulation
 ///
-/// `simulation::simulate` takes a scene with `inertia`, also one with frictions and stops, from a start to an end, and
-/// gives the states with all coordinates and rates by name. It goes through dead points of the input, in other
-/// coordinates, and straight on through change points; what it cannot follow is an error, and what was computed stays.
+/// `simulation::simulate` integrates a scene with `inertia`, also one with frictions and stops, and returns states with
+/// all coordinates and rates by name. At dead points of the input it continues in other independent coordinates; through
+/// change points it goes straight on. Where it cannot continue it returns an error; earlier states remain valid.
 ///
 /// ```
 /// linkage::linkage! {
@@ -370,13 +369,13 @@ use proc_macro::TokenStream;
 ///
 /// let scene = Running::default();
 /// let start = EngineCoordinates { z: 0.2, phi: 0.7, psi: -0.2 };
-/// // The time, a position near that of this z, and z'; the end; the relative error allowed of a step.
+/// // (t, a guess of the position, z'); the end time; the relative tolerance of a step.
 /// let mut motion = simulate(&scene, (0.0, start, -1.0), 1.0, 1e-9)?;
 /// for state in motion.at([0.25, 0.5, 0.75, 1.0]) {
 ///     let state = state?;
 ///     println!("{:4} s: {:8.5} rad, {:8.5} rad/s", state.t, state.q.phi, state.rates.phi);
 /// }
-/// // The piston drives it over both dead points, turn after turn.
+/// // It passes both dead points of the input z in every turn.
 /// assert!(motion.state().q.phi > 6.5 && motion.passages().exchanges > 4);
 ///
 /// // Up to the end of the first turn.
@@ -388,8 +387,8 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// A mechanism, its path and its simulation are fields of your own struct by the mechanism and the scene alone; functions
-/// for any of them take `M: Mechanism` and `S: Scene`.
+/// The types `Path` and `Simulation` have only the mechanism or the scene as type parameters, so that they can be fields
+/// of your own structs. Generic functions take `M: Mechanism` and `S: Scene`.
 ///
 /// ```
 /// # linkage::linkage! {
@@ -415,7 +414,7 @@ use proc_macro::TokenStream;
 ///     reached: Vec<PathStep<Engine>>,
 /// }
 ///
-/// /// The largest residual of the closures, of any mechanism.
+/// /// The largest residual of the loop equations of any mechanism.
 /// fn gap<M: Mechanism<Scalar = f64>>(mechanism: &M, q: &M::Coordinates) -> f64 {
 ///     mechanism.residual(&mechanism.pose_at(q)).largest()
 /// }
@@ -437,12 +436,12 @@ use proc_macro::TokenStream;
 ///
 /// ## Dry friction and stops
 ///
-/// Frictions and stops act on a coordinate, an output or any other scalar that moves. They jump where the
-/// others are smooth: a joint sticks or slips, a stop is open or closed. So what a scene says of itself (`forces`,
-/// `acceleration`, `drive_forces`, `reactions`, `equilibrium`, `derivative` of the trait `Scene`) is **without** them;
-/// `contacts` tells where they are, and the module `contact` of the runtime has the law: which modes fit a state, the
-/// accelerations and forces in them, the functions whose zeros are the events, and what happens there. A simulation
-/// does all of this: its states tell what each friction and stop is doing, and what has happened to it.
+/// Frictions and stops act on a coordinate, an output or any other scalar that moves. Their forces are discontinuous:
+/// a joint sticks or slips, a stop is open or closed. Therefore `forces`, `acceleration`, `drive_forces`, `reactions`,
+/// `equilibrium` and the trait method `Scene::derivative` are computed **without** them. `contacts` lists them, and the
+/// module `contact` finds the modes of a state, the accelerations and forces in these modes, the events that end them,
+/// and the changes at an event. `simulate` does all of this: each state reports the mode of every friction and stop,
+/// and the changes since the previous state.
 ///
 /// ```
 /// linkage::linkage! {
@@ -474,19 +473,19 @@ use proc_macro::TokenStream;
 /// let state = press.start(0.0, &guess, &0.0.into())?;
 /// let (q, rates) = Working::parts(&state);
 /// let at = |v: &Column<f64, D<1>>| ReducedEquations::of(&press, 0.0, &Working::state(&q, &(*v).into()));
-/// // Half a newton metre is less than the friction of the ram holds at this lever.
+/// // A torque of 0.5 N m does not overcome the friction: the press sticks.
 /// let (contacts, rates) = Contacts::begin(0.0, &rates.into(), at)?;
 /// assert_eq!(contacts.modes, [Mode::Stick, Mode::Stick, Mode::Open]);
 /// assert_eq!(contacts.motion(&at(&rates)?)?.acceleration[0], 0.0);
 ///
-/// // Ten times as much moves it.
+/// // Ten times this torque moves it.
 /// let press = Working { torque: 5.0, ..press };
 /// let at = |v: &Column<f64, D<1>>| ReducedEquations::of(&press, 0.0, &Working::state(&q, &(*v).into()));
 /// let (contacts, rates) = Contacts::begin(0.0, &rates, at)?;
 /// assert_eq!(contacts.modes, [Mode::SlipForward, Mode::SlipBackward, Mode::Open]);
 /// assert!(contacts.motion(&at(&rates)?)?.acceleration[0] > 50.0);
 ///
-/// // The ram goes down to its stop, bounces, and rests on it.
+/// // The ram moves to its stop, bounces, and comes to rest on it.
 /// use linkage::contact::Change;
 /// use linkage::simulation::simulate;
 ///
@@ -503,86 +502,85 @@ use proc_macro::TokenStream;
 /// assert_eq!((impacts > 3, last), (true, Some(("stop on z", Change::Rests))));
 /// let end = motion.state();
 /// assert_eq!((end.mode("stop on z"), end.rates.z), (Some(Mode::AtLower), 0.0));
-/// // The stop carries what the motor presses: by the lever dz/dphi less than 5 N m would suggest.
+/// // The torque of the stop on the crank: its force times the velocity ratio dz/dphi.
 /// let ratio = press.mechanism.motion(&end.q, 1.0, 0.0)?.rates.z;
-/// println!("{:.1} N", motion.loads()?.contacts[2] * ratio);
+/// println!("{:.1} N m", motion.loads()?.contacts[2] * ratio);
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// - What sticks holds up to its limit; several joints of one input hold together while |Q| is not more than the sum of
-///   |ds/dv| limit. Static and sliding limit are the same unless the limit is a law of `rate(s)`.
-/// - At an impact s'+ = -e s'-; what rests on another stop is not pushed through it. Impulses of friction are neglected.
-/// - Bouncing ends where the rebound is less than the square root of the scalar's rounding beside the hardest impact of
-///   the series, or no higher than one rounding of the place.
-/// - A stop is met however briefly it is touched within a step, if its gap shrinks and grows once in the step.
-///   What sticks or slips, and your own events, are found if they turn once in a step; what turns more often in one step
-///   may be missed: of random sums of sines 0.1 % with two extrema in a step, 1 % with three, 5 % with four, 25 % with five. The module
-///   `integrate` says it in full; `largest_step` makes it finer.
-/// - What rests on a stop without a load rests there, and so do two bodies that have met without rebound.
-/// - Time runs forward: a simulation back in time of a scene with frictions or stops is `MotionError::Irreversible`.
-/// - `power` counts limit |s'| of each friction as dissipated; in scenes with contacts it leaves out the power of drives,
-///   which depends on what sticks: `loads` of a simulation has it, with the forces of frictions, stops and drives.
+/// - A sticking contact transmits a force up to its limit. Several contacts on one input stick while |Q| does not exceed
+///   the sum of |ds/dv| limit. Static and kinetic limit are equal unless the limit is a LAW that depends on `rate(s)`.
+/// - At an impact s'+ = -e s'-, and no other stop in contact is penetrated. Impulses of friction are neglected.
+/// - Bouncing ends when the rebound rate is less than sqrt(epsilon) times the largest impact rate of the series, or the
+///   rebound is not higher than one ulp of s.
+/// - A stop is detected even if it is touched only briefly within a step, provided that its gap has one minimum in the step.
+///   Changes of stick and slip, and your own events, are found if their function has one extremum in a step. With more, some are
+///   missed: for random sums of sines 0.1 % with two extrema in a step, 1 % with three, 5 % with four, 25 % with five.
+///   See the module `integrate`; `largest_step` reduces these rates.
+/// - A body at rest on a stop without load stays there, and so do two bodies after an impact without rebound.
+/// - A simulation of frictions or stops backwards in time returns `MotionError::Irreversible`.
+/// - `power` counts limit |s'| of each friction as dissipated. In scenes with contacts it omits the power of drives, which
+///   depends on the modes; `loads` of a simulation has it, with the forces of frictions, stops and drives.
 ///
-/// Effects work along what the closures, points and bodies already compute: one kernel holds all that a function
-/// returns, and takes coordinates that close the mechanism, so that an angle beyond a turn is what it is.
+/// Each function of a scene computes sines, cosines and common subexpressions once. Its coordinates must satisfy the loop
+/// equations; angles may exceed a turn.
 ///
 /// # What is emitted for `mechanism FourBar`
 ///
-/// q are all coordinates, v the inputs, u the unknowns, Psi(q) = 0 the closures, J = `Psi_u`,
+/// q are all coordinates, v the inputs, u the unknowns, Psi(q) = 0 the loop equations and constraints, J = `Psi_u`,
 /// A = `Psi_v`, W = -J^-1 A and gamma = `(Psi_q q')_q q'`, so that u' = W v' and J u'' = -(A v'' + gamma).
 ///
-/// | item | what |
+/// | item | meaning |
 /// |---|---|
-/// | `FourBar<T = f64>` | the parameters; `new` up to seven of them, `Default` for `f64`, `map` to another scalar, conversions from and to arrays |
+/// | `FourBar<T = f64>` | the parameters; `new` (up to seven parameters), `Default` for `f64`, `map` to another scalar, conversions from and to arrays |
 /// | `FourBarCoordinates<T>`, `FourBarRates<T>`, `FourBarAccelerations<T>` | q, q' and q'' by name, with `derive jerk` also `FourBarJerks<T>`, q'''; u before v; conversions from and to `SVector` |
-/// | `FourBarInputs<T>` | v by name, also v' and v''; a single input also from the bare number, and all from q, q' or q'' |
+/// | `FourBarInputs<T>` | v by name, also used for v' and v''; a single input converts from a number, and all from q, q' or q'' |
 /// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | the points and outputs by name |
-/// | `motion(&q, v', v'')` | everything at once, each shared subexpression computed once: `FourBarMotion<T>` with `position`, `rates`, `accelerations`, `points` and `outputs` |
-/// | `assemble(v, branch)` | position in closed form where every block has one: group by group, on the branch that is asked for |
-/// | `assemble_near(&guess, branch)` | where a block has no closed form, instead of `assemble`: that block by Newton's method from the guess, all others in closed form; where the number of an angle matters, beside `assemble`: in the turn nearest to the guess, see below |
-/// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values; without the branches on which a group is undetermined |
-/// | `FourBarBranch`, `branch_of(&pose)` | which of the two solutions of each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` with all turns 0, `all()` of these |
+/// | `motion(&q, v', v'')` | everything in one call, common subexpressions computed once: `FourBarMotion<T>` with `position`, `rates`, `accelerations`, `points` and `outputs` |
+/// | `assemble(v, branch)` | position in closed form, group by group, on the given branch; emitted if every block has a closed form |
+/// | `assemble_near(&guess, branch)` | if some blocks have no closed form: replaces `assemble`, with Newton's method from the guess for these blocks. If turns of angles matter (see below): in addition to `assemble`, with each angle in the turn nearest to the guess |
+/// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values; branches on which a group is undetermined are omitted |
+/// | `FourBarBranch`, `branch_of(&pose)` | the assembly mode: one of two solutions for each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` sets all turns to 0, `all()` lists the branches with turns 0 |
 /// | `solve(&guess)` | position by Newton's method on the branch of the guess, with its iterations and residual |
-/// | `solve_any_branch(&guess)` | the same on whatever branch the search ends, and whether that is the branch of the guess |
-/// | `FourBarPose<T>`, `pose_at(&q)` | directions, determinants, the inputs and the angles whose number matters, values of your own functions: what follows takes a pose and needs no trigonometry; `coordinates()` gives the coordinates back |
+/// | `solve_any_branch(&guess)` | position by Newton's method on any branch, with a flag that is true on the branch of the guess |
+/// | `FourBarPose<T>`, `pose_at(&q)` | a position prepared for the functions below, which then compute no sines: directions of angles, determinants, inputs and angles as numbers where needed, values of user functions; `coordinates()` converts it back |
 /// | `velocity(&pose, v')`, `acceleration(&pose, &q', v'')` | q' and q'' |
-/// | `points(&pose)`, `point_velocities(&pose, &q')`, `point_accelerations(&pose, &q', &q'')` | of all points |
-/// | `outputs(&pose)`, `output_velocities(&pose, &q')`, `output_accelerations(&pose, &q', &q'')` | of all outputs |
-/// | `velocity_ratios`, `point_ratios`, `output_ratios` | W, and W_l with l' = W_l v' of each point and output |
-/// | `residual`, `closure_sizes` | Psi, and the sum of the magnitudes of its terms |
-/// | `jacobian`, `jacobian_unknowns`, `jacobian_inputs` | the whole of `Psi_q`, J and A |
-/// | `determinant`, `block_determinants` | det J, and the determinants of its blocks in the order in which they are solved |
-/// | `gamma(&pose, &q')`, `solve_jacobian(&pose, &r)` | the quadratic velocity term, and J^-1 r |
-/// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and the like of points and outputs | where a `derive` statement asks for them |
-/// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` makes a document of it |
+/// | `points(&pose)`, `point_velocities(&pose, &q')`, `point_accelerations(&pose, &q', &q'')` | positions, velocities and accelerations of all points |
+/// | `outputs(&pose)`, `output_velocities(&pose, &q')`, `output_accelerations(&pose, &q', &q'')` | values, rates and accelerations of all outputs |
+/// | `velocity_ratios`, `point_ratios`, `output_ratios` | W; for each point and output l, W_l with l' = W_l v' |
+/// | `residual`, `residual_scales` | Psi; for each row, the sum of the magnitudes of its terms |
+/// | `jacobian`, `jacobian_unknowns`, `jacobian_inputs` | `Psi_q`, J and A |
+/// | `determinant`, `block_determinants` | det J; the determinants of its blocks in the order of solution |
+/// | `gamma(&pose, &q')`, `solve_jacobian(&pose, &r)` | the quadratic velocity term; J^-1 r |
+/// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and those of points and outputs | with a `derive` statement |
+/// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` prints it as a document |
 ///
-/// Their errors are `PositionError`. `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates nothing, cannot panic and
-/// needs no standard library.
+/// These functions return `PositionError`. `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates nothing,
+/// cannot panic and does not need the standard library.
 ///
-/// The closures are solved block by block: unknowns that depend on one another form a block, a block of
-/// one or two unknowns has a formula, a larger one a factorisation. Dyads are recognised by the way their
-/// unknowns enter the closure (RRR, RRP, RPR, two sliders) and named in the documentation and in
-/// `DERIVATION`; they, single angles and linear unknowns have their positions in closed form. Two links
-/// have an `Elbow` left or right of the line between their outer joints, seen from that of the unknown
-/// named first; a link and a slider have the `Slider` far or near; the closure of a single angle has a
-/// rising or falling `Slope` there. Sliders alone and linear unknowns have one solution. A singular block, and one that cannot be assembled, is named by
-/// its unknowns in the error.
+/// The equations are solved block by block: unknowns that depend on one another form a block. A block of one or two
+/// unknowns has a formula, a larger one a factorisation. Dyads (Assur groups of class II) are recognised by the way their
+/// unknowns enter the loop equation (RRR, RRP, RPR, two sliders) and named in the emitted documentation and in `DERIVATION`.
+/// Dyads, single angles and linear unknowns have closed-form positions. An RRR dyad has an `Elbow` left or right of the
+/// line between its outer joints, seen from that of the unknown named first; a link with a slider has the `Slider` far or
+/// near; a single angle has a rising or falling `Slope` of its equation. Two sliders and linear unknowns have one solution.
+/// An error names a singular block, or one that cannot be assembled, by its unknowns.
 ///
 /// # Turns of angles
 ///
-/// A group in closed form gives an angle as a direction. Its number, which tells how often it has turned, matters where
-/// a wheel, a rack or a screw is driven by it, in a length, a spring or a stop, in an output, in a function of your own,
-/// and in the sine of anything but a whole multiple of it. There the pose holds the number, and the branch has a turn:
-/// 0 is the principal value, between -pi and pi, and n adds 2 pi n. `assemble(v, branch)` depends on its arguments alone,
-/// so that a wheel behind an angle that goes through pi is put into another mesh unless the turn is counted.
-/// `assemble_near` counts it: it takes the turn nearest to a guess, such as the position before. `branch_of` finds the
-/// turns of a pose, and `assemble` on that branch gives the same numbers back. Two positions of different turns are
-/// still on one motion: `solve` compares the signs of determinants only. Inputs keep the number that they are
-/// given; an angle that a pose holds as its direction alone comes out of `coordinates()` between -pi and pi.
+/// The closed form of a group yields the direction (cos, sin) of an angle, not its number of turns. The angle itself matters
+/// where it drives a wheel, a rack or a screw, in a length, a spring or a stop, in an output, in a user function,
+/// and in the sine of anything but an integer multiple of it. In these cases the pose stores the angle as a number, and the
+/// branch has a field for its turn: 0 is the principal value, between -pi and pi, and n adds 2 pi n. `assemble(v, branch)`
+/// does not count turns: when an angle passes pi with the same branch, a wheel that it drives jumps.
+/// `assemble_near` uses the turn nearest to a guess, such as the previous position. `branch_of` returns the turns of a pose,
+/// and `assemble` on that branch reproduces its angles. Positions that differ by turns are on the same
+/// branch of the motion: `solve` compares only the signs of determinants. Inputs are returned as given; `coordinates()`
+/// returns angles that the pose stores as directions between -pi and pi.
 ///
 /// ```
 /// linkage::linkage! {
-///     /// A pin drives a slotted wheel about an axis near its own, which drives a second wheel of twice its size.
+///     /// A pin on a crank drives a slotted wheel, which drives a second wheel of twice its size.
 ///     pub mechanism PinAndSlot {
 ///         param pin = 9.6, distance = 1.1;
 ///         input phi;
@@ -606,37 +604,38 @@ use proc_macro::TokenStream;
 ///
 /// # Degenerate positions
 ///
-/// A group can have no position at an input, one, two, or infinitely many. `assemble` says which:
+/// A group can have no position at an input, one, two, or infinitely many:
 ///
-/// - Links that do not reach each other: `PositionError::Unbuildable`, with the gap. Guides that are parallel and apart, and an
-///   unknown whose factor vanishes in an equation that needs it, are unbuildable too.
-/// - Links that just touch, flat at a limit: the position, whose determinant is zero; both branches meet there. A gap of
-///   less than an epsilon, relative to the terms of the loop equation, counts as touching: rounding leaves no smaller one.
-/// - A dyad whose outer joints coincide: with links of one length it can stand anywhere, which is
-///   `PositionError::Undetermined`; with links of different lengths it is unbuildable. Joints coincide within eight epsilons of the
-///   terms that they are made of. Likewise undetermined are a slotted arm whose pin is in its pivot, guides on one line, a
-///   link without length, and `0 * u = 0`.
+/// - Links that do not reach each other: `assemble` returns `PositionError::Unbuildable` with the gap. It does so too for
+///   guides that are parallel and apart, and for a linear unknown whose coefficient vanishes.
+/// - Links stretched or folded in line at a limit: `assemble` returns the position, whose determinant is zero; both branches
+///   meet there. A gap of less than one epsilon times the terms of the loop equation counts as zero, since rounding errors
+///   are of this size.
+/// - A dyad whose outer joints coincide: with links of equal length its position is arbitrary, and `assemble` returns
+///   `PositionError::Undetermined`; with links of different lengths it is unbuildable. Joints coincide if their distance is less
+///   than eight epsilons times the terms of their coordinates. Also undetermined are a slotted arm whose pin is in its pivot,
+///   guides on one line, a link of zero length, and `0 * u = 0`.
 ///
-/// A later group can be undetermined where an earlier one is at its limit: in Peaucellier's cell the rhombus closes there.
-/// `limits` gives that input nevertheless, as `Exact`, and passes inputs inside the range at which a group is undetermined,
-/// such as a folded kite. `branches` leaves out a branch on which a group is undetermined, as it leaves out one that is
-/// unbuildable. A limit that is `Exact` is right to two ulp, one that is `Bracketed` lies between its two inputs or within
-/// three ulp of them, each times the condition number of the limit: what a relative change of every length does to it.
-/// No limit is a number that is not finite.
+/// A later group can be undetermined where an earlier one is at its limit: in Peaucellier's cell the rhombus folds there.
+/// `limits` returns that input all the same, as `Exact`, and ignores inputs inside the range at which a group is undetermined,
+/// such as a folded kite. `branches` omits branches on which a group is undetermined or unbuildable.
+/// An `Exact` limit is accurate to two ulp; a `Bracketed` limit lies between its two inputs or within
+/// three ulp of them; both times the condition number of the limit with respect to relative changes of the lengths.
+/// All limits are finite numbers.
 ///
-/// # What is rejected
+/// # Compile errors
 ///
-/// Every mistake is reported on the token that made it, all at once, with what to do about it: unknown
-/// names, names used twice, unused parameters and coordinates (unless they begin with `_`), rows and
-/// unknowns that do not match, closures in which nothing unknown appears, unknowns that compete for too
-/// few closures, closures that are singular at every position, vectors where scalars belong and scalars
-/// where vectors belong, a name used as an angle and as a modulus, a function of your own that gives too few
-/// derivatives, `derive` of what is unknown or named already, bodies of negative mass or in no scene, scenes in which
-/// nothing with inertia moves with an input, division by zero, constants that no `f64` holds, attributes without effect,
-/// and what is too large: parentheses nested deeper than 64 levels, more than 100 000 words and signs, more than
-/// 25 000 expressions, or 40 000 with their derivatives, each entry of a `sensitivity` being one (a chain of
-/// four-bars takes 70 a loop). All mechanisms of an invocation share one budget of work, which is counted and not timed:
-/// 345 legs of Jansen's walking machine, as many as fit into one, take three quarters of it.
+/// The macro reports all mistakes at once, each on its token and with a remedy: unknown names, names used twice,
+/// unused parameters and coordinates (unless they begin with `_`), numbers of equations and unknowns that differ,
+/// equations without unknowns, more equations for some unknowns than there are of these, equations that are
+/// singular at every position, vectors where scalars belong and scalars where vectors belong, a name used as an angle
+/// and as a length, a user function that returns too few derivatives, unknown or repeated keywords after `derive`,
+/// bodies of negative mass or in no scene, scenes in which no inertia moves with an input, division by zero,
+/// constants outside the range of `f64`, and attributes without effect. There are limits of size: 64 levels of
+/// parentheses, 100 000 tokens, 25 000 expressions, and 40 000 with their derivatives, including one for
+/// each entry of `sensitivity` (a chain of four-bars takes 70 for each loop). All mechanisms of an invocation share one
+/// budget of work, which is counted, not timed: 345 legs of Jansen's walking machine, as many as 100 000 tokens define,
+/// take three quarters of it.
 ///
 /// ```compile_fail
 /// linkage::linkage! {
@@ -650,7 +649,7 @@ use proc_macro::TokenStream;
 /// ```
 #[proc_macro]
 pub fn linkage(input: TokenStream) -> TokenStream {
-    // The facade's macro hands its own path over as the first token.
+    // The macro of the facade passes its own path as the first token.
     let mut tokens = proc_macro2::TokenStream::from(input).into_iter();
     let root = tokens.next().into_iter().collect();
     let facade = Facade { path: root, has_dynamics: cfg!(feature = "dynamics") };

@@ -74,15 +74,15 @@ pub trait Mechanism {
     /// The residuals Psi of the constraints.
     fn residual(&self, pose: &Self::Pose) -> PerUnknown<Self>;
     /// The sum of the magnitudes of the terms of each residual.
-    fn closure_sizes(&self, pose: &Self::Pose) -> PerUnknown<Self>;
+    fn residual_scales(&self, pose: &Self::Pose) -> PerUnknown<Self>;
     /// J, the derivative of Psi by u.
     fn jacobian_unknowns(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
     /// A, the derivative of Psi by v.
     fn jacobian_inputs(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
     /// The largest magnitude that each entry of J could have at these lengths.
-    fn jacobian_unknowns_sizes(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
+    fn jacobian_unknowns_scales(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
     /// The largest magnitude that each entry of A could have at these lengths.
-    fn jacobian_inputs_sizes(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
+    fn jacobian_inputs_scales(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
     /// det J.
     fn determinant(&self, pose: &Self::Pose) -> Self::Scalar;
     /// The determinant of the block of J of each group.

@@ -152,7 +152,7 @@ impl<M: Mechanism> Constraints for Whole<'_, M> {
     }
 
     fn residual(&self, pose: &M::Pose) -> (PerUnknown<M>, PerUnknown<M>) {
-        (self.mechanism.residual(pose), self.mechanism.closure_sizes(pose))
+        (self.mechanism.residual(pose), self.mechanism.residual_scales(pose))
     }
 
     fn solve(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {

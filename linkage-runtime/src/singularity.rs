@@ -153,12 +153,12 @@ struct Equilibrated<M: Mechanism> {
 
 impl<M: Mechanism> Equilibrated<M> {
     fn of(mechanism: &M, pose: &M::Pose) -> Result<Self, PositionError> {
-        let residual_scales = mechanism.closure_sizes(pose);
+        let residual_scales = mechanism.residual_scales(pose);
         let divisors = residual_scales.map(positive);
         let (unknowns, unknown_scales) =
-            equilibrated(&divisors, &mechanism.jacobian_unknowns(pose), &mechanism.jacobian_unknowns_sizes(pose));
+            equilibrated(&divisors, &mechanism.jacobian_unknowns(pose), &mechanism.jacobian_unknowns_scales(pose));
         let (inputs, input_scales) =
-            equilibrated(&divisors, &mechanism.jacobian_inputs(pose), &mechanism.jacobian_inputs_sizes(pose));
+            equilibrated(&divisors, &mechanism.jacobian_inputs(pose), &mechanism.jacobian_inputs_scales(pose));
         // Divided by infinite scales, everything would be zero.
         let scales = residual_scales.iter().chain(unknown_scales.iter()).chain(input_scales.iter());
         all_finite(M::NAME, "the Jacobian", unknowns.iter().chain(inputs.iter()).chain(scales))?;

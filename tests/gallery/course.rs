@@ -87,7 +87,7 @@ impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
             Err(error) => panic!("at {:.3}: {error}", *(self.input)(&mut { guess })),
         };
         let pose = self.mechanism.pose_at(&solution.coordinates);
-        let sizes = self.mechanism.closure_sizes(&pose);
+        let sizes = self.mechanism.residual_scales(&pose);
         for (residual, size) in self.mechanism.residual(&pose).iter().zip(sizes.iter()) {
             exact(*residual, 0.0, *size);
         }

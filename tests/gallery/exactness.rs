@@ -17,7 +17,7 @@ macro_rules! closed_form {
             let pose = $mechanism.pose_at(q);
             let found = $mechanism.assemble(q.$input, $mechanism.branch_of(&pose)).expect("an assembly");
             assert_eq!($mechanism.branch_of(&found), $mechanism.branch_of(&pose));
-            let size = $mechanism.closure_sizes(&found).sum();
+            let size = $mechanism.residual_scales(&found).sum();
             $crate::exactness::exact($mechanism.residual(&found).amax(), 0.0, size);
             let (ours, theirs) = ($mechanism.block_determinants(&found), $mechanism.block_determinants(&pose));
             let (j, other) = ($mechanism.jacobian_unknowns(&found), $mechanism.jacobian_unknowns(&pose));
@@ -48,7 +48,7 @@ macro_rules! from_the_last {
             let (mut guess, expected) = (pair[0], $mechanism.pose_at(&pair[1]));
             guess.$input = pair[1].$input;
             let found = $mechanism.assemble_near(&guess, $mechanism.branch_of(&expected)).expect("a position");
-            let size = $mechanism.closure_sizes(&found).sum();
+            let size = $mechanism.residual_scales(&found).sum();
             $crate::exactness::exact($mechanism.residual(&found).amax(), 0.0, size);
             let (j, other) = ($mechanism.jacobian_unknowns(&found), $mechanism.jacobian_unknowns(&expected));
             approx::assert_abs_diff_eq!((j - other).amax(), 0.0, epsilon = 1e-12 * (1.0 + j.amax()));

@@ -98,7 +98,7 @@ fn zero_lengths() {
             for step in path.by_ref().take(50) {
                 let Ok(step) = step else { break };
                 let pose = m.pose_at(&step.position);
-                assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.closure_sizes(&pose).amax());
+                assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.residual_scales(&pose).amax());
             }
         }
     }

@@ -90,7 +90,7 @@ pub struct Derivation {
     /// Psi.
     pub residual: Table<RowId, NodeId>,
     /// The sum of the magnitudes of each closure's terms: what "small residual" is measured by.
-    pub sizes: Table<RowId, NodeId>,
+    pub residual_scales: Table<RowId, NodeId>,
     /// Psi_q.
     pub jacobian: Table<RowId, Row<ColumnId>>,
     pub blocks: Table<BlockId, Block>,

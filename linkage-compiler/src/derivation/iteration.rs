@@ -15,7 +15,7 @@ impl Derivation {
         let columns = self.unknowns.at(&block.unknowns);
         let targets: Vec<SymbolId> = columns.iter().map(|&column| self.coordinates[column].value).collect();
         let mut system = self.residual.at(&block.equations);
-        system.extend(self.sizes.at(&block.equations));
+        system.extend(self.residual_scales.at(&block.equations));
         system.extend(self.block_matrix(block).into_iter().flatten());
         let system = assembly.solved(&mut self.graph, &system);
         let mut split = Split::new(self, &targets, &system);

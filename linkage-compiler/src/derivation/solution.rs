@@ -54,7 +54,7 @@ impl Derivation {
     /// The check of a block, and the divisor of its closed form.
     pub(super) fn judge(&mut self, id: BlockId, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
         let Some(determinant) = block.determinant else {
-            let sizes = self.sizes.at(&block.equations);
+            let sizes = self.residual_scales.at(&block.equations);
             steps.push(Step::Factor { block: id, matrix: self.block_matrix(block), sizes });
             return None;
         };

@@ -41,7 +41,7 @@ impl Derivation {
     }
 
     /// The largest magnitudes that the entries of J and of A could have.
-    pub fn jacobian_sizes(&mut self) -> (Table<RowId, Row<UnknownId>>, Table<RowId, Row<InputId>>) {
+    pub fn jacobian_scales(&mut self) -> (Table<RowId, Row<UnknownId>>, Table<RowId, Row<InputId>>) {
         let (unknowns, inputs) = (self.jacobian_unknowns(), self.jacobian_inputs());
         (sizes(&mut self.graph, unknowns), sizes(&mut self.graph, inputs))
     }

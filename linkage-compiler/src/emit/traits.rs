@@ -122,11 +122,11 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     let parts = [divided("parts", "q", &coordinates), divided("rate_parts", "rates", &rates)];
     let of_pose = [
         ("residual", &by_unknowns),
-        ("closure_sizes", &by_unknowns),
+        ("residual_scales", &by_unknowns),
         ("jacobian_unknowns", &square),
         ("jacobian_inputs", &mixed),
-        ("jacobian_unknowns_sizes", &square),
-        ("jacobian_inputs_sizes", &mixed),
+        ("jacobian_unknowns_scales", &square),
+        ("jacobian_inputs_scales", &mixed),
         ("block_determinants", &quote!(__rt::Column<T, __rt::D<#g>>)),
     ];
     let of_pose = of_pose.map(|(function, of)| {

@@ -15,12 +15,12 @@ impl Plan<'_, '_> {
     pub(super) fn equations(&mut self) {
         self.residual();
         self.jacobians();
-        self.jacobian_sizes();
+        self.jacobian_scales();
         self.determinants();
     }
 
     fn residual(&mut self) {
-        let (residual, sizes) = (self.derivation.residual.clone(), self.derivation.sizes.clone());
+        let (residual, sizes) = (self.derivation.residual.clone(), self.derivation.residual_scales.clone());
         let mut doc = lines(["The closures Psi(q), zero where the mechanism is closed."]);
         doc.extend(self.numbered("Psi", &residual));
         for closure in &self.signatures.mechanism.closures {
@@ -30,7 +30,7 @@ impl Plan<'_, '_> {
         self.add(self.signatures.residual(), without_result(doc), body);
         let doc = lines(["The sum of the magnitudes of each closure's terms: what makes a residual small or large."]);
         let body = self.vector_of(&sizes);
-        self.add(self.signatures.closure_sizes(), without_result(doc), body);
+        self.add(self.signatures.residual_scales(), without_result(doc), body);
     }
 
     fn vector_of(&self, nodes: &[NodeId]) -> Body {
@@ -71,16 +71,16 @@ impl Plan<'_, '_> {
         self.add(self.signatures.jacobian(), without_result(doc), body);
     }
 
-    fn jacobian_sizes(&mut self) {
+    fn jacobian_scales(&mut self) {
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
-        let (of_unknowns, of_inputs) = self.derivation.jacobian_sizes();
+        let (of_unknowns, of_inputs) = self.derivation.jacobian_scales();
         let (unknowns, inputs) = (self.derivation.unknowns.ids(), self.derivation.inputs.ids());
         let body = self.matrix_function(&entries(&of_unknowns, unknowns), u, u);
         let doc = lines(["The largest magnitude that each entry of J could have at these lengths."]);
-        self.add(self.signatures.jacobian_unknowns_sizes(), without_result(doc), body);
+        self.add(self.signatures.jacobian_unknowns_scales(), without_result(doc), body);
         let body = self.matrix_function(&entries(&of_inputs, inputs), u, v);
         let doc = lines(["The largest magnitude that each entry of A could have at these lengths."]);
-        self.add(self.signatures.jacobian_inputs_sizes(), without_result(doc), body);
+        self.add(self.signatures.jacobian_inputs_scales(), without_result(doc), body);
     }
 
     fn determinants(&mut self) {

@@ -49,7 +49,7 @@ impl Plan<'_, '_> {
             _ if !is_searched => Expression::Constant("Search::ClosedFormOnly"),
             Kind::Angle => Expression::Constant("Search::Turn"),
             _ => {
-                let sizes = Expression::call("closure_sizes", [position().borrowed()]).method("sum", []);
+                let sizes = Expression::call("residual_scales", [position().borrowed()]).method("sum", []);
                 let four = Expression::Number(crate::graph::Number::integer(4));
                 Expression::runtime("Search::Length", [Expression::Product(vec![four, sizes])])
             }

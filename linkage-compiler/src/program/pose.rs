@@ -138,7 +138,7 @@ fn formulas_of_scenes(derivation: &Derivation) -> impl Iterator<Item = NodeId> {
 
 fn formulas(derivation: &Derivation) -> Vec<NodeId> {
     let mut formulas = derivation.residual.to_vec();
-    formulas.extend(&derivation.sizes);
+    formulas.extend(&derivation.residual_scales);
     formulas.extend(derivation.jacobian.iter().flat_map(Row::values));
     formulas.extend(&derivation.gamma);
     formulas.extend(derivation.eta.iter().flatten());

@@ -90,12 +90,12 @@ impl<'a> Signatures<'a> {
         }
         all.extend([
             self.residual(),
-            self.closure_sizes(),
+            self.residual_scales(),
             self.jacobian(),
             self.jacobian_unknowns(),
             self.jacobian_inputs(),
-            self.jacobian_unknowns_sizes(),
-            self.jacobian_inputs_sizes(),
+            self.jacobian_unknowns_scales(),
+            self.jacobian_inputs_scales(),
             self.determinant(),
             self.block_determinants(position.blocks),
             self.gamma(),
@@ -205,8 +205,8 @@ impl<'a> Signatures<'a> {
         total("residual", [self.pose()], Type::Vector(self.unknowns()))
     }
 
-    pub fn closure_sizes(&self) -> Function<Body> {
-        total("closure_sizes", [self.pose()], Type::Vector(self.unknowns()))
+    pub fn residual_scales(&self) -> Function<Body> {
+        total("residual_scales", [self.pose()], Type::Vector(self.unknowns()))
     }
 
     pub fn jacobian_unknowns(&self) -> Function<Body> {
@@ -221,12 +221,12 @@ impl<'a> Signatures<'a> {
         total("jacobian", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns() + self.inputs()))
     }
 
-    pub fn jacobian_unknowns_sizes(&self) -> Function<Body> {
-        hidden("jacobian_unknowns_sizes", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns()))
+    pub fn jacobian_unknowns_scales(&self) -> Function<Body> {
+        hidden("jacobian_unknowns_scales", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns()))
     }
 
-    pub fn jacobian_inputs_sizes(&self) -> Function<Body> {
-        hidden("jacobian_inputs_sizes", [self.pose()], Type::Matrix(self.unknowns(), self.inputs()))
+    pub fn jacobian_inputs_scales(&self) -> Function<Body> {
+        hidden("jacobian_inputs_scales", [self.pose()], Type::Matrix(self.unknowns(), self.inputs()))
     }
 
     pub fn determinant(&self) -> Function<Body> {

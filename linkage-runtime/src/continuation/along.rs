@@ -104,8 +104,8 @@ where
         self.mechanism.residual(&at.pose)
     }
 
-    fn closure_sizes(&self, at: &Self::Pose) -> PerUnknown<M> {
-        self.mechanism.closure_sizes(&at.pose)
+    fn residual_scales(&self, at: &Self::Pose) -> PerUnknown<M> {
+        self.mechanism.residual_scales(&at.pose)
     }
 
     fn jacobian_unknowns(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, M::U> {
@@ -116,12 +116,12 @@ where
         Matrix::from_columns([self.mechanism.jacobian_inputs(&at.pose) * at.slope].into())
     }
 
-    fn jacobian_unknowns_sizes(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, M::U> {
-        self.mechanism.jacobian_unknowns_sizes(&at.pose)
+    fn jacobian_unknowns_scales(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, M::U> {
+        self.mechanism.jacobian_unknowns_scales(&at.pose)
     }
 
-    fn jacobian_inputs_sizes(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, D<1>> {
-        Matrix::from_columns([self.mechanism.jacobian_inputs_sizes(&at.pose) * at.slope.abs()].into())
+    fn jacobian_inputs_scales(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, D<1>> {
+        Matrix::from_columns([self.mechanism.jacobian_inputs_scales(&at.pose) * at.slope.abs()].into())
     }
 
     fn determinant(&self, at: &Self::Pose) -> M::Scalar {

@@ -97,7 +97,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
         let here = coordinates::<M>(q).relative_to(&self.scales.coordinates);
         let jacobian = self.scales.jacobian(mechanism, &pose);
         let residual = mechanism.residual(&pose).component_div(scales);
-        let terms = mechanism.closure_sizes(&pose).component_div(scales);
+        let terms = mechanism.residual_scales(&pose).component_div(scales);
         let noise = (terms + jacobian.abs().along(&here.abs())) * M::Scalar::default_epsilon();
         if here.is_finite() && residual.is_finite() && noise.is_finite() && jacobian.is_finite() {
             Ok(Linear { residual, noise, jacobian })

@@ -21,8 +21,8 @@ impl<M: Mechanism> Blocks<M> {
     pub fn of(mechanism: &M, pose: &M::Pose) -> Self {
         Self {
             jacobian: mechanism.jacobian_unknowns(pose),
-            scales: mechanism.jacobian_unknowns_sizes(pose),
-            residual_scales: mechanism.closure_sizes(pose),
+            scales: mechanism.jacobian_unknowns_scales(pose),
+            residual_scales: mechanism.residual_scales(pose),
             determinants: mechanism.block_determinants(pose),
         }
     }

@@ -29,9 +29,9 @@ pub struct Jacobian<T: Real, U: Dim, V: Dim> {
 impl<T: Real, U: Dim, V: Dim> Scales<T, U, V> {
     /// Computes the scales of a mechanism from its lengths at a position.
     pub fn of<M: Mechanism<Scalar = T, U = U, V = V>>(mechanism: &M, pose: &M::Pose) -> Self {
-        let by_unknowns = mechanism.jacobian_unknowns_sizes(pose);
-        let by_inputs = mechanism.jacobian_inputs_sizes(pose);
-        let terms = mechanism.closure_sizes(pose);
+        let by_unknowns = mechanism.jacobian_unknowns_scales(pose);
+        let by_inputs = mechanism.jacobian_inputs_scales(pose);
+        let terms = mechanism.residual_scales(pose);
         // The scale of a residual is its largest derivative by an angle, or without angles the sum of its terms.
         let residuals = Column::from_fn(|row| {
             let of_unknowns = of_angles(&by_unknowns.row(row), M::UNKNOWN_ANGLES);

@@ -59,8 +59,8 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     fn residual(&self, pose: &M::Pose) -> PerUnknown<M> {
         self.0.residual(pose)
     }
-    fn closure_sizes(&self, pose: &M::Pose) -> PerUnknown<M> {
-        self.0.closure_sizes(pose)
+    fn residual_scales(&self, pose: &M::Pose) -> PerUnknown<M> {
+        self.0.residual_scales(pose)
     }
     fn jacobian_unknowns(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::U> {
         self.0.jacobian_unknowns(pose)
@@ -68,11 +68,11 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     fn jacobian_inputs(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::V> {
         self.0.jacobian_inputs(pose)
     }
-    fn jacobian_unknowns_sizes(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::U> {
-        self.0.jacobian_unknowns_sizes(pose)
+    fn jacobian_unknowns_scales(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::U> {
+        self.0.jacobian_unknowns_scales(pose)
     }
-    fn jacobian_inputs_sizes(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::V> {
-        self.0.jacobian_inputs_sizes(pose)
+    fn jacobian_inputs_scales(&self, pose: &M::Pose) -> Matrix<f64, M::U, M::V> {
+        self.0.jacobian_inputs_scales(pose)
     }
     fn determinant(&self, pose: &M::Pose) -> f64 {
         self.0.determinant(pose)
