@@ -123,7 +123,17 @@ snapshot!(
     of_scene(
         "four_bar_scenes",
         "Idle",
-        &["reduced_inertia", "effects", "reduced_forces", "mass_matrix", "forces", "rates", "energy", "check", "blame"]
+        &[
+            "reduced_inertia",
+            "effects",
+            "reduced_forces",
+            "mass_matrix",
+            "forces",
+            "rates",
+            "energy",
+            "check",
+            "check_effects"
+        ]
     )
 );
 snapshot!(

@@ -1,17 +1,17 @@
-//! The work that one invocation may take: counted, never timed, so that two expansions of one input are equal.
+//! The budget of work of one invocation. Work is counted, not timed, so that expansion is deterministic.
 
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// The steps of an invocation; a step is a part of an expression that is looked at, made or written, and what stays in
-/// memory counts as several.
+/// The largest number of steps of an invocation. A step reads, makes or prints one part of an expression; allocated
+/// nodes count as several.
 ///
-/// 345 legs of Jansen's walking machine with all their derivatives, which are as many as 100 000 tokens hold, take
-/// 114 million. With half as many steps they would be refused; twice as many would let an invocation that is refused in
-/// the end take twice as long, and more memory than 512 MB.
+/// 345 legs of Jansen's walking machine with all derivatives, as many as 100 000 tokens define, take 114 million steps.
+/// With half the budget they would be an error; with twice the budget an invocation that exceeds it would take twice as
+/// long and more than 512 MB.
 pub const MOST_STEPS: usize = 150_000_000;
 
-/// The remaining steps of an invocation, which all its graphs share.
+/// The remaining steps of an invocation; all its graphs share them.
 #[derive(Debug, Clone)]
 pub struct Budget {
     left: Rc<Cell<usize>>,
@@ -24,26 +24,26 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// A budget of so many steps.
+    /// A budget of this number of steps.
     #[must_use]
     pub fn new(steps: usize) -> Self {
         Self { left: Rc::new(Cell::new(steps)) }
     }
 
-    /// Takes steps; gives whether there were so many.
+    /// Takes steps; returns false if the budget is then spent.
     pub fn spend(&self, steps: usize) -> bool {
         let left = self.left.get().saturating_sub(steps);
         self.left.set(left);
         left > 0
     }
 
-    /// True if nothing is left: what is made from now on has no meaning, and loops end.
+    /// Returns true if no steps remain. Results are then meaningless, and loops must end.
     #[must_use]
     pub fn is_spent(&self) -> bool {
         self.left.get() == 0
     }
 
-    /// The steps that are left.
+    /// The remaining steps.
     #[must_use]
     pub fn left(&self) -> usize {
         self.left.get()

@@ -1,4 +1,4 @@
-//! Mistakes of the user, collected per stage, each on the user's own tokens.
+//! Error messages, collected for each stage, each on the tokens of the mistake.
 
 use proc_macro2::{Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
@@ -63,18 +63,18 @@ impl Diagnostics {
         self.errors.len()
     }
 
-    /// Takes back all messages but the first ones.
+    /// Keeps the first `length` messages.
     pub fn truncate(&mut self, length: usize) {
         self.errors.truncate(length);
     }
 
-    /// The messages as text, in the order found.
+    /// The messages as text, in order.
     #[must_use]
     pub fn messages(&self) -> Vec<String> {
         self.errors.iter().map(ToString::to_string).collect()
     }
 
-    /// One `compile_error!` a message.
+    /// One `compile_error!` for each message.
     #[must_use]
     pub fn to_tokens(&self) -> TokenStream {
         let errors = self.errors.iter().map(syn::Error::to_compile_error);
@@ -82,14 +82,14 @@ impl Diagnostics {
     }
 }
 
-/// ", did you mean `…`?" if one of the candidates is near enough to `name`.
+/// Returns ", did you mean `…`?" if a candidate resembles `name`, else nothing.
 pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
     nearest(name, candidates).map_or_else(String::new, |candidate| format!(", did you mean `{candidate}`?"))
 }
 
-/// The candidate that is nearest to `name`, if it is near enough.
+/// Returns the candidate with the smallest edit distance to `name`, up to half of its letters and 3.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // Half the letters may differ, and at least one.
+    // Half the letters may differ, at least one and at most three.
     let limit = (name.chars().count() / 2).clamp(1, 3);
     let distance = |candidate: &str| match name.eq_ignore_ascii_case(candidate) {
         true => 0,

@@ -1,4 +1,4 @@
-//! The index spaces of the compiler: an id is a place in the tables of one space, and no other table takes it.
+//! Typed indices: an id of one space indexes only the tables of that space, so that mixing them is a compile error.
 //!
 //! ```
 //! # use linkage_compiler::ids::{RowId, Table};
@@ -18,13 +18,13 @@
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut};
 
-/// A place in the tables of one index space.
+/// An index into the tables of one space.
 pub trait Id: Copy {
     fn new(index: usize) -> Self;
 
     fn index(self) -> usize;
 
-    /// The place counted from one, as names and descriptions count.
+    /// The index counted from one, as in names and doc comments.
     fn number(self) -> usize {
         self.index() + 1
     }
@@ -51,32 +51,32 @@ macro_rules! ids {
 ids! {
     /// A coordinate in the order of declaration.
     CoordinateId
-    /// A coordinate by its place in q: a column of Psi_q.
+    /// The index of a coordinate in q: a column of Psi_q.
     ColumnId
-    /// A dependent coordinate by its place in u: a column of J.
+    /// The index of a dependent coordinate in u: a column of J.
     UnknownId
-    /// An independent coordinate by its place in v: a column of A.
+    /// The index of an independent coordinate in v: a column of A.
     InputId
     /// A row of Psi: a scalar equation, or one of the two of a `loop`.
     RowId
     /// A group of unknowns that are solved together, in the order of solution.
     BlockId
-    /// An equation or an unknown by its place within a block.
+    /// The index of an equation or unknown within a block.
     MemberId
-    /// Two inputs by which something is derived, in either order.
+    /// An unordered pair of inputs, for second derivatives.
     PairId
     /// A choice of inputs.
     DriverId
     BodyId
-    /// A scene of a mechanism, whatever its driver.
+    /// A scene of a mechanism, of any driver.
     SceneId
     /// A parameter of a mechanism.
     ParameterId
-    /// A parameter that only scenes hold.
+    /// A parameter that only scenes use.
     SceneParameterId
 }
 
-/// A list whose places are those of one index space.
+/// A list that is indexed by the ids of one space.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table<I, T> {
     entries: Vec<T>,
@@ -92,18 +92,18 @@ impl<I: Id, T> Table<I, T> {
         self.ids().zip(&self.entries)
     }
 
-    /// Adds an entry and gives its place.
+    /// Adds an entry and returns its id.
     pub fn push(&mut self, entry: T) -> I {
         self.entries.push(entry);
         I::new(self.entries.len() - 1)
     }
 
-    /// An entry for each place, all the same.
+    /// A table of the same length with copies of one entry.
     pub fn filled<U: Clone>(&self, entry: U) -> Table<I, U> {
         vec![entry; self.entries.len()].into()
     }
 
-    /// The entries at these places.
+    /// The entries with these ids.
     pub fn at(&self, ids: &[I]) -> Vec<T>
     where
         T: Copy,
@@ -111,7 +111,7 @@ impl<I: Id, T> Table<I, T> {
         ids.iter().map(|&id| self[id]).collect()
     }
 
-    /// The same places with other entries.
+    /// Applies a function to each entry.
     pub fn map<U>(self, f: impl FnMut(T) -> U) -> Table<I, U> {
         self.entries.into_iter().map(f).collect()
     }
@@ -173,7 +173,7 @@ impl<I: Id, T> IndexMut<I> for Table<I, T> {
     }
 }
 
-/// A table is read as the list that it is, but for its places.
+/// Gives the methods of slices; indexing needs an id.
 impl<I, T> Deref for Table<I, T> {
     type Target = [T];
 

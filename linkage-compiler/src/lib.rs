@@ -1,8 +1,9 @@
 //! The compiler behind `linkage!`: tokens in, tokens out.
 //!
-//! [`expand`] is the whole of it in one paragraph. The stages, each of which depends on stages before it alone: syntax,
-//! graph, structure, model, algebra, derivation (mathematics only), program (which functions a mechanism gets), lower
-//! (shared, ordered and named formulas), notation (formulas for people), emit (printers).
+//! [`expand`] runs all stages. Each depends only on stages before it: syntax (parser), graph (expressions), structure
+//! (order of solution), model (name resolution and checks), algebra (simplification), derivation (mathematics), program
+//! (the functions to emit), lower (common subexpressions, order, names), notation (formulas for readers), emit
+//! (printers).
 
 pub mod algebra;
 pub mod budget;
@@ -29,8 +30,8 @@ use program::Operations;
 
 /// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
 ///
-/// Mistakes come out as `compile_error!`s on the tokens that made them, beside stubs that have the
-/// names and types of what was meant, so that one mistake is one message.
+/// Mistakes become `compile_error!`s on their tokens. Stubs with the intended names and types come with them, so that
+/// uses of the mechanism cause no further errors.
 #[must_use]
 pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
     expand_within(input, &Facade::complete(root), &Budget::default())
@@ -46,14 +47,14 @@ pub struct Facade {
 }
 
 impl Facade {
-    /// With all features.
+    /// The crate at this path with all features on.
     #[must_use]
     pub fn complete(path: &TokenStream) -> Self {
         Self { path: path.clone(), has_dynamics: true }
     }
 }
 
-/// Expands an invocation that may take so many steps of work.
+/// Expands one `linkage!` invocation within a budget of work.
 #[must_use]
 pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> TokenStream {
     let root = &facade.path;
@@ -64,7 +65,7 @@ pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> To
         let (before, was_spent) = (diagnostics.len(), budget.is_spent());
         let mut mechanism = model::resolve(tree, budget, &mut diagnostics);
         if !facade.has_dynamics {
-            refuse_scenes(&mut mechanism, &mut diagnostics);
+            report_scenes(&mut mechanism, &mut diagnostics);
         }
         if budget.is_spent() {
             diagnostics.truncate(before);
@@ -92,15 +93,15 @@ pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> To
     tokens
 }
 
-/// Reports each scene, and leaves it out: nothing that its stub would name is there.
-fn refuse_scenes(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
+/// Reports and removes all scenes: without the feature `dynamics` the types that their stubs name do not exist.
+fn report_scenes(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
     for scene in std::mem::take(&mut mechanism.scenes).iter() {
-        diagnostics.error(scene.name.span(), "a scene needs the feature `dynamics` of `linkage`");
+        diagnostics
+            .error(scene.name.span(), "a scene needs the feature `dynamics` of `linkage`: enable it in Cargo.toml");
     }
 }
 
-/// Derives a mechanism, reports what only its derivatives tell, and prints its program; one driver after the other, so
-/// that only one of them is held.
+/// Derives a mechanism, checks its derivatives, and prints its program, one driver after the other to limit memory.
 fn printed(mechanism: &Mechanism, budget: &Budget, root: &TokenStream, diagnostics: &mut Diagnostics) -> TokenStream {
     let mut drivers = Vec::new();
     for driver in &mechanism.drivers {
@@ -123,22 +124,24 @@ fn printed(mechanism: &Mechanism, budget: &Budget, root: &TokenStream, diagnosti
     emit::mechanism(mechanism, drivers, root)
 }
 
-/// Reports that the work of an invocation ends in a mechanism.
+/// Reports that the budget of an invocation is spent in a mechanism.
 fn too_much(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     let name = &mechanism.name;
     diagnostics.error(
         name.span(),
-        format_args!("this invocation takes more work than is done for one, and `{name}` is where it ends; split it"),
+        format_args!(
+            "this invocation exceeds the compiler's budget of work in `{name}`: split it into several invocations"
+        ),
     );
 }
 
-/// What a checked mechanism becomes, and how large it is.
+/// The emitted code of a checked mechanism, and its size.
 #[derive(Debug, Clone)]
 pub struct Expansion {
     pub tokens: TokenStream,
-    /// The nodes of the expression graphs.
+    /// The number of nodes of the expression graphs.
     pub nodes: usize,
-    /// The work of all emitted functions, each called once.
+    /// The operations of all emitted functions, each called once.
     pub operations: Operations,
 }
 
@@ -155,13 +158,13 @@ pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Expansion {
     Expansion { tokens: emit::mechanism(mechanism, drivers, root), nodes, operations }
 }
 
-/// The derivations of a checked mechanism, one for each driver.
+/// Returns the derivations of a checked mechanism, one for each driver.
 #[must_use]
 pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
     mechanism.drivers.iter().map(|driver| derivation::derive(mechanism, driver)).collect()
 }
 
-/// The lowered programs of a checked mechanism as text, one for each driver.
+/// Returns the lowered programs of a checked mechanism as text, one for each driver.
 #[must_use]
 pub fn programs(mechanism: &Mechanism) -> Vec<String> {
     let drivers = mechanism.drivers.iter().map(|driver| {
@@ -171,10 +174,10 @@ pub fn programs(mechanism: &Mechanism) -> Vec<String> {
     drivers.collect()
 }
 
-/// Reads mechanisms without expanding them, for tests and tools.
+/// Parses and checks mechanisms without expanding them, for tests and tools.
 ///
 /// # Errors
-/// The messages, if there are mistakes.
+/// The messages of all mistakes.
 pub fn read(input: TokenStream) -> Result<Vec<Mechanism>, Vec<String>> {
     let mut diagnostics = Diagnostics::default();
     let trees = syntax::parse(input, &mut diagnostics);

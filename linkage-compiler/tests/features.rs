@@ -1,4 +1,4 @@
-//! What an expansion says of a `linkage` crate without its feature `dynamics`.
+//! Expansion for a `linkage` crate without its feature `dynamics`.
 
 use linkage_compiler::Facade;
 use linkage_compiler::budget::Budget;
@@ -17,12 +17,12 @@ fn expanded(scene: &str, has_dynamics: bool) -> String {
 
 #[test]
 fn a_scene_needs_the_feature() {
-    let refused = expanded("scene Turning { inertia; }", false);
-    assert_eq!(refused.matches("compile_error").count(), 1, "{refused}");
-    assert!(refused.contains("a scene needs the feature `dynamics` of `linkage`"));
-    // The stub of the mechanism is there, and names nothing of the crate that is missing.
-    assert!(refused.contains("struct Crank") && !refused.contains("Turning"), "{refused}");
-    assert!(!refused.contains("Scene") && !refused.contains("MotionError"), "{refused}");
+    let without = expanded("scene Turning { inertia; }", false);
+    assert_eq!(without.matches("compile_error").count(), 1, "{without}");
+    assert!(without.contains("a scene needs the feature `dynamics` of `linkage`"));
+    // The stub of the mechanism is emitted, and names no item of the missing feature.
+    assert!(without.contains("struct Crank") && !without.contains("Turning"), "{without}");
+    assert!(!without.contains("Scene") && !without.contains("MotionError"), "{without}");
 
     let accepted = expanded("scene Turning { inertia; }", true);
     assert!(!accepted.contains("compile_error") && accepted.contains("struct Turning"));

@@ -1,5 +1,4 @@
-//! Closed forms of limits: which functions of an input have one is told by their third derivative, which the
-//! identities alone have to bring to zero.
+//! Closed forms of limits: they are recognised by third derivatives, which the identities must simplify to zero.
 
 use linkage_compiler::{derive, read};
 

@@ -1,4 +1,4 @@
-//! The stub of a mechanism has the functions of the mechanism: their names, arguments and results.
+//! The stub of a mechanism has the same functions as the mechanism: names, arguments and return types.
 
 use std::fs;
 use std::path::Path;
@@ -18,8 +18,7 @@ fn tokens_of(path: &Path) -> Option<TokenStream> {
     }
 }
 
-/// The public functions as text, without description and body, in alphabetical order: the plan has them in another order
-/// than the stub, which has that of the emitted code.
+/// The public functions as text, without doc comment and body, sorted by name, since plan and stub differ in order.
 fn signatures<B>(functions: &[Function<B>]) -> Vec<String> {
     let public = functions.iter().filter(|function| matches!(function.access, Access::Public | Access::Hidden));
     let signature = |function: &Function<B>| {

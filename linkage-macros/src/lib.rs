@@ -60,8 +60,9 @@ use proc_macro::TokenStream;
 /// | `input`, `unknown`, `coordinate`, `point`, `output`, `loop`, `equation`, `extern fn` | doc comments go to the emitted documentation |
 /// | `let`, `derive`, `body`, effects | doc comments only; they are not emitted |
 ///
-/// `cfg` on a part of a mechanism is an error, since macros run before it is evaluated: write one mechanism for each case.
-/// The macro also checks a mechanism that `cfg` removes. `deprecated` is an error, since the emitted code would trigger it.
+/// `cfg` on a part of a mechanism is an error, since macros run before it is evaluated: write one mechanism for each
+/// case. The macro also checks a mechanism that `cfg` removes. `deprecated` is an error, since the emitted code would
+/// trigger it.
 ///
 /// | statement | meaning |
 /// |---|---|
@@ -95,9 +96,9 @@ use proc_macro::TokenStream;
 /// | `f(x, p)` | a user function or one of its derivatives, under the name that `extern fn` gives it |
 /// | `pi`, `20deg`, `1.5`, `3` | constants; integers, decimals and their ratios stay exact |
 ///
-/// A constant must be zero or a normal `f64`, 2.3e-308 to 1.7e308 in magnitude, also if it is computed from others or arises
-/// in a derivative; otherwise the macro reports an error. Other scalars convert it from `f64`: in `f32` it becomes infinite
-/// above 3.4e38, which functions that return a `Result` report as `NotFinite`, and zero below 7e-46.
+/// A constant must be zero or a normal `f64`, 2.3e-308 to 1.7e308 in magnitude, also if it is computed from others or
+/// arises in a derivative; otherwise the macro reports an error. Other scalars convert it from `f64`: in `f32` it
+/// becomes infinite above 3.4e38, which functions that return a `Result` report as `NotFinite`, and zero below 7e-46.
 ///
 /// `@` binds tighter than `+ -` and looser than `* /`, so `l3/2 @ phi + s @ (phi - delta)` needs no
 /// further parentheses. Angles are in radians. The macro infers from its use if a name is an angle or a length,
@@ -143,7 +144,8 @@ use proc_macro::TokenStream;
 ///
 /// # User functions
 ///
-/// A cam law or a table is a generic function that returns its value and its derivatives with respect to the first argument:
+/// A cam law or a table is a generic function that returns its value and its derivatives with respect to the first
+/// argument:
 ///
 /// ```
 /// use linkage::{Real, linkage};
@@ -177,12 +179,13 @@ use proc_macro::TokenStream;
 ///
 /// The function at the path takes one `T` for each argument and returns a tuple with one `T` for each name after `->`:
 /// its value and its first, second, ... derivative with respect to the first argument. Each name is a function in
-/// expressions. The other arguments are held constant: expressions there must not depend on coordinates. A loop equation,
-/// point or output needs two derivatives more than the highest that it names; an error says if the function returns fewer.
+/// expressions. The other arguments are held constant: expressions there must not depend on coordinates. A loop
+/// equation, point or output needs two derivatives more than the highest that it names; an error says if the function
+/// returns fewer.
 ///
 /// The function is called once for each distinct argument list, for all derivatives together, and a pose stores the
-/// values. Return NaN where the function is undefined: this becomes the error `NotFinite`. The first argument may depend
-/// on an unknown; the position is then found by `solve`, and `assemble` is not emitted.
+/// values. Return NaN where the function is undefined: this becomes the error `NotFinite`. The first argument may
+/// depend on an unknown; the position is then found by `solve`, and `assemble` is not emitted.
 ///
 /// # Choice of the driving coordinate
 ///
@@ -256,8 +259,9 @@ use proc_macro::TokenStream;
 ///
 /// A mechanism alone is kinematics. A `scene` adds forces and inertia. It is a type that holds the mechanism and the
 /// parameters of its effects. An effect that the scene does not name adds no field, no code and no run time
-/// (`cargo bench --bench effects` prints the operations and the time of each). All parameters are declared with `param`;
-/// one that appears in no loop equation, point or output becomes a field of the scenes that use it, not of the mechanism.
+/// (`cargo bench --bench effects` prints the operations and the time of each). All parameters are declared with
+/// `param`; one that appears in no loop equation, point or output becomes a field of the scenes that use it, not of the
+/// mechanism.
 ///
 /// ```
 /// linkage::linkage! {
@@ -326,8 +330,8 @@ use proc_macro::TokenStream;
 /// | `drive v = LAW;` | a prescribed input; the force that drives it is found by inverse dynamics |
 /// | `energy;`, `power;`, `reactions;`, `equilibrium;` | further functions, see the next table |
 ///
-/// A LAW is an expression of parameters, coordinates, outputs, their rates as `rate(x)`, and time `t`; that of a `drive`
-/// depends on time and parameters only. In a mechanism with several drivers a scene names its driver:
+/// A LAW is an expression of parameters, coordinates, outputs, their rates as `rate(x)`, and time `t`; that of a
+/// `drive` depends on time and parameters only. In a mechanism with several drivers a scene names its driver:
 /// `scene Fired of Engine { … }`.
 ///
 /// | item of a scene | meaning |
@@ -348,8 +352,9 @@ use proc_macro::TokenStream;
 /// ## Simulation
 ///
 /// `simulation::simulate` integrates a scene with `inertia`, also one with frictions and stops, and returns states with
-/// all coordinates and rates by name. At dead points of the input it continues in other independent coordinates; through
-/// change points it goes straight on. Where it cannot continue it returns an error; earlier states remain valid.
+/// all coordinates and rates by name. At dead points of the input it continues in other independent coordinates;
+/// through change points it goes straight on. Where it cannot continue it returns an error; earlier states remain
+/// valid.
 ///
 /// ```
 /// linkage::linkage! {
@@ -387,8 +392,8 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// The types `Path` and `Simulation` have only the mechanism or the scene as type parameters, so that they can be fields
-/// of your own structs. Generic functions take `M: Mechanism` and `S: Scene`.
+/// The types `Path` and `Simulation` have only the mechanism or the scene as type parameters, so that they can be
+/// fields of your own structs. Generic functions take `M: Mechanism` and `S: Scene`.
 ///
 /// ```
 /// # linkage::linkage! {
@@ -508,22 +513,23 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// - A sticking contact transmits a force up to its limit. Several contacts on one input stick while |Q| does not exceed
-///   the sum of |ds/dv| limit. Static and kinetic limit are equal unless the limit is a LAW that depends on `rate(s)`.
+/// - A sticking contact transmits a force up to its limit. Several contacts on one input stick while |Q| does not
+///   exceed the sum of |ds/dv| limit. Static and kinetic limit are equal unless the limit is a LAW that depends on
+///   `rate(s)`.
 /// - At an impact s'+ = -e s'-, and no other stop in contact is penetrated. Impulses of friction are neglected.
 /// - Bouncing ends when the rebound rate is less than sqrt(epsilon) times the largest impact rate of the series, or the
 ///   rebound is not higher than one ulp of s.
-/// - A stop is detected even if it is touched only briefly within a step, provided that its gap has one minimum in the step.
-///   Changes of stick and slip, and your own events, are found if their function has one extremum in a step. With more, some are
-///   missed: for random sums of sines 0.1 % with two extrema in a step, 1 % with three, 5 % with four, 25 % with five.
-///   See the module `integrate`; `largest_step` reduces these rates.
+/// - A stop is detected even if it is touched only briefly within a step, provided that its gap has one minimum in the
+///   step. Changes of stick and slip, and your own events, are found if their function has one extremum in a step. With
+///   more, some are missed: for random sums of sines 0.1 % with two extrema in a step, 1 % with three, 5 % with four,
+///   25 % with five. See the module `integrate`; `largest_step` reduces these rates.
 /// - A body at rest on a stop without load stays there, and so do two bodies after an impact without rebound.
 /// - A simulation of frictions or stops backwards in time returns `MotionError::Irreversible`.
-/// - `power` counts limit |s'| of each friction as dissipated. In scenes with contacts it omits the power of drives, which
-///   depends on the modes; `loads` of a simulation has it, with the forces of frictions, stops and drives.
+/// - `power` counts limit |s'| of each friction as dissipated. In scenes with contacts it omits the power of drives,
+///   which depends on the modes; `loads` of a simulation has it, with the forces of frictions, stops and drives.
 ///
-/// Each function of a scene computes sines, cosines and common subexpressions once. Its coordinates must satisfy the loop
-/// equations; angles may exceed a turn.
+/// Each function of a scene computes sines, cosines and common subexpressions once. Its coordinates must satisfy the
+/// loop equations; angles may exceed a turn.
 ///
 /// # What is emitted for `mechanism FourBar`
 ///
@@ -555,26 +561,26 @@ use proc_macro::TokenStream;
 /// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and those of points and outputs | with a `derive` statement |
 /// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` prints it as a document |
 ///
-/// These functions return `PositionError`. `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates nothing,
-/// cannot panic and does not need the standard library.
+/// These functions return `PositionError`. `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates
+/// nothing, cannot panic and does not need the standard library.
 ///
 /// The equations are solved block by block: unknowns that depend on one another form a block. A block of one or two
-/// unknowns has a formula, a larger one a factorisation. Dyads (Assur groups of class II) are recognised by the way their
-/// unknowns enter the loop equation (RRR, RRP, RPR, two sliders) and named in the emitted documentation and in `DERIVATION`.
-/// Dyads, single angles and linear unknowns have closed-form positions. An RRR dyad has an `Elbow` left or right of the
-/// line between its outer joints, seen from that of the unknown named first; a link with a slider has the `Slider` far or
-/// near; a single angle has a rising or falling `Slope` of its equation. Two sliders and linear unknowns have one solution.
-/// An error names a singular block, or one that cannot be assembled, by its unknowns.
+/// unknowns has a formula, a larger one a factorisation. Dyads (Assur groups of class II) are recognised by the way
+/// their unknowns enter the loop equation (RRR, RRP, RPR, two sliders) and named in the emitted documentation and in
+/// `DERIVATION`. Dyads, single angles and linear unknowns have closed-form positions. An RRR dyad has an `Elbow` left
+/// or right of the line between its outer joints, seen from that of the unknown named first; a link with a slider has
+/// the `Slider` far or near; a single angle has a rising or falling `Slope` of its equation. Two sliders and linear
+/// unknowns have one solution. An error names a singular block, or one that cannot be assembled, by its unknowns.
 ///
 /// # Turns of angles
 ///
-/// The closed form of a group yields the direction (cos, sin) of an angle, not its number of turns. The angle itself matters
-/// where it drives a wheel, a rack or a screw, in a length, a spring or a stop, in an output, in a user function,
-/// and in the sine of anything but an integer multiple of it. In these cases the pose stores the angle as a number, and the
-/// branch has a field for its turn: 0 is the principal value, between -pi and pi, and n adds 2 pi n. `assemble(v, branch)`
-/// does not count turns: when an angle passes pi with the same branch, a wheel that it drives jumps.
-/// `assemble_near` uses the turn nearest to a guess, such as the previous position. `branch_of` returns the turns of a pose,
-/// and `assemble` on that branch reproduces its angles. Positions that differ by turns are on the same
+/// The closed form of a group yields the direction (cos, sin) of an angle, not its number of turns. The angle itself
+/// matters where it drives a wheel, a rack or a screw, in a length, a spring or a stop, in an output, in a user
+/// function, and in the sine of anything but an integer multiple of it. In these cases the pose stores the angle as a
+/// number, and the branch has a field for its turn: 0 is the principal value, between -pi and pi, and n adds 2 pi n.
+/// `assemble(v, branch)` does not count turns: when an angle passes pi with the same branch, a wheel that it drives
+/// jumps. `assemble_near` uses the turn nearest to a guess, such as the previous position. `branch_of` returns the
+/// turns of a pose, and `assemble` on that branch reproduces its angles. Positions that differ by turns are on the same
 /// branch of the motion: `solve` compares only the signs of determinants. Inputs are returned as given; `coordinates()`
 /// returns angles that the pose stores as directions between -pi and pi.
 ///
@@ -606,22 +612,22 @@ use proc_macro::TokenStream;
 ///
 /// A group can have no position at an input, one, two, or infinitely many:
 ///
-/// - Links that do not reach each other: `assemble` returns `PositionError::Unbuildable` with the gap. It does so too for
-///   guides that are parallel and apart, and for a linear unknown whose coefficient vanishes.
-/// - Links stretched or folded in line at a limit: `assemble` returns the position, whose determinant is zero; both branches
-///   meet there. A gap of less than one epsilon times the terms of the loop equation counts as zero, since rounding errors
-///   are of this size.
+/// - Links that do not reach each other: `assemble` returns `PositionError::Unbuildable` with the gap. It does so too
+///   for guides that are parallel and apart, and for a linear unknown whose coefficient vanishes.
+/// - Links stretched or folded in line at a limit: `assemble` returns the position, whose determinant is zero; both
+///   branches meet there. A gap of less than one epsilon times the terms of the loop equation counts as zero, since
+///   rounding errors are of this size.
 /// - A dyad whose outer joints coincide: with links of equal length its position is arbitrary, and `assemble` returns
-///   `PositionError::Undetermined`; with links of different lengths it is unbuildable. Joints coincide if their distance is less
-///   than eight epsilons times the terms of their coordinates. Also undetermined are a slotted arm whose pin is in its pivot,
-///   guides on one line, a link of zero length, and `0 * u = 0`.
+///   `PositionError::Undetermined`; with links of different lengths it is unbuildable. Joints coincide if their
+///   distance is less than eight epsilons times the terms of their coordinates. Also undetermined are a slotted arm
+///   whose pin is in its pivot, guides on one line, a link of zero length, and `0 * u = 0`.
 ///
-/// A later group can be undetermined where an earlier one is at its limit: in Peaucellier's cell the rhombus folds there.
-/// `limits` returns that input all the same, as `Exact`, and ignores inputs inside the range at which a group is undetermined,
-/// such as a folded kite. `branches` omits branches on which a group is undetermined or unbuildable.
-/// An `Exact` limit is accurate to two ulp; a `Bracketed` limit lies between its two inputs or within
-/// three ulp of them; both times the condition number of the limit with respect to relative changes of the lengths.
-/// All limits are finite numbers.
+/// A later group can be undetermined where an earlier one is at its limit: in Peaucellier's cell the rhombus folds
+/// there. `limits` returns that input all the same, as `Exact`, and ignores inputs inside the range at which a group is
+/// undetermined, such as a folded kite. `branches` omits branches on which a group is undetermined or unbuildable. An
+/// `Exact` limit is accurate to two ulp; a `Bracketed` limit lies between its two inputs or within three ulp of them;
+/// both times the condition number of the limit with respect to relative changes of the lengths. All limits are finite
+/// numbers.
 ///
 /// # Compile errors
 ///

@@ -1,22 +1,21 @@
-//! The cost of an expression, which decides which of two equal ones is kept.
+//! The cost of an expression, by which simplification chooses among equal ones.
 
 use std::collections::BTreeSet;
 
 use crate::graph::{Function, Graph, Node, NodeId};
 
-/// Work in the order in which it weighs: a sine is worth many divisions, a division many products.
+/// Operation counts, compared in the order of the fields: functions, divisions, products, then length.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cost {
     pub functions: usize,
     pub divisions: usize,
     pub multiplications: usize,
     pub additions: usize,
-    /// The length, which decides between expressions of equal work.
+    /// The number of nodes, compared last.
     pub nodes: usize,
 }
 
-/// The cost of an expression in which everything shared is computed once. The sines and cosines of
-/// the angles in `given` cost nothing.
+/// The cost of an expression, each node counted once. The sines and cosines of the angles in `given` cost nothing.
 #[must_use]
 pub fn cost(graph: &Graph, root: NodeId, given: &BTreeSet<NodeId>) -> Cost {
     let mut total = Cost::default();
@@ -29,7 +28,7 @@ pub fn cost(graph: &Graph, root: NodeId, given: &BTreeSet<NodeId>) -> Cost {
         graph.budget().spend(1);
         match graph.node(id) {
             Node::Call(Function::Sin | Function::Cos, angle) if given.contains(&angle[0]) => continue,
-            // Taking a sign away costs nothing.
+            // An absolute value costs nothing.
             Node::Call(Function::Abs, _) => {}
             Node::Call(..) | Node::External(..) => total.functions += 1,
             Node::Sum { constant, terms } => {

@@ -1,9 +1,8 @@
-//! Determinants of two rows and columns, and Cramer's rule by them.
+//! 2 x 2 determinants, and Cramer's rule.
 //!
-//! Multiplied out, combined by the trigonometric identities and factored, a determinant of link
-//! vectors comes out as a mechanic writes it: the product of two lengths and the sine of the angle
-//! between them. Numerators of Cramer's rule are determinants too, so the lengths that both have in
-//! common cancel.
+//! Expanded, simplified by trigonometric identities and factored, the determinant of two link vectors becomes the
+//! product of their lengths and the sine of the angle between them. The numerators of Cramer's rule are determinants,
+//! too, so that common lengths cancel.
 
 use super::rational::{MOST_TERMS, collect, factor, multiply, terms};
 use super::trigonometric::combine;
@@ -27,8 +26,7 @@ pub fn determinant(graph: &mut Graph, [[a, b], [c, d]]: [[NodeId; 2]; 2]) -> Nod
     graph.subtract(left, right)
 }
 
-/// The solution of J x = r, each unknown the quotient of two determinants: the one with its column
-/// replaced by r, and det J, which is `whole`.
+/// The solution of J x = r by Cramer's rule; `whole` is det J.
 pub fn cramer(
     graph: &mut Graph,
     [[a, b], [c, d]]: [[NodeId; 2]; 2],
@@ -67,7 +65,7 @@ mod tests {
         let [crank, rod, arm] = [column(z1, phi1), column(z2, phi2), column(z3, shifted)];
         let engine = determinant(&mut g, [[crank[0], rod[0]], [crank[1], rod[1]]]);
         assert_eq!(g.text(engine), "-z1*z2*sin(phi1 - phi2)");
-        // Equation 1.1: the first column is that of z2 and z3 turned together, the second a unit vector.
+        // Equation 1.1: the first column is the vector z2 + z3 rotated by 90 degrees, the second a unit vector.
         let (x, y) = (g.add(rod[0], arm[0]), g.add(rod[1], arm[1]));
         let (cosine, sine) = (g.call(Function::Cos, &[phi2]), g.call(Function::Sin, &[phi2]));
         let introductory = determinant(&mut g, [[x, cosine], [y, sine]]);

@@ -1,8 +1,8 @@
-//! Identities that make a formula shorter or more accurate, and the cost that chooses among them.
+//! Simplification: identities that make formulas shorter or more accurate.
 //!
-//! Each family of identities is a file: `rational`, `trigonometric`, `modulus`, `determinant`. Each offers
-//! other forms of an expression, and [`cost()`] chooses among them; the tests prove that all forms are equal.
-//! The graph records the conditions that a rule assumes, such as a divisor that is not zero.
+//! The modules `rational`, `trigonometric`, `modulus` and `determinant` offer other forms of an expression, and
+//! [`cost()`] chooses among them; the tests prove that all forms are equal. The graph records the conditions that a
+//! rule assumes, such as a divisor that is not zero.
 
 pub mod cost;
 mod determinant;
@@ -20,15 +20,15 @@ pub use determinant::{adjugate, cramer, determinant};
 use rational::Polynomial;
 pub use rational::{factor, gather};
 
-/// Rounds of rules over one node; each makes it cheaper, and three are the most that have been seen.
+/// The largest number of rounds of rules for one node. Each round makes it cheaper; at most three have been observed.
 const MOST_ROUNDS: usize = 8;
 
-/// Expressions of more nodes than this are left as they are: the cost of a form is that of all its
-/// nodes, so that the work grows with their square, and nobody reads a formula of this length.
+/// The largest number of nodes of an expression that is simplified: the work grows with its square, and longer formulas
+/// are not printed.
 const LARGEST: usize = 400;
 
-/// The cheapest form that the identities find of each of `roots`, where sines and cosines of the
-/// angles in `given` are at hand. Expressions too long to be read are left as they are.
+/// Returns the cheapest form of each root that the identities find, where the sines and cosines of the angles in
+/// `given` cost nothing. Very long expressions are not changed.
 pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -> Vec<NodeId> {
     let mut better: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     let nodes = graph.reachable(roots);
@@ -38,7 +38,7 @@ pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -
     for id in nodes {
         let rebuilt = graph.rebuilt(id, &better);
         let mut forms = Forms { given, best: rebuilt, cost: cost(graph, rebuilt, given), conditions: BTreeSet::new() };
-        // What one rule gives may suit another.
+        // The result of one rule may allow another.
         for _ in 0..MOST_ROUNDS {
             let before = forms.best;
             forms.of(graph, before);
@@ -52,7 +52,7 @@ pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -
     roots.iter().map(|root| better[root]).collect()
 }
 
-/// The cheapest form found of one node so far, and the conditions that it assumes.
+/// The cheapest form of one node so far, and the conditions that it assumes.
 struct Forms<'a> {
     given: &'a BTreeSet<NodeId>,
     best: NodeId,
@@ -61,7 +61,7 @@ struct Forms<'a> {
 }
 
 impl Forms<'_> {
-    /// Tries a form made from the best one; of equal cost that stays.
+    /// Tries another form; it replaces the best one if it is cheaper.
     fn offer(&mut self, graph: &mut Graph, form: impl FnOnce(&mut Graph) -> Option<NodeId>) {
         let Some((form, conditions)) = graph.attempt(form) else { return };
         let cost = cost(graph, form, self.given);
@@ -113,7 +113,7 @@ impl Forms<'_> {
                     self.offer(graph, |graph| {
                         let quotient = rational::quotient(graph, above, below)?;
                         graph.assume(BTreeSet::from([Condition::NonZero(below)]));
-                        // Written out, so that nothing seems to be cancelled but what is.
+                        // Build the product from its factors, so that no other cancellation is recorded as a condition.
                         let mut product: Vec<_> = factors
                             .iter()
                             .map(|&(base, n)| (base, n - i32::from(base == above) + i32::from(base == below)))

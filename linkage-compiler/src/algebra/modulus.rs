@@ -1,4 +1,4 @@
-//! Roots of squares.
+//! Square roots of squares.
 //!
 //! - sqrt(x^2) = |x|
 //! - hypot(x, y) = sqrt(x^2 + y^2), where the sum of the squares is a square itself: the distance

@@ -1,25 +1,25 @@
 //! Rational identities.
 //!
-//! - common factors: a b + a c = a (b + c), of all terms or of those that have the same symbols of the motion
+//! - common factors: a b + a c = a (b + c), of all terms or of those with the same product of given symbols
 //! - products of sums: (a + b) (c + d) = a c + a d + b c + b d
-//! - quotients of sums: (a c + b c) / (a + b) = c, wherever a + b is not zero
+//! - quotients of sums: (a c + b c) / (a + b) = c, if a + b is not zero
 //!
-//! Like terms and equal factors need no rule here: the graph collects them as it is built.
+//! The graph itself collects like terms and equal factors.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::{Condition, Graph, Node, NodeId, Number};
 
-/// base^exponent, by base; no exponent is zero.
+/// A product of base^exponent, by base; no exponent is zero.
 pub(super) type Monomial = BTreeMap<NodeId, i32>;
 
 /// A sum of coefficient * monomial.
 pub(super) type Polynomial = Vec<(Number, Monomial)>;
 
-/// More terms than this are not multiplied out.
+/// The largest number of terms of an expanded product.
 pub(super) const MOST_TERMS: usize = 64;
 
-/// Takes the common factors out of a sum; any other node is returned as it is.
+/// Factors out the common factors of a sum; returns any other node unchanged.
 pub fn factor(graph: &mut Graph, id: NodeId) -> NodeId {
     let Node::Sum { constant, .. } = graph.node(id) else { return id };
     if !constant.is_zero() {
@@ -30,7 +30,7 @@ pub fn factor(graph: &mut Graph, id: NodeId) -> NodeId {
     for (_, monomial) in &polynomial {
         common = Some(match common {
             None => monomial.clone(),
-            // Powers of one sign only: x + 1/x is not x times something shorter.
+            // Only powers of one sign are common: x + 1/x has no common factor.
             Some(common) => common
                 .into_iter()
                 .filter_map(|(base, n)| {
@@ -53,8 +53,7 @@ pub fn factor(graph: &mut Graph, id: NodeId) -> NodeId {
     graph.product(&product)
 }
 
-/// Takes out of the terms of a sum that have the same product of `symbols` that product; any other node is returned as
-/// it is.
+/// Groups the terms of a sum by their product of `symbols` and factors that out; returns any other node unchanged.
 pub fn gather(graph: &mut Graph, id: NodeId, symbols: &BTreeSet<NodeId>) -> NodeId {
     if !matches!(graph.node(id), Node::Sum { .. }) {
         return id;
@@ -83,7 +82,7 @@ pub fn gather(graph: &mut Graph, id: NodeId, symbols: &BTreeSet<NodeId>) -> Node
     graph.sum(&gathered)
 }
 
-/// The terms of a node, one level deep.
+/// The terms of a node, without expansion.
 pub(super) fn terms(graph: &Graph, id: NodeId) -> Polynomial {
     match graph.node(id) {
         Node::Sum { constant, terms } => {
@@ -109,7 +108,7 @@ fn monomial(graph: &Graph, term: NodeId) -> Monomial {
     }
 }
 
-/// The terms of a node with every product of sums multiplied out; none if there are too many.
+/// The terms of a node with all products of sums expanded; `None` if there are too many.
 pub(super) fn expanded(graph: &mut Graph, id: NodeId) -> Option<Polynomial> {
     let mut all = Polynomial::new();
     for (coefficient, monomial) in terms(graph, id) {
@@ -134,7 +133,7 @@ pub(super) fn expanded(graph: &mut Graph, id: NodeId) -> Option<Polynomial> {
     Some(all)
 }
 
-/// Every term times every term; none if there are too many. What cancels is taken to be other than zero.
+/// The product of two polynomials; `None` if it has too many terms. Assumes that cancelled factors are not zero.
 pub(super) fn multiply(graph: &mut Graph, left: &Polynomial, right: &Polynomial) -> Option<Polynomial> {
     if left.len() * right.len() > MOST_TERMS || !graph.budget().spend(left.len() * right.len()) {
         return None;
@@ -152,7 +151,7 @@ pub(super) fn multiply(graph: &mut Graph, left: &Polynomial, right: &Polynomial)
 fn times(mut left: Monomial, right: &Monomial) -> Monomial {
     for (&base, &exponent) in right {
         let total = left.entry(base).or_insert(0);
-        // Beyond the range the graph has already said that an exponent overflows.
+        // On overflow the graph has recorded a fault.
         *total = total.saturating_add(exponent);
     }
     left.retain(|_, exponent| *exponent != 0);
@@ -168,8 +167,8 @@ pub(super) fn collect(graph: &mut Graph, polynomial: &Polynomial) -> NodeId {
     graph.sum(&sum)
 }
 
-/// The quotient of two sums where it goes without rest, by the division of polynomials in their
-/// factors. The caller answers for the divisor being other than zero.
+/// The quotient of two sums if the remainder is zero, by polynomial division. The caller must assume that the divisor
+/// is not zero.
 pub(super) fn quotient(graph: &mut Graph, dividend: NodeId, divisor: NodeId) -> Option<NodeId> {
     let by = terms(graph, divisor);
     let (lead, lead_monomial) = by.iter().max_by(|a, b| order(&a.1, &b.1))?.clone();
@@ -185,7 +184,7 @@ pub(super) fn quotient(graph: &mut Graph, dividend: NodeId, divisor: NodeId) -> 
         let mut monomial: Monomial = top.into_iter().collect();
         for (base, exponent) in &lead_monomial {
             let left = monomial.get(base).copied().unwrap_or(0) - exponent;
-            // What does not divide is a rest.
+            // The leading term does not divide: there is a remainder.
             if left < 0 || *exponent < 0 {
                 return None;
             }
@@ -211,7 +210,7 @@ fn add(sum: &mut BTreeMap<Vec<(NodeId, i32)>, Number>, terms: &Polynomial, facto
     sum.retain(|_, coefficient| !coefficient.is_zero());
 }
 
-/// By the exponent of the oldest base, then of the next: an order that products keep.
+/// The lexicographic monomial order, by exponents of the oldest base first.
 fn order(a: &Monomial, b: &Monomial) -> std::cmp::Ordering {
     let (a, b): (Vec<_>, Vec<_>) =
         (a.iter().map(|(&x, &n)| (x, n)).collect(), b.iter().map(|(&x, &n)| (x, n)).collect());

@@ -6,16 +6,16 @@
 //! - cos a cos b - sin a sin b = cos(a + b)
 //! - k sin^2 a + m cos^2 a = k + (m - k) cos^2 a, which for k = m is cos^2 + sin^2 = 1
 //!
-//! From left to right fewer sines are taken, and a difference of products of rounded sines, which
-//! loses every digit where two links are nearly parallel, becomes the sine of a difference. Where the
-//! sines on the left are at hand anyhow, the way back takes fewer still.
+//! From left to right there are fewer sines, and cancellation is avoided: the difference of products loses all digits
+//! if two links are nearly parallel, the sine of the difference does not. Where the sines on the left are known, the
+//! identities are applied from right to left.
 
 use std::collections::BTreeMap;
 
 use super::rational::{Monomial, Polynomial};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 
-/// A term seen as f(a) g(b) times the rest, f and g being sine or cosine and a not younger than b.
+/// A term as f(a) g(b) times a rest; f and g are sine or cosine, and the node a is not newer than b.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Pair {
     angles: [NodeId; 2],
@@ -24,15 +24,15 @@ struct Pair {
 }
 
 impl Pair {
-    /// The pair that an identity joins with this one: sine for cosine and cosine for sine.
+    /// The pair that an identity combines with this one: sine and cosine exchanged.
     fn partner(&self) -> Self {
         Self { sine: self.sine.map(|sine| !sine), ..self.clone() }
     }
 }
 
-/// Applies the identities from left to right until none fits.
+/// Applies the identities from left to right until none matches.
 pub(super) fn combine(graph: &mut Graph, mut polynomial: Polynomial) -> Polynomial {
-    // Each step joins two terms into one, or takes a square of a sine away.
+    // Terminates: each step combines two terms into one or removes a squared sine.
     while graph.budget().spend(polynomial.len())
         && let Some(shorter) = combine_once(graph, &polynomial)
     {
@@ -41,7 +41,7 @@ pub(super) fn combine(graph: &mut Graph, mut polynomial: Polynomial) -> Polynomi
     polynomial
 }
 
-/// Applies the identities to the first two terms they fit.
+/// Applies an identity to the first two terms that match one.
 fn combine_once(graph: &mut Graph, polynomial: &Polynomial) -> Option<Polynomial> {
     let mut seen: BTreeMap<Pair, usize> = BTreeMap::new();
     let mut squares = None;
@@ -103,7 +103,7 @@ fn replaced<const N: usize>(polynomial: &Polynomial, gone: [usize; 2], new: [(Nu
     kept.chain(new).collect()
 }
 
-/// Every way to see a term as a product of two sines or cosines and a rest.
+/// All ways to write a term as a product of two sines or cosines and a rest.
 fn pairs(graph: &Graph, monomial: &Monomial) -> Vec<Pair> {
     let mut circular = Vec::new();
     for (&base, &exponent) in monomial {
@@ -132,8 +132,7 @@ fn pairs(graph: &Graph, monomial: &Monomial) -> Vec<Pair> {
     pairs
 }
 
-/// The identities from right to left: the sine or cosine of a sum of two angles, each taken as it
-/// stands, as products of theirs.
+/// Applies an identity from right to left: expands the sine or cosine of a sum of two terms.
 pub(super) fn spread(graph: &mut Graph, id: NodeId) -> Option<NodeId> {
     let Node::Call(function @ (Function::Sin | Function::Cos), angle) = graph.node(id).clone() else { return None };
     let Node::Sum { constant, terms } = graph.node(angle[0]).clone() else { return None };

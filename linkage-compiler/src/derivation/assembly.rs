@@ -1,9 +1,9 @@
-//! Position in closed form, group by group (Chace's cases), without a sine of a solved angle.
+//! Position in closed form, group by group (Chace's cases), without sines of solved angles.
 //!
-//! What is solved of an angle is its direction (cos, sin). The two solutions of a group are the two signs
-//! of one root, the half chord; it is the determinant of the group's part of J, up to the order of its
-//! columns, and is never computed from rounded sines. In the letters of the code, with vectors of the
-//! plane, a . b their scalar and a x b their vector product:
+//! The solution of an angle is its direction (cos, sin). The two solutions of a group differ in the sign
+//! of a square root, the half chord. It equals the determinant of the group's block of J up to sign, and is
+//! accurate because it is not computed from rounded sines. With plane vectors, a . b their scalar and a x b their
+//! vector product:
 //!
 //! - RRR: V + W = D, |V| = p, |W| = q. D x V = k, (2 k)^2 = ((p + q)^2 - D^2) (D^2 - (p - q)^2),
 //!   V . D = (D^2 + p^2 - q^2) / 2, V x W = -k
@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap;
 
 use super::data::{Block, Derivation};
-use super::magnitude;
+use super::scale;
 use super::step::{ChordOf, Step};
 use crate::algebra::{cramer, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
@@ -27,7 +27,7 @@ use crate::structure::Group;
 /// A vector of the plane.
 type Vector = [NodeId; 2];
 
-/// The steps that solve every group, and what they leave.
+/// The steps that solve all groups, and their results.
 #[derive(Debug, Clone, Default)]
 pub struct Assembly {
     pub steps: Vec<Step>,
@@ -35,11 +35,11 @@ pub struct Assembly {
     pub determinants: BTreeMap<BlockId, NodeId>,
     /// The blocks that have two solutions.
     pub chords: Vec<Chord>,
-    /// The angles of the links of a dyad, and its block.
+    /// The block of each angle of an RRR dyad.
     pub of_dyads: BTreeMap<SymbolId, BlockId>,
-    /// What must not be negative for a block with two solutions to be assembled.
+    /// Functions that must be non-negative for a block with two solutions to be assembled.
     pub bounds: Vec<(BlockId, Vec<NodeId>)>,
-    /// The coordinates that are not found in closed form, and the names of their guesses.
+    /// The coordinates without closed form, and the symbols of their guesses.
     pub guesses: Vec<(ColumnId, SymbolId)>,
     directions: BTreeMap<SymbolId, Vector>,
 }
@@ -49,23 +49,23 @@ pub struct Assembly {
 pub struct Chord {
     pub block: BlockId,
     pub choice: Choice,
-    /// Whether the determinant of the block has the sign opposite to the root's.
+    /// True if the determinant of the block and the root have opposite signs.
     pub is_opposite: bool,
 }
 
-/// What tells two solutions apart; the first word is that of the positive root.
+/// The names of the two solutions of a group; the first is that of the positive root.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Choice {
     /// Left or right of the line between the outer joints.
     Elbow,
     /// Far or near.
     Slider,
-    /// The closure rises or falls with the angle.
+    /// The equation rises or falls with the angle.
     Slope,
 }
 
 impl Choice {
-    /// The choice between the solutions of a group, if it has two.
+    /// The choice of a group with two solutions.
     #[must_use]
     pub fn of(group: Group) -> Option<Self> {
         match group {
@@ -76,7 +76,7 @@ impl Choice {
         }
     }
 
-    /// The type of the runtime that holds it.
+    /// The name of its type in the runtime.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -86,7 +86,7 @@ impl Choice {
         }
     }
 
-    /// The solution of the positive root and that of the negative one.
+    /// The variants of the positive and of the negative root.
     #[must_use]
     pub fn words(self) -> [&'static str; 2] {
         match self {
@@ -98,7 +98,7 @@ impl Choice {
 }
 
 impl Assembly {
-    /// Expressions in terms of what is solved: cosine and sine of a solved angle by their names.
+    /// Replaces cosines and sines of solved angles by their symbols.
     pub fn solved(&self, graph: &mut Graph, roots: &[NodeId]) -> Vec<NodeId> {
         let mut by = FxHashMap::default();
         for id in graph.reachable(roots) {
@@ -111,7 +111,7 @@ impl Assembly {
         graph.replace(roots, &by)
     }
 
-    /// The direction of an angle made of solved ones, whole times each.
+    /// The direction of an integer combination of solved angles plus a rest.
     fn direction(&self, graph: &mut Graph, angle: NodeId) -> Option<Vector> {
         let (constant, terms) = match graph.node(angle).clone() {
             Node::Sum { constant, terms } => (constant, terms),
@@ -142,7 +142,7 @@ impl Assembly {
     }
 }
 
-/// a b as complex numbers.
+/// The product a b as complex numbers.
 fn turned(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> Vector {
     let products = [(a, c), (b, d), (a, d), (b, c)].map(|(x, y)| g.multiply(x, y));
     [g.subtract(products[0], products[1]), g.add(products[2], products[3])]
@@ -158,20 +158,20 @@ fn cross(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> NodeId {
     g.subtract(x, y)
 }
 
-/// The vector whose scalar product with `e` is `along` and whose vector product with it is `across`.
+/// The vector w with w . e = `along` and w x e = `across`.
 fn with_products(g: &mut Graph, e: Vector, square: NodeId, along: NodeId, across: NodeId) -> Vector {
     let minus = g.negate(across);
     let [x, y] = [[along, across], [minus, along]].map(|row| dot(g, row, e));
     [g.divide(x, square), g.divide(y, square)]
 }
 
-/// |e| in its simplest form: of one link its length.
+/// |e|, simplified: for a single link its length.
 fn length(g: &mut Graph, [x, y]: Vector) -> NodeId {
     let modulus = g.call(Function::Hypot, &[x, y]);
     simplify(g, &[modulus], &BTreeSet::new())[0]
 }
 
-/// A length up to its sign: of |l| it is l.
+/// A length without its absolute values: for |l| it is l.
 fn unsigned(g: &mut Graph, length: NodeId) -> NodeId {
     let inside = |g: &Graph, id: NodeId| match g.node(id) {
         Node::Call(Function::Abs, arguments) => arguments[0],
@@ -187,14 +187,14 @@ fn unsigned(g: &mut Graph, length: NodeId) -> NodeId {
     }
 }
 
-/// The square of a length: of |l| it is l^2.
+/// The square of a length: for |l| it is l^2.
 fn square_of(g: &mut Graph, length: NodeId) -> NodeId {
     let square = g.power(length, 2);
     simplify(g, &[square], &BTreeSet::new())[0]
 }
 
 impl Derivation {
-    /// Position group by group: in closed form where there is one, else by Newton's method.
+    /// Solves the position group by group: in closed form if there is one, else by Newton's method.
     pub fn assembly(&mut self) -> Assembly {
         let mut assembly = Assembly::default();
         for id in self.blocks.ids() {
@@ -226,7 +226,7 @@ impl Derivation {
             (Group::Angle, &[row], &[phi]) => group.angle(row, phi),
             (Group::Sliders, &[x, y], &[s, t]) => group.sliders([x, y], s, t),
             (Group::Rrr, &[x, y], &[a, b]) => {
-                // The first to be taken is the one that may be measured from the other's link.
+                // The first angle may be measured relative to the other link.
                 if group.is_link(&[x, y], a, b) {
                     group.two_links([x, y], a, b, 1)
                 } else {
@@ -246,11 +246,11 @@ impl Derivation {
     }
 }
 
-/// One group in the making.
+/// The state of the solution of one group.
 struct Solver<'a> {
     graph: &'a mut Graph,
     block: BlockId,
-    /// The residuals in the unknowns of the groups before, as they are written.
+    /// The residuals in terms of the unknowns of earlier groups.
     equations: Vec<NodeId>,
     assembly: &'a mut Assembly,
 }
@@ -266,7 +266,7 @@ impl Solver<'_> {
         self.name(symbol, node)
     }
 
-    /// A symbol replaced by zero.
+    /// The expressions with some symbols set to zero.
     fn at_zero<const N: usize>(&mut self, nodes: [NodeId; N], symbols: &[SymbolId]) -> [NodeId; N] {
         let zero = self.graph.zero();
         let by = symbols.iter().map(|&symbol| (self.graph.variable(symbol), zero)).collect();
@@ -274,7 +274,7 @@ impl Solver<'_> {
         std::array::from_fn(|index| replaced[index])
     }
 
-    /// What of two rows holds a symbol, and the rest.
+    /// Splits two rows into the terms with a symbol and the other terms.
     fn parted(&mut self, rows: [NodeId; 2], symbol: SymbolId) -> (Vector, Vector) {
         let with = rows.map(|row| {
             let terms = match self.graph.node(row) {
@@ -302,7 +302,7 @@ impl Solver<'_> {
         })
     }
 
-    /// Names a solved direction; the number of the angle is there for whoever asks.
+    /// Names a solved direction and the angle itself, which is computed only if it is used.
     fn direction(&mut self, angle: SymbolId, [cosine, sine]: Vector) {
         let name = self.graph.symbol_name(angle).to_owned();
         let cosine = self.fresh(&format!("cos_{name}"), cosine);
@@ -312,7 +312,7 @@ impl Solver<'_> {
         self.assembly.steps.push(Step::Turn { symbol: angle, principal });
     }
 
-    /// The root of a product of two factors, with the sign of the branch; neither may be negative.
+    /// The square root of a product of two non-negative factors, with the sign of the branch.
     fn chord(&mut self, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId>) -> NodeId {
         self.assembly.bounds.push((self.block, factors.to_vec()));
         let symbol = self.graph.symbol(format!("chord_{}", self.block.number()));
@@ -322,11 +322,11 @@ impl Solver<'_> {
 
     /// The sum of the magnitudes of the terms of several expressions.
     fn scale(&mut self, nodes: &[NodeId]) -> NodeId {
-        let sizes: Vec<_> = nodes.iter().map(|&node| (Number::ONE, magnitude::of(self.graph, node))).collect();
-        self.graph.sum(&sizes)
+        let scales: Vec<_> = nodes.iter().map(|&node| (Number::ONE, scale::of(self.graph, node))).collect();
+        self.graph.sum(&scales)
     }
 
-    /// The scale of the terms of the equations that hold none of these unknowns.
+    /// The sum of the magnitudes of the terms of the equations without these unknowns.
     fn scale_without(&mut self, unknowns: &[SymbolId]) -> NodeId {
         let mut rest = Vec::new();
         for equation in self.equations.clone() {
@@ -347,14 +347,14 @@ impl Solver<'_> {
         self.scale(&rest)
     }
 
-    /// A chord of a reach made of `of_reach` and an offset made of `of_offset`.
+    /// The geometry of a chord with a reach and an offset of these scales.
     fn reach(&mut self, size: NodeId, [of_reach, of_offset]: [NodeId; 2]) -> ChordOf<NodeId> {
         let is_sum = |id: NodeId| matches!(self.graph.node(id), Node::Sum { .. });
         let may_cancel = self.graph.reachable(&[size]).into_iter().any(is_sum);
         ChordOf::Reach { scales: [of_reach, of_offset], may_cancel }
     }
 
-    /// Refuses a determinant that vanishes, unless it is a number.
+    /// Adds a check that a determinant is not zero, unless it is a constant.
     fn solvable(&mut self, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId>) {
         if self.graph.constant_value(determinant).is_none() {
             self.assembly.steps.push(Step::Solvable { block: self.block, determinant, numerators, scales });
@@ -411,7 +411,7 @@ impl Solver<'_> {
         Some(whole)
     }
 
-    /// Whether what does not hold `a` turns with `b` alone.
+    /// True if the terms without `a` rotate with `b`, and those with `a` rotate with `a`: two links.
     fn is_link(&mut self, rows: &[NodeId; 2], a: SymbolId, b: SymbolId) -> bool {
         let (link, rest) = self.parted(*rows, a);
         let ([x, y], _) = self.parted(rest, b);
@@ -423,19 +423,20 @@ impl Solver<'_> {
             && !(self.graph.is_zero(x) && self.graph.is_zero(y))
     }
 
-    /// `left` is the sign of D x V where the elbow is left of the line from the first outer joint to the other.
+    /// Solves an RRR dyad. `left` is the sign of D x V if the elbow is left of the line from the first to the second
+    /// outer joint.
     fn two_links(&mut self, rows: [NodeId; 2], a: SymbolId, b: SymbolId, left: i64) -> Option<NodeId> {
         let (v, rest) = self.parted(rows, a);
         let (w, rest) = self.parted(rest, b);
         let d = self.negated(rest);
         let d = self.line(d);
-        // V turns with a + k b.
+        // V rotates with a + k b.
         let slope = self.graph.partial(&v, b);
         let k = (-2..=2).find(|&k| {
             slope == [self.graph.scale(Number::integer(-k), v[1]), self.graph.scale(Number::integer(k), v[0])]
         })?;
         let (at_v, at_w) = (self.at_zero(v, &[a, b]), self.at_zero(w, &[b]));
-        // The product of both factors of the chord is the same whatever the signs of p and q.
+        // The product of the factors of the chord does not depend on the signs of p and q.
         let [p, q] = [at_v, at_w].map(|at_zero| {
             let length = length(self.graph, at_zero);
             unsigned(self.graph, length)
@@ -455,7 +456,7 @@ impl Solver<'_> {
         let g = &mut *self.graph;
         let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
         let cross_product = g.negate(half_chord);
-        // Both products and the square of the line doubled: one factor of a half instead of three.
+        // Both products and the divisor are doubled, which saves two factors of 1/2.
         let along = g.add(distance_squared, squares);
         let across = g.scale(Number::integer(-left), twice);
         let divisor = g.scale(Number::integer(2), distance_squared);
@@ -534,9 +535,9 @@ impl Solver<'_> {
         let factors = [g.subtract(reach, across), g.add(reach, across)];
         let (of_line, of_arm, of_rest) = (self.scale(&e), self.scale(&p), self.scale_without(&[phi, s]));
         let scales = [of_rest, of_arm].map(|scale| self.graph.multiply(scale, of_line));
-        // The distance of the joints is a sum under a name.
+        // The squared distance is a named sum, so that it may vanish by cancellation.
         let along = self.chord(factors, reach, ChordOf::Reach { scales, may_cancel: true });
-        // The reach is itself a root; its square is not.
+        // The reach is a square root; the bound uses its square.
         let g = &mut *self.graph;
         let (whole, part) = (g.multiply(distance_squared, square), g.power(across, 2));
         let bound = g.subtract(whole, part);

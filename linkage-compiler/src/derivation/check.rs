@@ -1,25 +1,26 @@
-//! What can be told of a mechanism only once it is derived.
+//! Checks of a mechanism that need its derivatives.
 
 use std::collections::BTreeSet;
 
 use super::data::Derivation;
 use crate::diagnostics::Diagnostics;
 use crate::graph::{External, Graph, SymbolId};
-use crate::model::{Call, Driver, ExternalFunction, Mechanism, Request, Scene, Wish};
+use crate::model::{Call, Driver, ExternalFunction, Mechanism, Request, Scene, SceneRequest};
 
-/// A derivation of more expressions than this is refused: emitting it takes longer than anybody waits.
+/// The largest number of expressions of a derivation; it bounds the time of emission.
 pub const LARGEST: usize = 40_000;
 
-/// The steps that an entry of a matrix counts as: it is written in several functions, as five tokens or more each, of
-/// some 80 bytes.
+/// The budget steps of an entry of a matrix: it is emitted in several functions, with at least five tokens each of
+/// about 80 bytes.
 const STEPS_OF_AN_ENTRY: usize = 100;
 
-/// The work that the matrices of a driver are, zeros included: J, W and what is asked for beyond.
+/// The budget steps of the matrices of a driver, including zeros: J, W, and those of `derive` statements.
 #[must_use]
 pub fn matrices(mechanism: &Mechanism, driver: &Driver) -> usize {
     let (unknowns, inputs) = (driver.unknowns.len(), driver.inputs.len());
     let of_driver = |scene: &&Scene| mechanism.drivers[scene.driver].name == driver.name;
-    let balanced = mechanism.scenes.iter().filter(of_driver).filter(|scene| scene.wishes.contains(&Wish::Equilibrium));
+    let balanced =
+        mechanism.scenes.iter().filter(of_driver).filter(|scene| scene.requests.contains(&SceneRequest::Equilibrium));
     let is_wanted = |request| usize::from(mechanism.requests.contains(&request));
     let second = is_wanted(Request::VelocityRatioDerivatives) + balanced.count();
     let columns = unknowns + inputs + second * inputs.saturating_mul(inputs);
@@ -27,7 +28,7 @@ pub fn matrices(mechanism: &Mechanism, driver: &Driver) -> usize {
     STEPS_OF_AN_ENTRY.saturating_mul(unknowns).saturating_mul(columns)
 }
 
-/// Reports what no choice of numbers can make a mechanism; gives whether nothing is wrong.
+/// Reports mechanisms that are wrong for all values of the parameters; returns true if there are no mistakes.
 pub fn check(
     mechanism: &Mechanism,
     driver: &Driver,
@@ -35,7 +36,7 @@ pub fn check(
     diagnostics: &mut Diagnostics,
 ) -> bool {
     let before = diagnostics.len();
-    // du/dp is full, and solved for only when it is emitted.
+    // du/dp is dense, and its formulas are made only at emission.
     let entries = derivation.sensitivity.iter().map(|first| first.names.len() * derivation.unknowns.len());
     let size = derivation.graph.len() + entries.sum::<usize>();
     if size > LARGEST {
@@ -60,7 +61,7 @@ pub fn check(
             diagnostics.error(
                 driver.name.span(),
                 format_args!(
-                    "`{}` is singular at every position: the closures for {} say the same of both",
+                    "`{}` is singular at every position: the equations for {} are dependent",
                     driver.name,
                     names.join(" and ")
                 ),
@@ -74,7 +75,7 @@ pub fn check(
     diagnostics.len() == before
 }
 
-/// Reports a constant that came of the derivatives and that no `f64` holds.
+/// Reports a constant in the derivatives that is outside the range of `f64`.
 pub fn check_numbers(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph, diagnostics: &mut Diagnostics) {
     let Some(fault) = graph.take_fault() else { return };
     let message =
@@ -85,12 +86,12 @@ pub fn check_numbers(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph, 
     }
 }
 
-/// Inputs that nothing with inertia moves with, whatever the position.
+/// Reports inputs without reduced inertia at all positions, and equilibria without free inputs.
 fn without_inertia(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation, diagnostics: &mut Diagnostics) {
     for derived in &derivation.scenes {
         let scene = &mechanism.scenes[derived.place];
         if derived.equilibrium.is_some() && derived.drives.len() == driver.inputs.len() {
-            let message = format!("all inputs of `{}` are driven: there is no equilibrium to find", scene.name);
+            let message = format!("all inputs of `{}` are driven: remove `equilibrium;`", scene.name);
             diagnostics.error(scene.name.span(), message);
         }
         let Some(mass_matrix) = &derived.mass_matrix else { continue };
@@ -100,7 +101,7 @@ fn without_inertia(mechanism: &Mechanism, driver: &Driver, derivation: &Derivati
                 diagnostics.error(
                     scene.name.span(),
                     format_args!(
-                        "nothing that has inertia in `{}` moves with `{input}`: its reduced inertia is zero",
+                        "the reduced inertia of `{input}` in `{}` is zero: add a body that moves with it",
                         scene.name
                     ),
                 );
@@ -109,7 +110,7 @@ fn without_inertia(mechanism: &Mechanism, driver: &Driver, derivation: &Derivati
     }
 }
 
-/// Whether every derivative of the user's functions that is needed is given.
+/// Returns true if the user functions have all derivatives that are needed; reports those that are missing.
 fn given(mechanism: &Mechanism, derivation: &Derivation, diagnostics: &mut Diagnostics) -> bool {
     let mut complete = true;
     for external in &mechanism.externals {
@@ -120,14 +121,13 @@ fn given(mechanism: &Mechanism, derivation: &Derivation, diagnostics: &mut Diagn
         let needed = derived().filter_map(External::order).max().unwrap_or(0);
         let (argument, message) = if let Some(other) = other {
             let (first, moving) = (&arguments[0], &arguments[other + 1]);
-            let message =
-                format!("the derivatives of `{}` are by `{first}` alone: `{moving}` must not vary", name.text);
+            let message = format!("`{moving}` must be constant: `{}` has derivatives by `{first}` only", name.text);
             (other + 1, message)
         } else if needed >= names.len() {
             let path: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
             let list: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
             let message = format!(
-                "motion takes the {} derivative of `{}`, and `{}` gives {}\nlet it give more: `-> ({}{})`",
+                "motion needs the {} derivative of `{}`, but `{}` returns only {}\nlet it return more: `-> ({}{})`",
                 ordinal(needed),
                 name.text,
                 path.join("::"),
@@ -156,13 +156,13 @@ fn ordinal(number: usize) -> String {
     format!("{number}{ending}")
 }
 
-/// The call of the highest order in which this argument holds a coordinate.
+/// The call of the highest order whose argument depends on a coordinate.
 fn moving<'a>(mechanism: &Mechanism, derivation: &Derivation, calls: &'a [Call], argument: usize) -> Option<&'a Call> {
     let coordinates: BTreeSet<SymbolId> = mechanism.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
     let moves = |call: &&Call| {
         let symbols = derivation.graph.symbols_of(&call.arguments[argument..=argument]);
         symbols.iter().any(|symbol| coordinates.contains(symbol))
     };
-    // Of several the first.
+    // `max_by_key` returns the last maximum: reversed, the first.
     calls.iter().rev().filter(moves).max_by_key(|call| call.order)
 }

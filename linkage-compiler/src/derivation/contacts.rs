@@ -1,4 +1,4 @@
-//! Frictions and stops: the scalars they act along, with what the contact law needs of them.
+//! Frictions and stops: the derivatives of the scalars s that they act along.
 //!
 //! s(q) has the derivatives `ds/dq`, and s'' = `ds/dq` q'' + bias with the quadratic terms `(s_q q')_q q'`.
 

@@ -1,4 +1,4 @@
-//! The data of a derivation: the coordinates, the blocks, the points and outputs, and what is asked for beyond.
+//! The data of a derivation: coordinates, blocks, points, outputs, scenes, and the results of `derive` statements.
 
 use super::linear::{Row, Solutions};
 use super::scene::Scene;
@@ -6,7 +6,7 @@ use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{BlockId, ColumnId, InputId, PairId, ParameterId, RowId, Table, UnknownId};
 use crate::structure::Group;
 
-/// A coordinate with the names of its velocity, acceleration and jerk.
+/// A coordinate with the symbols of its rate, acceleration and jerk.
 #[derive(Debug, Clone)]
 pub struct Coordinate {
     pub name: String,
@@ -16,22 +16,22 @@ pub struct Coordinate {
     pub jerk: SymbolId,
 }
 
-/// A point or an output with all that is derived from it.
+/// A point or an output with its derivatives.
 #[derive(Debug, Clone)]
 pub struct Quantity {
-    /// x and y of a point, the one value of an output.
+    /// x and y of a point, or the value of an output.
     pub value: Vec<NodeId>,
-    /// d value / d q, one row a component.
+    /// d value / d q, one row for each component.
     pub jacobian: Vec<Row<ColumnId>>,
-    /// In terms of q and q'.
+    /// The rate, in terms of q and q'.
     pub rate: Vec<NodeId>,
-    /// In terms of q, q' and q''.
+    /// The acceleration, in terms of q, q' and q''.
     pub acceleration: Vec<NodeId>,
-    /// In terms of q to q'''; like the rest, empty unless asked for.
+    /// The jerk, in terms of q to q'''. This and the next fields are empty without a `derive` statement.
     pub jerk: Vec<NodeId>,
     /// (l_q w_j)_q w_k, by pair of inputs and component, in terms of q and W.
     pub along_inputs: Table<PairId, Vec<NodeId>>,
-    /// l_p, one row a component.
+    /// l_p, one row for each component.
     pub by_parameters: Vec<Row<ParameterId>>,
 }
 
@@ -39,10 +39,10 @@ pub struct Quantity {
 #[derive(Debug, Clone, Copy)]
 pub struct Determinant {
     pub value: NodeId,
-    /// The name under which everything else refers to it.
+    /// The symbol that other formulas use.
     pub symbol: SymbolId,
-    /// The largest value that its formula could take at these lengths: what "near zero" is measured by.
-    pub size: NodeId,
+    /// An upper bound of its magnitude at these lengths: the scale of "near zero".
+    pub scale: NodeId,
 }
 
 /// Unknowns that are solved together, once all blocks before are solved.
@@ -51,7 +51,7 @@ pub struct Block {
     pub equations: Vec<RowId>,
     pub unknowns: Vec<UnknownId>,
     pub group: Group,
-    /// Of a block in closed form.
+    /// The determinant, if the block has at most two unknowns.
     pub determinant: Option<Determinant>,
 }
 
@@ -62,9 +62,9 @@ pub struct RatioDerivatives {
     pub pairs: Table<PairId, (InputId, InputId)>,
     /// The pair of two inputs in either order.
     pub places: Table<InputId, Table<InputId, PairId>>,
-    /// What stands behind the name of what is derived.
+    /// The ending of the names of the second derivatives for each pair.
     pub endings: Table<PairId, String>,
-    /// The names of L.
+    /// The symbols of L.
     pub names: Solutions<PairId, SymbolId>,
     /// (Psi_q w_j)_q w_k, in terms of W.
     pub terms: Table<PairId, Table<RowId, NodeId>>,
@@ -73,7 +73,7 @@ pub struct RatioDerivatives {
 /// The sensitivities to the parameters.
 #[derive(Debug, Clone)]
 pub struct Sensitivity {
-    /// The names of du/dp.
+    /// The symbols of du/dp.
     pub names: Solutions<ParameterId, SymbolId>,
     /// Psi_p.
     pub jacobian: Table<RowId, Row<ParameterId>>,
@@ -89,35 +89,35 @@ pub struct Derivation {
     pub inputs: Table<InputId, ColumnId>,
     /// Psi.
     pub residual: Table<RowId, NodeId>,
-    /// The sum of the magnitudes of each closure's terms: what "small residual" is measured by.
+    /// For each row of Psi, the sum of the magnitudes of its terms: the scale of its residual.
     pub residual_scales: Table<RowId, NodeId>,
     /// Psi_q.
     pub jacobian: Table<RowId, Row<ColumnId>>,
     pub blocks: Table<BlockId, Block>,
     /// True if det J is the negative of the product of the determinants of the blocks.
     pub is_odd: bool,
-    /// The names of W.
+    /// The symbols of W.
     pub ratios: Solutions<InputId, SymbolId>,
     /// (Psi_q q')_q q'.
     pub gamma: Table<RowId, NodeId>,
     pub points: Vec<Quantity>,
     pub outputs: Vec<Quantity>,
-    /// What is left of Psi''' where no coordinate jerks; like what follows only if it is asked for.
+    /// Psi''' at q''' = 0. This and the next two fields are `None` without a `derive` statement.
     pub eta: Option<Table<RowId, NodeId>>,
     pub ratio_derivatives: Option<RatioDerivatives>,
     pub sensitivity: Option<Sensitivity>,
-    /// Those of this driver.
+    /// The scenes of this driver.
     pub scenes: Vec<Scene>,
 }
 
 impl Block {
-    /// The name of its branch: those of its unknowns.
+    /// The name of its field in the branch: the names of its unknowns.
     #[must_use]
     pub fn branch(&self, derivation: &Derivation) -> String {
         self.names(derivation).replace(", ", "_")
     }
 
-    /// The names of the unknowns, by which errors name the block.
+    /// The names of its unknowns, which identify it in errors.
     #[must_use]
     pub fn names(&self, derivation: &Derivation) -> String {
         let name = |&place: &UnknownId| derivation.coordinates[derivation.unknowns[place]].name.as_str();

@@ -1,4 +1,4 @@
-//! The derivation of a mechanism with one driver: the position first, then what is asked for beyond.
+//! The derivation of a mechanism with one driver.
 
 use std::collections::BTreeMap;
 
@@ -6,14 +6,14 @@ use super::angles::angles;
 use super::data::{Block, Coordinate, Derivation, Determinant, Quantity};
 use super::jacobian::{along_rates, jacobian, places_of};
 use super::linear::Row;
-use super::{magnitude, ratios};
+use super::{ratios, scale};
 use crate::algebra::{self, simplify};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{BlockId, ColumnId, CoordinateId, Id, InputId, RowId, Table, UnknownId};
 use crate::model::{Driver, Mechanism, Request};
 use crate::structure::{self, Group, Method};
 
-/// Derives a checked mechanism, whose closures can be solved in the order of the blocks of its driver.
+/// Derives a checked mechanism, which can be solved in the order of the blocks of its driver.
 #[must_use]
 pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let blocks = driver.blocks.clone();
@@ -37,7 +37,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let residual = mechanism.rows();
     let place_of = places_of(&coordinates, |c| c.value);
     let jacobian = Table::from(jacobian(&mut graph, &residual, &place_of));
-    let sizes = residual.iter().map(|&row| magnitude::of(&mut graph, row)).collect();
+    let residual_scales = residual.iter().map(|&row| scale::of(&mut graph, row)).collect();
     // gamma = (Psi_q q')_q q': the derivative along q' of Psi' with q' held.
     let rates = along_rates(&mut graph, &coordinates);
     let psi_rate = graph.differentiate(&residual, &rates);
@@ -53,7 +53,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     }
     let blocks = with_names(&mut graph, parts);
     let ratios = ratios::names(&mut graph, &coordinates, &unknowns, &inputs);
-    // A pose has the directions of the closures at hand.
+    // A pose holds the sines and cosines of the loop equations.
     let given = angles(&graph, &residual);
     let outputs: Vec<NodeId> = mechanism.outputs.iter().map(|output| output.value).collect();
     let outputs: Vec<NodeId> = outputs.into_iter().map(|output| simplify(&mut graph, &[output], &given)[0]).collect();
@@ -66,7 +66,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         unknowns,
         inputs,
         residual,
-        sizes,
+        residual_scales,
         jacobian,
         blocks,
         is_odd,
@@ -82,7 +82,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     };
     for request in &mechanism.requests {
         match request {
-            // These follow from the position, when it is emitted.
+            // Limits are derived from the assembly when they are emitted.
             Request::Limits => {}
             Request::Jerk => derivation.derive_jerk(),
             Request::VelocityRatioDerivatives => derivation.derive_ratio_derivatives(),
@@ -93,7 +93,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     derivation
 }
 
-/// The determinant of a block in closed form and its size.
+/// The determinant of a block in closed form, and its scale.
 fn determinant(
     graph: &mut Graph,
     jacobian: &Table<RowId, Row<ColumnId>>,
@@ -109,32 +109,31 @@ fn determinant(
             1 => entry(0, 0),
             _ => algebra::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
         };
-        (value, magnitude::of_determinant(graph, value))
+        (value, scale::of_determinant(graph, value))
     })
 }
 
-/// A block with the value and the size of its determinant, which has no name yet.
+/// A block with the value and the scale of its determinant, which has no name yet.
 type Unnamed = (structure::Block, Group, Option<(NodeId, NodeId)>);
 
-/// Blocks with their determinants named: a mechanism with one determinant calls it so; of several each has the
-/// number of its block.
+/// Names the determinants of blocks: `determinant` if only one varies, else with the numbers of their blocks.
 fn with_names(graph: &mut Graph, parts: Table<BlockId, Unnamed>) -> Table<BlockId, Block> {
     let is_variable = |graph: &Graph, value: NodeId| graph.constant_value(value).is_none();
     let values = parts.iter().filter_map(|(_, _, determinant)| Some(determinant.as_ref()?.0));
     let is_single = values.filter(|&value| is_variable(graph, value)).count() == 1;
     let named = parts.ids().zip(parts).map(|(id, (block, group, determinant))| {
         let structure::Block { equations, unknowns } = block;
-        let determinant = determinant.map(|(value, size)| {
+        let determinant = determinant.map(|(value, scale)| {
             let is_only = is_single && is_variable(graph, value);
             let name = if is_only { "determinant".to_owned() } else { format!("determinant_{}", id.number()) };
-            Determinant { value, symbol: graph.symbol(name), size }
+            Determinant { value, symbol: graph.symbol(name), scale }
         });
         Block { equations, unknowns, group, determinant }
     });
     named.collect()
 }
 
-/// Quantities by the values of their components.
+/// Points or outputs with their derivatives, from the values of their components.
 fn quantities(
     graph: &mut Graph,
     values: Vec<Vec<NodeId>>,

@@ -1,7 +1,7 @@
-//! Equilibrium: Q(v) = 0 where nothing moves, and the stiffness -dQ/dv along the closures.
+//! Static equilibrium: Q = 0 at rest, and the stiffness -dQ/dv along the motion of the mechanism.
 //!
-//! Q is made of q and W, so that dQ/dv_k = Q_q w_k + sum `Q_W` L_k, with w_k the motion of all coordinates for a unit
-//! rate of the input k and L the derivatives of the velocity ratios.
+//! Q depends on q and W, so that dQ/dv_k = Q_q w_k + sum `Q_W` L_k, where w_k are the rates of all coordinates for a
+//! unit rate of the input k, and L the derivatives of the velocity ratios.
 
 use rustc_hash::FxHashMap;
 

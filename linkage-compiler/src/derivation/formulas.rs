@@ -1,5 +1,5 @@
-//! What is derived for the reader: W, det J and J^-1 as a mechanic writes them, and what they take for
-//! granted. The kernels compute the same numbers by names and shared parts.
+//! Formulas for documentation: W, det J and J^-1 in simplified form, and the conditions that they assume. Kernels
+//! compute the same values with names and common subexpressions.
 
 use std::collections::BTreeSet;
 
@@ -12,12 +12,12 @@ use crate::ids::{BlockId, InputId, MemberId, PairId, ParameterId, Table};
 /// 1 / det J of a block, and adj J by rows.
 pub type Inverse = (NodeId, Table<MemberId, Row<MemberId>>);
 
-/// What is derived for the reader alone.
+/// Formulas for documentation only.
 #[derive(Debug, Clone)]
 pub struct Formulas {
-    /// W; none where a block is solved by factorisation.
+    /// W; `None` in blocks that are solved by factorisation.
     pub ratios: Solutions<InputId, Option<NodeId>>,
-    /// L; like what follows empty unless asked for.
+    /// L; empty without a `derive` statement, like `sensitivities`.
     pub ratio_derivatives: Solutions<PairId, Option<NodeId>>,
     /// du/dp.
     pub sensitivities: Solutions<ParameterId, Option<NodeId>>,
@@ -26,11 +26,11 @@ pub struct Formulas {
     pub inverses: Table<BlockId, Option<Inverse>>,
     pub points: Vec<QuantityFormulas>,
     pub outputs: Vec<QuantityFormulas>,
-    /// What the formulas take for granted.
+    /// The conditions that the formulas assume.
     pub conditions: BTreeSet<Condition>,
 }
 
-/// The derivatives of a point or output, each by component, in terms of W, L and du/dp.
+/// The derivatives of a point or output, for each component, in terms of W, L and du/dp.
 #[derive(Debug, Clone)]
 pub struct QuantityFormulas {
     /// W_l.
@@ -42,7 +42,7 @@ pub struct QuantityFormulas {
 }
 
 impl Formulas {
-    /// Derives them from a derivation.
+    /// Makes the formulas of a derivation.
     pub fn new(derivation: &mut Derivation) -> Self {
         let ratios = derivation.ratio_formulas();
         let (ratio_derivatives, second) = derivation.ratio_derivative_formulas();
@@ -77,7 +77,7 @@ impl Formulas {
     }
 }
 
-/// W_l by component.
+/// W_l for each component.
 fn quantity_ratios(derivation: &mut Derivation, quantity: &Quantity) -> Table<InputId, Vec<NodeId>> {
     let inputs = derivation.inputs.ids();
     inputs.map(|input| quantity.jacobian.iter().map(|row| derivation.quantity_ratio(row, input)).collect()).collect()

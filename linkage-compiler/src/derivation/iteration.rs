@@ -1,5 +1,5 @@
-//! A group that has no closed form: Newton's method on its own closures, with all that does not change from step
-//! to step computed before.
+//! Groups without closed form: Newton's method on the equations of the group, with subexpressions that do not depend on
+//! its unknowns computed before the iteration.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -10,7 +10,7 @@ use crate::graph::{Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, ColumnId};
 
 impl Derivation {
-    /// Names what the groups before know, and then the unknowns.
+    /// Adds steps that name the invariant subexpressions, and the step of Newton's method.
     pub(super) fn iterate(&mut self, id: BlockId, block: &Block, assembly: &mut Assembly) {
         let columns = self.unknowns.at(&block.unknowns);
         let targets: Vec<SymbolId> = columns.iter().map(|&column| self.coordinates[column].value).collect();
@@ -35,12 +35,12 @@ impl Derivation {
     }
 }
 
-/// Expressions parted into what holds some symbols and what does not.
+/// Hoists subexpressions that do not depend on some symbols out of expressions.
 struct Split<'a> {
     derivation: &'a mut Derivation,
-    /// The nodes that hold one of the symbols.
+    /// The nodes that depend on one of the symbols.
     holding: FxHashSet<NodeId>,
-    /// The names of what does not change.
+    /// The names of hoisted subexpressions.
     names: FxHashMap<NodeId, NodeId>,
     steps: Vec<Step>,
 }
@@ -58,7 +58,7 @@ impl<'a> Split<'a> {
         Self { derivation, holding, names: FxHashMap::default(), steps: Vec::new() }
     }
 
-    /// The same expressions with names in place of what does not change.
+    /// Returns the expressions with names in place of invariant subexpressions.
     fn changing(&mut self, roots: &[NodeId]) -> Vec<NodeId> {
         let mut new: FxHashMap<NodeId, NodeId> = FxHashMap::default();
         for id in self.derivation.graph.reachable(roots) {
@@ -70,7 +70,7 @@ impl<'a> Split<'a> {
         roots.iter().map(|root| new.get(root).copied().unwrap_or_else(|| self.named(*root))).collect()
     }
 
-    /// A node that holds a symbol: its parts that hold none taken together under one name.
+    /// Rebuilds a node that depends on a symbol; its invariant terms or factors become one name.
     fn rebuilt(&mut self, id: NodeId, new: &FxHashMap<NodeId, NodeId>) -> NodeId {
         match self.derivation.graph.node(id).clone() {
             Node::Constant(_) | Node::Pi | Node::Symbol(_) => id,
@@ -111,7 +111,7 @@ impl<'a> Split<'a> {
         arguments.iter().map(part).collect()
     }
 
-    /// What does not change by a name, unless it is a symbol, a number or one with a sign.
+    /// Names an invariant subexpression; numbers, symbols and negated symbols stay as they are.
     fn named(&mut self, id: NodeId) -> NodeId {
         let graph = &mut self.derivation.graph;
         if graph.symbols_of(&[id]).is_empty() || graph.as_symbol(id).is_some() {

@@ -1,4 +1,4 @@
-//! Derivatives by coordinates and parameters, as rows of the entries that are not zero.
+//! Derivatives by coordinates and parameters, as sparse rows.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use super::linear::Row;
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{ColumnId, Id, Table};
 
-/// The place of each symbol in a table.
+/// The id of each symbol in a table.
 pub(super) fn places_of<I: Id, T>(table: &Table<I, T>, symbol: fn(&T) -> SymbolId) -> BTreeMap<SymbolId, I> {
     table.enumerated().map(|(place, entry)| (symbol(entry), place)).collect()
 }
 
-/// The derivatives of some scalars by what has these places.
+/// The derivatives of some scalars by these symbols.
 pub(super) fn jacobian<C: Id + Ord>(graph: &mut Graph, rows: &[NodeId], places: &BTreeMap<SymbolId, C>) -> Vec<Row<C>> {
-    // What rows have in common is derived once.
+    // All rows with one symbol are differentiated together, so that common subexpressions are differentiated once.
     let mut holders: BTreeMap<(SymbolId, C), Vec<usize>> = BTreeMap::new();
     for (index, &row) in rows.iter().enumerate() {
         for symbol in graph.symbols_of(&[row]) {
@@ -35,7 +35,7 @@ pub(super) fn jacobian<C: Id + Ord>(graph: &mut Graph, rows: &[NodeId], places: 
     jacobian
 }
 
-/// q -> q'.
+/// The map q -> q', for derivatives with respect to time.
 pub(super) fn along_rates(graph: &mut Graph, coordinates: &Table<ColumnId, Coordinate>) -> BTreeMap<SymbolId, NodeId> {
     coordinates.iter().map(|coordinate| (coordinate.value, graph.variable(coordinate.rate))).collect()
 }

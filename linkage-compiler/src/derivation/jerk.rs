@@ -8,7 +8,7 @@ use crate::ids::{RowId, Table};
 
 impl Derivation {
     pub(super) fn derive_jerk(&mut self) {
-        // d/dt: q -> q', q' -> q'', and q'' -> 0 until q''' is wanted.
+        // d/dt: q -> q', q' -> q'', q'' -> 0.
         let mut seeds = along_rates(&mut self.graph, &self.coordinates);
         let first = self.graph.differentiate(&self.residual, &seeds);
         for coordinate in &self.coordinates {

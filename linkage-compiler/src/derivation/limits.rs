@@ -1,8 +1,8 @@
-//! Where an input ends: what must not be negative for a group to be assembled, as a function of one input.
+//! Limits of inputs: the conditions f(v) >= 0 under which groups can be assembled, as functions of one input.
 //!
-//! A group that depends on inputs alone, itself or through linear equations that are solved before it, has a bound
-//! f(v) >= 0 of one of two forms, told by its derivatives: f''' = -k^2 f' is a + b cos(k v) + c sin(k v), k being the rate
-//! of an angle in f, and f''' = 0 is a + b v + c v^2. All other groups are searched.
+//! If a group depends on the inputs alone, directly or through linear equations, f may have one of two forms,
+//! recognised by their derivatives: f''' = -k^2 f' means a + b cos(k v) + c sin(k v), where k is the rate of an angle
+//! in f, and f''' = 0 means a + b v + c v^2. The limits of all other groups are found by search.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, InputId, Table};
 use crate::structure::Group;
 
-/// f(v) >= 0 where a block can be assembled.
+/// The condition f(v) >= 0 under which a block can be assembled.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
     pub block: BlockId,
@@ -27,7 +27,7 @@ pub struct Bound {
 }
 
 impl Derivation {
-    /// The bounds on one input, and whether blocks are left that must be searched.
+    /// The bounds on one input in closed form, and true if there are other bounds.
     pub fn bounds(&mut self, assembly: &Assembly, input: InputId) -> (Vec<Bound>, bool) {
         let mut is_searched = assembly.steps.iter().any(|step| matches!(step, Step::Newton { .. }));
         let formulas: FxHashMap<NodeId, NodeId> = assembly
@@ -52,11 +52,10 @@ impl Derivation {
         (bounds, is_searched)
     }
 
-    /// For each block, whether its equations hold no unknown of another block but of linear ones, of which the same is
-    /// true.
+    /// For each block, true if it depends on the inputs alone, directly or through linear blocks.
     fn on_inputs(&self) -> Table<BlockId, bool> {
         let mut on_inputs = Table::default();
-        // The unknowns of the linear blocks among them.
+        // The unknowns of linear blocks that depend on the inputs alone.
         let mut known = BTreeSet::new();
         for block in &self.blocks {
             let symbols = self.graph.symbols_of(&self.residual.at(&block.equations));
@@ -71,7 +70,8 @@ impl Derivation {
         on_inputs
     }
 
-    /// A function in one of the two forms; none if it has neither, an empty one if the input has no say in it.
+    /// Converts a function to one of the two forms: `None` if it has neither, `Some(None)` if it does not depend on the
+    /// input.
     fn bound(
         &mut self,
         block: BlockId,
@@ -114,7 +114,7 @@ impl Derivation {
         Some(Some(Bound { block, rate, coefficients }))
     }
 
-    /// A function with the formulas of the names it is made of.
+    /// Replaces names in a function by their formulas.
     fn written_out(&mut self, mut function: NodeId, formulas: &FxHashMap<NodeId, NodeId>) -> NodeId {
         loop {
             let names: Vec<SymbolId> = self.graph.symbols_of(&[function]).into_iter().collect();
@@ -133,13 +133,13 @@ impl Derivation {
     }
 }
 
-/// True if an expression is zero, as far as the identities tell.
+/// True if the identities simplify an expression to zero.
 fn vanishes(graph: &mut Graph, id: NodeId) -> bool {
     let form = simplify(graph, &[id], &BTreeSet::new())[0];
     graph.is_zero(form)
 }
 
-/// The rates at which the angles in a function turn with an input, as far as they are constant.
+/// The constant derivatives of the angles in a function with respect to an input.
 fn rates(graph: &mut Graph, function: NodeId, input: SymbolId) -> Vec<NodeId> {
     let mut angles = Vec::new();
     for id in graph.reachable(&[function]) {

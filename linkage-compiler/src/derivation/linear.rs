@@ -1,4 +1,4 @@
-//! Linear systems J x = r: their rows, right sides and solutions, and the formula for one or two unknowns.
+//! Types of linear systems J x = r, and the formula for one or two unknowns.
 
 use std::collections::BTreeMap;
 
@@ -6,22 +6,22 @@ use crate::algebra::factor;
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{RowId, Table, UnknownId};
 
-/// The derivatives of one scalar by coordinates or parameters; those not named are zero.
+/// The derivatives of one scalar by coordinates or parameters; missing entries are zero.
 pub type Row<Column> = BTreeMap<Column, NodeId>;
 
 /// The solutions x of several systems J x = r.
 pub type Solutions<I, X> = Table<I, Table<UnknownId, X>>;
 
-/// J x = r: r, and the names of x.
+/// J x = r: the right side r, and the symbols of x.
 pub type System = (Table<RowId, NodeId>, Table<UnknownId, SymbolId>);
 
-/// How the solution of two equations is written.
+/// The form of the solution of two equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// With common factors taken out: fewest operations for a system that stands alone.
+    /// With common factors taken out: fewest operations for a single system.
     Factored,
-    /// By the entries of J as they are: fewest where the right side is made of the same entries, as
-    /// that of the accelerations is (x_i = l_i cos theta_i serves both).
+    /// In terms of the entries of J: fewest operations if the right side has the same entries, as for
+    /// accelerations (l_i cos theta_i occurs in both).
     Entries,
 }
 

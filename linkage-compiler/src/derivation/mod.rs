@@ -1,8 +1,8 @@
-//! What follows from the closures Psi(q) = 0: Jacobians, determinant, velocity ratios,
-//! the quadratic velocity term, and the same for points and outputs.
+//! The mathematics of a mechanism Psi(q) = 0: Jacobians, determinants, velocity ratios, the quadratic velocity term,
+//! closed-form positions, and the equations of motion.
 //!
-//! Rates and accelerations of the coordinates are names of their own and are never replaced
-//! by formulas: substituting them is what makes symbolic tools swell.
+//! Rates and accelerations of the coordinates are symbols that are never replaced by their formulas, since substitution
+//! makes expressions swell.
 
 mod angles;
 mod assembly;
@@ -17,11 +17,11 @@ mod jacobian;
 mod jerk;
 mod limits;
 mod linear;
-mod magnitude;
 mod motion;
 mod ratio_derivatives;
 mod ratios;
 mod reactions;
+mod scale;
 mod scene;
 mod sensitivity;
 mod solution;

@@ -1,7 +1,7 @@
-//! Equations of motion in the independent coordinates: the velocity ratios carry every force to them.
+//! Equations of motion reduced to the independent coordinates by the velocity ratios.
 //!
 //! With u' = W v' a scalar s has the rate s' = `s_j` v'j, `s_j` = l_u W_j + l_v, and the acceleration
-//! s'' = `s_j` v''j + `s_0`, where `s_0` is what is left at v'' = 0. Virtual work gives M v'' = Q with
+//! s'' = `s_j` v''j + `s_0`, where `s_0` is s'' at v'' = 0. Virtual work gives M v'' = Q with
 //! M = sum m (`G_j` . `G_k`) + j `w_j` `w_k` and Q = sum F `s_j` - m `G_j` . (`G_0` - g) - j `w_j` `w_0`.
 //! For one input M v'' + (dM/dv) v'^2 / 2 is Eksergian's equation (P. Eksergian, "Dynamical analysis of
 //! machines", Journal of the Franklin Institute, 1930/31).
@@ -16,19 +16,19 @@ use super::scene::{Contact, ContactFormula, Prescribed, Scene};
 use crate::algebra::{gather, simplify};
 use crate::graph::{Function, Node, NodeId, Number, SymbolId};
 use crate::ids::{BodyId, ColumnId, InputId, RowId, SceneId, Table, UnknownId};
-use crate::model::{self, Account, Driver, Mechanism, Wish};
+use crate::model::{self, Account, Driver, Mechanism, SceneRequest};
 
-/// A mass or an inertia, what moves with it, and the field it is in.
+/// A mass or an inertia, the scalars that move with it, and the gravitational field.
 pub(super) struct MovingPart {
     pub property: &'static str,
     pub factor: NodeId,
     pub scalars: Vec<NodeId>,
     pub fields: Vec<NodeId>,
-    /// True if it has inertia, and not only weight.
+    /// True if it has inertia, false if it has weight only.
     pub is_inert: bool,
 }
 
-/// A scalar with what is derived from it.
+/// The derivatives of a scalar.
 struct Along {
     /// `s_j`.
     ratios: Table<InputId, NodeId>,
@@ -40,7 +40,8 @@ impl Derivation {
         let own = |scene: &model::Scene| mechanism.drivers[scene.driver].name == driver.name;
         for (place, scene) in mechanism.scenes.enumerated().filter(|(_, scene)| own(scene)) {
             let mut derived = self.derive_scene(mechanism, place, scene);
-            derived.equilibrium = scene.wishes.contains(&Wish::Equilibrium).then(|| self.derive_equilibrium(&derived));
+            derived.equilibrium =
+                scene.requests.contains(&SceneRequest::Equilibrium).then(|| self.derive_equilibrium(&derived));
             self.scenes.push(derived);
         }
     }
@@ -83,7 +84,8 @@ impl Derivation {
                         sums.push(self.scalar_product(ratios.clone().zip(biases.iter().copied()).collect()));
                     }
                     if sums.first().is_some_and(|&inert| self.is_one_term(inert)) {
-                        // About a fixed point inertia is one term, which the moment of inertia has, too.
+                        // For a rotation about a fixed point the inertia term is one product, which is shared with the
+                        // moment of inertia; keep it apart from the weight.
                         let weight = self.scalar_product(ratios.zip(fields.iter().copied()).collect());
                         sums.push(self.graph.negate(weight));
                     } else {
@@ -131,7 +133,7 @@ impl Derivation {
         }
         let contacts = self.derive_contacts(mechanism, scene);
         for Contact { label, rate, law, .. } in &contacts {
-            // What slips takes limit |s'|, and what sticks nothing.
+            // A slipping contact dissipates limit |s'|; for a sticking one s' = 0.
             if let ContactFormula::Friction { limit, given } = law {
                 let rate = self.graph.call(Function::Abs, &[*rate]);
                 dissipated.push((Number::ONE, self.graph.multiply(*limit, rate)));
@@ -148,7 +150,8 @@ impl Derivation {
         let mass_matrix = scene.inertia.is_some().then_some(mass_matrix);
         let drives = self.prescribed(mechanism, scene);
         let unreduced = scene.inertia.is_some().then(|| self.derive_unreduced(mechanism, scene));
-        let reactions = scene.wishes.contains(&Wish::Reactions).then(|| self.derive_reactions(mechanism, scene));
+        let reactions =
+            scene.requests.contains(&SceneRequest::Reactions).then(|| self.derive_reactions(mechanism, scene));
         Scene {
             place,
             bias,
@@ -168,7 +171,7 @@ impl Derivation {
         }
     }
 
-    /// What of a body moves in a scene: a mass in two directions, an inertia in one.
+    /// The moving parts of a body in a scene: a mass with two scalars, an inertia with one.
     pub(super) fn moving_parts(&mut self, index: BodyId, body: &model::Body, scene: &model::Scene) -> Vec<MovingPart> {
         let is_inert = scene.inertia.as_ref().is_some_and(|bodies| bodies.contains(&index));
         let fields = scene.weights.iter().filter(|(other, _)| *other == index).map(|(_, field)| *field);
@@ -195,14 +198,14 @@ impl Derivation {
         names.map(|name| self.graph.symbol(name)).collect()
     }
 
-    /// x . y, in its simplest form.
+    /// The scalar product x . y, simplified.
     fn scalar_product(&mut self, pairs: Vec<(NodeId, NodeId)>) -> NodeId {
         let terms: Vec<_> = pairs.into_iter().map(|(a, b)| (Number::ONE, self.graph.multiply(a, b))).collect();
         let sum = self.graph.sum(&terms);
         self.simplest(sum)
     }
 
-    /// True if there is no sum in it, nor in its factors.
+    /// True if the expression is neither a sum nor a product with a sum as a factor.
     fn is_one_term(&self, node: NodeId) -> bool {
         let is_sum = |node: NodeId| matches!(self.graph.node(node), Node::Sum { .. });
         match self.graph.node(node) {
@@ -211,7 +214,7 @@ impl Derivation {
         }
     }
 
-    /// The simplest form beside the sines and cosines that the closures take.
+    /// Simplifies an expression, where the sines and cosines of the loop equations cost nothing.
     pub(super) fn simplest(&mut self, node: NodeId) -> NodeId {
         let given: BTreeSet<NodeId> = angles(&self.graph, &self.residual);
         simplify(&mut self.graph, &[node], &given)[0]
@@ -223,14 +226,14 @@ impl Derivation {
         jacobian(&mut self.graph, &[scalar], &places).remove(0)
     }
 
-    /// W, q' and u'' at v'' = 0, in which all of the above are polynomials.
+    /// The symbols of W, q' and u'' at v'' = 0; M, Q and the energies are polynomials in these.
     fn motion_symbols(&mut self, bias: &Table<UnknownId, SymbolId>) -> BTreeSet<NodeId> {
         let rates = self.coordinates.iter().map(|coordinate| coordinate.rate);
         let symbols: Vec<SymbolId> = self.ratios.iter().flatten().chain(bias).copied().chain(rates).collect();
         symbols.into_iter().map(|symbol| self.graph.variable(symbol)).collect()
     }
 
-    /// `s_j` is what the rate is at v'j = 1 where the other inputs stand still.
+    /// `s_j` is the rate at v'j = 1 with the other input rates zero.
     fn along(&mut self, scalar: NodeId, motion: &BTreeSet<NodeId>) -> Along {
         let mut ratios = Table::default();
         for (input, names) in self.ratios.clone().enumerated() {
@@ -248,7 +251,7 @@ impl Derivation {
         Along { ratios, rate }
     }
 
-    /// `s_0` by the rate of a scalar.
+    /// `s_0` of a scalar, from its rate.
     fn bias_of(&mut self, rate: NodeId, bias: &Table<UnknownId, SymbolId>) -> NodeId {
         // d/dt: q -> q', u' -> u'' at v'' = 0, v' -> 0.
         let mut seeds = along_rates(&mut self.graph, &self.coordinates);
@@ -258,7 +261,7 @@ impl Derivation {
         self.graph.differentiate(&[rate], &seeds)[0]
     }
 
-    /// The laws of the driven inputs.
+    /// The laws of the driven inputs, with their derivatives.
     fn prescribed(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> BTreeMap<InputId, Prescribed> {
         let one = self.graph.one();
         let seeds: BTreeMap<SymbolId, NodeId> = mechanism.time.iter().map(|&time| (time, one)).collect();

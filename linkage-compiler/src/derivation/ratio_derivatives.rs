@@ -1,9 +1,9 @@
 //! The derivatives L_jk = d2u / dv_j dv_k of the velocity ratios: "velocity coefficients and their
-//! derivatives" (S. Doughty, "Mechanics of Machines", 1988), of any number of inputs.
+//! derivatives" (S. Doughty, "Mechanics of Machines", 1988), for any number of inputs.
 //!
-//! Along w_j = (W_j, e_j), the motion of all coordinates for a unit rate of the input j, the closures
-//! stay closed: Psi_q w_j = 0. Once more, along w_k: J L_jk = -(Psi_q w_j)_q w_k. The right side is gamma as
-//! the bilinear form of two motions, so that L_jk = L_kj.
+//! Let w_j = (W_j, e_j) be the rates of all coordinates for a unit rate of the input j: Psi_q w_j = 0. The derivative
+//! of this along w_k gives J L_jk = -(Psi_q w_j)_q w_k. The right side is gamma as a symmetric bilinear form, so that
+//! L_jk = L_kj.
 
 use std::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ impl Derivation {
         }
     }
 
-    /// L by new names, along the unit motions of the inputs.
+    /// New symbols for L, and the right sides of its systems.
     pub(super) fn second_order(&mut self, motions: &Table<InputId, BTreeMap<SymbolId, NodeId>>) -> RatioDerivatives {
         let (mut pairs, mut places) = (Table::default(), Table::<InputId, Table<InputId, PairId>>::default());
         for j in self.inputs.ids() {
@@ -45,7 +45,7 @@ impl Derivation {
         RatioDerivatives { pairs, places, endings, names, terms }
     }
 
-    /// w_j = (W_j, e_j).
+    /// w_j = (W_j, e_j), by coordinate symbol.
     pub(super) fn unit_motion(&mut self, input: InputId) -> BTreeMap<SymbolId, NodeId> {
         let mut motion = BTreeMap::from([(self.coordinates[self.inputs[input]].value, self.graph.one())]);
         for (&unknown, &ratio) in self.unknowns.iter().zip(&self.ratios[input]) {
@@ -54,7 +54,7 @@ impl Derivation {
         motion
     }
 
-    /// L, as formulas in terms of W, and as later formulas refer to them.
+    /// The formulas of L in terms of W, and L for use in later formulas.
     pub(super) fn ratio_derivative_formulas(
         &mut self,
     ) -> (Solutions<PairId, Option<NodeId>>, Solutions<PairId, NodeId>) {
@@ -62,7 +62,7 @@ impl Derivation {
         second.iter().map(|system| self.solution_formulas(system)).unzip()
     }
 
-    /// The right sides of J W_j = -A e_j and J L_jk = -(Psi_q w_j)_q w_k with the names of the solutions.
+    /// The systems J W_j = -A e_j and J L_jk = -(Psi_q w_j)_q w_k.
     pub fn ratio_derivative_systems(&mut self) -> Vec<System> {
         let mut systems: Vec<System> = self.ratio_systems().into_iter().collect();
         if let Some(RatioDerivatives { names, terms, .. }) = self.ratio_derivatives.clone() {
@@ -72,8 +72,8 @@ impl Derivation {
         systems
     }
 
-    /// The second derivatives of a point or output by the inputs, each by component, with L by these
-    /// values: (l_q w_j)_q w_k + l_u L_jk.
+    /// The second derivatives of a point or output by the inputs, (l_q w_j)_q w_k + l_u L_jk, for each component, with
+    /// these values of L.
     pub fn quantity_ratio_derivatives(
         &mut self,
         quantity: &Quantity,

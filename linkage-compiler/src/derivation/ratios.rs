@@ -1,5 +1,5 @@
-//! Velocity ratios as formulas: W of each block by Cramer's rule, in terms of the ratios of the blocks
-//! before it, which keep their names.
+//! Formulas of the velocity ratios: W of each block by Cramer's rule, in terms of the ratios of earlier blocks, which
+//! keep their names.
 
 use super::data::{Coordinate, Derivation};
 use super::linear::{Row, Solutions, System};
@@ -7,7 +7,7 @@ use crate::algebra::{cramer, factor};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, InputId, Table, UnknownId};
 
-/// Names for W.
+/// Makes the symbols of W.
 pub(super) fn names(
     graph: &mut Graph,
     coordinates: &Table<ColumnId, Coordinate>,
@@ -22,7 +22,7 @@ pub(super) fn names(
 }
 
 impl Derivation {
-    /// W_l = l_u W + l_v of a scalar with these derivatives, W by its names.
+    /// W_l = l_u W + l_v of a scalar l with these derivatives, in terms of the symbols of W.
     pub fn quantity_ratio(&mut self, row: &Row<ColumnId>, input: InputId) -> NodeId {
         let mut terms: Vec<_> = row.get(&self.inputs[input]).map(|&entry| (Number::ONE, entry)).into_iter().collect();
         for (unknown, column) in self.unknowns.enumerated() {
@@ -34,7 +34,7 @@ impl Derivation {
         self.graph.sum(&terms)
     }
 
-    /// W, each simplified; none where a block is solved by factorisation.
+    /// The simplified formulas of W; `None` in blocks that are solved by factorisation.
     pub fn ratio_formulas(&mut self) -> Solutions<InputId, Option<NodeId>> {
         let formulas = self.ratios.ids().map(|input| {
             let system = (self.ratio_side(input), self.ratios[input].clone());
@@ -43,8 +43,8 @@ impl Derivation {
         formulas.collect()
     }
 
-    /// The x of J x = `side` by Cramer's rule, none where a block is solved by factorisation; and x as later
-    /// formulas refer to it, by its names or as zero.
+    /// The formulas of x in J x = `side` by Cramer's rule, `None` in blocks that are solved by factorisation; and x for
+    /// use in later formulas: its symbol or zero.
     pub(super) fn solution_formulas(
         &mut self,
         (side, names): &System,

@@ -1,8 +1,8 @@
-//! Reactions of the closures: Lagrange's multipliers.
+//! Reactions: the Lagrange multipliers of the loop equations and constraints.
 //!
-//! M q'' + `Psi_q'` lambda = F in all coordinates, of which the rows of the unknowns give J' lambda = F_u - (M q'')_u:
-//! block by block from the last to the first, each block of J transposed. A `loop` of two chains is cut where they
-//! meet, and lambda is the force there with which the left side pulls at the right side.
+//! The rows of the unknowns in M q'' + `Psi_q'` lambda = F give J' lambda = F_u - (M q'')_u. This is solved from the
+//! last block to the first, each block of J transposed. For a `loop`, lambda is the force of the left side on the right
+//! side at the point where they meet.
 
 use super::data::Derivation;
 use super::jacobian::along_rates;
@@ -52,7 +52,7 @@ impl Derivation {
         self.graph.differentiate(&[rate], &seeds)[0]
     }
 
-    /// Steps that solve J' lambda = side, each block after the check of it.
+    /// The steps that check each block and solve J' lambda = side.
     pub fn transposed_solution(&mut self, reactions: &Reactions) -> Vec<Step> {
         let mut steps = Vec::new();
         let mut solved: Vec<(RowId, NodeId)> = Vec::new();
@@ -73,14 +73,14 @@ impl Derivation {
             }
             let targets = reactions.names.at(&block.equations);
             if block.determinant.is_some() {
-                if let Some(divisor) = self.judge(id, &block, &mut steps) {
+                if let Some(divisor) = self.check_block(id, &block, &mut steps) {
                     let values = solve_closed(&mut self.graph, &matrix, divisor, &right, Form::Entries);
                     let named = targets.iter().zip(values);
                     steps.extend(named.map(|(&symbol, node)| Step::Let { symbol, node }));
                 }
             } else {
-                let sizes = matrix.iter().map(|row| self.size_of(row)).collect();
-                steps.push(Step::Factor { block: id, matrix, sizes });
+                let row_scales = matrix.iter().map(|row| self.row_scale(row)).collect();
+                steps.push(Step::Factor { block: id, matrix, row_scales });
                 steps.push(Step::Solve { block: id, targets: targets.clone(), right });
             }
             solved.extend(block.equations.iter().zip(targets).map(|(&at, name)| (at, self.graph.variable(name))));
@@ -88,9 +88,9 @@ impl Derivation {
         steps
     }
 
-    /// The sum of the magnitudes of a row.
-    fn size_of(&mut self, row: &[NodeId]) -> NodeId {
-        let sizes: Vec<_> = row.iter().map(|&entry| (Number::ONE, self.graph.call(Function::Abs, &[entry]))).collect();
-        self.graph.sum(&sizes)
+    /// The sum of the magnitudes of the entries of a row.
+    fn row_scale(&mut self, row: &[NodeId]) -> NodeId {
+        let terms: Vec<_> = row.iter().map(|&entry| (Number::ONE, self.graph.call(Function::Abs, &[entry]))).collect();
+        self.graph.sum(&terms)
     }
 }

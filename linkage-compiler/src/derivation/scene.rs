@@ -1,4 +1,4 @@
-//! The data that are derived for one scene.
+//! The data of the derivation of one scene.
 
 use std::collections::BTreeMap;
 
@@ -6,36 +6,36 @@ use super::linear::{Row, System};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{ColumnId, InputId, RowId, SceneId, Table, UnknownId};
 
-/// What is derived for one scene, in terms of q, q', W and t.
+/// The formulas of one scene, in terms of q, q', W and t.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// The place in [`Mechanism::scenes`](crate::model::Mechanism::scenes).
+    /// The index in [`Mechanism::scenes`](crate::model::Mechanism::scenes).
     pub place: SceneId,
-    /// The names of u'' at v'' = 0.
+    /// The symbols of u'' at v'' = 0.
     pub bias: Table<UnknownId, SymbolId>,
     /// M by rows, if anything has inertia.
     pub mass_matrix: Option<Table<InputId, Table<InputId, NodeId>>>,
-    /// Q with the quadratic velocity terms.
+    /// Q, including the quadratic velocity terms.
     pub forces: Table<InputId, NodeId>,
-    /// What each body and effect adds to them, by what errors call it.
+    /// The contributions of bodies and effects to Q, with their names in errors.
     pub parts: Vec<(String, Table<InputId, NodeId>)>,
     /// The frictions and stops.
     pub contacts: Vec<Contact>,
-    /// The masses, the inertias and the limits of frictions as far as they are given, by what errors call them.
+    /// The masses, the inertias and the constant factors of friction limits, with their names in errors.
     pub masses: Vec<(String, NodeId)>,
     pub drives: BTreeMap<InputId, Prescribed>,
     pub kinetic: NodeId,
     pub potential: NodeId,
-    /// The power of the laws that drive and that brake.
+    /// The applied power, and the dissipated power in the next field.
     pub applied: NodeId,
     pub dissipated: NodeId,
-    /// In all coordinates, if anything has inertia.
+    /// M and F in all coordinates, if anything has inertia.
     pub unreduced: Option<Unreduced>,
     pub reactions: Option<Reactions>,
     pub equilibrium: Option<Equilibrium>,
 }
 
-/// A law of motion with its derivatives by time.
+/// A law of motion with its derivatives with respect to time.
 #[derive(Debug, Clone, Copy)]
 pub struct Prescribed {
     pub value: NodeId,
@@ -46,7 +46,7 @@ pub struct Prescribed {
 /// The formulas of one friction or stop, in terms of q, q' and t.
 #[derive(Debug, Clone)]
 pub struct Contact {
-    /// The label that errors give.
+    /// The name in errors.
     pub label: String,
     pub value: NodeId,
     /// `ds/dq`.
@@ -62,7 +62,7 @@ pub struct Contact {
 pub enum ContactFormula {
     Friction {
         limit: NodeId,
-        /// The factors of the limit that are made of parameters.
+        /// The factors of the limit that depend on parameters only.
         given: Vec<NodeId>,
     },
     Stop {
@@ -74,9 +74,9 @@ pub enum ContactFormula {
 /// M and F, in terms of q, q' and t.
 #[derive(Debug, Clone)]
 pub struct Unreduced {
-    /// The entries of M that are not zero, on its diagonal and above.
+    /// The nonzero entries of the upper triangle of M.
     pub mass_matrix: BTreeMap<(ColumnId, ColumnId), NodeId>,
-    /// F with the quadratic velocity terms of the inertia.
+    /// F, including the quadratic velocity terms.
     pub forces: Table<ColumnId, NodeId>,
 }
 
@@ -94,10 +94,10 @@ pub struct Reactions {
 pub struct Equilibrium {
     /// Q at rest.
     pub forces: Table<InputId, NodeId>,
-    /// The sum of the magnitudes of what each is made of.
+    /// The sums of the magnitudes of the contributions to Q.
     pub sizes: Table<InputId, NodeId>,
     /// dQ/dv by rows.
     pub slopes: Table<InputId, Table<InputId, NodeId>>,
-    /// The systems of W and L with the names of their solutions.
+    /// The systems of W and L.
     pub systems: Vec<System>,
 }

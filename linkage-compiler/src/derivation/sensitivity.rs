@@ -8,8 +8,8 @@ use crate::graph::NodeId;
 use crate::ids::{ParameterId, Table, UnknownId};
 use crate::model::Mechanism;
 
-/// Of a larger du/dp the reader is told Psi_p alone: it grows with the square of the mechanism, and nobody reads
-/// so many formulas.
+/// The largest number of entries of du/dp for which formulas are printed; for more, only Psi_p is. The entries grow
+/// with the square of the mechanism.
 const MOST_FORMULAS: usize = 400;
 
 impl Derivation {
@@ -28,14 +28,14 @@ impl Derivation {
         self.sensitivity = Some(Sensitivity { names, jacobian: by_parameters });
     }
 
-    /// The right sides of J du/dp = -Psi_p with the names of the solutions.
+    /// The systems J du/dp = -Psi_p.
     pub fn sensitivity_systems(&mut self) -> Table<ParameterId, System> {
         let Some(Sensitivity { names, jacobian, .. }) = self.sensitivity.clone() else { return Table::default() };
         let side = |parameter| minus_column(&mut self.graph, &jacobian, parameter);
         names.ids().map(side).zip(names).collect()
     }
 
-    /// du/dp, as formulas, and as later formulas refer to them; nothing where they are too many to be read.
+    /// The formulas of du/dp, and du/dp for use in later formulas; empty if there are more than [`MOST_FORMULAS`].
     pub(super) fn sensitivity_formulas(
         &mut self,
     ) -> (Solutions<ParameterId, Option<NodeId>>, Solutions<ParameterId, NodeId>) {
@@ -45,8 +45,8 @@ impl Derivation {
         self.sensitivity_systems().iter().map(|system| self.solution_formulas(system)).unzip()
     }
 
-    /// The total derivatives of a point or output by the parameters, each by component, with du/dp by
-    /// these values: l_p + l_u du/dp.
+    /// The total derivatives of a point or output by the parameters, l_p + l_u du/dp, for each component, with these
+    /// values of du/dp.
     pub fn quantity_sensitivities(
         &mut self,
         quantity: &Quantity,

@@ -1,4 +1,4 @@
-//! Linear systems in J as the steps of a kernel: the blocks in order, each by its own method.
+//! The solution of linear systems in J as steps of a kernel, block by block.
 
 use super::data::{Block, Derivation};
 use super::linear::{Form, Row, System, solve_closed};
@@ -7,21 +7,20 @@ use crate::graph::NodeId;
 use crate::ids::{BlockId, ColumnId, Table, UnknownId};
 
 impl Derivation {
-    /// Steps that solve J x = right for each right side and name the solutions, block by block, each
-    /// after the check of it.
+    /// The steps that solve J x = right for several right sides: each block is checked, then solved for all systems.
     ///
-    /// A later system may refer to the solution of an earlier one: within a block they stand in order.
+    /// A system may use the solution of an earlier one, since each block solves the systems in order.
     pub fn solution(&mut self, systems: &[System], form: Form) -> Vec<Step> {
         self.solve(systems, form).0
     }
 
-    /// The same steps, and each solution: its names, or zero where nothing moves.
+    /// The steps of [`solution`](Self::solution), and the solutions: symbols, or zero.
     pub fn solve(&mut self, systems: &[System], form: Form) -> (Vec<Step>, Vec<Table<UnknownId, NodeId>>) {
         let mut steps = Vec::new();
         let mut solved: Vec<Row<ColumnId>> = vec![Row::new(); systems.len()];
         for id in self.blocks.ids() {
             let block = self.blocks[id].clone();
-            let divisor = self.judge(id, &block, &mut steps);
+            let divisor = self.check_block(id, &block, &mut steps);
             let matrix = self.block_matrix(&block);
             for ((right, targets), solved) in systems.iter().zip(&mut solved) {
                 let right: Vec<NodeId> =
@@ -38,7 +37,7 @@ impl Derivation {
                 };
                 for ((symbol, node), name) in targets.into_iter().zip(formulas).zip(&mut solution) {
                     steps.push(Step::Let { symbol, node });
-                    // What does not move needs no name in what follows.
+                    // Later formulas use zero instead of the symbol.
                     if self.graph.is_zero(node) {
                         *name = node;
                     }
@@ -51,11 +50,11 @@ impl Derivation {
         (steps, values.collect())
     }
 
-    /// The check of a block, and the divisor of its closed form.
-    pub(super) fn judge(&mut self, id: BlockId, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
+    /// Adds the check of a block; returns the divisor of its closed form.
+    pub(super) fn check_block(&mut self, id: BlockId, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
         let Some(determinant) = block.determinant else {
-            let sizes = self.residual_scales.at(&block.equations);
-            steps.push(Step::Factor { block: id, matrix: self.block_matrix(block), sizes });
+            let row_scales = self.residual_scales.at(&block.equations);
+            steps.push(Step::Factor { block: id, matrix: self.block_matrix(block), row_scales });
             return None;
         };
         // A determinant that is a number other than zero needs no check.
@@ -63,11 +62,11 @@ impl Derivation {
             return Some(determinant.value);
         }
         let node = self.graph.variable(determinant.symbol);
-        steps.push(Step::Guard { block: id, determinant: node, size: determinant.size });
+        steps.push(Step::Guard { block: id, determinant: node, scale: determinant.scale });
         Some(node)
     }
 
-    /// The block's part of J, row by row.
+    /// The submatrix of J of a block, by rows.
     pub fn block_matrix(&mut self, block: &Block) -> Vec<Vec<NodeId>> {
         let zero = self.graph.zero();
         let columns = self.unknowns.at(&block.unknowns);

@@ -1,31 +1,31 @@
-//! The steps of a solution: what is named, judged and solved, in order.
+//! The steps of a solution: names, checks and linear or nonlinear solves, in order.
 
 use std::collections::BTreeSet;
 
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::BlockId;
 
-/// One step of a solution. Later steps refer to what it names by its symbol.
+/// One step of a solution. Later steps refer to its results by their symbols.
 #[derive(Debug, Clone)]
 pub enum Step {
-    /// Gives a value a name.
+    /// Names a value.
     Let { symbol: SymbolId, node: NodeId },
-    /// Names the number of an angle: its principal value and a number of turns that is given.
+    /// Names an angle: its principal value plus a given number of turns.
     Turn { symbol: SymbolId, principal: NodeId },
-    /// Refuses a determinant that is zero relative to `size`.
-    Guard { block: BlockId, determinant: NodeId, size: NodeId },
-    /// Factorises the matrix of a block given by rows, whose rows are of these sizes.
-    Factor { block: BlockId, matrix: Vec<Vec<NodeId>>, sizes: Vec<NodeId> },
+    /// Fails if a determinant is zero relative to `scale`.
+    Guard { block: BlockId, determinant: NodeId, scale: NodeId },
+    /// Factorises the matrix of a block, given by rows with their scales; fails if it is singular.
+    Factor { block: BlockId, matrix: Vec<Vec<NodeId>>, row_scales: Vec<NodeId> },
     /// Solves the factorised system of a block and names the solution.
     Solve { block: BlockId, targets: Vec<SymbolId>, right: Vec<NodeId> },
-    /// Names the root of a product of two factors, with the sign of the branch of a block; refuses a
-    /// factor that is less than zero relative to its terms.
+    /// Names the square root of a product of two factors, with the sign of the branch; fails if a factor is
+    /// negative relative to its terms.
     Chord { block: BlockId, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId> },
-    /// Refuses a determinant of linear unknowns that is zero; `numerators` are what is divided by it, `scales` the sums of
-    /// the magnitudes of their terms.
+    /// Fails if the determinant of linear unknowns is zero; `numerators` are their numerators by Cramer's rule,
+    /// `scales` the sums of the magnitudes of the terms of these.
     Solvable { block: BlockId, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
-    /// Names the unknowns of a block, found by Newton's method from `start`: its residual, the sizes of its
-    /// loop equations and its matrix row by row are `system`, made of the unknowns and of what is `known`.
+    /// Names the unknowns of a block, found by Newton's method from `start`. `system` holds its residuals, their scales
+    /// and its Jacobian by rows, in terms of the unknowns and of `known`.
     Newton { block: BlockId, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
     /// Names the product of the pivots of a matrix given by rows.
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
@@ -34,11 +34,10 @@ pub enum Step {
 /// The geometry of a half chord.
 #[derive(Debug, Clone, Copy)]
 pub enum ChordOf<V> {
-    /// Two links between joints: their lengths, the line between the joints, its square, and the sum of the
-    /// magnitudes of its terms.
+    /// An RRR dyad: the lengths of its links, the vector between its outer joints, the squared distance, and the scale
+    /// of the vector.
     Triangle { links: [V; 2], line: [V; 2], distance_squared: V, scale: V },
-    /// A reach and an offset, with the sums of the magnitudes of their terms, and whether the reach may vanish by
-    /// cancellation.
+    /// A reach and an offset, by their scales; `may_cancel` if the reach may vanish by cancellation.
     Reach { scales: [V; 2], may_cancel: bool },
 }
 
@@ -66,7 +65,7 @@ impl<V: Copy> ChordOf<V> {
 }
 
 impl Step {
-    /// The symbols that a step gives a value to.
+    /// The symbols that a step defines.
     #[must_use]
     pub fn introduced(&self) -> Vec<SymbolId> {
         match self {
@@ -85,14 +84,14 @@ impl Step {
         match self {
             Self::Let { node, .. } => vec![*node],
             Self::Turn { principal, .. } => vec![*principal],
-            Self::Guard { determinant, size, .. } => vec![*determinant, *size],
+            Self::Guard { determinant, scale, .. } => vec![*determinant, *scale],
             Self::Chord { factors: [low, high], size, of, .. } => {
                 [*low, *high, *size].into_iter().chain(of.values()).collect()
             }
             Self::Solvable { determinant, numerators, scales, .. } => {
                 std::iter::once(determinant).chain(numerators).chain(scales).copied().collect()
             }
-            Self::Factor { matrix, sizes, .. } => matrix.iter().flatten().chain(sizes).copied().collect(),
+            Self::Factor { matrix, row_scales, .. } => matrix.iter().flatten().chain(row_scales).copied().collect(),
             Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
             Self::Solve { right, .. } => right.clone(),
             Self::Newton { start, known, .. } => start.iter().chain(known).copied().collect(),
@@ -100,13 +99,13 @@ impl Step {
     }
 }
 
-/// The steps that `results` and the checks among them depend on; checks all stay.
+/// Keeps all checks, and the steps that `results` and these checks depend on.
 #[must_use]
 pub fn needed(graph: &Graph, steps: Vec<Step>, results: &[NodeId]) -> Vec<Step> {
     kept(graph, steps, results, |_| true)
 }
 
-/// The same, but of the steps that solve for several symbols or refuse something all stay.
+/// Removes only `Let` and `Turn` steps that nothing depends on; all other steps are kept.
 #[must_use]
 pub fn needed_names(graph: &Graph, steps: Vec<Step>, results: &[NodeId]) -> Vec<Step> {
     kept(graph, steps, results, |step| matches!(step, Step::Let { .. } | Step::Turn { .. }))

@@ -1,15 +1,15 @@
-//! Linear systems in J: its columns, the right sides, its determinant, and what a solution adds to points and outputs.
+//! Linear systems in J: its columns, right sides, determinant, and the effect of a solution on points and outputs.
 
 use std::collections::BTreeMap;
 
 use super::data::{Coordinate, Derivation, Quantity};
 use super::linear::{Row, System};
-use super::magnitude;
+use super::scale;
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Id, InputId, RowId, Table, UnknownId};
 
 impl Quantity {
-    /// direct + l_u x of a component with these derivatives.
+    /// direct + l_u x for a component l with these derivatives.
     pub(super) fn through_unknowns(
         graph: &mut Graph,
         direct: NodeId,
@@ -40,10 +40,10 @@ impl Derivation {
         self.columns(&self.inputs)
     }
 
-    /// The largest magnitudes that the entries of J and of A could have.
+    /// Upper bounds of the magnitudes of the entries of J and of A.
     pub fn jacobian_scales(&mut self) -> (Table<RowId, Row<UnknownId>>, Table<RowId, Row<InputId>>) {
         let (unknowns, inputs) = (self.jacobian_unknowns(), self.jacobian_inputs());
-        (sizes(&mut self.graph, unknowns), sizes(&mut self.graph, inputs))
+        (scales(&mut self.graph, unknowns), scales(&mut self.graph, inputs))
     }
 
     fn columns<C: Id + Ord>(&self, columns: &Table<C, ColumnId>) -> Table<RowId, Row<C>> {
@@ -89,8 +89,8 @@ impl Derivation {
         self.graph.sum(&terms)
     }
 
-    /// What stays on the right of a block once the unknowns before it are known:
-    /// r - J x, where `solved` holds x by the place of the unknown in q.
+    /// The right side of a block after the unknowns of earlier blocks are solved: r - J x, where `solved` holds x by
+    /// column.
     pub fn remainder(&mut self, equation: RowId, right: NodeId, solved: &Row<ColumnId>) -> NodeId {
         let mut terms = vec![(Number::ONE, right)];
         for (column, entry) in &self.jacobian[equation] {
@@ -101,8 +101,7 @@ impl Derivation {
         self.graph.sum(&terms)
     }
 
-    /// det J as the product of the determinants of the blocks, each by its formula; none if a block
-    /// is not solved in closed form.
+    /// det J as the product of the determinants of the blocks; `None` if a block has more than two unknowns.
     pub fn determinant(&mut self) -> Option<NodeId> {
         let values: Option<Vec<NodeId>> =
             self.blocks.iter().map(|block| block.determinant.map(|determinant| determinant.value)).collect();
@@ -112,12 +111,12 @@ impl Derivation {
     }
 }
 
-/// The largest magnitudes that the entries of some rows could have.
-fn sizes<C: Ord>(graph: &mut Graph, rows: Table<RowId, Row<C>>) -> Table<RowId, Row<C>> {
-    rows.map(|row| row.into_iter().map(|(column, entry)| (column, magnitude::of(graph, entry))).collect())
+/// Upper bounds of the magnitudes of the entries of some rows.
+fn scales<C: Ord>(graph: &mut Graph, rows: Table<RowId, Row<C>>) -> Table<RowId, Row<C>> {
+    rows.map(|row| row.into_iter().map(|(column, entry)| (column, scale::of(graph, entry))).collect())
 }
 
-/// A column with the opposite sign, as the right side of a system.
+/// The negative of a column, as the right side of a system.
 pub(super) fn minus_column<C: Ord>(graph: &mut Graph, rows: &Table<RowId, Row<C>>, column: C) -> Table<RowId, NodeId> {
     let zero = graph.zero();
     rows.iter().map(|row| graph.negate(row.get(&column).copied().unwrap_or(zero))).collect()

@@ -1,5 +1,4 @@
-//! Inertia and forces in all coordinates: M and F of M q'' + `Psi_q'` lambda = F, from which any choice of
-//! independent coordinates takes its own.
+//! M and F of M q'' + `Psi_q'` lambda = F in all coordinates, which can be reduced to any choice of independent ones.
 //!
 //! A scalar s has the rate s' = s_q q' and the acceleration s'' = s_q q'' + `s_0`, where `s_0` is quadratic in q'.
 //! Virtual work gives M = sum m `s_q'` `s_q` and F = sum F `s_q'` - m `s_q'` (`s_0` - g).

@@ -1,4 +1,4 @@
-//! `DERIVATION`: the derivation as data, every formula in its finished notations.
+//! `DERIVATION`: the derivation as data, with every formula as Unicode text, LaTeX and MathML.
 
 use std::ops::Deref;
 
@@ -14,7 +14,7 @@ use crate::model::{self, Driver, Mechanism};
 use crate::notation::{Formula, Name, Printer};
 use crate::program::Operations;
 
-/// The constant of a driver.
+/// The constant `DERIVATION` of a driver.
 pub(super) fn constant(
     mechanism: &Mechanism,
     driver: &Driver,
@@ -67,8 +67,8 @@ pub(super) fn constant(
     let (name, text) = (&driver.name, string(&driver.name.to_string()));
     quote! {
         impl #name {
-            /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution and the work
-            /// of each function. It costs nothing where it is not used.
+            /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution and the
+            /// operations of each function. If it is not used, it is not in the program.
             pub const DERIVATION: &'static #root::__rt::derivation::prelude::Derivation = {
                 use #root::__rt::derivation::prelude::*;
                 &Derivation {
@@ -96,7 +96,7 @@ pub(super) fn constant(
     }
 }
 
-/// The constant of a scene: its equations of motion.
+/// The constant `DERIVATION` of a scene: its equations of motion.
 pub(super) fn of_scene(
     mechanism: &Mechanism,
     (driver, scene): (&Driver, &model::Scene),
@@ -146,8 +146,8 @@ pub(super) fn of_scene(
     let name = &scene.name;
     quote! {
         impl #name {
-            /// The equations of motion as data: every formula as text, `LaTeX` and `MathML`, and the work of each
-            /// function. It costs nothing where it is not used.
+            /// The equations of motion as data: every formula as text, `LaTeX` and `MathML`, and the operations of each
+            /// function. If it is not used, it is not in the program.
             pub const DERIVATION: &'static #root::__rt::derivation::prelude::SceneDerivation = {
                 use #root::__rt::derivation::prelude::*;
                 &SceneDerivation {
@@ -164,7 +164,7 @@ pub(super) fn of_scene(
     }
 }
 
-/// The names that the user gave these coordinates.
+/// The names of coordinates as the user wrote them.
 fn texts<'a, I>(mechanism: &'a Mechanism, places: &Table<I, CoordinateId>) -> Table<I, &'a str> {
     places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str()).collect()
 }
@@ -203,7 +203,7 @@ fn names<'a>(
     names
 }
 
-/// The formulas without those that are zero.
+/// The formulas, `None` for those that are zero.
 fn nonzero<F: Copy + Into<Option<NodeId>>>(
     derivation: &Derivation,
     formulas: &[impl Deref<Target = [F]>],
@@ -226,12 +226,12 @@ fn option(value: Option<TokenStream>) -> TokenStream {
 }
 
 fn formula(Formula { text, latex, mathml }: &Formula) -> TokenStream {
-    // MathML is long and hardly needs escapes.
+    // MathML is long and contains few characters that need escapes, so it is not searched for raw strings.
     let (text, latex, mathml) = (string(text), string(latex), Literal::string(mathml));
     quote!(Formula { text: #text, latex: #latex, mathml: #mathml })
 }
 
-/// The parameters or coordinates with these names.
+/// `&[Symbol]` of parameters or coordinates with these names.
 fn symbols(names: &[&str]) -> TokenStream {
     list(names.iter().map(|name| {
         let (text, shown) = (string(name), formula(&Formula::of_name(Name::Plain(name))));
@@ -239,7 +239,7 @@ fn symbols(names: &[&str]) -> TokenStream {
     }))
 }
 
-/// The operations of each function.
+/// `&[Kernel]` with the operations of each function.
 fn works(kernels: &[(String, Operations)]) -> TokenStream {
     list(kernels.iter().map(|(function, operations)| {
         let Operations { functions, divisions, multiplications, additions } = *operations;
@@ -260,7 +260,7 @@ fn works(kernels: &[(String, Operations)]) -> TokenStream {
     }))
 }
 
-/// Writes formulas.
+/// Writes formulas of one derivation as tokens.
 struct Document<'a> {
     printer: Printer<'a>,
     derivation: &'a Derivation,
@@ -269,7 +269,7 @@ struct Document<'a> {
     unknowns: &'a Table<UnknownId, &'a str>,
 }
 
-/// The variable or variables of a derivative.
+/// The variables of a first or second derivative.
 #[derive(Clone, Copy)]
 enum By<'a> {
     One(&'a str),
@@ -356,7 +356,8 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// The derivatives of the quantities with these names, in the order of the variables, where there is a formula.
+    /// The equations of the derivatives of named quantities, in the order of the variables; those without formula are
+    /// omitted.
     fn derivatives<F: Copy + Into<Option<NodeId>>>(
         &mut self,
         of: &[impl AsRef<str>],
@@ -374,7 +375,7 @@ impl<'a> Document<'a> {
         list(equations)
     }
 
-    /// Points or outputs; the name of a component is its prefix and the name of the quantity.
+    /// `&[Quantity]` of points or outputs; the name of a component is a prefix and the name of the quantity.
     fn quantities(
         &mut self,
         names: &[&str],

@@ -23,25 +23,25 @@ impl ToTokens for Expression {
     }
 }
 
-/// An expression where it must bind at least so tightly.
+/// An expression, in parentheses if it binds less tightly than `at_least`.
 fn operand(value: &Expression, at_least: Binding) -> TokenStream {
     let tokens = written(value);
     if binding(value) < at_least { quote!((#tokens)) } else { tokens }
 }
 
-/// How tightly an expression binds.
+/// The precedence of an expression.
 fn binding(value: &Expression) -> Binding {
     match value {
         Expression::Sum(_) | Expression::Closure { .. } => Binding::Sum,
         Expression::Product(_) | Expression::Quotient(_) => Binding::Product,
         Expression::Number(number) if parts_of_pi(*number).is_some() => Binding::Product,
         Expression::Square(base) if matches!(**base, Expression::Name(_)) => Binding::Product,
-        // -a * b is (-a) * b: a minus binds tighter than a product and costs the same.
+        // -a * b parses as (-a) * b, which is equal and costs the same.
         Expression::Negative(inside) => match binding(inside) {
             Binding::Product => Binding::Product,
             _ => Binding::Prefix,
         },
-        Expression::Borrowed(_) | Expression::Behind(_) => Binding::Prefix,
+        Expression::Borrowed(_) | Expression::Dereferenced(_) => Binding::Prefix,
         _ => Binding::Atom,
     }
 }
@@ -125,7 +125,7 @@ fn written(value: &Expression) -> TokenStream {
             let value = operand(value, Binding::Prefix);
             quote!(&#value)
         }
-        Expression::Behind(value) => {
+        Expression::Dereferenced(value) => {
             let value = operand(value, Binding::Prefix);
             quote!(*#value)
         }
@@ -141,7 +141,7 @@ fn written(value: &Expression) -> TokenStream {
             Expression::Tuple(values) if values.is_empty() => quote!({ #(#statements)* }),
             value => quote!({ #(#statements)* #value }),
         },
-        // Lowering puts values in their places.
+        // Lowering has replaced these.
         Expression::Result(place) | Expression::Local(place) => literal(*place).into_token_stream(),
     }
 }
@@ -160,14 +160,14 @@ fn sum(terms: &[(bool, Expression)]) -> TokenStream {
     tokens
 }
 
-/// `name: value`, or `name` alone if the value is called so.
+/// `name: value`, or `name` alone if the value has this name.
 fn field(name: &str, value: &Expression) -> TokenStream {
     let is_short = matches!(value, Expression::Name(other) if other == name);
     let name = member(name);
     if is_short { quote!(#name) } else { quote!(#name: #value) }
 }
 
-/// The name of a field, or its place in a tuple.
+/// The name of a field, or its index in a tuple.
 fn member(name: &str) -> TokenStream {
     match name.parse::<usize>() {
         Ok(place) => literal(place).into_token_stream(),
@@ -175,7 +175,7 @@ fn member(name: &str) -> TokenStream {
     }
 }
 
-/// A size without suffix, as people write it.
+/// An integer literal without suffix.
 pub(super) fn literal(count: usize) -> Literal {
     Literal::usize_unsuffixed(count)
 }
@@ -200,7 +200,7 @@ impl ToTokens for Statement {
                 [only] => quote!(if !#only { #(#inside)* }),
                 several => quote!(if !(#(#several)&&*) { #(#inside)* }),
             },
-            // Lowering makes calls of these.
+            // Lowering has replaced these by calls.
             Self::Check { .. } | Self::CheckPosition => TokenStream::new(),
         });
     }
@@ -287,7 +287,7 @@ impl ToTokens for Type {
     }
 }
 
-/// A type as it stands before its fields or its functions.
+/// A type as a path in expressions and patterns, without generic arguments.
 fn path(of: &Type) -> TokenStream {
     match of {
         Type::Own(name) | Type::Bare(name) | Type::Each(name, _) => ident(name).into_token_stream(),
@@ -301,10 +301,10 @@ pub(super) fn argument(name: &str, is_used: bool) -> Ident {
     if is_used { ident(name) } else { ident(&format!("_{name}")) }
 }
 
-/// count * pi / parts, if the number is a multiple of pi that somebody would write.
+/// (count, parts) if the number is count * pi / parts with parts up to 180.
 fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
     let Number::Float(value) = number else { return None };
-    // Finer than a degree nobody writes an angle as a part of pi.
+    // 180 parts are whole degrees; finer fractions of pi are written as decimals.
     (1..=180_u32).map(f64::from).find_map(|parts| {
         let count = (value / PI * parts).round();
         let same = count != 0.0 && (count * PI / parts - value).abs() <= 4.0 * f64::EPSILON * value.abs();
@@ -312,7 +312,7 @@ fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
     })
 }
 
-/// A multiple of pi, as people write it: pi / 2, not 1.5707….
+/// A multiple of pi as an expression: `pi / 2` instead of 1.5707….
 fn turn(number: Number) -> Option<TokenStream> {
     let (count, parts) = parts_of_pi(number)?;
     let (n, d) = (Literal::f64_unsuffixed(count), Literal::f64_unsuffixed(parts));
@@ -349,12 +349,12 @@ fn method(function: Function) -> &'static str {
 /// A constant as a scalar of any type.
 pub(super) fn constant(number: Number) -> TokenStream {
     match number {
-        // A float may be zero as well, as the magnitude of one is.
+        // A `Number::Float` can be zero, too.
         number if number.is_zero() => quote!(T::zero()),
         Number::Ratio(1, 1) => quote!(T::one()),
         Number::Ratio(n, d) => {
             let value = n as f64 / d as f64;
-            // A ratio that is not a short decimal is written as the ratio it is.
+            // A ratio that is not a short decimal is written as a quotient.
             let short = format!("{value}").len() <= 8;
             let (n, d) = (Literal::f64_unsuffixed(n as f64), Literal::f64_unsuffixed(d as f64));
             if short {
@@ -371,7 +371,7 @@ pub(super) fn constant(number: Number) -> TokenStream {
     }
 }
 
-/// A float with its digits in groups of three, as people read them.
+/// A float literal with its decimals in groups of three.
 fn separated(value: f64) -> TokenStream {
     let text = format!("{value:?}");
     let grouped = match text.split_once('.') {

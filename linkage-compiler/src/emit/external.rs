@@ -1,5 +1,5 @@
-//! User functions: one private function each, where their paths mean what they mean to the user
-//! and a wrong type is said once.
+//! User functions: emits one private function for each, outside of the runtime's imports, so that paths resolve as at
+//! the invocation and a type error is reported once.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::lower::Code;
 use crate::model::{ExternalFunction, Mechanism};
 use crate::program::{Function, Taken, call_of};
 
-/// Those that some functions call, as functions of `of`.
+/// Emits the user functions that some functions call, as associated functions of `of`.
 pub(super) fn calls(
     mechanism: &Mechanism,
     functions: &[Function<Code>],
@@ -28,17 +28,17 @@ pub(super) fn calls(
 
 fn call(external: &ExternalFunction) -> TokenStream {
     let ExternalFunction { path, attributes, arguments, names, .. } = external;
-    // What does not fit the function is said of its name.
+    // Type errors are reported at the last segment of the path.
     let place = path.segments.last().map_or_else(Span::call_site, |segment| segment.ident.span());
     let place = Span::call_site().located_at(place);
-    // No argument hides the function.
+    // An argument must not shadow the function.
     let reserved: BTreeSet<String> = path.get_ident().map(ToString::to_string).into_iter().collect();
     let mut taken = Taken::new(&reserved);
     let arguments: Vec<Ident> = arguments.iter().map(|name| Ident::new(&taken.unique(name), place)).collect();
     let fields: Vec<String> = names.iter().map(|name| name.field.clone()).collect();
     let texts: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
     let docs = attributes.iter().filter(|attribute| attribute.path().is_ident("doc"));
-    let text = format!(" `({})` of the user's function.", texts.join(", "));
+    let text = format!(" Returns `({})` from the user function.", texts.join(", "));
     let scalars = texts.iter().map(|_| quote!(T));
     let result = if texts.len() == 1 { quote!(T) } else { quote!((#(#scalars),*)) };
     let (name, call) = (ident(&call_of(&fields)), quote_spanned!(place=> #path(#(#arguments),*)));

@@ -8,11 +8,10 @@ use super::names::{comment, ident};
 use crate::lower::Code;
 use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value, count};
 
-/// A function with its description, which refuses with this type of errors; without a body a stub that only has the right
-/// signature.
+/// Emits a function with its doc comment; `error` is its error type. Without a body it is a stub.
 pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
-    // People see the work of what they call.
+    // Only public functions show their operation counts.
     let work = body.as_ref().filter(|_| access.is_public()).map(|code| code.operations);
     let doc = description(doc, work.unwrap_or_default());
     let name = ident(name);
@@ -45,7 +44,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
             };
             quote!(#(#statements)* #value)
         }
-        // Nothing that never returns is an iterator.
+        // `!` does not implement `Iterator`, so that a stub returns an empty one.
         None if matches!(returns, Type::Branches { .. }) => quote!(::core::iter::empty()),
         None => quote!(::core::unreachable!()),
     };
@@ -56,7 +55,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
     }
 }
 
-/// The lines of a description, and the work of the function.
+/// The doc comment: the lines, and the operation counts if there are any.
 fn description(lines: &[String], work: Operations) -> TokenStream {
     let mut lines: Vec<String> = lines.to_vec();
     if work != Operations::default() {

@@ -1,11 +1,11 @@
-//! Attributes of a whole mechanism, on all items that are emitted for it.
+//! Attributes of a mechanism that apply to all emitted items.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::Attribute;
 
-/// Puts attributes before every item: those that configure before all, lints before all but calls of macros, which
-/// bear none.
+/// Puts attributes before every item: `cfg` before all, lint levels before all but macro calls, which do not accept
+/// them.
 pub(super) fn bearing(items: TokenStream, everywhere: &[Attribute]) -> TokenStream {
     if everywhere.is_empty() {
         return items;

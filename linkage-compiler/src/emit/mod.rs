@@ -1,5 +1,4 @@
-//! Printers of a finished program: Rust that could have been written by hand, with the user's names and the formula in
-//! the doc comment.
+//! Printers of a lowered program: as Rust with the user's names and with formulas in doc comments, and as text.
 
 mod document;
 mod expression;
@@ -22,7 +21,7 @@ use crate::program::{self, Function, Operations, Program};
 use names::string;
 pub use text::text;
 
-/// The items of a whole mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
+/// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]
 pub fn mechanism(
     mechanism: &Mechanism,
@@ -34,7 +33,7 @@ pub fn mechanism(
     items::bearing(tokens, &mechanism.everywhere)
 }
 
-/// A mechanism with mistakes: every type and function that it would have, without bodies.
+/// Emits a stub for a mechanism with mistakes: its types and functions without bodies.
 #[must_use]
 pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     let drivers = mechanism.drivers.iter();
@@ -42,13 +41,13 @@ pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     self::mechanism(mechanism, drivers, root)
 }
 
-/// Everything emitted for one driver of a mechanism and its scenes; without a derivation a stub.
+/// Emits the items of one driver and of its scenes; without a derivation, a stub.
 #[must_use]
 pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let mut tokens = types::of_driver(program, derivation, root);
     let (of_pose, implemented) = (traits::of_pose(program, derivation), traits::of_driver(program, derivation));
-    let text = "The name of the mechanism, as errors give it.";
+    let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");
     tokens.extend(block(&driver.name, kinematics, &program.functions, root, &quote!(#of_pose #implemented)));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
@@ -62,7 +61,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         tokens.extend(scene::types(&scene.signatures, root));
         let name = &scene.signatures.scene.name;
         let implemented = traits::of_scene(&scene.signatures, driver.unknowns.len(), &fields).unwrap_or_default();
-        let text = "The name of the scene, as errors give it.";
+        let text = "The name of the scene in errors.";
         tokens.extend(block(name, (text, "MotionError"), &scene.functions, root, &implemented));
         tokens.extend(external::calls(mechanism, &scene.functions, name, root));
         if let Some(derivation) = derivation {
@@ -74,8 +73,8 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     tokens
 }
 
-/// The functions of a type with the description of its name and the type of their errors, and what else is implemented by
-/// them, in a scope of its own.
+/// The `impl` block of a type with its functions, and trait implementations that call them, in an anonymous constant.
+/// `text` documents `NAME`; `error` is the error type.
 fn block(
     of: &Ident,
     (text, error): (&str, &str),
@@ -99,14 +98,14 @@ fn block(
     }
 }
 
-/// The public functions that compute something, with their work.
+/// The public functions with their operation counts, without those that compute nothing.
 fn works(functions: &[Function<Code>]) -> Vec<(String, Operations)> {
     let public = functions.iter().filter(|function| function.access.is_public());
     let works = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
     works.filter(|(_, work)| *work != Operations::default()).collect()
 }
 
-/// The work of all functions of a driver and of its scenes, each called once.
+/// The operations of all functions of a driver and of its scenes, each called once.
 #[must_use]
 pub fn operations(program: &Program<Code>) -> Operations {
     let scenes = program.scenes.iter().flat_map(|scene| &scene.functions);

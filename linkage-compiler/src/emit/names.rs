@@ -1,4 +1,4 @@
-//! Identifiers and texts as tokens.
+//! Identifiers and string literals as tokens.
 
 use proc_macro2::{Ident, Literal, Span};
 
@@ -6,7 +6,7 @@ pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// A text as a string literal, as people write it: raw where it holds what would need an escape.
+/// A text as a string literal: raw if it contains characters that need an escape.
 pub(super) fn quoted(text: &str) -> String {
     match (text.contains('"'), text.contains('\\')) {
         (false, false) => format!("\"{text}\""),
@@ -16,7 +16,7 @@ pub(super) fn quoted(text: &str) -> String {
     }
 }
 
-/// The text of a doc comment as a literal: raw, as the compiler itself writes what stands behind `///`.
+/// The text of a doc comment as a raw literal, as rustc itself represents `///`.
 pub(super) fn comment(text: &str) -> Literal {
     let plain = !text.contains('"');
     let raw = plain.then(|| format!("r\"{text}\"").parse().ok()).flatten();

@@ -29,7 +29,7 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenSt
     let texts: Vec<&String> = parameters.iter().map(|parameter| &parameter.name.text).collect();
     let new = (fields.len() < MOST_ARGUMENTS).then(|| {
         quote! {
-            #[doc = " The mechanism with these parameters of the effects."]
+            #[doc = " A scene with this mechanism and these parameters of the effects."]
             #[must_use]
             pub const fn new(#inner: #of<T>, #(#fields: T),*) -> Self {
                 Self { #inner, #(#fields),* }
@@ -51,7 +51,7 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenSt
         #title
         #(#forwarded)*
         #visibility struct #name<T = f64> {
-            #[doc = " The kinematics."]
+            #[doc = " The mechanism, with the kinematics."]
             pub #inner: #of<T>,
             #(#members),*
         }
@@ -61,10 +61,10 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenSt
             }
         }
         impl<T: #root::__rt::Real> #name<T> {
-            #[doc = " The parameters of the effects as they were declared, in order."]
+            #[doc = " The declared names of the parameters of the effects, in order."]
             pub const PARAMETERS: [&'static str; #count] = [#(#texts),*];
             #new
-            #[doc = " The same scene with another scalar."]
+            #[doc = " This scene with another scalar type: applies a function to each parameter."]
             #[must_use]
             pub fn map<#other_scalar: #root::__rt::Real>(
                 self,

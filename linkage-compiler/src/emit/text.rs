@@ -1,4 +1,4 @@
-//! A program as plain text, one line a statement, without types that its functions say: what snapshots compare.
+//! Prints a program as plain text, one line for each statement, without types; snapshot tests compare it.
 
 use std::fmt::Write;
 
@@ -25,8 +25,8 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
             Access::Inlined | Access::Layer => "inlined ",
             Access::Cold => "cold ",
         };
-        let refuses = if function.is_fallible { " or an error" } else { "" };
-        let _ = writeln!(text, "\n{access}{}({}){refuses}", function.name, arguments.join(", "));
+        let or_error = if function.is_fallible { " or an error" } else { "" };
+        let _ = writeln!(text, "\n{access}{}({}){or_error}", function.name, arguments.join(", "));
         let Some(code) = &function.body else { continue };
         if code.operations != Operations::default() {
             let _ = writeln!(text, "    # {}", count(code.operations));
@@ -75,7 +75,7 @@ fn expressions(values: &[Expression]) -> String {
     values.iter().map(expression).collect::<Vec<_>>().join(", ")
 }
 
-/// An expression that does not stand alone: sums and quotients in brackets.
+/// An operand: sums, quotients and negatives in brackets.
 fn part(value: &Expression) -> String {
     match value {
         Expression::Sum(_) | Expression::Quotient(_) | Expression::Negative(_) => format!("({})", expression(value)),
@@ -130,7 +130,7 @@ fn expression(value: &Expression) -> String {
         Expression::Associated(of, name, arguments) => format!("{}::{name}({})", path(of), expressions(arguments)),
         Expression::Method(of, name, arguments) => format!("{}.{name}({})", part(of), expressions(arguments)),
         Expression::Try(value) => format!("{}?", expression(value)),
-        Expression::Borrowed(value) | Expression::Behind(value) => expression(value),
+        Expression::Borrowed(value) | Expression::Dereferenced(value) => expression(value),
         Expression::Closure { arguments, statements, value, .. } => {
             let arguments = arguments.iter().map(pattern).collect::<Vec<_>>().join(", ");
             let statements: String = statements.iter().map(|line| format!("{}; ", statement(line))).collect();

@@ -1,4 +1,4 @@
-//! The traits of a driver and of a scene, by which general algorithms call the emitted functions.
+//! Implementations of the runtime's traits for drivers and scenes, by which generic algorithms call emitted functions.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::lower::Code;
 use crate::model::{Coordinate, Kind, Mechanism};
 use crate::program::{Derived, Program, SceneSignatures, TypeNames};
 
-/// `is_finite` of a pose, and angles on request: its coordinates.
+/// `is_finite` and `coordinates` of a pose.
 pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) -> TokenStream {
     let TypeNames { pose, coordinates, .. } = &program.signatures.types;
     let (pose, coordinates) = (ident(pose), ident(coordinates));
@@ -29,14 +29,14 @@ pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) 
     };
     quote! {
         impl<T: __rt::Real> #pose<T> {
-            #[doc = " Whether every number of this position is finite."]
+            #[doc = " Returns true if every number of this position is finite."]
             #[must_use]
             pub fn is_finite(&self) -> bool {
                 #is_finite
             }
-            #[doc = " The coordinates of this position; an angle that is held as its direction alone comes out"]
-            #[doc = " between -pi and pi, at the price of an arc tangent. It never fails: where a number is not"]
-            #[doc = " finite, the result is not finite, or has no meaning."]
+            #[doc = " The coordinates of this position. An angle that is stored as a direction costs an arc tangent"]
+            #[doc = " and is returned between -pi and pi. It does not fail: if a number is not finite, the result"]
+            #[doc = " is not finite or meaningless."]
             #[must_use]
             pub fn coordinates(&self) -> #coordinates<T> {
                 #values
@@ -45,7 +45,7 @@ pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) 
     }
 }
 
-/// Every number that a pose holds.
+/// Expressions for every number of a pose.
 fn numbers_of(pose: &crate::program::PosePlan) -> Vec<TokenStream> {
     let directions = pose.directions.values().map(|field| ident(field));
     let parts = directions.flat_map(|field| [quote!(self.#field.re), quote!(self.#field.im)]);
@@ -59,7 +59,7 @@ fn numbers_of(pose: &crate::program::PosePlan) -> Vec<TokenStream> {
     parts.chain(values).collect()
 }
 
-/// The coordinates by the fields of a pose.
+/// Expressions for the coordinates, from the fields of a pose.
 fn coordinates_of(derived: &Derived, derivation: &Derivation) -> Vec<TokenStream> {
     let directions = derived.pose.directions.iter();
     let angles = directions.filter_map(|(angle, field)| Some((derivation.graph.as_symbol(*angle)?, field)));
@@ -79,7 +79,7 @@ fn coordinates_of(derived: &Derived, derivation: &Derivation) -> Vec<TokenStream
         .collect()
 }
 
-/// The mechanism for general algorithms, with its position in closed form if it has one.
+/// Implements `Mechanism` and, if the position has a closed form, `Assembly`.
 pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let TypeNames { inputs, pose, coordinates, rates, .. } = &program.signatures.types;
@@ -99,7 +99,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     // In the order of the fields.
     let order = mechanism.coordinate_order(driver);
     let fields: Vec<Ident> = order.iter().map(|&place| field(&mechanism.coordinates[place].name)).collect();
-    // Coordinates or rates by name, from and to u and v.
+    // Conversions between (u, v) and coordinates or rates by name.
     let composed = |function: &str, of: &Ident| {
         let function = ident(function);
         quote! {
@@ -180,7 +180,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     }
 }
 
-/// The position in closed form for general algorithms.
+/// Implements `Assembly`.
 fn assembly(program: &Program<Code>) -> TokenStream {
     let (name, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
     let near = (!program.position.turns.is_empty()).then(|| {
@@ -212,7 +212,7 @@ fn assembly(program: &Program<Code>) -> TokenStream {
     }
 }
 
-/// Some coordinates: their fields, what they are called, and which are angles.
+/// Some coordinates: field names, declared names, and true for angles.
 struct Members<'a> {
     fields: Vec<Ident>,
     texts: Vec<&'a str>,
@@ -231,7 +231,7 @@ impl<'a> Members<'a> {
     }
 }
 
-/// The groups: the name of each, its equations and its unknowns.
+/// `Group` values: the name of each group, its equations and its unknowns.
 fn groups(derivation: &Derivation) -> Vec<TokenStream> {
     let group = |block: &Block| {
         let name = string(&block.names(derivation));
@@ -242,7 +242,7 @@ fn groups(derivation: &Derivation) -> Vec<TokenStream> {
     derivation.blocks.iter().map(group).collect()
 }
 
-/// The scene for integrators, if anything in it has inertia.
+/// Implements `Scene` if the scene has `inertia`.
 pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[Ident]) -> Option<TokenStream> {
     let SceneSignatures { scene, types, field: inner, inputs, driven, .. } = signatures;
     scene.inertia.as_ref()?;

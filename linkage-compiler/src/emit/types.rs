@@ -1,4 +1,5 @@
-//! The types of a mechanism: parameters, coordinates and their derivatives, inputs, points, outputs, pose, motion, branch.
+//! The types of a mechanism: parameters, coordinates and their derivatives, inputs, points, outputs, pose, motion,
+//! branch.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -12,15 +13,15 @@ use crate::lower::Code;
 use crate::model::{Coordinate, Kind, Mechanism, Name, Parameter, Request};
 use crate::program::{Derived, Order, Position, Program, TypeNames};
 
-/// More arguments than this are told apart by nobody: there the literal with its names is better.
+/// `new` is emitted only up to this number of parameters; longer argument lists are hard to read at the call.
 pub(super) const MOST_ARGUMENTS: usize = 7;
 
-/// A field name with the user's span, so that editors lead from one to the other.
+/// A field name with the user's span, so that editors link the field to its declaration.
 pub(super) fn field(name: &Name) -> Ident {
     Ident::new(&name.field, proc_macro2::Span::call_site().located_at(name.span))
 }
 
-/// The user's doc comment, or else `text`.
+/// The user's doc comment, or `text` if there is none.
 pub(super) fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
     let own: Vec<&Attribute> = attributes.iter().filter(|attribute| attribute.path().is_ident("doc")).collect();
     if own.is_empty() {
@@ -31,12 +32,12 @@ pub(super) fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
     }
 }
 
-/// The traits of plain data.
+/// `#[derive(..)]` for types of plain data.
 fn derives() -> TokenStream {
     quote!(#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)])
 }
 
-/// A struct of fields that each hold the scalar; without fields it still has its scalar.
+/// The fields of a struct, all of type `T`; a struct without fields has a `PhantomData<T>`.
 struct Fields<'a> {
     names: Vec<Ident>,
     texts: Vec<&'a str>,
@@ -48,7 +49,7 @@ impl<'a> Fields<'a> {
         Self { names, texts }
     }
 
-    /// The name of an argument that only the fields use.
+    /// The name of an argument, with an underscore if there are no fields to use it.
     fn argument(&self, name: &str) -> Ident {
         expression::argument(name, !self.names.is_empty())
     }
@@ -57,18 +58,18 @@ impl<'a> Fields<'a> {
         literal(self.names.len())
     }
 
-    /// The member that only holds the scalar.
+    /// The declaration of the `PhantomData` field.
     fn phantom(&self) -> Option<TokenStream> {
         self.names.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData<T>))
     }
 
-    /// The value of that member.
+    /// The value of the `PhantomData` field.
     fn mark(&self) -> Option<TokenStream> {
         self.names.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData))
     }
 }
 
-/// The name of a second scalar, which no type of the user's has.
+/// The name of a second scalar type parameter; it differs from all types of the user.
 pub(super) fn other_scalar(mechanism: &Mechanism) -> Ident {
     let scenes = mechanism.scenes.iter().map(|scene| &scene.name);
     let types: Vec<&Ident> = mechanism.drivers.iter().map(|driver| &driver.name).chain(scenes).collect();
@@ -123,13 +124,13 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
             let docs = docs(attributes, &format!("The {kind} `{}`.", name.text));
             quote!(#docs pub #field: Q)
         });
-        let title = comment(&format!(" One quantity for each of the {what} of [`{name}`]."));
+        let title = comment(&format!(" One value of type `Q` for each of the {what} of [`{name}`]."));
         tokens.extend(quote! {
             #[doc = #title]
             #derives
             #visibility struct #group<Q> { #(#declared),* }
             impl<Q> #group<Q> {
-                #[doc = " The names as they were declared, in order."]
+                #[doc = " The declared names, in order."]
                 pub const NAMES: [&'static str; #count] = [#(#texts),*];
             }
             impl<Q> ::core::convert::From<#group<Q>> for [Q; #count] {
@@ -147,13 +148,13 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     tokens
 }
 
-/// The coordinates, and their derivatives by time that functions are emitted for.
+/// The orders of derivatives with respect to time for which types of coordinates are emitted.
 fn orders(mechanism: &Mechanism) -> impl Iterator<Item = Order> {
     let has_jerks = mechanism.requests.contains(&Request::Jerk);
     Order::ALL.into_iter().filter(move |&order| order != Order::Jerk || has_jerks)
 }
 
-/// All coordinates by name, or their derivatives by time.
+/// The struct of all coordinates by name, or of their derivatives with respect to time.
 fn coordinates(
     mechanism: &Mechanism,
     names: &TypeNames,
@@ -179,7 +180,7 @@ fn coordinates(
     by_name(mechanism, &ident(names.of(order)), &title, members, &docs, root)
 }
 
-/// The unit of a derivative by time, where there is one.
+/// The unit of a derivative with respect to time, for a doc comment.
 fn unit(of: Kind, order: Order) -> String {
     let [power, each] = match order {
         Order::Value | Order::Rate => ["", ""],
@@ -193,12 +194,12 @@ fn unit(of: Kind, order: Order) -> String {
     }
 }
 
-/// The user's description of a coordinate, or else its name and kind.
+/// The user's doc comment of a coordinate, or its name and kind.
 fn described(coordinate: &Coordinate) -> TokenStream {
     docs(&coordinate.attributes, &format!("`{}`: {}.", coordinate.name.text, coordinate.kind))
 }
 
-/// A struct of a number for each of some coordinates, with its conversions from and to vectors.
+/// A struct with a number for each of some coordinates, and its conversions from and to vectors.
 fn by_name(
     mechanism: &Mechanism,
     name: &Ident,
@@ -221,14 +222,14 @@ fn by_name(
         #derives
         #visibility struct #name<T = f64> { #(#declared,)* #phantom }
         impl<T> #name<T> {
-            #[doc = " The coordinates as they were declared, in order."]
+            #[doc = " The declared names, in the order of the fields."]
             pub const NAMES: [&'static str; #count] = [#(#texts),*];
         }
         #conversions
     }
 }
 
-/// A struct of numbers from and to a vector.
+/// The conversions of a struct of numbers from and to a vector.
 fn conversions(name: &Ident, fields: &Fields, vector: &TokenStream, root: &TokenStream) -> TokenStream {
     let (names, count, mark) = (&fields.names, fields.count(), fields.mark());
     quote! {
@@ -246,7 +247,7 @@ fn conversions(name: &Ident, fields: &Fields, vector: &TokenStream, root: &Token
     }
 }
 
-/// The types of one driver, and its parameters.
+/// The types of one driver: parameters, inputs, pose, motion, branch.
 pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let (name, types, visibility) = (&driver.name, &program.signatures.types, &mechanism.visibility);
@@ -259,8 +260,9 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     let mut tokens = parameters(mechanism, name, &attributes, root);
     let inputs = ident(&types.inputs);
     let members: Vec<&Coordinate> = driver.inputs.iter().map(|&index| &mechanism.coordinates[index]).collect();
-    let title =
-        format!(" The independent coordinates v of [`{name}`] by name; their rates v' and accelerations v'' as well.");
+    let title = format!(
+        " The independent coordinates v of [`{name}`] by name; also used for their rates v' and accelerations v''."
+    );
     tokens.extend(by_name(mechanism, &inputs, &title, &members, &described, root));
     let fields = Fields::of(members.iter().map(|member| &member.name));
     let (names, count, mark) = (&fields.names, fields.count(), fields.mark());
@@ -287,7 +289,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     }
     let derived = program.derived.as_ref().zip(derivation);
     if derived.is_none() && driver.inputs.len() != 1 {
-        // How many inputs were meant is not known.
+        // The number of inputs is not known: accept a number as well.
         tokens.extend(quote! {
             impl<T: #root::__rt::Real> ::core::convert::From<T> for #inputs<T> {
                 fn from(_: T) -> Self {
@@ -301,7 +303,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
         |(derived, derivation)| pose_fields(derived, derivation, root),
     );
     let title = comment(&format!(
-        " A position of [`{name}`] ready for use: each angle as its direction (cos, sin), so that whatever follows needs no trigonometry."
+        " A position of [`{name}`] with each angle as its direction (cos, sin), so that functions of it compute no sines."
     ));
     let pose = ident(&types.pose);
     tokens.extend(quote! {
@@ -322,18 +324,20 @@ fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenSt
     let points = (!mechanism.points.is_empty()).then(|| {
         let points = ident(&types.points);
         quote! {
-            #[doc = " Position, velocity and acceleration of the points."]
+            #[doc = " Positions, velocities and accelerations of the points."]
             pub points: #points<#root::__rt::PointMotion<T>>,
         }
     });
     let outputs = (!mechanism.outputs.is_empty()).then(|| {
         let outputs = ident(&types.outputs);
         quote! {
-            #[doc = " Value, rate and acceleration of the outputs."]
+            #[doc = " Values, rates and accelerations of the outputs."]
             pub outputs: #outputs<#root::__rt::OutputMotion<T>>,
         }
     });
-    let title = comment(&format!(" A position of [`{name}`] with its rates and accelerations."));
+    let title = comment(&format!(
+        " A position of [`{name}`] with its rates and accelerations, and the motion of points and outputs."
+    ));
     quote! {
         #[doc = #title]
         #derives
@@ -363,7 +367,7 @@ fn pose_fields(derived: &Derived, derivation: &Derivation, root: &TokenStream) -
         member(name, text, quote!(#root::__rt::UnitComplex<T>));
     }
     for (index, name, _) in &plan.values {
-        member(name, format!(" `{}` itself.", derivation.coordinates[*index].name), quote!(T));
+        member(name, format!(" The coordinate `{}`.", derivation.coordinates[*index].name), quote!(T));
     }
     for (node, name, _) in &plan.externals {
         member(name, format!(" `{}`.", texts.of(&derivation.graph, *node)), quote!(T));
@@ -376,7 +380,7 @@ fn pose_fields(derived: &Derived, derivation: &Derivation, root: &TokenStream) -
             _ => format!("The determinant of the block of `{}`,", block.names(derivation).replace(", ", "`, `")),
         };
         let formula = texts.of(&derivation.graph, determinant.value);
-        member(name, format!(" {of} = `{formula}`, from the angles themselves."), quote!(T));
+        member(name, format!(" {of} = `{formula}`."), quote!(T));
     }
     members
 }
@@ -399,7 +403,7 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
     });
     let new = (names.len() <= MOST_ARGUMENTS).then(|| {
         quote! {
-            #[doc = " The mechanism with these parameters."]
+            #[doc = " A mechanism with these parameters."]
             #[must_use]
             pub const fn new(#(#names: T),*) -> Self {
                 Self { #(#names,)* #mark }
@@ -409,7 +413,7 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
     let defaults = mechanism.parameters.iter().map(|parameter| default_of(mechanism, parameter));
     let default = defaults.collect::<Option<Vec<_>>>().map(|defaults| {
         quote! {
-            // Of one scalar only, so that it need not be named.
+            // For `f64` only, so that type inference needs no annotation.
             impl ::core::default::Default for #name {
                 fn default() -> Self {
                     Self { #(#names: #defaults,)* #mark }
@@ -432,10 +436,10 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
             }
         }
         impl<T: #root::__rt::Real> #name<T> {
-            #[doc = " The parameters as they were declared, in order."]
+            #[doc = " The declared names of the parameters, in order."]
             pub const PARAMETERS: [&'static str; #count] = [#(#texts),*];
             #new
-            #[doc = " The same mechanism with another scalar."]
+            #[doc = " This mechanism with another scalar type: applies a function to each parameter."]
             #[must_use]
             pub fn map<#other>(self, #scalar: impl ::core::ops::Fn(T) -> #other) -> #name<#other> {
                 #name { #(#names: #scalar(self.#names),)* #mark }
@@ -445,7 +449,7 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
     }
 }
 
-/// The default of a parameter as an `f64`.
+/// The default value of a parameter as an `f64`.
 pub(super) fn default_of(mechanism: &Mechanism, parameter: &Parameter) -> Option<TokenStream> {
     let node = parameter.default?;
     let graph = &mechanism.graph;
@@ -453,15 +457,16 @@ pub(super) fn default_of(mechanism: &Mechanism, parameter: &Parameter) -> Option
     Some(expression::plain(number))
 }
 
-/// The side of each group that has two solutions and, where the position has a closed form, the turn of each angle
-/// whose number matters.
+/// The branch type: a field for each group with two solutions and, if the position has a closed form, one for the turn
+/// of each angle that the pose stores as a number.
 fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     let visibility = &program.signatures.mechanism.visibility;
     let (driver, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
     let Position { sides, turns, is_closed, .. } = &program.position;
     let turns = if *is_closed { turns.as_slice() } else { &[] };
     let derives = derives();
-    let title = comment(&format!(" Which solution is meant of each group of [`{driver}`] that has two."));
+    let title =
+        comment(&format!(" The assembly mode of [`{driver}`]: one of the two solutions of each group that has two."));
     let choices: Vec<(Ident, TokenStream)> = sides
         .iter()
         .map(|(side, choice)| {
@@ -472,7 +477,7 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     let names: Vec<&Ident> = choices.iter().map(|(side, _)| side).collect();
     let members = sides.iter().zip(&choices).map(|((text, choice), (side, of))| {
         let [first, second] = choice.words().map(str::to_lowercase);
-        let docs = comment(&format!(" Of the group of `{text}`: {first} or {second}."));
+        let docs = comment(&format!(" The solution of the group of `{text}`: {first} or {second}."));
         quote!(#[doc = #docs] pub #side: #of)
     });
     let turn_members = turns.iter().map(|turn| {
@@ -494,8 +499,8 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
         let arguments = choices.iter().map(|(side, of)| quote!(#side: #of));
         let text = comment(match turns {
             [] => " The branch with these solutions.",
-            _ if sides.is_empty() => " The branch with every angle at its principal value.",
-            _ => " The branch with these solutions, and every angle at its principal value.",
+            _ if sides.is_empty() => " The branch with all turns 0.",
+            _ => " The branch with these solutions and all turns 0.",
         });
         quote! {
             #[doc = #text]
@@ -529,9 +534,9 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     };
     let all = program.position.has_few_branches().then(|| {
         let text = if turns.is_empty() {
-            " Every branch there could be; at a given input some may not exist."
+            " All branches; some may not exist at a given input."
         } else {
-            " Every branch there could be, with angles at their principal values; at a given input some may not exist."
+            " All branches with turns 0; some may not exist at a given input."
         };
         let text = comment(text);
         quote! {

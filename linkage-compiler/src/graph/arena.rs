@@ -1,4 +1,4 @@
-//! The arena of the nodes: each is made once, with its value if it is a constant.
+//! The arena of the nodes; equal nodes are interned, and constants are evaluated.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -13,48 +13,48 @@ use crate::budget::Budget;
 /// An arena of expressions.
 #[derive(Debug, Clone, Default)]
 pub struct Graph {
-    /// The nodes in the order in which they were made; the table of their ids holds the same ones.
+    /// The nodes in the order of creation, shared with the keys of `ids`.
     pub(super) nodes: Vec<Rc<Node>>,
     ids: FxHashMap<Rc<Node>, NodeId>,
-    /// The value of each node that holds no symbol.
+    /// The value of each node without symbols.
     pub(super) values: Vec<Option<f64>>,
-    /// True of each node that has no value for some values of its symbols.
+    /// True for each node that is undefined for some values of its symbols.
     may_be_undefined: Vec<bool>,
     symbols: Vec<String>,
     /// The names of the value and the derivatives of each user function.
     pub(super) externals: Vec<Vec<String>>,
     pub(super) fault: Option<Fault>,
     pub(super) conditions: BTreeSet<Condition>,
-    /// Copies of a graph draw on it as well.
+    /// The remaining work; copies of a graph share it.
     pub(super) budget: Budget,
 }
 
-/// A node that stays in memory counts as more steps than one that is looked at, so that the budget bounds both: it takes some
-/// 150 bytes and 32 for each part, a name some 50. With half of these counts an invocation that is refused in the end
-/// could take twice the memory.
+/// The budget steps of an allocated node. Allocation counts as more steps than a visit, so that the budget bounds
+/// memory: a node takes about 150 bytes and 32 for each part, a symbol about 50. With half of these counts an
+/// invocation that exceeds the budget could take twice the memory.
 const STEPS_OF_A_NODE: usize = 64;
 const STEPS_OF_A_PART: usize = 4;
 const STEPS_OF_A_SYMBOL: usize = 16;
 
 impl Graph {
-    /// An empty graph whose work is counted.
+    /// An empty graph with a budget.
     #[must_use]
     pub fn within(budget: &Budget) -> Self {
         Self { budget: budget.clone(), ..Self::default() }
     }
 
-    /// The remaining work; once nothing is left, no expressions are made, and any node is returned in their place.
+    /// The remaining work. Once it is spent, no nodes are made, and an arbitrary node is returned instead.
     #[must_use]
     pub fn budget(&self) -> &Budget {
         &self.budget
     }
 
-    /// Any node, if so much work cannot be done.
+    /// Spends steps; returns an arbitrary node if the budget is exceeded.
     pub(super) fn unaffordable(&self, steps: usize) -> Option<NodeId> {
         (!self.budget.spend(steps) && !self.nodes.is_empty()).then_some(NodeId(0))
     }
 
-    /// A new name; two symbols of one name are two symbols.
+    /// Makes a new symbol; symbols with equal names are different.
     pub fn symbol(&mut self, name: impl Into<String>) -> SymbolId {
         self.budget.spend(STEPS_OF_A_SYMBOL);
         self.symbols.push(name.into());
@@ -115,7 +115,7 @@ impl Graph {
         self.fault.take()
     }
 
-    /// The result of an attempt with the conditions that it assumes; none if it has a fault.
+    /// The result of `make` with the conditions that it assumes; `None` if it causes a fault.
     pub fn attempt<V>(&mut self, make: impl FnOnce(&mut Self) -> Option<V>) -> Option<(V, BTreeSet<Condition>)> {
         let (fault, conditions) = (self.fault.take(), self.take_conditions());
         let made = make(self);
@@ -129,7 +129,7 @@ impl Graph {
         std::mem::take(&mut self.conditions)
     }
 
-    /// True if an expression has no value for some values of its symbols.
+    /// True if an expression is undefined for some values of its symbols.
     #[must_use]
     pub fn may_be_undefined(&self, id: NodeId) -> bool {
         self.may_be_undefined[id.index()]
@@ -158,7 +158,7 @@ impl Graph {
                 function.operation().may_be_undefined
                     || arguments.iter().any(|&argument| self.may_be_undefined(argument))
             }
-            // A table ends somewhere.
+            // A user function, such as a table, may have a limited domain.
             Node::External(..) => true,
         }
     }
@@ -176,7 +176,7 @@ impl Graph {
         }
         let id = NodeId(self.nodes.len());
         self.values.push(value);
-        // What has a value has no symbols that could take it away.
+        // A node with a value has no symbols.
         let may_be_undefined = value.is_none() && self.has_gaps(&node);
         self.may_be_undefined.push(may_be_undefined);
         let node = Rc::new(node);
@@ -185,7 +185,7 @@ impl Graph {
         id
     }
 
-    /// True if a coefficient, with the constants that it is multiplied by, is not a normal number.
+    /// True if a coefficient times the constant factors of its term is not a normal number.
     fn is_out_of_range(&self, node: &Node) -> bool {
         let normal = |value: f64| value.is_normal() || value == 0.0;
         match node {
@@ -229,7 +229,7 @@ impl Graph {
         self.intern(Node::Symbol(symbol))
     }
 
-    /// `function(arguments)`; sines and cosines take out signs and quarter turns.
+    /// `function(arguments)`; signs and quarter turns are moved out of sines and cosines.
     pub fn call(&mut self, function: Function, arguments: &[NodeId]) -> NodeId {
         match (function, arguments) {
             (Function::Sin | Function::Cos, &[angle]) => self.circular(function, angle),
@@ -244,7 +244,7 @@ impl Graph {
         }
     }
 
-    /// True if the first coefficient as written is negative: the sign to take out of an odd function.
+    /// True if the first coefficient is negative: then the sign is moved out of odd functions.
     #[must_use]
     pub fn leads_negative(&self, id: NodeId) -> bool {
         match self.node(id) {

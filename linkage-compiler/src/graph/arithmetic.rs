@@ -1,15 +1,15 @@
-//! Sums and products: like terms collected, constants folded, signs where they belong.
+//! Normal form of sums and products: like terms collected, constants folded, signs inside sums.
 
 use super::arena::Graph;
 use super::node::{Condition, Fault, Node, NodeId};
 use super::number::Number;
 
-/// A sum of more terms than this stays one term of a sum that it is put into: otherwise a chain in
-/// which each member adds to the one before would grow with the square of its length.
+/// Sums of more terms than this are not flattened into other sums. Otherwise n sums that each add to the previous one
+/// would have O(n^2) terms.
 const LONGEST_MERGED: usize = 64;
 
-/// A product has no more factors than this; longer ones are products of products. The derivative of a
-/// product has as many terms as factors, each as long as the product.
+/// The largest number of factors of a product; longer ones are products of products. The derivative of n factors has n
+/// terms of n factors each.
 const LONGEST_PRODUCT: usize = 16;
 
 impl Graph {
@@ -99,7 +99,7 @@ impl Graph {
         }
     }
 
-    /// Products of products, none longer than [`LONGEST_PRODUCT`]; the same factors give the same tree.
+    /// Groups factors into products of at most [`LONGEST_PRODUCT`]; the same factors give the same tree.
     fn grouped(&mut self, mut factors: Vec<(NodeId, i32)>) -> Vec<(NodeId, i32)> {
         while factors.len() > LONGEST_PRODUCT {
             let mut groups: Vec<(NodeId, i32)> =
@@ -147,7 +147,7 @@ impl Graph {
                     coefficient = coefficient.multiply(inner.power(exponent));
                     for &(base, inner) in factors {
                         collect(base, inner.checked_mul(exponent));
-                        // 1/(1/x) is x for an x other than zero.
+                        // 1/(1/x) = x assumes x != 0.
                         if inner < 0 || exponent < 0 {
                             divisors.push(base);
                         }
@@ -183,7 +183,7 @@ impl Graph {
         if coefficient.is_one() {
             return self.monic(factors);
         }
-        // A sign belongs inside a sum, so that -(a - b) and b - a are one node.
+        // Signs are moved into sums, so that -(a - b) and b - a are one node.
         if let (true, &[(base, 1)]) = (coefficient == Number::MINUS_ONE, factors.as_slice())
             && let Node::Sum { constant, terms } = self.node(base).clone()
         {
@@ -194,7 +194,7 @@ impl Graph {
     }
 }
 
-/// The value of a key in an ascending list, put there if it is not.
+/// The entry of a key in a sorted list; inserts it if it is missing.
 fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
     let place = list.binary_search_by_key(&key, |(key, _)| *key).unwrap_or_else(|place| {
         list.insert(place, (key, empty));

@@ -1,4 +1,4 @@
-//! Sines and cosines in one form: no sign, no quarter turn and no angle of a rational value is left inside.
+//! Normal form of sines and cosines: signs, quarter turns and angles with rational values are evaluated.
 
 use super::arena::Graph;
 use super::function::Function;
@@ -16,14 +16,14 @@ impl Graph {
         };
         let flip = self.leads_negative(rest);
         let rest = if flip { self.negate(rest) } else { rest };
-        // cos x is sin(x + pi/2): both are a sine ahead by some quarters.
+        // cos x = sin(x + pi/2): treat both as a sine plus a number of quarter turns.
         let ahead = quarters + i64::from(function == Function::Cos);
         let (even, sign) = (ahead % 2 == 1, if ahead % 4 >= 2 { -1 } else { 1 });
         let sign = if flip && !even { -sign } else { sign };
         let base = if even { Function::Cos } else { Function::Sin };
         let (turn, pure) = if self.constant_value(rest).is_some() {
-            let (turn, beside) = self.split_pi(rest);
-            (turn, self.is_zero(beside))
+            let (turn, remainder) = self.split_pi(rest);
+            (turn, self.is_zero(remainder))
         } else {
             (Number::ZERO, false)
         };
@@ -52,7 +52,7 @@ impl Graph {
     }
 }
 
-/// The rational values of sine and cosine at `turn * pi`, quarter turns taken out: 0, 1/2 and 1 (Niven's theorem).
+/// The rational values of sine and cosine at `turn * pi`, without quarter turns: 0, 1/2 and 1 (Niven's theorem).
 fn exact_circular(function: Function, turn: Number, pure: bool) -> Option<Number> {
     if !pure {
         return None;

@@ -1,4 +1,4 @@
-//! Derivatives: one forward sweep over the graph, each node derived once.
+//! Differentiation: one forward sweep over the graph, each node differentiated once.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use super::node::{Node, NodeId, SymbolId};
 use super::number::Number;
 
 impl Graph {
-    /// The derivatives of `roots` along `seeds`, which gives the derivative of each symbol.
+    /// The derivatives of `roots`, where `seeds` are the derivatives of symbols.
     ///
-    /// A single seed of 1 is the partial derivative; the rates of all coordinates as seeds give
+    /// A single seed of 1 gives a partial derivative; the rates of all coordinates as seeds give
     /// the derivative with respect to time. Symbols without a seed are constants.
     pub fn differentiate(&mut self, roots: &[NodeId], seeds: &BTreeMap<SymbolId, NodeId>) -> Vec<NodeId> {
         let zero = self.zero();
         let nodes = self.reachable(roots);
-        // Zero unless a node depends on a seed, which most do not.
+        // Zero unless the node depends on a seeded symbol.
         let mut derivatives = vec![zero; nodes.last().map_or(0, |last| last.index() + 1)];
         for id in nodes {
             let result = match self.node(id).clone() {

@@ -1,33 +1,33 @@
-//! User functions: their names are known, and which derivatives come with their value, nothing else.
+//! User functions: only their names and the number of their derivatives are known.
 
 use super::arena::Graph;
 use super::node::{External, ExternalId, Node, NodeId};
 
 impl Graph {
-    /// A function by the names of its value and of its derivatives by the first argument, in order.
+    /// Adds a user function with the names of its value and of its derivatives by the first argument, in order.
     pub fn external(&mut self, names: Vec<String>) -> ExternalId {
         self.externals.push(names);
         ExternalId(self.externals.len() - 1)
     }
 
-    /// The names of the value and of the derivatives that the user gives, in order.
+    /// The names of the value and of the declared derivatives, in order.
     #[must_use]
     pub fn external_names(&self, function: ExternalId) -> &[String] {
         &self.externals[function.index()]
     }
 
-    /// The name of the user's Rust function for this derivative, if there is one.
+    /// The declared name of this derivative, if there is one.
     #[must_use]
     pub fn external_name(&self, external: &External) -> Option<&str> {
         self.external_names(external.function).get(external.order()?).map(String::as_str)
     }
 
-    /// A user function at some arguments.
+    /// A call of a user function or of a derivative.
     pub fn apply(&mut self, external: External, arguments: Vec<NodeId>) -> NodeId {
         self.intern(Node::External(external, arguments))
     }
 
-    /// The functions and derivatives that expressions of this graph call, whether the user gives them or not.
+    /// The user functions and derivatives in this graph, declared or not.
     pub fn applied(&self) -> impl Iterator<Item = &External> {
         self.nodes.iter().filter_map(|node| match &**node {
             Node::External(external, _) => Some(external),
@@ -70,7 +70,7 @@ mod tests {
             assert!((found - expected).abs() <= 1e-15 * expected, "{found} is not {expected}");
         }
         assert!(g.evaluate(&[value], bind)[0].is_nan());
-        // By the parameter nothing is given.
+        // The derivative by the parameter has no name.
         let other = g.differentiate(&[value], &BTreeMap::from([(p, time)]))[0];
         let by: Vec<_> = g.applied().filter(|applied| applied.order().is_none()).cloned().collect();
         assert_eq!(by, [External { function: f, by: vec![0, 1] }]);

@@ -1,4 +1,4 @@
-//! The interpreter: the oracle that emitted code is compared with.
+//! The interpreter, against which tests check emitted code.
 
 use rustc_hash::FxHashMap;
 
@@ -6,13 +6,13 @@ use super::arena::Graph;
 use super::node::{External, NodeId, SymbolId, node_value};
 
 impl Graph {
-    /// The values of `roots` where `bind` gives the value of each symbol; user functions are not a number.
+    /// Evaluates `roots`; `bind` returns the value of each symbol, user functions are NaN.
     #[must_use]
     pub fn evaluate(&self, roots: &[NodeId], bind: impl Fn(SymbolId) -> f64) -> Vec<f64> {
         self.evaluate_with(roots, bind, |_, _| f64::NAN)
     }
 
-    /// The values of `roots` where `external` gives those of user functions and of their derivatives.
+    /// Evaluates `roots`; `external` returns the values of user functions and of their derivatives.
     #[must_use]
     pub fn evaluate_with(
         &self,

@@ -1,8 +1,7 @@
 //! The expression graph: hash-consed nodes with exact constants and n-ary sums and products.
 //!
-//! Equal expressions are one node, so derivatives share what they have in common and no
-//! formula swells. Children always precede their parents, hence every traversal is a loop
-//! over ascending ids: nothing here recurses, whatever the depth of an expression.
+//! Equal expressions are one node, so that derivatives share common subexpressions. Children precede their parents,
+//! hence every traversal is a loop over ascending ids, without recursion.
 
 mod arena;
 mod arithmetic;

@@ -1,4 +1,4 @@
-//! Nodes and their ids, faults, and the conditions under which a shorter expression is equal.
+//! Nodes and their ids, faults, and the conditions that simplifications assume.
 
 use super::function::Function;
 use super::number::Number;
@@ -7,7 +7,7 @@ use super::number::Number;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(super) usize);
 
-/// A name of a [`Graph`](super::Graph): parameter, coordinate, rate, or a quantity solved for.
+/// A symbol of a [`Graph`](super::Graph): a parameter, a coordinate, a rate, or a result of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SymbolId(pub(super) usize);
 
@@ -29,14 +29,14 @@ pub enum Node {
     Constant(Number),
     Pi,
     Symbol(SymbolId),
-    /// constant + sum of coefficient * term; terms ascend, no coefficient is zero, no term is
-    /// itself a constant, a product with a coefficient or a sum, but for long ones.
+    /// constant + sum of coefficient * term. Terms ascend, no coefficient is zero, and no term is
+    /// a constant, a product with a coefficient or a sum, except for long sums.
     Sum {
         constant: Number,
         terms: Vec<(Number, NodeId)>,
     },
-    /// coefficient * product of base^exponent; bases ascend, no exponent is zero, no base is
-    /// itself a product, but for parts of long ones.
+    /// coefficient * product of base^exponent. Bases ascend, no exponent is zero, and no base is
+    /// a product, except in long products.
     Product {
         coefficient: Number,
         factors: Vec<(NodeId, i32)>,
@@ -46,17 +46,17 @@ pub enum Node {
     External(External, Vec<NodeId>),
 }
 
-/// Why an expression has no value at all.
+/// The reason why an expression has no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
     DivisionByZero,
-    /// A constant that is not zero and not a normal number of `f64`.
+    /// A constant that is neither zero nor a normal `f64`.
     OutOfRange,
     ExponentOverflow,
 }
 
-/// A condition that was assumed when something was cancelled: where it fails, the expression as
-/// written has no value although the shorter one may have.
+/// A condition that a cancellation assumes: where it fails, the original expression is undefined, although the
+/// simplified one may have a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Condition {
     /// x / x = 1
@@ -68,7 +68,7 @@ pub enum Condition {
 impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::DivisionByZero => "this divides by zero",
+            Self::DivisionByZero => "division by zero",
             Self::OutOfRange => "this constant is beyond the range of `f64`, 2.3e-308 to 1.7e308",
             Self::ExponentOverflow => "this exponent is too large",
         })
@@ -99,7 +99,7 @@ impl External {
         Self { function, by }
     }
 
-    /// The order, if it is derived by its first argument alone.
+    /// The order of the derivative, if it is with respect to the first argument only.
     #[must_use]
     pub fn order(&self) -> Option<usize> {
         let (first, rest) = self.by.split_first()?;

@@ -10,7 +10,7 @@ use std::fmt;
 pub enum Number {
     /// `numerator / denominator`.
     Ratio(i64, i64),
-    /// A value that is not kept exactly.
+    /// A rounded value.
     Float(f64),
 }
 
@@ -24,7 +24,7 @@ impl Number {
 
     #[must_use]
     pub fn integer(value: i64) -> Self {
-        // i64::MIN has no absolute value, so it is left to the floats.
+        // i64::MIN has no absolute value in i64, so it becomes a float.
         if value == i64::MIN { Self::Float(value as f64) } else { Self::Ratio(value, 1) }
     }
 
@@ -38,20 +38,19 @@ impl Number {
         let sign = denominator.signum();
         let (n, d) = (sign * (numerator / divisor), sign * (denominator / divisor));
         match (i64::try_from(n), i64::try_from(d)) {
-            // i64::MIN has no absolute value, so it is left to the floats.
+            // i64::MIN has no absolute value in i64, so it becomes a float.
             (Ok(n), Ok(d)) if n != i64::MIN => Self::Ratio(n, d),
             _ => Self::Float(n as f64 / d as f64),
         }
     }
 
-    /// A float that came of arithmetic: not a number where the result is too small to have all its digits, since a
-    /// coefficient that vanishes would take its term away.
+    /// A computed float; NaN if it underflows, since a coefficient of zero would remove its term.
     fn float(value: f64, is_zero: bool) -> Self {
         let underflows = !is_zero && value.abs() < f64::MIN_POSITIVE;
         Self::Float(if underflows { f64::NAN } else { value })
     }
 
-    /// A decimal literal such as `1.25e-3`, exact where its value as a ratio is the same `f64`
+    /// Parses a decimal literal such as `1.25e-3`; exact if the quotient of its numerator and denominator is the `f64`
     /// that the literal denotes.
     #[must_use]
     pub fn parse(digits: &str) -> Option<Self> {
@@ -123,7 +122,7 @@ impl Number {
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         match (self, other) {
-            // Most sums are of a term and zero.
+            // Fast path: most sums have a zero.
             (sum @ Self::Ratio(..), Self::Ratio(0, _)) | (Self::Ratio(0, _), sum @ Self::Ratio(..)) => sum,
             (Self::Ratio(a, b), Self::Ratio(c, d)) => {
                 let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
@@ -139,7 +138,7 @@ impl Number {
     #[must_use]
     pub fn multiply(self, other: Self) -> Self {
         match (self, other) {
-            // Most factors are signs.
+            // Fast path: most factors are 1 or -1.
             (Self::Ratio(1, 1), factor) | (factor, Self::Ratio(1, 1)) => factor,
             (Self::Ratio(-1, 1), factor) | (factor, Self::Ratio(-1, 1)) => factor.negate(),
             (Self::Ratio(a, b), Self::Ratio(c, d)) => {
@@ -194,7 +193,7 @@ fn gcd(mut a: u128, mut b: u128) -> i128 {
     i128::try_from(a).unwrap_or(1).max(1)
 }
 
-// Floats are compared by bits, so that equal nodes are equal keys.
+// Floats are compared by bits, so that numbers can be keys of hash maps.
 impl PartialEq for Number {
     fn eq(&self, other: &Self) -> bool {
         self.key() == other.key()

@@ -1,24 +1,23 @@
-//! The op table: the name, value and derivatives of each elementary function. One row a function; everything else
-//! reads the table.
+//! The operation table: name, value and derivatives of each elementary function.
 
 use super::arena::Graph;
 use super::function::Function;
 use super::node::NodeId;
 use super::number::Number;
 
-/// The partial derivatives of `f` at `arguments`, one for each; `value` is `f(arguments)` itself.
+/// The partial derivatives of `f` at `arguments`, one for each; `value` is `f(arguments)`.
 type Partials = fn(graph: &mut Graph, arguments: &[NodeId], value: NodeId) -> Vec<NodeId>;
 
-/// One row of the op table.
+/// One row of the operation table.
 pub struct Operation {
     pub function: Function,
     /// The name in the `linkage!` language.
     pub name: &'static str,
     pub arity: usize,
-    /// The value, for the interpreter; takes `arity` numbers.
+    /// The value, for the interpreter, of `arity` numbers.
     pub value: fn(&[f64]) -> f64,
     pub partials: Partials,
-    /// True if it has no value at some finite arguments.
+    /// True if it is undefined at some finite arguments.
     pub may_be_undefined: bool,
 }
 
@@ -171,7 +170,7 @@ impl Function {
     }
 }
 
-/// 1 / sqrt((1 - x)(1 + x)): the factored form keeps its digits near |x| = 1.
+/// 1 / sqrt((1 - x)(1 + x)); the factored form avoids cancellation near |x| = 1.
 fn inverse_half_chord(g: &mut Graph, x: NodeId) -> NodeId {
     let one = g.one();
     let below = g.subtract(one, x);

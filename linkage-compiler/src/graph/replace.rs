@@ -1,4 +1,4 @@
-//! Expressions with other parts in place of their own.
+//! Substitution.
 
 use rustc_hash::FxHashMap;
 
@@ -6,7 +6,7 @@ use super::arena::Graph;
 use super::node::{Node, NodeId};
 
 impl Graph {
-    /// The roots with nodes replaced; the parts of a replacement stay as they are.
+    /// Replaces nodes in the roots; replacements are not searched again.
     pub fn replace(&mut self, roots: &[NodeId], by: &FxHashMap<NodeId, NodeId>) -> Vec<NodeId> {
         let mut new = by.clone();
         for id in self.reachable(roots) {
@@ -18,7 +18,7 @@ impl Graph {
         roots.iter().map(|root| new[root]).collect()
     }
 
-    /// A node with other parts; `parts` holds all of them.
+    /// Rebuilds a node with new children, all of which are in `parts`.
     pub(crate) fn rebuilt(&mut self, id: NodeId, parts: &FxHashMap<NodeId, NodeId>) -> NodeId {
         if self.children(id).iter().all(|child| parts[child] == *child) {
             return id;

@@ -1,4 +1,4 @@
-//! Sweeps over the parts of expressions; their cost is that of what they find, not of the graph.
+//! Traversals of expressions; their cost is proportional to the nodes found, not to the graph.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use super::node::{Node, NodeId, SymbolId};
 use super::number::Number;
 
 impl Graph {
-    /// The direct parts of a node.
+    /// The children of a node.
     #[must_use]
     pub fn children(&self, id: NodeId) -> Vec<NodeId> {
         let mut children = Vec::new();
@@ -30,8 +30,8 @@ impl Graph {
         self.reachable(roots).into_iter().filter_map(|id| self.as_symbol(id)).collect()
     }
 
-    /// The symbols whose numbers the roots depend on: not those that enter by whole multiples in sines and cosines
-    /// alone, where a direction is enough.
+    /// The symbols that the roots use as numbers. Symbols that enter only as integer multiples in sines and cosines are
+    /// not among them: their directions are sufficient.
     #[must_use]
     pub fn needed_as_numbers(&self, roots: &[NodeId]) -> Vec<SymbolId> {
         let (mut needed, mut seen, mut stack) = (Vec::new(), FxHashSet::default(), roots.to_vec());
@@ -48,20 +48,20 @@ impl Graph {
         needed
     }
 
-    /// The symbols that sines and cosines in the roots are taken of: those that are the angle, no part of it.
+    /// The symbols that are arguments of sines and cosines in the roots.
     #[must_use]
     pub fn directions(&self, roots: &[NodeId]) -> BTreeSet<SymbolId> {
         let angles = self.angles(roots);
         angles.into_iter().filter_map(|angle| self.as_symbol(angle)).collect()
     }
 
-    /// The symbols in the angles that sines and cosines in the roots are taken of.
+    /// The symbols in arguments of sines and cosines in the roots.
     #[must_use]
     pub fn in_directions(&self, roots: &[NodeId]) -> BTreeSet<SymbolId> {
         self.symbols_of(&self.angles(roots)).into_iter().collect()
     }
 
-    /// The angles that sines and cosines in the roots are taken of.
+    /// The arguments of sines and cosines in the roots.
     fn angles(&self, roots: &[NodeId]) -> Vec<NodeId> {
         let calls = self.reachable(roots).into_iter().filter_map(|id| match self.node(id) {
             Node::Call(Function::Sin | Function::Cos, angle) => Some(angle[0]),
@@ -70,7 +70,7 @@ impl Graph {
         calls.collect()
     }
 
-    /// The parts of an angle that are not whole multiples of a symbol.
+    /// The parts of an angle that are not integer multiples of a symbol.
     fn beyond_whole_multiples(&self, angle: NodeId) -> Vec<NodeId> {
         let is_whole =
             |coefficient: Number, part: NodeId| coefficient.as_integer().is_some() && self.as_symbol(part).is_some();
@@ -88,8 +88,7 @@ impl Graph {
         }
     }
 
-    /// The nodes in the roots, children before parents, without those that are `done` and without the parts of a
-    /// `leaf`.
+    /// The nodes in the roots, children before parents, without `done` nodes and without the children of a `leaf`.
     pub(crate) fn sweep(
         &self,
         roots: &[NodeId],

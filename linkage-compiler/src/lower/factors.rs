@@ -1,14 +1,14 @@
-//! The order of factors: numbers, products that are shared, symbols as they were declared, sines and cosines, and then
-//! what is made of others.
+//! The order of factors in a product: numbers, shared products, symbols in the order of declaration, sines and cosines,
+//! other functions, sums, quotients.
 
 use super::value::{Value, ValueId};
 use crate::graph::SymbolId;
 
-/// The place among factors, of which the smallest comes first.
+/// The sort key of a factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Number,
-    /// A product of this symbol and others, or its square.
+    /// A product that begins with this symbol, or its square.
     Made(SymbolId),
     Symbol(SymbolId),
     Direction,
@@ -30,7 +30,7 @@ pub(super) fn order(values: &mut [Value]) {
     }
 }
 
-/// Finds the place of a value, and before it those of its factors.
+/// Finds the sort key of a value, after those of its factors.
 fn settle(values: &[Value], kinds: &mut [Option<Kind>], root: ValueId) {
     let mut stack = vec![root];
     while let Some(&id) = stack.last() {

@@ -1,4 +1,4 @@
-//! A planned function as statements: its formulas shared, ordered, named and proven finite where that is possible.
+//! Lowering of a planned function to statements.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,19 +18,19 @@ use crate::program::{
     Value as Returned,
 };
 
-/// What the functions of one driver or scene have in common.
+/// The data that the functions of one driver or scene share.
 pub struct Context<'a> {
     pub derivation: &'a Derivation,
     pub pose: &'a PosePlan,
     /// Names that the user gave to expressions.
     pub named: &'a [(NodeId, String)],
-    /// What no value may be called: the arguments.
+    /// Names that no value may have: those of the arguments.
     pub reserved: &'a BTreeSet<String>,
-    /// The arguments that hold a pose, say which solution of a group is meant, and in which turn an angle is.
+    /// The names of the arguments for the pose, the branch and the turns.
     pub pose_argument: &'a str,
     pub branch: &'a str,
     pub turn: &'a str,
-    /// The work of the functions lowered so far.
+    /// The operation counts of the functions lowered so far.
     pub works: BTreeMap<String, Operations>,
 }
 
@@ -52,7 +52,7 @@ pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code
     let is_layer = matches!(access, Access::Layer | Access::PublicLayer);
     let mut body = body.map(|body| self::body(body, is_layer, context));
     if let (Some(code), Access::Cold) = (&mut body, access) {
-        // It is not called where all is well.
+        // It is called only after an error.
         code.operations = Operations::default();
     }
     if let Some(code) = &body {
@@ -95,7 +95,7 @@ fn body(body: Body, is_layer: bool, context: &Context) -> Code {
     Code { statements, value, operations, uses, externals: formulas.externals }
 }
 
-/// The value of a function, without the name that the last statement gives it.
+/// Returns the value of the last `let` instead of its name, if the function returns that name.
 fn unnamed(statements: &mut Vec<Statement>, value: Returned) -> Returned {
     let is_named = |statement: &mut Statement| match (statement, &value) {
         (Statement::Let(Pattern::Name(last), _), Returned::Plain(Expression::Name(name))) => last == name,
@@ -107,7 +107,7 @@ fn unnamed(statements: &mut Vec<Statement>, value: Returned) -> Returned {
     }
 }
 
-/// The statements without names for conversions and poses that nothing uses; adds what they use themselves.
+/// Removes `let`s with unused names, unless they may fail; adds the names that the others use.
 fn needed(statements: Vec<Statement>, uses: &mut BTreeSet<String>) -> Vec<Statement> {
     let mut kept = Vec::new();
     for statement in statements.into_iter().rev() {
@@ -130,10 +130,10 @@ fn needed(statements: Vec<Statement>, uses: &mut BTreeSet<String>) -> Vec<Statem
 struct Formulas<'a> {
     statements: Vec<Statement>,
     results: Vec<Expression>,
-    /// For each result, whether it is finite wherever the function gets so far.
+    /// For each result, true if it is finite if the checks before it pass.
     is_proven: Vec<bool>,
     dyads: Vec<Option<BlockId>>,
-    /// The values that say of a dyad whether its triangle is plain.
+    /// The names of the flags that are true if the triangle of a dyad is well conditioned.
     plain: Vec<String>,
     taken: Taken<'a>,
     externals: BTreeSet<ExternalId>,
@@ -141,7 +141,7 @@ struct Formulas<'a> {
 }
 
 impl<'a> Formulas<'a> {
-    /// Those of a function that has no kernel.
+    /// No formulas, for a function without kernel.
     fn none(context: &Context<'a>) -> Self {
         Self {
             statements: Vec::new(),
@@ -160,13 +160,13 @@ impl<'a> Formulas<'a> {
         let nothing = Given::default();
         let given = if kernel.is_on_pose { &context.pose.given } else { &nothing };
         let nodes: Vec<NodeId> = kernel.results.iter().map(|output| output.node).collect();
-        // A value that has a line of its own is called as the result that it is, or as the user calls it.
+        // Preferred names of values: those of results, then those given by the user.
         let results = kernel.results.iter().filter_map(|output| Some((output.node, output.name.clone()?)));
         let named: Vec<(NodeId, String)> = results.chain(context.named.iter().cloned()).collect();
         let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, &named, is_layer);
         let is_proven = schedule.proven();
         let mut names = Names::new(&derivation.graph, context.reserved);
-        // The user's own names come first, so that they stay as they are.
+        // The symbols of the user are named first, so that they keep their names.
         let own: BTreeSet<SymbolId> = kernel.steps.iter().flat_map(|step| step.introduced()).collect();
         let symbols: BTreeSet<SymbolId> = schedule.symbols().filter(|symbol| !own.contains(symbol)).collect();
         for &symbol in &symbols {
@@ -202,7 +202,7 @@ impl<'a> Formulas<'a> {
     }
 }
 
-/// True if a value is neither a name nor nought or one.
+/// True if a value is neither a name nor zero nor one.
 fn is_formula(value: &Expression) -> bool {
     match value {
         Expression::Name(_) => false,
@@ -211,26 +211,26 @@ fn is_formula(value: &Expression) -> bool {
     }
 }
 
-/// `let Type { field, other: name, .. } = *value;` with the fields that are used; none if no field is.
+/// `let Type { field, other: name, .. } = *value;` with the fields that are used; `None` if no field is used.
 fn taken_apart(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Statement> {
     let pattern = match pattern(&source.shape, used, names) {
         Some(pattern) => pattern,
-        // What may refuse is called all the same.
-        None if may_refuse(&source.from) => Pattern::Ignored,
+        // A call that may fail is kept.
+        None if may_fail(&source.from) => Pattern::Ignored,
         None => return None,
     };
     Some(Statement::Let(pattern, source.from.clone()))
 }
 
-fn may_refuse(value: &Expression) -> bool {
+fn may_fail(value: &Expression) -> bool {
     match value {
         Expression::Try(_) => true,
-        Expression::Field(of, _) => may_refuse(of),
+        Expression::Field(of, _) => may_fail(of),
         _ => false,
     }
 }
 
-/// The symbols of a shape that are used, in their places; none if no symbol is.
+/// The pattern of a shape with the symbols that are used; `None` if no symbol is used.
 fn pattern(shape: &Shape, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Pattern> {
     let all = |shapes: &[Shape]| {
         let patterns: Vec<_> = shapes.iter().map(|shape| pattern(shape, used, names)).collect();
@@ -251,7 +251,7 @@ fn pattern(shape: &Shape, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Pa
     }
 }
 
-/// `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
+/// Adds `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
 fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Schedule, names: &mut Names) {
     let mut used: Vec<(NodeId, Elementary, ValueId)> = Vec::new();
     for &id in schedule.used() {
@@ -279,7 +279,7 @@ fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Sch
     }
 }
 
-/// Puts results and local values in the places of their numbers.
+/// Replaces indices of results and local values by their expressions and names.
 struct Finished<'a> {
     results: &'a [Expression],
     locals: &'a [String],
@@ -295,9 +295,9 @@ impl Finished<'_> {
             Statement::Assign(place, value) => {
                 out.push(Statement::Assign(self.expression(place), self.expression(value)));
             }
-            Statement::Check { what, values, blame } => {
+            Statement::Check { what, values, detail } => {
                 let values = self.expressions(values);
-                out.extend(check(&what, values, blame));
+                out.extend(check(&what, values, detail));
             }
             Statement::CheckPosition => self.check_position(formulas, out),
             Statement::Unless(conditions, inside) => {
@@ -310,7 +310,7 @@ impl Finished<'_> {
         }
     }
 
-    /// The numbers of a position: those of dyads need a check only where a triangle is not plain.
+    /// Adds the checks of a position; numbers of dyads are checked only if a triangle is not well conditioned.
     fn check_position(&self, formulas: &Formulas, out: &mut Vec<Statement>) {
         let unproven = self.results.iter().zip(&formulas.dyads).zip(&formulas.is_proven);
         let unproven = unproven.filter(|(_, is_proven)| !**is_proven).map(|(value, _)| value);
@@ -359,7 +359,7 @@ impl Finished<'_> {
             }
             E::Try(value) => E::Try(Box::new(self.expression(*value))),
             E::Borrowed(value) => E::Borrowed(Box::new(self.expression(*value))),
-            E::Behind(value) => E::Behind(Box::new(self.expression(*value))),
+            E::Dereferenced(value) => E::Dereferenced(Box::new(self.expression(*value))),
             E::Closure { arguments, statements, value, moves } => {
                 E::Closure { arguments, statements, value: Box::new(self.expression(*value)), moves }
             }
@@ -380,8 +380,8 @@ impl Finished<'_> {
     }
 }
 
-/// `finite(NAME, what, [values])?;`, each value once; none if all are nought or one.
-fn check(what: &str, values: Vec<Expression>, blame: Option<Expression>) -> Option<Statement> {
+/// `finite(NAME, what, [values])?;`, each value once; `None` if all are zero or one.
+fn check(what: &str, values: Vec<Expression>, detail: Option<Expression>) -> Option<Statement> {
     let mut seen = FxHashSet::default();
     let values = values.into_iter().filter(|value| match value {
         Expression::Name(name) => seen.insert(name.clone()),
@@ -393,8 +393,8 @@ fn check(what: &str, values: Vec<Expression>, blame: Option<Expression>) -> Opti
     }
     let check = [Expression::mechanism(), Expression::text(what), Expression::List(values)];
     let check = Expression::runtime("finite", check);
-    let check = match blame {
-        Some(blame) => check.method("or_else", [blame]),
+    let check = match detail {
+        Some(detail) => check.method("or_else", [detail]),
         None => check,
     };
     Some(Statement::Do(check.tried()))

@@ -1,10 +1,10 @@
-//! Parts that sharing took out and nothing shares in the end: a sum within one sum, a product within one product, and
-//! the inverse of a divisor in one product, which becomes a quotient.
+//! Inlining after sharing: a sum used once within a sum, a product used once within a product, and an inverse used once
+//! in a product, which becomes a quotient.
 
 use super::value::{Signed, Value, ValueId};
 
-/// Rewrites the sums and products that the roots depend on. What is used once stands where it is used; a kernel whose
-/// function is inlined into others keeps its inverses, which those have in common with it.
+/// Inlines operands used once into the sums and products that the roots depend on. A kernel that is inlined into other
+/// functions keeps its inverses, since these may use the same ones.
 pub(super) fn join(values: &mut Vec<Value>, roots: &[Signed], keeps_inverses: bool) {
     let (mut uses, mut stack) = (vec![0; values.len()], Vec::new());
     let mut reached = Vec::new();
@@ -39,7 +39,7 @@ pub(super) fn join(values: &mut Vec<Value>, roots: &[Signed], keeps_inverses: bo
                 let mut stack: Vec<ValueId> = factors.iter().rev().copied().collect();
                 while let Some(factor) = stack.pop() {
                     match &values[factor.0] {
-                        // Numbers are one factor already.
+                        // Products with a number stay apart, so that a product has at most one number.
                         Value::Product(inner) if once(factor) && !inner.iter().any(|&part| is_number(values, part)) => {
                             stack.extend(inner.iter().rev());
                         }

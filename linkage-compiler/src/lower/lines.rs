@@ -1,4 +1,4 @@
-//! Lines of a schedule as statements with names.
+//! Conversion of the lines of a schedule to statements with names.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,11 +11,11 @@ use crate::graph::{ExternalId, Function, SymbolId};
 use crate::ids::{BlockId, Id};
 use crate::program::{Expression, Kernel, Pattern, Statement, Type, call_of};
 
-/// Writes the lines of one schedule.
+/// Converts the lines of one schedule.
 pub(super) struct Writer<'a, 'n> {
     pub(super) derivation: &'a Derivation,
     pub(super) kernel: &'a Kernel,
-    /// The arguments that say which solution of a group is meant, and in which turn an angle is.
+    /// The names of the arguments for the branch and the turns.
     pub(super) branch: &'a str,
     pub(super) turn: &'a str,
     pub(super) schedule: &'a Schedule,
@@ -23,7 +23,7 @@ pub(super) struct Writer<'a, 'n> {
     pub(super) statements: Vec<Statement>,
     /// The user functions that are called.
     pub(super) externals: BTreeSet<ExternalId>,
-    /// For a dyad whose triangle may be plain, the value that says so.
+    /// For each dyad with unproven results, the name of the flag that is true if its triangle is well conditioned.
     pub(super) plain: BTreeMap<BlockId, Option<String>>,
     /// The factorisations, by block.
     factors: BTreeMap<BlockId, String>,
@@ -60,7 +60,7 @@ impl<'a, 'n> Writer<'a, 'n> {
     fn line(&mut self, line: &'a Line) {
         match line {
             Line::Let(id) => {
-                // What a value is made of has names before it has one itself.
+                // The operands are written before the value gets its name.
                 match self.schedule.name(*id) {
                     Some((wish, true)) => {
                         let value = self.signed(Signed { negative: true, value: *id });
@@ -106,17 +106,17 @@ impl<'a, 'n> Writer<'a, 'n> {
                 };
                 self.let_name(name, number);
             }
-            Line::Guard { block, determinant, size } => {
-                let arguments = [self.signed(*determinant), self.signed(*size)];
-                let call = self.judged("regular", *block, arguments);
+            Line::Guard { block, determinant, scale } => {
+                let arguments = [self.signed(*determinant), self.signed(*scale)];
+                let call = self.group_call("regular", *block, arguments);
                 self.statements.push(Statement::Do(call.tried()));
             }
-            Line::Factor { block, matrix, sizes } => {
-                let arguments = [self.columns(matrix), Expression::List(self.all_signed(sizes))];
-                let call = [self.whose(), self.group(*block)].into_iter().chain(arguments);
+            Line::Factor { block, matrix, row_scales } => {
+                let arguments = [self.columns(matrix), Expression::List(self.all_signed(row_scales))];
+                let call = [self.error_name(), self.group(*block)].into_iter().chain(arguments);
                 let call = Expression::associated(Type::Runtime("Factorization", Vec::new()), "new", call).tried();
                 let name = self.names.taken.unique("factors");
-                // Where nothing is solved for, the check is still wanted.
+                // Without a `Solve` line the factorisation is kept as a check.
                 let solves = |line: &Line| matches!(line, Line::Solve { block: other, .. } if other == block);
                 if self.schedule.lines.iter().any(solves) {
                     self.let_name(name.clone(), call);
@@ -138,7 +138,7 @@ impl<'a, 'n> Writer<'a, 'n> {
             Line::Solvable { block, determinant, numerators, scales } => {
                 let determinant = self.signed(*determinant);
                 let [numerators, scales] = [numerators, scales].map(|values| Expression::List(self.all_signed(values)));
-                let call = self.judged("solvable", *block, [determinant, numerators, scales]);
+                let call = self.group_call("solvable", *block, [determinant, numerators, scales]);
                 self.statements.push(Statement::Do(call.tried()));
             }
             Line::Chord { block, symbol, factors, size, of } => self.chord((*block, *symbol), *factors, *size, *of),
@@ -150,16 +150,16 @@ impl<'a, 'n> Writer<'a, 'n> {
             Line::Newton { block, targets, start, system } => {
                 let start = Expression::List(self.all_signed(start));
                 let evaluation = self.evaluation(targets, system);
-                let call = self.judged("newton_group", *block, [start, evaluation]).tried();
+                let call = self.group_call("newton_group", *block, [start, evaluation]).tried();
                 let targets = targets.iter().map(|&target| Pattern::Name(self.names.introduce(target))).collect();
                 self.let_pattern(Pattern::List(targets), call);
             }
         }
     }
 
-    /// A value under the name of a symbol.
+    /// Binds a value to the name of a symbol.
     fn name(&mut self, symbol: SymbolId, value: Signed) {
-        // What has a name already needs no other.
+        // A value with a name needs no other.
         if !value.negative
             && !self.names.is_negative(value.value)
             && let Some(known) = self.known(value.value)
@@ -177,7 +177,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         }
     }
 
-    /// The name of a symbol, of a sine or cosine, or one that the user gave.
+    /// The name of a symbol, a sine or a cosine, or a name given by the user.
     fn known(&self, value: ValueId) -> Option<String> {
         let is_known = match self.schedule.value(value) {
             Value::Symbol(_) | Value::Call(Function::Sin | Function::Cos, _) => true,
@@ -212,18 +212,18 @@ impl<'a, 'n> Writer<'a, 'n> {
                 ];
                 let members = members.map(|(name, value)| (name.to_owned(), value));
                 let triangle = Expression::structure(Type::Runtime("Triangle", Vec::new()), members);
-                (Pattern::Tuple(vec![name, plain]), self.judged("elbow_chord", block, [triangle, side]))
+                (Pattern::Tuple(vec![name, plain]), self.group_call("elbow_chord", block, [triangle, side]))
             }
             ChordOf::Reach { scales, may_cancel } => {
                 let chord = if may_cancel { "reach_chord" } else { "chord" };
-                (name, self.judged(chord, block, [factors, size, list(scales), side]))
+                (name, self.group_call(chord, block, [factors, size, list(scales), side]))
             }
         };
         self.let_pattern(pattern, call.tried());
     }
 
-    /// The evaluation of a block by Newton's method: its residual, the sizes of its equations, and its matrix column by
-    /// column.
+    /// The function that Newton's method evaluates: the residuals of a block, their scales, and its Jacobian by
+    /// columns.
     fn evaluation(&mut self, unknowns: &[SymbolId], system: &'a Schedule) -> Expression {
         let context = (self.derivation, self.kernel);
         let mut inner = Writer::new(context, (self.branch, self.turn), system, self.names.within());
@@ -234,31 +234,31 @@ impl<'a, 'n> Writer<'a, 'n> {
         self.externals.append(&mut inner.externals);
         let count = unknowns.len();
         let (residual, rest) = results.split_at(count);
-        let (sizes, rows) = rest.split_at(count);
+        let (scales, rows) = rest.split_at(count);
         let column = |column: usize| Expression::List(rows.iter().skip(column).step_by(count).cloned().collect());
         let columns = Expression::List((0..count).map(column).collect());
         let value =
-            Expression::Tuple(vec![Expression::List(residual.to_vec()), Expression::List(sizes.to_vec()), columns]);
+            Expression::Tuple(vec![Expression::List(residual.to_vec()), Expression::List(scales.to_vec()), columns]);
         let mut used = Vec::new();
         value.each_name(&mut |name| used.push(name));
         let statements = stretches::divided(inner.statements, used);
         Expression::Closure { arguments, statements, value: Box::new(value), moves: false }
     }
 
-    /// A call that refuses a group by its name.
-    fn judged(
+    /// A call of a runtime function that names the mechanism and the group in its errors.
+    fn group_call(
         &self,
         function: &'static str,
         block: BlockId,
         arguments: impl IntoIterator<Item = Expression>,
     ) -> Expression {
-        let judged = [self.whose(), self.group(block)];
-        Expression::runtime(function, judged.into_iter().chain(arguments))
+        let common = [self.error_name(), self.group(block)];
+        Expression::runtime(function, common.into_iter().chain(arguments))
     }
 
-    /// The name by which errors call the mechanism.
-    fn whose(&self) -> Expression {
-        self.kernel.whose.as_ref().map_or_else(Expression::mechanism, Expression::name)
+    /// The name of the mechanism or scene in errors.
+    fn error_name(&self) -> Expression {
+        self.kernel.error_name.as_ref().map_or_else(Expression::mechanism, Expression::name)
     }
 
     fn group(&self, block: BlockId) -> Expression {
@@ -291,8 +291,8 @@ impl<'a, 'n> Writer<'a, 'n> {
         values.iter().map(|value| self.signed(*value)).collect()
     }
 
-    /// A value, by its name if it has one; of a difference, or of a product with one, that is taken negative the difference
-    /// is turned round.
+    /// A value by its name or inline. A negative difference, or a negative product with one, is written with the
+    /// difference reversed.
     pub(super) fn signed(&self, signed: Signed) -> Expression {
         let (is_negative, value) = self.parts(signed);
         if !is_negative {
@@ -319,7 +319,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         Expression::Negative(Box::new(value))
     }
 
-    /// b - a for a - b without a name.
+    /// b - a for an inline difference a - b.
     fn turned(&self, value: ValueId) -> Option<Expression> {
         let is_named = self.names.get(self.schedule, value).is_some();
         let Value::Sum(terms) = self.schedule.value(value) else { return None };
@@ -330,12 +330,12 @@ impl<'a, 'n> Writer<'a, 'n> {
         Some(self.sum(&terms))
     }
 
-    /// True if a minus stands before a term as it is written.
+    /// True if the term is written with a minus.
     fn is_taken_away(&self, term: Signed) -> bool {
         term.negative != self.names.is_negative(term.value)
     }
 
-    /// A value with the sign before it.
+    /// The sign and the magnitude of a value.
     fn parts(&self, Signed { negative, value }: Signed) -> (bool, Expression) {
         let (is_negative, value) = self.parts_of(value);
         let is_zero = matches!(&value, Expression::Number(number) if number.is_zero());
@@ -349,12 +349,12 @@ impl<'a, 'n> Writer<'a, 'n> {
         }
     }
 
-    /// The terms of a sum, first those that are added.
+    /// A sum, positive terms first.
     fn sum(&self, terms: &[Signed]) -> Expression {
         let mut terms = terms.to_vec();
         terms.sort_by_key(|term| self.is_taken_away(*term));
         let term = |(place, term): (usize, &Signed)| match place {
-            // The first has no sign before it.
+            // The first term may absorb its sign.
             0 => match self.signed(*term) {
                 Expression::Negative(inside) => (true, *inside),
                 first => (false, first),
@@ -364,7 +364,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         Expression::Sum(terms.iter().enumerate().map(term).collect())
     }
 
-    /// How a value is computed, even if it has a name, with the sign before it.
+    /// The sign and the operation of a value, even if it has a name.
     fn computed(&self, value: ValueId) -> (bool, Expression) {
         match self.schedule.value(value) {
             Value::Product(factors) => {

@@ -1,8 +1,10 @@
-//! Lowering: from shared nodes to straight-line code, every subexpression once, every sum or product of two
-//! parts that several have in common once, one sine-cosine pair an angle.
+//! Lowering: from graph nodes to straight-line code with common subexpression elimination and one sine-cosine pair for
+//! each angle.
 //!
-//! The formulas of a kernel are translated, shared, joined, and their factors and lines ordered ([`schedule`]); results are
-//! proven finite where that is possible; then the lines are named and written, and long sequences divided.
+//! The formulas of a kernel are translated to values (`translate`), common pairs of operands are eliminated
+//! (`sharing`), single uses inlined again (`joined`), factors and lines ordered ([`schedule`]). An analysis finds
+//! results that are always finite (`proven`). Then lines get names (`names`) and become statements (`lines`), and long
+//! sequences are divided into blocks (`stretches`).
 
 mod factors;
 mod function;

@@ -1,4 +1,4 @@
-//! Names of values: the user's own, and new ones made of what a value is computed from.
+//! Names of values: those given by the user, and generated ones that describe the operation.
 
 use std::collections::BTreeSet;
 
@@ -9,13 +9,13 @@ use super::value::{Signed, Value, ValueId};
 use crate::graph::{Graph, Number, SymbolId};
 use crate::program::{LONGEST_NAME, Taken};
 
-/// The names of the values and symbols of one kernel, as far as its lines have been written.
+/// The names of the values and symbols of one kernel so far.
 #[derive(Debug, Clone)]
 pub(super) struct Names<'a> {
     graph: &'a Graph,
     pub(super) taken: Taken<'a>,
     values: FxHashMap<ValueId, String>,
-    /// The values whose names are those of their negatives.
+    /// The values whose name stands for their negative.
     negatives: FxHashSet<ValueId>,
     symbols: FxHashMap<SymbolId, String>,
 }
@@ -26,7 +26,7 @@ impl<'a> Names<'a> {
         Self { graph, taken: Taken::new(reserved), values, negatives: FxHashSet::default(), symbols }
     }
 
-    /// The names of a scope within this one: other values, the same symbols.
+    /// The names of an inner scope, with the same symbols and no values.
     pub(super) fn within(&self) -> Self {
         Self { values: FxHashMap::default(), negatives: FxHashSet::default(), ..self.clone() }
     }
@@ -36,7 +36,7 @@ impl<'a> Names<'a> {
         self.symbols.get(&symbol).map_or_else(|| self.graph.symbol_name(symbol).to_owned(), Clone::clone)
     }
 
-    /// Gives a symbol its own name, or one like it if that is taken.
+    /// Names a symbol by its own name, or by one with a number if that is taken.
     pub(super) fn introduce(&mut self, symbol: SymbolId) -> String {
         let name = self.taken.unique(self.graph.symbol_name(symbol));
         self.symbols.insert(symbol, name.clone());
@@ -71,14 +71,14 @@ impl<'a> Names<'a> {
         name.map(String::as_str)
     }
 
-    /// A name like this one for a value.
+    /// Names a value by a preferred name, or by one with a number if that is taken.
     pub(super) fn give(&mut self, value: ValueId, wish: &str) -> String {
         let name = self.taken.unique(wish);
         self.set(value, name.clone());
         name
     }
 
-    /// Names a value after what it is made of.
+    /// Names a value by its preferred name or by a description of its operation.
     pub(super) fn invent(&mut self, schedule: &Schedule, value: ValueId) -> String {
         let wish = match schedule.name(value) {
             Some((name, false)) => Some(name.to_owned()),
@@ -92,7 +92,7 @@ impl<'a> Names<'a> {
         name
     }
 
-    /// A name made of the names of the parts, if all have one.
+    /// A name made of the names of the operands, if all have one.
     fn describe(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
         match schedule.value(value) {
             Value::Product(factors) => {
@@ -110,7 +110,7 @@ impl<'a> Names<'a> {
             Value::Quotient(above, below) => {
                 Some(format!("{}_over_{}", self.part(schedule, *above)?, self.part(schedule, *below)?))
             }
-            // The square of the negative is the same.
+            // (-x)^2 = x^2: the sign of the name does not matter.
             Value::Square(base) => Some(format!("{}_squared", self.get(schedule, *base)?)),
             Value::Call(function, arguments) => {
                 let &[argument] = arguments.as_slice() else { return None };
@@ -123,7 +123,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// A part by its name, or by a word for the small things that are written inline.
+    /// The name of an operand, or a description of a short inline expression.
     fn part(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
         let is_small = |value: &ValueId| {
             matches!(schedule.value(*value), Value::Symbol(_)) || self.get(schedule, *value).is_some()
@@ -142,13 +142,13 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The name of a value, but for that of its negative.
+    /// The name of a value, unless it stands for the negative.
     fn text(&self, schedule: &Schedule, value: ValueId) -> Option<String> {
         self.get(schedule, value).filter(|_| !self.is_negative(value)).map(str::to_owned)
     }
 }
 
-/// The name of a value that cannot be described, before its number.
+/// The stem of the numbered name of a value without description.
 fn kind(value: &Value) -> &'static str {
     match value {
         Value::Sum(_) => "sum",

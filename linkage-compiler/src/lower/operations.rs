@@ -6,7 +6,7 @@ use crate::graph::Function;
 use crate::program::Operations;
 
 impl Schedule {
-    /// The operations of all lines, but for the factorisations.
+    /// The operations of all lines, without those inside factorisations and Newton's method.
     #[must_use]
     pub fn operations(&self) -> Operations {
         let mut total = Operations::default();

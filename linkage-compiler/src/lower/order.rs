@@ -1,4 +1,4 @@
-//! The values that get a line of their own, in the order of their lines.
+//! Ordering: the values that get a line of their own, and the order of the lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,22 +8,22 @@ use super::schedule::{Circular, Line};
 use super::value::{Signed, Value, ValueId};
 use crate::graph::{ExternalId, Function, Graph, SymbolId};
 
-/// An inline expression nested deeper than this is hard to read; it gets a line of its own.
+/// The largest nesting of an inline expression; deeper ones get a line, for readability.
 const DEEPEST_INLINE: usize = 5;
 
-/// As many angles have their sines and cosines taken in one vector operation.
+/// The number of angles in one vector operation of sines and cosines.
 const SIDE_BY_SIDE: usize = 4;
 
 /// Decides which values get a line, and in what order.
 pub(super) struct Ordering {
     pub(super) values: Vec<Value>,
     uses: Vec<usize>,
-    /// The nesting of a value written inline; zero once it has a name.
+    /// The nesting depth of a value; zero if it has a name, `None` before it is ordered.
     height: Vec<Option<usize>>,
     pub(super) lines: Vec<Line>,
-    /// The sines and cosines that are used, by their angles and the signs of these.
+    /// The sines and cosines that are used, by angle and its sign.
     circular: BTreeMap<(ValueId, bool), Circular>,
-    /// The value and the derivatives that are used of each user function, by its arguments.
+    /// The values and derivatives that are used of each user function, by its arguments.
     externals: FxHashMap<(ExternalId, Vec<Signed>), Vec<Option<ValueId>>>,
 }
 
@@ -69,7 +69,7 @@ impl Ordering {
         (0..self.uses.len()).filter(|&index| self.uses[index] > 0).map(ValueId).collect()
     }
 
-    /// Emits the lines that `root` depends on; `named` if its own line is about to follow.
+    /// Adds the lines that `root` depends on; `named` if the caller adds the line of `root` itself.
     pub(super) fn require(&mut self, root: ValueId, named: bool) {
         let mut stack = vec![(root, false)];
         while let Some((id, expanded)) = stack.pop() {
@@ -86,7 +86,7 @@ impl Ordering {
                         stack.push((part, false));
                     }
                 });
-                // The first part is to come out first.
+                // Reversed, so that the first operand is popped first.
                 stack[first..].reverse();
                 continue;
             }
@@ -112,13 +112,13 @@ impl Ordering {
         }
     }
 
-    /// Takes the sines and cosines of all angles that are known from the start together: side by side
-    /// they cost half as much as one by one.
+    /// Adds one line for the sines and cosines of all angles known at the start: in vector operations they cost half as
+    /// much as one by one.
     pub(super) fn gather_sines(&mut self, introduced: &BTreeSet<SymbolId>) {
         let mut known = FxHashSet::default();
         let several = self.circular.values().filter(|one| self.is_known(one.angle.value, introduced, &mut known));
         let mut several: Vec<Circular> = several.copied().collect();
-        // The last of five stands beside none: a sine without its cosine costs less by itself.
+        // A fifth angle needs a vector operation of its own: if some angle needs no pair, compute it separately.
         if several.len() % SIDE_BY_SIDE == 1
             && let Some(alone) = several.iter().rposition(|one| !one.is_pair())
         {
@@ -134,8 +134,8 @@ impl Ordering {
         self.lines.push(Line::SinesCosines(several));
     }
 
-    /// True if a value depends on nothing that the kernel itself solves for, and on no sine; values that are `known`
-    /// are looked at once.
+    /// True if a value depends neither on results of steps nor on a sine or cosine; `known` caches values for which
+    /// this is true.
     fn is_known(&self, value: ValueId, introduced: &BTreeSet<SymbolId>, known: &mut FxHashSet<ValueId>) -> bool {
         let (mut seen, mut stack) = (FxHashSet::default(), vec![value]);
         while let Some(id) = stack.pop() {
@@ -152,14 +152,14 @@ impl Ordering {
         true
     }
 
-    /// The sine and cosine of one angle, of which this value is one, if both are used.
+    /// The sine-cosine pair of a value, if the value is one of them and both are used.
     fn paired(&self, id: ValueId) -> Option<Circular> {
         let Value::Call(Function::Sin | Function::Cos, arguments) = &self.values[id.0] else { return None };
         let angle = arguments[0];
         self.circular.get(&(angle.value, angle.negative)).copied().filter(Circular::is_pair)
     }
 
-    /// Writes sine and cosine of one angle as one line, if both are used.
+    /// Adds one line for a sine-cosine pair, if both are used; returns true then.
     fn pair(&mut self, id: ValueId) -> bool {
         let Some(pair) = self.paired(id) else { return false };
         self.give_names(&pair);
@@ -167,14 +167,14 @@ impl Ordering {
         true
     }
 
-    /// Marks what is used as named by the line that follows.
+    /// Marks the sine and cosine as named.
     fn give_names(&mut self, one: &Circular) {
         for value in one.sine.into_iter().chain(one.cosine) {
             self.height[value.0] = Some(0);
         }
     }
 
-    /// Writes all that is used of a user function as one call.
+    /// Adds one line for the value and all derivatives of a user function; returns true then.
     fn call(&mut self, id: ValueId) -> bool {
         let Value::External(external, arguments) = &self.values[id.0] else { return false };
         let (function, arguments) = (external.function, arguments.clone());

@@ -1,4 +1,4 @@
-//! A planned program, function by function.
+//! Lowering of all functions of a planned program.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,7 +33,7 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
     Program { signatures, position, functions, scenes, derived: Some(derived) }
 }
 
-/// Functions, which were planned each after those that it calls, in the order of their signatures; private ones come last.
+/// Sorts functions from the order of planning (callees first) to the order of their signatures; private ones come last.
 fn ordered(mut functions: Vec<Function<Code>>, order: &[Function<Body>]) -> Vec<Function<Code>> {
     let place = |function: &Function<Code>| order.iter().position(|other| other.name == function.name);
     functions.sort_by_key(|function| place(function).unwrap_or(order.len()));

@@ -1,4 +1,5 @@
-//! Values that need no check of their own: they are finite wherever the chords before them exist.
+//! Finiteness analysis: results that need no `is_finite` check, since the checks of half chords imply that they are
+//! finite.
 
 use rustc_hash::FxHashMap;
 
@@ -7,11 +8,11 @@ use super::value::{Value, ValueId};
 use crate::graph::{Function, SymbolId};
 
 impl Schedule {
-    /// For each result, true if it is finite where all chords exist and the other results are finite.
+    /// For each result, true if it is finite whenever all half chords pass their checks and the other results are
+    /// finite.
     ///
-    /// A chord is accepted only if both its factors are finite. A sum, product or square is finite only if its parts
-    /// are, and so are a root, a magnitude, a sine and a cosine (IEEE 754): so what the factors are made of is
-    /// finite too.
+    /// The check of a half chord requires that both factors are finite. In IEEE 754 a sum, product, square, square
+    /// root, absolute value, sine or cosine is finite only if its operands are, so that these are finite, too.
     #[must_use]
     pub fn proven(&self) -> Vec<bool> {
         let results = &self.results;
@@ -28,7 +29,7 @@ impl Schedule {
         let (mut chords, mut factors_of_all) = (Vec::new(), Vec::new());
         for line in &self.lines {
             match line {
-                // A number of turns is finite, so that an angle is if its principal value is.
+                // The turn is an integer, so that an angle is finite if its principal value is.
                 Line::Name { symbol, value } | Line::Turn { symbol, principal: value } => {
                     proven.named.insert(*symbol, value.value);
                 }
@@ -55,15 +56,15 @@ impl Schedule {
 
 struct Proven<'a> {
     schedule: &'a Schedule,
-    /// The value that each symbol names.
+    /// The value of each named symbol.
     named: FxHashMap<SymbolId, ValueId>,
     finite: Vec<bool>,
-    /// True of the results, which are checked.
+    /// True for results, which are checked.
     checked: Vec<bool>,
 }
 
 impl Proven<'_> {
-    /// Records that the parts of these values are finite.
+    /// Marks these values and their operands as finite.
     fn follow(&mut self, mut stack: Vec<ValueId>) {
         while let Some(id) = stack.pop() {
             let id = self.itself(id);
@@ -87,7 +88,7 @@ impl Proven<'_> {
         self.finite[id.0]
             || match value(id) {
                 Value::Call(Function::Sin | Function::Cos, angle) => self.finite[self.itself(angle[0].value).0],
-                // Its arguments have to be checked themselves.
+                // `atan2` of NaN is NaN, but of infinities finite: its arguments must be checked results.
                 Value::Call(Function::Atan2, parts) => parts.iter().all(|part| self.checked[self.itself(part.value).0]),
                 // Half a chord, for instance.
                 Value::Product(factors) => {
@@ -97,10 +98,10 @@ impl Proven<'_> {
             }
     }
 
-    /// The value behind its names.
+    /// Resolves symbols to the values that they name.
     fn itself(&self, id: ValueId) -> ValueId {
         let mut id = id;
-        // Each name is followed once: where work ended early, a value may be called by its own name.
+        // Bounded, since names may be circular if the budget was exceeded.
         for _ in 0..=self.named.len() {
             let Value::Symbol(symbol) = self.schedule.value(id) else { break };
             let Some(value) = self.named.get(symbol) else { break };

@@ -1,4 +1,4 @@
-//! Straight-line code: lines that compute values in their order.
+//! Straight-line code: lines that compute values in order.
 
 use super::value::{Signed, Value, ValueId};
 use crate::derivation::ChordOf;
@@ -9,11 +9,11 @@ use crate::ids::BlockId;
 #[derive(Debug, Clone)]
 pub enum Line {
     Let(ValueId),
-    /// Both of one angle.
+    /// Sine and cosine of one angle.
     SineCosine(Circular),
-    /// The sines and cosines of several angles at once, those that are used.
+    /// The sines and cosines of several angles in one vector operation.
     SinesCosines(Vec<Circular>),
-    /// One call of a user function, for its value and its derivatives: those that are used.
+    /// One call of a user function; `values` are its value and derivatives, `None` if not used.
     External {
         function: ExternalId,
         arguments: Vec<Signed>,
@@ -30,12 +30,12 @@ pub enum Line {
     Guard {
         block: BlockId,
         determinant: Signed,
-        size: Signed,
+        scale: Signed,
     },
     Factor {
         block: BlockId,
         matrix: Vec<Vec<Signed>>,
-        sizes: Vec<Signed>,
+        row_scales: Vec<Signed>,
     },
     Solve {
         block: BlockId,
@@ -87,9 +87,9 @@ impl Circular {
 pub struct Schedule {
     pub(super) values: Vec<Value>,
     pub lines: Vec<Line>,
-    /// What the lines are for.
+    /// The results.
     pub results: Vec<Signed>,
-    /// The expressions that have names, where they or their negatives are computed.
+    /// Preferred names of values, with true for names of the negative of the value.
     pub(super) names: Vec<(ValueId, bool, String)>,
     pub(super) used: Vec<ValueId>,
 }
@@ -100,10 +100,10 @@ impl Schedule {
         &self.values[id.0]
     }
 
-    /// The name of a value, and whether it is that of its negative.
+    /// The preferred name of a value, with true if it is the name of the negative of the value.
     #[must_use]
     pub fn name(&self, id: ValueId) -> Option<(&str, bool)> {
-        // Of several names the last.
+        // The last of several names.
         let after = self.names.partition_point(|(value, ..)| *value <= id);
         let (value, negative, name) = self.names.get(after.checked_sub(1)?)?;
         (*value == id).then_some((name, *negative))

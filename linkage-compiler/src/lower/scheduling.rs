@@ -1,4 +1,4 @@
-//! A kernel as straight-line code: its formulas translated, shared, joined and ordered.
+//! Scheduling: from the steps and formulas of a kernel to straight-line code.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use crate::derivation::Step;
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::program::Given;
 
-/// Orders the steps of a kernel and the formulas of its results.
+/// Makes the schedule of the steps of a kernel and the formulas of its results.
 #[must_use]
 pub fn schedule(
     graph: &Graph,
@@ -36,7 +36,7 @@ pub fn schedule(
             names.push((value, negative, name.clone()));
         }
     }
-    // A name of the value itself comes after those of its negative.
+    // Names of a value come after those of its negative, so that they are preferred.
     names.sort_by_key(|(value, negative, _)| (*value, !negative));
     let mut ordering = Ordering::new(graph, values, &roots);
     ordering.gather_sines(&introduced);
@@ -48,12 +48,12 @@ pub fn schedule(
         ordering.lines.push(match step {
             Step::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated[node] },
             Step::Turn { symbol, principal } => Line::Turn { symbol: *symbol, principal: translated[principal] },
-            Step::Guard { block, determinant, size } => {
-                Line::Guard { block: *block, determinant: translated[determinant], size: translated[size] }
+            Step::Guard { block, determinant, scale } => {
+                Line::Guard { block: *block, determinant: translated[determinant], scale: translated[scale] }
             }
-            Step::Factor { block, matrix, sizes } => {
+            Step::Factor { block, matrix, row_scales } => {
                 let matrix = matrix.iter().map(|row| signed(row)).collect();
-                Line::Factor { block: *block, matrix, sizes: signed(sizes) }
+                Line::Factor { block: *block, matrix, row_scales: signed(row_scales) }
             }
             Step::Solve { block, targets, right } => {
                 Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }

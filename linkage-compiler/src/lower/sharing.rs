@@ -1,15 +1,14 @@
-//! Sums that share two terms share their sum, products that share two factors share their product:
-//! the most frequent pair first, until no pair occurs twice.
+//! Common subexpression elimination in sums and products: greedily replaces the most frequent pair of operands by a new
+//! value, until no pair occurs twice.
 //!
-//! This is the greedy elimination of two-term common subexpressions (A. Hosangadi, F. Fallah,
-//! R. Kastner, "Optimizing polynomial expressions by algebraic factorization and common subexpression
-//! elimination", IEEE TCAD 25, 2006). The pairs wait in a heap by their frequency; one that has become less frequent is
-//! put back. Of pairs equally frequent the components of links come first, l cos theta and l sin theta: taken out before
-//! products of lengths, they save half a percent of all multiplications, and functions that call each other compute the
-//! same products.
+//! This is the elimination of two-term common subexpressions by A. Hosangadi, F. Fallah, R. Kastner, "Optimizing
+//! polynomial expressions by algebraic factorization and common subexpression elimination", IEEE TCAD 25, 2006. The
+//! pairs are in a heap by frequency; a pair that has become less frequent is put back. Among equally frequent pairs the
+//! components of links, l cos theta and l sin theta, come first. This saves half a percent of all multiplications
+//! against products of lengths first, and functions that call each other compute the same products.
 //!
-//! It ends because no part stands twice in a list: a pair is then held once a list, what takes its place makes
-//! the list shorter by one, and pairs are only held again by a list that has become shorter.
+//! It terminates: no operand occurs twice in a list, so that each replacement of a pair makes a list shorter, and new
+//! pairs come only from lists that have become shorter.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -20,11 +19,11 @@ use super::value::{Signed, Value, ValueId};
 use crate::budget::Budget;
 use crate::graph::Function;
 
-/// The longest sum or product of which all parts are paired; of a longer one neighbours are, since the pairs of a
-/// list grow with the square of its length.
+/// The longest sum or product in which all pairs of operands are considered; in a longer one only neighbours are, since
+/// the number of pairs grows with the square of the length.
 const LONGEST_PAIRED: usize = 8;
 
-/// Two parts of one list, the older first.
+/// Two operands of one list, the older first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 struct Pair {
     first: ValueId,
@@ -50,14 +49,14 @@ enum Kind {
     Products,
 }
 
-/// A sum or product.
+/// The operands of a sum or product.
 struct List {
     value: ValueId,
     parts: Vec<Signed>,
     is_new: bool,
 }
 
-/// Rewrites the sums and products that `roots` depend on until no two of them share a pair.
+/// Rewrites the sums and products that `roots` depend on until no two of them have a pair of operands in common.
 pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget) {
     let mut is_used = vec![false; values.len()];
     let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
@@ -86,20 +85,19 @@ struct Sharing<'a> {
     kind: Kind,
     budget: &'a Budget,
     lists: Vec<List>,
-    /// True of the parts that stand in several lists, or may come to, being lists themselves: a pair with any
-    /// other part is held once at most.
+    /// True for operands that occur in several lists or are lists themselves; a pair with any other operand occurs at
+    /// most once.
     frequent: Vec<bool>,
-    /// The places of the lists that hold a pair.
+    /// The lists that contain a pair, by index.
     holders: FxHashMap<Pair, Vec<usize>>,
-    /// The pairs that more than one list held when they came to be, with the number of lists, and whether they are a
-    /// component of a link. Of pairs equally frequent the oldest comes first, so that the result does not depend on
-    /// chance.
+    /// The pairs in more than one list, with their frequency when they were added, and true for a component of a link.
+    /// The oldest of equally frequent pairs comes first, so that the result is deterministic.
     candidates: BinaryHeap<(usize, bool, Reverse<Pair>)>,
-    /// The symbols, and the sines and cosines among the values.
+    /// The kind of each value as a factor of a component of a link.
     factors: Vec<Factor>,
 }
 
-/// A factor of a component of a link.
+/// The kind of a factor in a component of a link.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Factor {
     Symbol,
@@ -155,10 +153,10 @@ impl<'a> Sharing<'a> {
         }
     }
 
-    /// Puts one sum or product in place of a pair in all lists that hold it.
+    /// Replaces a pair by one sum or product in all lists that contain it.
     fn merge(&mut self, pair: Pair, of: &[usize], values: &mut Vec<Value>) {
         let whole = of.iter().map(|&place| &self.lists[place]).find(|list| list.parts.len() == 2);
-        // The sign with which the older part stands in the shared sum.
+        // The value of the pair, and the sign of its older operand in it.
         let (shared, sign) = match whole {
             Some(whole) => (whole.value, sign_of(&whole.parts, pair.first)),
             None => {
@@ -172,16 +170,16 @@ impl<'a> Sharing<'a> {
         };
         for &place in of {
             let List { value, parts, .. } = &self.lists[place];
-            // A list that holds the shared value and its parts keeps both.
+            // A list must not contain the shared value twice.
             if *value != shared && parts.iter().all(|part| part.value != shared) {
                 self.replace(place, pair, shared, sign);
             }
         }
     }
 
-    /// Puts the shared pair into a list in place of its two parts.
+    /// Replaces a pair in one list by the shared value.
     fn replace(&mut self, place: usize, pair: Pair, shared: ValueId, sign: bool) {
-        // Of a short list the pairs of what stays stay.
+        // In a short list only pairs with the replaced operands change.
         let is_long = self.lists[place].parts.len() > LONGEST_PAIRED;
         for other in self.pairs(place) {
             if (is_long || other.holds(pair.first) || other.holds(pair.second))
@@ -193,7 +191,7 @@ impl<'a> Sharing<'a> {
         let List { parts, is_new, .. } = &mut self.lists[place];
         let negative = sign_of(parts, pair.first) != sign;
         parts.retain(|part| !pair.holds(part.value));
-        // The shared part leads; of a sum, what is added stands before what is taken away.
+        // The shared value comes first; in a sum, negative terms come last.
         parts.insert(0, Signed { negative, value: shared });
         if negative {
             parts.sort_by_key(|part| part.negative);
@@ -215,7 +213,7 @@ impl<'a> Sharing<'a> {
         }
     }
 
-    /// True of a length, or another symbol, by a sine or cosine.
+    /// True for the product of a symbol, such as a length, and a sine or cosine.
     fn is_component(&self, pair: Pair) -> bool {
         let factors = [pair.first, pair.second].map(|value| self.factors.get(value.0));
         self.kind == Kind::Products
@@ -223,7 +221,7 @@ impl<'a> Sharing<'a> {
             && factors.contains(&Some(&Factor::Circular))
     }
 
-    /// The pairs of a list. No part stands twice in it: equal factors are a square, equal terms have a coefficient.
+    /// The pairs of a list. No operand occurs twice: equal factors form a square, equal terms have a coefficient.
     fn pairs(&self, place: usize) -> Vec<Pair> {
         let parts = &self.lists[place].parts;
         self.budget.spend(parts.len());
@@ -237,7 +235,7 @@ impl<'a> Sharing<'a> {
     }
 
     fn is_frequent(&self, part: Signed) -> bool {
-        // What is shared already stands wherever its pair stood.
+        // Values made by sharing are frequent.
         self.frequent.get(part.value.0).is_none_or(|is_frequent| *is_frequent)
     }
 }

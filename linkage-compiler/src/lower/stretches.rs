@@ -1,8 +1,8 @@
-//! Long sequences of statements in stretches: blocks that keep to themselves what nothing after them uses.
+//! Division of long functions into blocks (stretches) that return only the values that later statements use.
 //!
-//! Every `let` opens a scope within that of the `let` before it, and the compiler that writes the debug information of
-//! these scopes goes down into them by recursion: more than 3000 of them overflow its stack. A block closes its scopes, so
-//! that their depth is that of one stretch and the number of stretches.
+//! Every `let` opens a scope inside that of the previous `let`, and rustc recurses through these scopes when it writes
+//! debug information: more than about 3000 overflow its stack. With blocks, the depth is the length of a stretch plus
+//! the number of stretches.
 
 use std::collections::BTreeSet;
 
@@ -10,24 +10,25 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::program::{Expression, Pattern, Statement};
 
-/// The most statements that stay as they are. The longest function of the mechanisms under test has 150 (the
-/// sensitivities of Jansen's leg); one of 3050 statements compiles, one of 3240 does not. With half as many, functions
-/// would be divided that need not be, and division writes names twice; with twice as many, one such function inlined
+/// The largest number of statements that are not divided. The longest function of the mechanisms under test has 150
+/// (the sensitivities of Jansen's leg); one of 3050 statements compiles, one of 3240 does not. With half the limit,
+/// functions would be divided needlessly, and division repeats names; with twice the limit, such a function inlined
 /// into another would overflow.
 const MOST_STATEMENTS: usize = 1024;
 
-/// The statements of a stretch, but for the choice of its end. With half as many there are twice as many blocks, which
-/// give more values in all; with twice as many the scopes are twice as deep.
+/// The nominal number of statements of a stretch. With half of it there are twice as many blocks, which return more
+/// values in total; with twice of it the scopes are twice as deep.
 const STRETCH: usize = 256;
 
-/// The end of a stretch is where the fewest values cross it, so far before and after the regular place.
+/// The end of a stretch is chosen up to this number of statements before or after the nominal one, where the fewest
+/// values are alive.
 const LEEWAY: usize = STRETCH / 4;
 
-/// The most names that a statement of a stretch gives. One that gives more stands between stretches: nearly all of its
-/// names would leave its stretch again.
+/// The largest number of names that a statement in a stretch binds. One with more, such as an unpacking of arguments,
+/// is placed between stretches, since nearly all of its names are used later.
 const MOST_NAMES: usize = 16;
 
-/// Statements divided into stretches, if they are many; `later` are the names that are used after them.
+/// Divides statements into stretches if there are too many; `later` are the names used after them.
 pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterator<Item = &'e str>) -> Vec<Statement> {
     if statements.len() <= MOST_STATEMENTS {
         return statements;
@@ -37,7 +38,7 @@ pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterat
     while statements.len() > MOST_STATEMENTS {
         let before = statements.len();
         statements = once(statements, &later);
-        // What stands between stretches is not divided.
+        // Statements between stretches are not divided further.
         if statements.len() == before {
             break;
         }
@@ -45,7 +46,7 @@ pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterat
     statements
 }
 
-/// Fields get their names where these are used first, so that they need not cross many stretches.
+/// Moves `let`s that only read fields to their first use, so that their names cross fewer stretches.
 fn read_late(statements: Vec<Statement>) -> Vec<Statement> {
     let mut reads: Vec<Option<Statement>> = Vec::new();
     let mut places: FxHashMap<String, usize> = FxHashMap::default();
@@ -70,7 +71,7 @@ fn read_late(statements: Vec<Statement>) -> Vec<Statement> {
     late
 }
 
-/// True if a value is a field, or several.
+/// True if a value is a field or a tuple of fields.
 fn is_read(value: &Expression) -> bool {
     match value {
         Expression::Field(of, _) => matches!(**of, Expression::Name(_)) || is_read(of),
@@ -79,7 +80,7 @@ fn is_read(value: &Expression) -> bool {
     }
 }
 
-/// Statements as stretches, and what stands between these.
+/// Divides statements into stretches once.
 fn once(statements: Vec<Statement>, later: &FxHashSet<String>) -> Vec<Statement> {
     let lives = Lives::of(&statements, later);
     let mut divided = Vec::new();
@@ -88,7 +89,7 @@ fn once(statements: Vec<Statement>, later: &FxHashSet<String>) -> Vec<Statement>
     while place < lives.given.len() {
         let end = lives.end(place);
         let inside = statements.by_ref().take(end - place);
-        // A few statements before or after one that stands apart need no block.
+        // A few statements between separate ones need no block.
         if end - place < STRETCH - LEEWAY {
             divided.extend(inside);
         } else {
@@ -99,7 +100,7 @@ fn once(statements: Vec<Statement>, later: &FxHashSet<String>) -> Vec<Statement>
     divided
 }
 
-/// A block that gives these names.
+/// A block that returns these names.
 fn stretch(inside: Vec<Statement>, names: Vec<String>) -> Statement {
     let block = |value| Expression::Block(inside, Box::new(value));
     match names.as_slice() {
@@ -112,15 +113,15 @@ fn stretch(inside: Vec<Statement>, names: Vec<String>) -> Statement {
     }
 }
 
-/// The names that statements give, and how long they are used.
+/// The names that statements bind, and their last uses.
 struct Lives {
-    /// For each statement the names that it gives.
+    /// For each statement, the names that it binds.
     given: Vec<Vec<String>>,
-    /// For each statement the names that no statement after it uses.
+    /// For each statement, the names of which it is the last use.
     ended: Vec<Vec<String>>,
-    /// The last statement that uses a name; none that is used after all of them.
+    /// The last statement that uses each name; `usize::MAX` for names used after all of them.
     last: FxHashMap<String, usize>,
-    /// What stands between stretches.
+    /// True for statements that are placed between stretches.
     is_apart: Vec<bool>,
 }
 
@@ -144,7 +145,7 @@ impl Lives {
         Self { given, ended, last, is_apart }
     }
 
-    /// The end of the stretch that begins here.
+    /// The end of the stretch that begins at `start`.
     fn end(&self, start: usize) -> usize {
         let length = self.is_apart[start..].iter().take(STRETCH + LEEWAY).take_while(|is_apart| !**is_apart).count();
         if length < STRETCH + LEEWAY {
@@ -168,7 +169,7 @@ impl Lives {
         self.last.get(name).is_some_and(|&last| last > place)
     }
 
-    /// The names that a stretch gives.
+    /// The names of a stretch that are used after it.
     fn crossing(&self, stretch: std::ops::Range<usize>) -> Vec<String> {
         let end = stretch.end;
         let names = self.given[stretch].iter().flatten();
@@ -176,7 +177,7 @@ impl Lives {
     }
 }
 
-/// The names that a statement gives to those after it.
+/// The names that a statement binds.
 fn given(statement: &Statement) -> Vec<String> {
     let mut names = Vec::new();
     if let Statement::Let(pattern, _) = statement {

@@ -1,5 +1,5 @@
-//! Nodes to values: signs move out to where they cost nothing, quotients by one divisor share its
-//! inverse, and powers become squares of squares.
+//! Translation of nodes to values: signs are moved to sums and results, quotients with a common divisor share its
+//! inverse, and powers become repeated squares.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,7 +20,7 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    /// The values that the roots depend on, and the one of each node among them.
+    /// Translates the roots; returns all values, and the value of each node.
     pub(super) fn translate_all(
         graph: &'a Graph,
         given: &'a Given,
@@ -41,7 +41,7 @@ impl<'a> Builder<'a> {
         self.given.holds(self.graph, id) || self.graph.constant_value(id).is_some()
     }
 
-    /// Constants, symbols and what is given need nothing else.
+    /// The value of a constant, a symbol or a given expression; `None` for other nodes.
     fn leaf(&mut self, id: NodeId) -> Option<Signed> {
         let value = match self.graph.node(id) {
             Node::Constant(number) => return Some(self.constant(*number)),
@@ -57,7 +57,7 @@ impl<'a> Builder<'a> {
         Some(self.positive(value))
     }
 
-    /// The divisors that more than one quotient has: these are inverted once.
+    /// The divisors of more than one quotient, which are inverted once.
     fn shared_divisors(&self, nodes: &[NodeId]) -> BTreeSet<Vec<(NodeId, i32)>> {
         let mut count: BTreeMap<Vec<(NodeId, i32)>, usize> = BTreeMap::new();
         for &id in nodes {
@@ -103,7 +103,7 @@ impl<'a> Builder<'a> {
             Node::Call(function, arguments) => {
                 let mut arguments: Vec<Signed> = arguments.iter().map(|argument| self.of[argument]).collect();
                 if matches!(function, Function::Hypot | Function::Abs) {
-                    // They do not see them.
+                    // hypot and abs ignore signs.
                     arguments.iter_mut().for_each(|argument| argument.negative = false);
                 }
                 self.positive(Value::Call(*function, arguments))
@@ -116,7 +116,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Signs are moved out so that a - b and b - a are one value and most terms are added.
+    /// Interns a sum. Its sign is moved out, so that a - b and b - a are one value and at most half of the terms are
+    /// subtracted.
     fn sum(&mut self, terms: Vec<Signed>) -> Signed {
         let mut terms = self.collected(terms);
         match terms.as_slice() {
@@ -129,14 +130,14 @@ impl<'a> Builder<'a> {
         for term in &mut terms {
             term.negative ^= flip;
         }
-        // What is added stands before what is taken away, so that nothing starts with a minus.
+        // Positive terms come first, to avoid a leading minus.
         terms.sort_by_key(|term| term.negative);
         Signed { negative: flip, value: self.intern(Value::Sum(terms)) }
     }
 
-    /// The terms of a sum with each value once: those that differ in the signs inside them alone are one value.
+    /// Collects equal values in a sum, which may arise since signs are moved out.
     fn collected(&mut self, mut terms: Vec<Signed>) -> Vec<Signed> {
-        // What is collected may be a value that is there already.
+        // A collected term may equal another one: repeat.
         while has_twice(terms.iter().map(|term| term.value)) {
             let mut order = Vec::new();
             let mut counts: FxHashMap<ValueId, i64> = FxHashMap::default();
@@ -159,7 +160,7 @@ impl<'a> Builder<'a> {
         terms
     }
 
-    /// The factors of a product with each value once, and all numbers in one.
+    /// Collects equal factors of a product into squares, and all numbers into one.
     fn gathered(&mut self, mut constant: Number, mut factors: Vec<ValueId>) -> (Number, Vec<ValueId>) {
         factors.retain(|factor| match self.values[factor.0] {
             Value::Constant(number) if constant.multiply(number).is_finite() => {
@@ -173,7 +174,7 @@ impl<'a> Builder<'a> {
             let mut once = Vec::new();
             for factor in factors {
                 match once.pop_if(|last| *last == factor) {
-                    // Not equal to the next, even if that is the same factor a third time.
+                    // The square differs from a third equal factor.
                     Some(twice) => once.extend([self.intern(Value::Square(twice))]),
                     None => once.push(factor),
                 }
@@ -221,7 +222,7 @@ impl<'a> Builder<'a> {
         Signed { negative, value }
     }
 
-    /// Adds x^n as factors, each a square of squares: x^5 = x (x^2)^2.
+    /// Adds x^n as factors by repeated squaring: x^5 = x (x^2)^2.
     fn power(&mut self, base: ValueId, exponent: u32, factors: &mut Vec<ValueId>) {
         let (mut square, mut rest) = (base, exponent);
         loop {
@@ -273,7 +274,7 @@ fn divisor(factors: &[(NodeId, i32)]) -> Vec<(NodeId, i32)> {
     factors.iter().filter(|(_, exponent)| *exponent < 0).copied().collect()
 }
 
-/// True if a list holds a value twice.
+/// True if a list contains a value twice.
 fn has_twice(mut list: impl Iterator<Item = ValueId>) -> bool {
     let mut met = FxHashSet::default();
     !list.all(|value| met.insert(value))

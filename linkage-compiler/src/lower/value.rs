@@ -1,4 +1,4 @@
-//! Values: how each is computed from others.
+//! Values: the operations of straight-line code.
 
 use crate::graph::{External, Function, NodeId, Number, SymbolId};
 
@@ -13,11 +13,11 @@ pub struct Signed {
     pub value: ValueId,
 }
 
-/// How a value is computed; signs have been moved to the sums and results that use it.
+/// The operation that computes a value; its sign is kept by the sums and results that use it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Value {
     Symbol(SymbolId),
-    /// The sine or cosine of an angle whose direction is given.
+    /// The sine or cosine of an angle with known direction.
     Direction(Function, NodeId),
     Constant(Number),
     Sum(Vec<Signed>),

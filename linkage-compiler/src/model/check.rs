@@ -1,4 +1,4 @@
-//! What is checked of a mechanism as a whole.
+//! Checks of a mechanism as a whole.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::graph::SymbolId;
 use crate::ids::{RowId, Table, UnknownId};
 use crate::structure::{self, StructurallySingular};
 
-/// Everything that is declared is used.
+/// Reports declarations that are not used.
 pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
     let all = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
     let parameters = all.map(|p| ("parameter", &p.name, p.symbol));
@@ -27,12 +27,12 @@ pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diag
     externals(mechanism, diagnostics);
 }
 
-/// True if a name is not used and does not say so.
+/// True if a name is not used and does not begin with `_`.
 fn is_idle(scope: &Scope, name: &Name, symbol: SymbolId) -> bool {
     !scope.is_used(symbol) && !name.text.starts_with('_')
 }
 
-/// A function that is declared is called.
+/// Reports user functions that are not called.
 fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     for external in mechanism.externals.iter().filter(|external| external.calls.is_empty()) {
         if let Some(name) = external.names.first() {
@@ -43,11 +43,12 @@ fn externals(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 
 pub(super) fn types(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     for name in misnamed(mechanism) {
-        diagnostics.error(name.span(), "`T` is the scalar of emitted code: choose another name, such as `TLinkage`");
+        diagnostics
+            .error(name.span(), "`T` is the type parameter of emitted code: choose another name, such as `TLinkage`");
     }
 }
 
-/// Two names may differ only in case, their fields may not.
+/// Reports names that become the same field, since they differ only in case.
 pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     let parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
     let parameters: Vec<_> = parameters.map(|p| &p.name).collect();
@@ -61,46 +62,50 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
             if let Some(first) = names[..index].iter().find(|other| other.field == name.field) {
                 diagnostics.error(
                     name.span,
-                    format_args!("`{}` and `{}` both become the field `{}`", first.text, name.text, name.field),
+                    format_args!(
+                        "`{}` and `{}` both become the field `{}`: rename one",
+                        first.text, name.text, name.field
+                    ),
                 );
             }
         }
     }
 }
 
-/// Closures and unknowns are as many, and every unknown can be solved for.
-pub(super) fn closures(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
+/// Checks that there are as many scalar equations as unknowns and that all unknowns can be solved for; sets the order
+/// of solution of each driver.
+pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
     let mut orders = Vec::new();
-    let rows: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
+    let rows: usize = mechanism.constraints.iter().map(|constraint| constraint.rows.len()).sum();
     let at = |driver: &Driver| -> Span { driver.name.span() };
     for (id, driver) in mechanism.drivers.enumerated() {
         let unknowns = driver.unknowns.len();
         let coordinates = driver.unknowns.iter().map(|&index| &mechanism.coordinates[index]);
         let idle = coordinates.filter(|unknown| is_idle(scope, &unknown.name, unknown.symbol)).count();
         if idle > 0 && rows > 0 && rows + idle == unknowns {
-            // That they are not used is reported.
+            // The unused unknowns are reported, which explains the difference.
             continue;
         }
         if rows != unknowns {
-            let loops = mechanism.closures.iter().filter(|closure| closure.rows.len() == 2).count();
-            let equations = mechanism.closures.len() - loops;
+            let loops = mechanism.constraints.iter().filter(|constraint| constraint.rows.len() == 2).count();
+            let equations = mechanism.constraints.len() - loops;
             let last = driver.unknowns.last().map(|&index| mechanism.coordinates[index].name.span);
             let span = if mechanism.is_driven_by_choice() { at(driver) } else { last.unwrap_or_else(|| at(driver)) };
             let advice = if rows < unknowns {
                 "close another loop, or make unknowns inputs"
             } else {
-                "a closure is too many, or an unknown is missing"
+                "remove an equation, or declare another unknown"
             };
             diagnostics.error(
                 span,
                 format_args!(
-                    "{unknowns} unknowns, but {rows} closure rows (2 for each of {loops} `loop`, 1 for each of {equations} `equation`): {advice}"
+                    "{unknowns} unknowns, but {rows} scalar equations (2 for each of {loops} `loop`, 1 for each of {equations} `equation`): {advice}"
                 ),
             );
             continue;
         }
         if driver.inputs.is_empty() {
-            diagnostics.error(at(driver), "nothing drives this mechanism: declare an `input`");
+            diagnostics.error(at(driver), "this mechanism has no input: declare one with `input`");
         }
         if rows == 0 {
             diagnostics.error(at(driver), "a mechanism needs at least one `loop` or `equation`");
@@ -108,11 +113,13 @@ pub(super) fn closures(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &m
         let symbols: BTreeSet<SymbolId> =
             driver.unknowns.iter().map(|&index| mechanism.coordinates[index].symbol).collect();
         let before = diagnostics.is_empty();
-        for closure in &mechanism.closures {
-            let found = mechanism.graph.symbols_of(&closure.rows);
+        for constraint in &mechanism.constraints {
+            let found = mechanism.graph.symbols_of(&constraint.rows);
             if !found.iter().any(|symbol| symbols.contains(symbol)) {
-                diagnostics
-                    .error(closure.span, format_args!("nothing unknown appears in this closure of `{}`", driver.name));
+                diagnostics.error(
+                    constraint.span,
+                    format_args!("this equation contains no unknown of `{}`: remove it", driver.name),
+                );
             }
         }
         if before && diagnostics.is_empty() {
@@ -127,28 +134,29 @@ pub(super) fn closures(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &m
     }
 }
 
-/// Which unknown nothing determines, and which closures compete for others.
+/// Reports unknowns that too few equations determine, and equations that contain too few unknowns.
 fn singularity(mechanism: &Mechanism, driver: &Driver, singular: &StructurallySingular, diagnostics: &mut Diagnostics) {
     let name = |unknown: UnknownId| &mechanism.coordinates[driver.unknowns[unknown]].name;
     let list = |unknowns: &[UnknownId]| {
         let names = unknowns.iter().map(|&unknown| format!("`{}`", name(unknown).text));
         names.collect::<Vec<_>>().join(", ")
     };
-    let rows = |count: usize| format!("{count} closure row{}", if count == 1 { "" } else { "s" });
+    let rows = |count: usize| format!("{count} scalar equation{}", if count == 1 { "" } else { "s" });
     let StructurallySingular { undetermined, too_few, competing, contested } = singular;
     if let Some(&first) = undetermined.first() {
         let what = match (undetermined.as_slice(), too_few.len()) {
-            (_, 0) => format!("{} is in no closure", list(undetermined)),
-            (_, count) => format!("{} together are in {} only", list(undetermined), rows(count)),
+            (_, 0) => format!("{} appears in no equation", list(undetermined)),
+            (_, count) => format!("{} appear in only {}", list(undetermined), rows(count)),
         };
         let advice = format_args!("`{}` cannot be solved at any position: {what}", driver.name);
         diagnostics.error(name(first).span, advice);
     }
-    let closures = mechanism.closures.iter().flat_map(|closure| closure.rows.iter().map(|_| closure.span));
-    let spans: Table<RowId, Span> = closures.collect();
+    let constraints =
+        mechanism.constraints.iter().flat_map(|constraint| constraint.rows.iter().map(|_| constraint.span));
+    let spans: Table<RowId, Span> = constraints.collect();
     if let Some(&last) = competing.last() {
         let advice = format_args!(
-            "{} compete for {}, up to and with this one: one of them should hold another unknown",
+            "{}, up to this one, contain only {}: use another unknown in one of them",
             rows(competing.len()),
             list(contested),
         );

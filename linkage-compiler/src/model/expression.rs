@@ -1,4 +1,4 @@
-//! Expressions: from the tree to nodes of the graph, scalars and vectors told apart.
+//! Lowering of expressions from syntax tree to graph, with a check of scalars and vectors.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::diagnostics::{Diagnostics, Region, suggestion};
 use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
 use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Unread};
 
-/// The names and values of one mechanism while its statements are read.
+/// The state of the analysis of one mechanism: names, values and kinds so far.
 pub(super) struct Lowering<'a> {
     pub(super) graph: Graph,
     pub(super) scope: Scope,
@@ -20,35 +20,35 @@ pub(super) struct Lowering<'a> {
     pub(super) expressions: &'a Expressions,
     pub(super) kinds: Vec<(SymbolId, Kind)>,
     pub(super) externals: Vec<ExternalFunction>,
-    /// What the use of names that may not be declared tells of them.
+    /// Kinds of names that may be undeclared, from their use.
     pub(super) undeclared_kinds: Vec<(String, Kind)>,
-    /// Names that are lengths if nothing else is known.
+    /// Symbols that are lengths unless another use says otherwise.
     pub(super) supposed: Vec<SymbolId>,
-    /// Where there are scenes: the rate of each coordinate, and time.
+    /// The rate of each coordinate; empty without scenes.
     pub(super) rates: BTreeMap<SymbolId, NodeId>,
     pub(super) time: Option<NodeId>,
-    /// Whether `rate` and `t` have a meaning here.
+    /// True in the law of a scene, where `rate` and `t` are allowed.
     pub(super) is_law: bool,
-    /// The number farthest from one that was read.
+    /// The literal with the most extreme magnitude so far.
     pub(super) extreme: Option<Extreme>,
     pub(super) diagnostics: &'a mut Diagnostics,
 }
 
 impl Lowering<'_> {
-    /// The value of an expression and of all that it is made of.
+    /// Lowers an expression and its operands; returns its value.
     pub(super) fn value(&mut self, id: ExpressionId) -> Value {
         let expressions = self.expressions;
         let missing = (id.index() + 1).saturating_sub(self.values.len());
         for (expression, region) in expressions.from(self.values.len()).take(missing) {
             let value = self.lower(expression, region);
-            let is_at_fault = self.blame(region);
+            let is_at_fault = self.report_fault(region);
             self.values.push(if is_at_fault { Value::Poison } else { value });
         }
         self.values[id.index()]
     }
 
-    /// Reports what has gone wrong in the graph, if anything has.
-    pub(super) fn blame(&mut self, region: impl Into<Region>) -> bool {
+    /// Reports a fault of the graph, if there was one; returns true then.
+    pub(super) fn report_fault(&mut self, region: impl Into<Region>) -> bool {
         let fault = self.graph.take_fault();
         if let Some(fault) = fault {
             self.diagnostics.error(region, fault);
@@ -80,21 +80,21 @@ impl Lowering<'_> {
 
     pub(super) fn expect_vector(&mut self, id: ExpressionId) {
         let region = self.expressions.region(id);
-        self.diagnostics.error(region, "this is a scalar; a vector belongs here: `r@phi` or `(x, y)`");
+        self.diagnostics.error(region, "expected a vector, found a scalar: write `r@phi` or `(x, y)`");
     }
 
     fn expect_scalar(&mut self, region: Region) {
         self.diagnostics
-            .error(region, "this is a vector; a scalar belongs here: take `x(…)`, `y(…)`, `norm(…)` or `angle(…)`");
+            .error(region, "expected a scalar, found a vector: use `x(…)`, `y(…)`, `norm(…)` or `angle(…)`");
     }
 
-    /// A number known now: the default of a parameter.
+    /// The value of an expression without symbols: the default of a parameter.
     pub(super) fn constant(&mut self, id: ExpressionId) -> Option<NodeId> {
         let node = self.scalar(id)?;
         if self.graph.constant_value(node).is_some() {
             return Some(node);
         }
-        self.diagnostics.error(self.expressions.region(id), "a default is a number: it cannot depend on other names");
+        self.diagnostics.error(self.expressions.region(id), "a default must be a number: it cannot depend on names");
         None
     }
 
@@ -232,21 +232,19 @@ impl Lowering<'_> {
                 (Value::Scalar(node), Operator::Direct) => factors.push((node, 1)),
                 (Value::Scalar(node), Operator::Inverse) => {
                     if self.graph.is_zero(node) {
-                        self.diagnostics.error(self.expressions.region(id), "this divides by zero");
+                        self.diagnostics.error(self.expressions.region(id), "division by zero");
                         return Value::Poison;
                     }
                     factors.push((node, -1));
                 }
                 (Value::Vector(x, y), Operator::Direct) if vector.is_none() => vector = Some((x, y)),
                 (Value::Vector(..), Operator::Direct) => {
-                    self.diagnostics.error(
-                        self.expressions.region(id),
-                        "two vectors have no plain product: use `dot(…)` or `cross(…)`",
-                    );
+                    self.diagnostics
+                        .error(self.expressions.region(id), "product of two vectors: use `dot(…)` or `cross(…)`");
                     return Value::Poison;
                 }
                 (Value::Vector(..), Operator::Inverse) => {
-                    self.diagnostics.error(self.expressions.region(id), "a vector cannot be divided by");
+                    self.diagnostics.error(self.expressions.region(id), "division by a vector: use its `norm(…)`");
                     return Value::Poison;
                 }
                 (Value::Poison, _) => poisoned = true,
@@ -266,7 +264,7 @@ impl Lowering<'_> {
         let (Some(base), Some(node)) = (self.scalar(base), self.scalar(exponent)) else { return Value::Poison };
         let integer = self.graph.as_number(node).and_then(Number::as_integer).and_then(|n| i32::try_from(n).ok());
         let Some(integer) = integer else {
-            let message = "an exponent is a whole number; write roots with `sqrt(…)`";
+            let message = "an exponent must be an integer; write roots with `sqrt(…)`";
             self.diagnostics.error(self.expressions.region(exponent), message);
             return Value::Poison;
         };
@@ -288,13 +286,13 @@ impl Lowering<'_> {
             .or_else(|| VECTOR_FUNCTIONS.iter().find(|(other, _)| *other == text).map(|(_, arity)| *arity));
         let Some(arity) = arity else {
             if text == "rate" {
-                self.diagnostics.error(region, "`rate(…)` has a meaning only in the forces of a scene");
+                self.diagnostics.error(region, "`rate(…)` can be used only in the laws of a scene");
             } else {
                 let known = crate::graph::OPERATIONS.iter().map(|row| row.name);
                 let known = known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)).chain(self.scope.functions());
                 let hint = self.value_of(&text).unwrap_or_else(|| suggestion(&text, known));
                 if !self.scope.is_excused(&text) {
-                    self.diagnostics.error(name.span(), format_args!("no function is called `{text}`{hint}"));
+                    self.diagnostics.error(name.span(), format_args!("unknown function `{text}`{hint}"));
                 }
             }
             return Value::Poison;
@@ -335,7 +333,7 @@ impl Lowering<'_> {
         })
     }
 
-    /// What to write for a function of the user's in place of its path.
+    /// Advice for a call of a user function by its path instead of by the name of its value.
     fn value_of(&self, function: &str) -> Option<String> {
         let mut named = self
             .externals
@@ -347,13 +345,12 @@ impl Lowering<'_> {
     fn takes(&mut self, name: &str, arity: usize, arguments: &[ExpressionId], region: Region) -> bool {
         if arguments.len() != arity {
             let plural = if arity == 1 { "argument" } else { "arguments" };
-            self.diagnostics
-                .error(region, format_args!("`{name}` takes {arity} {plural}, here are {}", arguments.len()));
+            self.diagnostics.error(region, format_args!("`{name}` takes {arity} {plural}, found {}", arguments.len()));
         }
         arguments.len() == arity
     }
 
-    /// A function of the user's, or a derivative of it.
+    /// A call of a user function or of a derivative of it.
     fn external(
         &mut self,
         name: &Ident,
@@ -372,7 +369,7 @@ impl Lowering<'_> {
         Value::Scalar(self.graph.apply(External::new(function, arity, order), nodes))
     }
 
-    /// A component is a length unless it is known to be something else: an angle may be plotted.
+    /// Assumes that the components of a vector are lengths, unless another use says otherwise: an angle may be plotted.
     fn suppose_lengths(&mut self, components: [NodeId; 2]) {
         for symbol in components.into_iter().flat_map(|node| bare_symbols(&self.graph, node)) {
             if !self.kinds.iter().any(|(other, _)| *other == symbol) {
@@ -381,7 +378,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Records that the names standing alone in an expression measure this kind of thing.
+    /// Records the kind of the symbols that have the kind of an expression.
     fn mark(&mut self, node: NodeId, kind: Kind, region: Region) {
         for symbol in bare_symbols(&self.graph, node) {
             match self.kinds.iter().find(|(other, _)| *other == symbol) {
@@ -389,7 +386,7 @@ impl Lowering<'_> {
                 Some((_, before)) if *before == kind => {}
                 Some((_, before)) => {
                     let name = self.graph.symbol_name(symbol);
-                    let message = format!("`{name}` is a {kind} here, but a {before} before");
+                    let message = format!("`{name}` is used as a {kind} here, but as a {before} before");
                     self.diagnostics.error(region, message.replace("a angle", "an angle"));
                 }
             }

@@ -1,4 +1,4 @@
-//! Guesses of what a mechanism with mistakes declares, so that its stub has the names that the rest of a program uses.
+//! Completion of a mechanism with mistakes, so that its stub has the names that the rest of the program uses.
 
 use std::collections::BTreeSet;
 
@@ -13,8 +13,8 @@ use crate::ids::{CoordinateId, InputId, Table};
 use crate::structure;
 use crate::syntax::{Statement, StatementKind};
 
-/// Completes a mechanism with mistakes: coordinates that are not declared, the order of solution as far as it is known,
-/// and one field for one name.
+/// Completes a mechanism with mistakes: undeclared coordinates, the order of solution if it is known, and unique field
+/// names.
 pub(super) fn complete(
     mechanism: &mut Mechanism,
     statements: &[Statement],
@@ -60,8 +60,7 @@ pub(super) fn complete(
     distinguish(mechanism);
 }
 
-/// A name that is used often but not declared, beside one like it that is declared but not used, is the name that is
-/// meant.
+/// Renames a declaration that is not used to a similar name that is used more than once but not declared.
 fn rename(mechanism: &mut Mechanism, scope: &Scope) {
     for (name, _) in scope.undeclared().iter().filter(|(_, uses)| *uses > 1) {
         let parameters = mechanism.parameters.iter_mut().map(|parameter| (&mut parameter.name, parameter.symbol));
@@ -75,7 +74,7 @@ fn rename(mechanism: &mut Mechanism, scope: &Scope) {
     }
 }
 
-/// The names that may be coordinates: those of lists whose keyword is not known, then others that nothing declares.
+/// The names that may be coordinates: those of lists with an unknown keyword, then other undeclared ones.
 fn missing(mechanism: &Mechanism, statements: &[Statement], scope: &Scope) -> Vec<Ident> {
     let listed = statements.iter().flat_map(|statement| match &statement.kind {
         StatementKind::Unread { names, is_list: true } => names.as_slice(),
@@ -88,9 +87,9 @@ fn missing(mechanism: &Mechanism, statements: &[Statement], scope: &Scope) -> Ve
     listed.chain(undeclared).filter(|name| taken.insert(name.to_string())).cloned().collect()
 }
 
-/// The order of solution, where all loop equations could be read.
+/// Finds the order of solution if all equations could be read.
 fn order(mechanism: &mut Mechanism, rows: usize) {
-    let read: usize = mechanism.closures.iter().map(|closure| closure.rows.len()).sum();
+    let read: usize = mechanism.constraints.iter().map(|constraint| constraint.rows.len()).sum();
     for id in mechanism.drivers.ids() {
         let driver = &mechanism.drivers[id];
         let is_known = read == rows && rows == driver.unknowns.len();
@@ -99,7 +98,7 @@ fn order(mechanism: &mut Mechanism, rows: usize) {
     }
 }
 
-/// Of names that become one field the later ones get an underscore.
+/// Adds underscores to field names until they are unique.
 fn distinguish(mechanism: &mut Mechanism) {
     let Mechanism { parameters, scene_parameters, coordinates, points, outputs, .. } = mechanism;
     let parameters = parameters.iter_mut().chain(scene_parameters.iter_mut()).map(|parameter| &mut parameter.name);

@@ -1,16 +1,16 @@
-//! Whether a name is an angle or a length, from how it is used.
+//! Inference of the kind of a name, angle or length, from its use.
 
 use std::fmt;
 
 use crate::graph::{Graph, Node, NodeId, SymbolId};
 
-/// What a parameter or a coordinate measures.
+/// The kind of quantity of a parameter or coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Kind {
-    /// Used neither as an angle nor as a modulus.
+    /// Used neither as an angle nor as a length.
     #[default]
     Number,
-    /// Used behind `@` or in a sine: radians.
+    /// Used after `@` or in a sine: radians.
     Angle,
     /// Used before `@` or as a component.
     Length,
@@ -26,8 +26,8 @@ impl fmt::Display for Kind {
     }
 }
 
-/// The symbols that have the kind of the expression itself: those that stand in it alone, times a
-/// number at most. In `r*theta` neither factor has the kind of the product.
+/// The symbols with the same kind as the expression: its terms that are a symbol, possibly times a
+/// number. In `r*theta` neither factor has the kind of the product.
 pub(super) fn bare_symbols(graph: &Graph, id: NodeId) -> Vec<SymbolId> {
     let single = |id: NodeId| match graph.node(id) {
         Node::Symbol(symbol) => Some(*symbol),

@@ -1,4 +1,4 @@
-//! Statements: names first, then what they say, then the checks on the whole.
+//! Analysis of a mechanism: declares all names, evaluates the statements, and checks the whole.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use syn::{Attribute, Path};
 
 use super::expression::Lowering;
 use super::kind::Kind;
-use super::mechanism::{Closure, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
+use super::mechanism::{Constraint, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
 use super::name::Name;
 use super::scope::{Scope, Value};
 use super::{check, guess, request, scene};
@@ -19,11 +19,11 @@ use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{CoordinateId, Table};
 use crate::syntax::{self, ExpressionId, StatementKind};
 
-/// A mechanism of more expressions than this is refused: its derivatives are several times as many.
+/// The largest number of expressions of a mechanism; its derivatives have several times as many.
 const LARGEST: usize = 25_000;
 
-/// Resolves one mechanism. What could be understood is returned even when there are errors, so
-/// that a stub with the right names can stand in for it.
+/// Resolves one mechanism. With mistakes it still returns what it could resolve, so that a stub with the right names
+/// can be emitted.
 pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagnostics) -> Mechanism {
     let syntax::Mechanism { attributes, visibility, name, statements, expressions } = tree;
     const EVERYWHERE: [&str; 5] = ["cfg", "allow", "warn", "deny", "forbid"];
@@ -53,7 +53,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
         graph: Graph::default(),
         parameters: Table::default(),
         coordinates: Table::default(),
-        closures: Vec::new(),
+        constraints: Vec::new(),
         drivers: Table::default(),
         points: Vec::new(),
         outputs: Vec::new(),
@@ -75,7 +75,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
     lowering.drivers(&statements, &mut result, roles);
     lowering.finish_scenes(reading, &mut result);
     result.requests = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
-    lowering.blame(result.name.span());
+    lowering.report_fault(result.name.span());
     let Lowering { graph, scope, kinds, undeclared_kinds, supposed, externals, extreme, diagnostics, .. } = lowering;
     (result.graph, result.extreme) = (graph, extreme);
     result.externals = externals;
@@ -93,18 +93,18 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
     if result.graph.len() > LARGEST {
         diagnostics.error(
             result.name.span(),
-            format_args!("`{}` takes {} expressions, more than {LARGEST}; split it", result.name, result.graph.len()),
+            format_args!("`{}` has {} expressions, more than {LARGEST}; split it", result.name, result.graph.len()),
         );
     }
-    // What was not understood above would be missed below.
+    // After mistakes, these checks would report their consequences.
     if complete && diagnostics.is_empty() {
-        // Without a loop hardly anything is used.
-        if !result.closures.is_empty() {
+        // Without equations nearly all names are unused.
+        if !result.constraints.is_empty() {
             check::usage(&result, &scope, diagnostics);
         }
         check::types(&result, diagnostics);
         check::fields(&result, diagnostics);
-        check::closures(&mut result, &scope, diagnostics);
+        check::constraints(&mut result, &scope, diagnostics);
     }
     if !diagnostics.is_empty() {
         guess::complete(&mut result, &statements, &scope, &undeclared_kinds);
@@ -112,7 +112,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
     result
 }
 
-/// Which coordinates were declared `input`, `unknown` and `coordinate`.
+/// The coordinates declared as `input`, `unknown` and `coordinate`.
 #[derive(Default)]
 struct Roles {
     inputs: Vec<CoordinateId>,
@@ -121,7 +121,7 @@ struct Roles {
 }
 
 impl Lowering<'_> {
-    /// Every name of the mechanism, so that statements may stand in any order that reads well.
+    /// Declares all names of the mechanism, so that statements may come in any order.
     fn declare(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: &mut Roles) {
         // Coordinates come first in the canonical order of a sum: phi2 - delta, not -(delta - phi2).
         for statement in statements {
@@ -184,7 +184,7 @@ impl Lowering<'_> {
         for (index, argument) in arguments.iter().enumerate() {
             if arguments[..index].iter().any(|other| other.field == argument.field) {
                 self.diagnostics
-                    .error(argument.span, format_args!("an argument is called `{}` already", argument.text));
+                    .error(argument.span, format_args!("the argument `{}` is declared twice", argument.text));
             }
         }
         let id = self.graph.external(names.iter().map(|name| Name::new(name).field).collect());
@@ -221,7 +221,7 @@ impl Lowering<'_> {
                     for (name, default) in parameters {
                         let Some(default) = default else { continue };
                         let node = self.constant(*default);
-                        // With a default that is reported the mechanism has one all the same.
+                        // A parameter with a wrong default has a default nevertheless, for the stub.
                         let node = node.unwrap_or_else(|| self.graph.zero());
                         let text = name.to_string();
                         if let Some(parameter) = result.parameters.iter_mut().find(|p| p.name.text == text) {
@@ -234,7 +234,8 @@ impl Lowering<'_> {
                     let both = (self.value(*left), self.value(*right));
                     if let (Value::Vector(..), Value::Vector(..)) = both {
                         let region = self.expressions.region(*left).to(self.expressions.region(*right));
-                        let message = "both sides are vectors: an `equation` is between scalars; write `loop` instead";
+                        let message =
+                            "both sides are vectors, but an `equation` is between scalars: write `loop` instead";
                         self.diagnostics.error(region, message);
                     } else if let (Some(a), Some(b)) = (self.scalar(*left), self.scalar(*right)) {
                         let row = self.graph.subtract(a, b);
@@ -310,7 +311,7 @@ impl Lowering<'_> {
             }
             (Value::Scalar(_), Value::Scalar(_)) => {
                 self.diagnostics
-                    .error(region, "both sides are scalars: a `loop` closes vectors; write `equation` instead");
+                    .error(region, "both sides are scalars, but a `loop` is between vectors: write `equation` instead");
             }
             (Value::Scalar(_), Value::Vector(..)) => self.expect_vector(left),
             (Value::Vector(..), Value::Scalar(_)) => self.expect_vector(right),
@@ -327,14 +328,14 @@ impl Lowering<'_> {
         result: &mut Mechanism,
     ) {
         let region = self.expressions.region(left).to(self.expressions.region(right));
-        if self.blame(region) {
+        if self.report_fault(region) {
             return;
         }
         if rows.iter().all(|&row| self.graph.is_zero(row)) {
-            self.diagnostics.error(region, "both sides are the same: this closes nothing");
+            self.diagnostics.error(region, "both sides are equal: this equation is always true; remove it");
             return;
         }
-        result.closures.push(Closure { span: region.first, attributes, rows });
+        result.constraints.push(Constraint { span: region.first, attributes, rows });
     }
 
     fn drivers(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: Roles) {
@@ -354,8 +355,7 @@ impl Lowering<'_> {
                     None => {
                         let names = open.iter().map(|&index| result.coordinates[index].name.text.as_str());
                         let hint = suggestion(&text, names);
-                        self.diagnostics
-                            .error(coordinate.span(), format_args!("no `coordinate` is called `{text}`{hint}"));
+                        self.diagnostics.error(coordinate.span(), format_args!("unknown `coordinate` `{text}`{hint}"));
                     }
                 }
             }
@@ -376,10 +376,8 @@ impl Lowering<'_> {
         if !chosen {
             if let Some(&first) = open.first() {
                 let name = &result.coordinates[first].name;
-                self.diagnostics.error(
-                    name.span,
-                    format_args!("nothing drives `{}`: add `drive NAME by {};`", name.text, name.text),
-                );
+                self.diagnostics
+                    .error(name.span, format_args!("no driver is declared: add `drive NAME by {};`", name.text));
             }
             let name = result.name.clone();
             let unknowns = unknowns.into_iter().chain(open).collect();

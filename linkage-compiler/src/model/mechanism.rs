@@ -1,4 +1,4 @@
-//! A mechanism as meant, and what can be told of it at once.
+//! A mechanism after semantic analysis.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,41 +17,41 @@ use crate::ids::{
 };
 use crate::structure::Block;
 
-/// A mechanism as meant.
+/// A mechanism with resolved names.
 pub struct Mechanism {
-    /// Those of its types.
+    /// The attributes of its types.
     pub attributes: Vec<Attribute>,
-    /// Those of all items that are emitted for it: `cfg`, and levels of lints.
+    /// The attributes of all emitted items: `cfg` and lint levels.
     pub everywhere: Vec<Attribute>,
     pub visibility: Visibility,
     pub name: Ident,
     pub graph: Graph,
     pub parameters: Table<ParameterId, Parameter>,
     pub coordinates: Table<CoordinateId, Coordinate>,
-    pub closures: Vec<Closure>,
+    pub constraints: Vec<Constraint>,
     pub drivers: Table<DriverId, Driver>,
     pub points: Vec<Point>,
     pub outputs: Vec<Output>,
     pub externals: Vec<ExternalFunction>,
     /// Expressions that the user named with `let`.
     pub named: Vec<(NodeId, String)>,
-    /// What is derived beyond what every mechanism has.
+    /// The keywords of its `derive` statements.
     pub requests: BTreeSet<Request>,
     pub bodies: Table<BodyId, Body>,
     pub scenes: Table<SceneId, Scene>,
-    /// The parameters that only scenes hold.
+    /// The parameters that only scenes use.
     pub scene_parameters: Table<SceneParameterId, Parameter>,
-    /// Where there are scenes: t.
+    /// The symbol t, if there are scenes.
     pub time: Option<SymbolId>,
-    /// The number in it that is farthest from one.
+    /// The literal with the most extreme magnitude.
     pub extreme: Option<Extreme>,
 }
 
-/// A number as it was written.
+/// A literal of extreme magnitude, to which range errors of derivatives are attributed.
 #[derive(Debug, Clone, Copy)]
 pub struct Extreme {
     pub region: Region,
-    /// How many powers of two it is from one.
+    /// |log2 of its magnitude|.
     pub powers: f64,
 }
 
@@ -69,20 +69,20 @@ pub struct Coordinate {
     pub name: Name,
     pub attributes: Vec<Attribute>,
     pub symbol: SymbolId,
-    /// Where there are scenes: the name of its rate.
+    /// The symbol of its rate, if there are scenes.
     pub rate: Option<SymbolId>,
     pub kind: Kind,
 }
 
-/// A closure: two rows if a `loop`, one if an `equation`; each row is zero when closed.
-pub struct Closure {
+/// A `loop`, with two rows, or an `equation`, with one row; each row is a residual.
+pub struct Constraint {
     pub span: Span,
     pub attributes: Vec<Attribute>,
     pub rows: Vec<NodeId>,
 }
 
-impl Closure {
-    /// The user's own description, as a paragraph.
+impl Constraint {
+    /// The user's doc comment, as a paragraph.
     #[must_use]
     pub fn description(&self) -> Vec<String> {
         let mut lines = Vec::new();
@@ -106,7 +106,7 @@ pub struct Driver {
     pub attributes: Vec<Attribute>,
     pub inputs: Table<InputId, CoordinateId>,
     pub unknowns: Table<UnknownId, CoordinateId>,
-    /// The order in which the closures are solved, once it is known that they can be.
+    /// The blocks in the order of solution; empty before the check and in mechanisms with mistakes.
     pub blocks: Table<BlockId, Block>,
 }
 
@@ -125,23 +125,23 @@ pub struct Output {
     pub value: NodeId,
 }
 
-/// A function of the user's.
+/// A user function.
 pub struct ExternalFunction {
     pub path: syn::Path,
     pub attributes: Vec<Attribute>,
     pub id: ExternalId,
-    /// What it takes; the derivatives are by the first.
+    /// The names of its arguments; derivatives are with respect to the first.
     pub arguments: Vec<String>,
-    /// Its value and its derivatives in order.
+    /// The names of its value and its derivatives, in order.
     pub names: Vec<Name>,
-    /// The places where it is called.
+    /// Its calls in expressions.
     pub calls: Vec<Call>,
 }
 
-/// A call of a function of the user's in an expression.
+/// A call of a user function in an expression.
 pub struct Call {
     pub region: Region,
-    /// The place among the names.
+    /// The order of the derivative: the index of its name.
     pub order: usize,
     pub arguments: Vec<NodeId>,
 }
@@ -159,13 +159,13 @@ impl Mechanism {
         self.scenes.iter().filter(move |scene| self.drivers[scene.driver].name == name)
     }
 
-    /// True if its types and those of the emitted code have different names.
+    /// True if no type has the name `T` of the scalar type parameter.
     #[must_use]
     pub fn is_well_named(&self) -> bool {
         misnamed(self).next().is_none()
     }
 
-    /// Everything that is said of the mechanism but in its scenes.
+    /// The formulas of equations, points and outputs.
     pub fn kinematic_formulas(&self) -> Vec<NodeId> {
         let mut formulas = self.rows().to_vec();
         formulas.extend(self.points.iter().flat_map(|point| [point.x, point.y]));
@@ -176,10 +176,10 @@ impl Mechanism {
     /// Psi.
     #[must_use]
     pub fn rows(&self) -> Table<RowId, NodeId> {
-        self.closures.iter().flat_map(|closure| closure.rows.iter().copied()).collect()
+        self.constraints.iter().flat_map(|constraint| constraint.rows.iter().copied()).collect()
     }
 
-    /// The unknowns of `driver` that each row holds.
+    /// The unknowns of `driver` in each row.
     #[must_use]
     pub fn incidence(&self, driver: &Driver) -> Table<RowId, Vec<UnknownId>> {
         let places = driver.unknowns.enumerated().map(|(place, &id)| (self.coordinates[id].symbol, place));
@@ -203,7 +203,7 @@ impl Mechanism {
     }
 }
 
-/// Mechanisms, drivers and scenes that are called like the scalar.
+/// Mechanisms, drivers and scenes that are named `T`, as the scalar type parameter.
 pub(super) fn misnamed(mechanism: &Mechanism) -> impl Iterator<Item = &Ident> {
     let drivers = mechanism.drivers.iter().map(|driver| &driver.name);
     let shared = mechanism.is_driven_by_choice().then_some(&mechanism.name);

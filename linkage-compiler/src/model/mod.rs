@@ -1,5 +1,5 @@
-//! What was meant: a mechanism with every name resolved, every expression in the graph
-//! and every check made. No later stage meets a mistake of the user, but for singular structure.
+//! Semantic analysis: names resolved, expressions in the graph, all checks made. Later stages report only mistakes that
+//! appear in derivatives, see [`derivation::check`](crate::derivation::check).
 
 mod check;
 mod expression;
@@ -15,8 +15,8 @@ mod scope;
 pub use kind::Kind;
 pub use lower::resolve;
 pub use mechanism::{
-    Call, Closure, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,
+    Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,
 };
 pub use name::Name;
 pub use request::Request;
-pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, Wish};
+pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, SceneRequest};

@@ -1,13 +1,13 @@
-//! Names as the user wrote them and as Rust wants fields to be written.
+//! Names as the user wrote them, and in snake case as fields.
 
 use proc_macro2::{Ident, Span};
 
 /// A name of the mechanism.
 #[derive(Debug, Clone)]
 pub struct Name {
-    /// As written.
+    /// The name as written.
     pub text: String,
-    /// In snake case: the point `G3` is the field `g3`.
+    /// The name in snake case: the point `G3` is the field `g3`.
     pub field: String,
     pub span: Span,
 }

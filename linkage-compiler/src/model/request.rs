@@ -1,20 +1,20 @@
-//! What a mechanism asks for beyond what every mechanism has.
+//! The `derive` statements of a mechanism.
 
 use std::collections::BTreeSet;
 
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::syntax::{Statement, StatementKind};
 
-/// A word of the statement `derive`.
+/// A keyword of the statement `derive`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Request {
-    /// The interval of each input.
+    /// The limits of each input.
     Limits,
-    /// q''', and that of points and outputs.
+    /// q''', and the third derivatives of points and outputs.
     Jerk,
-    /// d2u/dv dv, and that of points and outputs.
+    /// d2u/dv dv, and the second derivatives of points and outputs.
     VelocityRatioDerivatives,
-    /// du/dp, and that of points and outputs.
+    /// du/dp, and the derivatives of points and outputs.
     Sensitivity,
 }
 
@@ -27,7 +27,7 @@ impl Request {
     ];
 }
 
-/// Everything that the `derive` statements of a mechanism name.
+/// Collects the keywords of the `derive` statements of a mechanism.
 pub(super) fn resolve(
     statements: &[Statement],
     has_parameters: bool,
@@ -45,14 +45,14 @@ pub(super) fn resolve(
             let names = Request::ALL.map(|(name, _)| name);
             let (hint, all) = (suggestion(&text, names), names.join(", "));
             diagnostics
-                .error(word.span(), format_args!("nothing to derive is called `{text}`{hint}\nthere are: {all}"));
+                .error(word.span(), format_args!("unknown keyword `{text}` after `derive`{hint}\nkeywords: {all}"));
             continue;
         };
         if !requests.insert(request) {
-            diagnostics.error(word.span(), format_args!("`{text}` is derived already; name it once"));
+            diagnostics.error(word.span(), format_args!("`{text}` is named twice after `derive`; remove one"));
         }
         if request == Request::Sensitivity && !has_parameters {
-            let advice = "nothing to be sensitive to: this mechanism has no `param`";
+            let advice = "`sensitivity` needs parameters, but this mechanism has no `param`";
             diagnostics.error(word.span(), advice);
         }
     }

@@ -1,4 +1,4 @@
-//! The names of one mechanism: parameters, coordinates, `let`s and points share one space.
+//! The scope of one mechanism: parameters, coordinates, `let`s and points share one namespace.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use proc_macro2::Ident;
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
 
-/// What an expression is worth: `Poison` stands for one already reported.
+/// The value of an expression; `Poison` stands for one with a reported mistake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Value {
     Scalar(NodeId),
@@ -19,9 +19,9 @@ pub(super) enum Value {
 enum Entry {
     Symbol(SymbolId, NodeId),
     Value(Value),
-    /// The derivative of this order of a function of the user's.
+    /// The derivative of this order of a user function.
     Function(ExternalId, usize),
-    /// Declared further down.
+    /// Declared later.
     Later,
 }
 
@@ -29,29 +29,29 @@ enum Entry {
 pub(super) struct Scope {
     entries: BTreeMap<String, Entry>,
     used: BTreeSet<SymbolId>,
-    /// The names in statements that could not be read.
+    /// Names in statements with syntax errors, which are not reported as undeclared.
     excused: BTreeSet<String>,
-    /// The names that nothing declares, each once, and how often they are used.
+    /// The undeclared names, each once, with their number of uses.
     undeclared: Vec<(Ident, usize)>,
 }
 
-/// Words that are values of the language itself.
+/// Keywords that are values.
 const VALUES: [&str; 2] = ["pi", "t"];
 
-/// What the language calls besides the op table.
+/// The functions of the language besides the operation table, with their number of arguments.
 pub(super) const VECTOR_FUNCTIONS: [(&str, usize); 7] =
     [("x", 1), ("y", 1), ("norm", 1), ("angle", 1), ("dot", 2), ("cross", 2), ("powi", 2)];
 
 impl Scope {
-    /// Claims a name; a second claim is reported and refused.
+    /// Declares a name; returns false and reports an error if it is a keyword or already declared.
     pub(super) fn claim(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> bool {
         let text = name.to_string();
         if VALUES.contains(&text.as_str()) {
-            diagnostics.error(name.span(), format_args!("`{text}` is a word of the language; choose another name"));
+            diagnostics.error(name.span(), format_args!("`{text}` is a keyword of `linkage!`; choose another name"));
             return false;
         }
         if self.entries.contains_key(&text) {
-            diagnostics.error(name.span(), format_args!("`{text}` is already the name of something else here"));
+            diagnostics.error(name.span(), format_args!("the name `{text}` is already in use; choose another one"));
             return false;
         }
         self.entries.insert(text, Entry::Later);
@@ -63,23 +63,23 @@ impl Scope {
     }
 
     pub(super) fn define(&mut self, name: &Ident, value: Value) {
-        // A name that was something else before stays so.
+        // The first declaration of a name counts.
         if let Some(entry @ Entry::Later) = self.entries.get_mut(&name.to_string()) {
             *entry = Entry::Value(value);
         }
     }
 
-    /// A name in a statement that could not be read: what it means is not known, but that is reported.
+    /// Records a name in a statement with a syntax error, which may declare it.
     pub(super) fn excuse(&mut self, name: &Ident) {
         self.excused.insert(name.to_string());
     }
 
-    /// The names that nothing declares, in the order in which they are used, and how often they are.
+    /// The undeclared names in the order of use, with their number of uses.
     pub(super) fn undeclared(&self) -> &[(Ident, usize)] {
         &self.undeclared
     }
 
-    /// Records the use of a name that nothing declares; true if it is to be reported.
+    /// Records the use of an undeclared name; returns true if it must be reported.
     fn miss(&mut self, name: &Ident) -> bool {
         if let Some((_, uses)) = self.undeclared.iter_mut().find(|(other, _)| other == name) {
             *uses += 1;
@@ -97,12 +97,12 @@ impl Scope {
         }
     }
 
-    /// True if a function of this name may be declared in a statement that could not be read.
+    /// True if a statement with a syntax error may declare a function of this name.
     pub(super) fn is_excused(&self, name: &str) -> bool {
         self.excused.contains(name)
     }
 
-    /// Claims the name of a function; that of one of the language is refused.
+    /// Declares the name of a user function; reports an error if the language has a function of this name.
     pub(super) fn claim_function(
         &mut self,
         name: &Ident,
@@ -115,13 +115,13 @@ impl Scope {
             || VECTOR_FUNCTIONS.iter().any(|(other, _)| *other == text)
             || text == "rate"
         {
-            diagnostics.error(name.span(), format_args!("`{text}` is a function of the language; choose another name"));
+            diagnostics.error(name.span(), format_args!("`{text}` is a function of `linkage!`; choose another name"));
         } else if self.claim(name, diagnostics) {
             self.entries.insert(text, Entry::Function(function, order));
         }
     }
 
-    /// A function of the user's and the order of its derivative.
+    /// The user function of this name and the order of its derivative.
     pub(super) fn function(&self, name: &str) -> Option<(ExternalId, usize)> {
         match self.entries.get(name) {
             Some(Entry::Function(function, order)) => Some((*function, *order)),
@@ -129,12 +129,12 @@ impl Scope {
         }
     }
 
-    /// The names of all functions of the user's.
+    /// The names of all user functions and their derivatives.
     pub(super) fn functions(&self) -> impl Iterator<Item = &str> {
         self.entries.iter().filter(|(_, entry)| matches!(entry, Entry::Function(..))).map(|(name, _)| name.as_str())
     }
 
-    /// The value of a name; an unknown one is reported where it is used first.
+    /// The value of a name; an undeclared one is reported at its first use.
     pub(super) fn look_up(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> Value {
         let text = name.to_string();
         match self.entries.get(&text) {
@@ -153,13 +153,13 @@ impl Scope {
                 Value::Poison
             }
             None if text == "t" => {
-                diagnostics.error(name.span(), "`t`, time, has a meaning only in the forces of a scene");
+                diagnostics.error(name.span(), "`t` (time) can be used only in the laws of a scene");
                 Value::Poison
             }
             None => {
                 if self.miss(name) {
                     let hint = suggestion(&text, self.entries.keys().map(String::as_str));
-                    diagnostics.error(name.span(), format_args!("nothing is called `{text}` here{hint}"));
+                    diagnostics.error(name.span(), format_args!("unknown name `{text}`{hint}"));
                 }
                 Value::Poison
             }

@@ -1,6 +1,6 @@
-//! The result of writing: a formula in every notation.
+//! A formula in all notations.
 
-/// A formula in every notation.
+/// A formula in all notations.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Formula {
     /// One line of Unicode: `−l₃·l₄·sin(θ₃ − θ₄)`.

@@ -1,4 +1,4 @@
-//! A formula as terms, fractions and factors in the order of mathematics.
+//! Layout of a formula: terms, fractions and factors in the usual order of mathematics.
 
 use std::rc::Rc;
 
@@ -7,7 +7,7 @@ use super::name::Name;
 use super::spelled::Spelled;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 
-/// A denominator above this is better read as decimals, where those are exact.
+/// The largest denominator of a ratio that is printed as a fraction; others are printed as decimals if these are exact.
 const LARGEST_DENOMINATOR: i64 = 100;
 
 /// Terms with their signs.
@@ -24,14 +24,14 @@ pub(super) struct Term<'a> {
     pub(super) fraction: Fraction<'a>,
 }
 
-/// Factors above and below a bar; there is no bar if none is below.
+/// The factors of a numerator and of a denominator, which may be empty.
 #[derive(Debug)]
 pub(super) struct Fraction<'a> {
     pub(super) above: Vec<Factor<'a>>,
     pub(super) below: Vec<Factor<'a>>,
 }
 
-/// A base to an exponent, which is at least 1.
+/// A power with an exponent of at least 1.
 #[derive(Debug, Clone)]
 pub(super) struct Factor<'a> {
     pub(super) base: Base<'a>,
@@ -90,12 +90,12 @@ impl<'a> Sum<'a> {
         self.length
     }
 
-    /// Whether its brackets must be taller than a line.
+    /// True if its brackets must be taller than a line.
     pub(super) fn is_tall(&self) -> bool {
         self.is_tall
     }
 
-    /// The one term, if it has no sign.
+    /// The term, if there is only one and it is positive.
     pub(super) fn single(&self) -> Option<&Fraction<'a>> {
         match self.terms.as_slice() {
             [Term { is_negative: false, fraction }] => Some(fraction),
@@ -103,7 +103,7 @@ impl<'a> Sum<'a> {
         }
     }
 
-    /// The factors, if there is nothing else.
+    /// The factors, if it is only a product.
     fn product(&self) -> Option<&[Factor<'a>]> {
         self.single().filter(|only| only.below.is_empty()).map(|only| only.above.as_slice())
     }
@@ -129,7 +129,7 @@ impl Fraction<'_> {
         !self.below.is_empty() || self.above.iter().any(|factor| factor.base.is_tall())
     }
 
-    /// Whether it is a coordinate, a parameter or pi alone.
+    /// True if it is only a coordinate, a parameter or pi.
     pub(super) fn is_plain(&self) -> bool {
         match self.above.as_slice() {
             [Factor { base, exponent: 1 }] if self.below.is_empty() => match base {
@@ -199,7 +199,7 @@ impl<'a> Arguments<'a> {
     }
 }
 
-/// Lays out one node; its parts are laid out already.
+/// Lays out one node, whose children are laid out already.
 pub(super) struct Layout<'a, 'b> {
     pub(super) graph: &'a Graph,
     pub(super) names: &'a dyn Fn(SymbolId) -> Name<'a>,
@@ -216,7 +216,7 @@ impl<'a> Layout<'a, '_> {
             Node::Sum { constant, terms } => self.terms(*constant, terms),
             Node::Call(function, arguments) => Sum::base(Base::Call(*function, self.arguments(arguments))),
             Node::External(external, arguments) => {
-                // A derivative is shown by the name of the value with primes.
+                // A derivative is printed as the name of the value with primes.
                 let names = self.graph.external_names(external.function);
                 let name = names.first().map_or("", String::as_str);
                 let order = external.order().unwrap_or(names.len());
@@ -225,7 +225,7 @@ impl<'a> Layout<'a, '_> {
         }
     }
 
-    /// The positive terms first: a leading plus reads better than a leading minus.
+    /// The terms of a sum, positive ones first, to avoid a leading minus.
     fn terms(&self, constant: Number, terms: &[(Number, NodeId)]) -> Sum<'a> {
         let (negative, positive): (Vec<_>, Vec<_>) =
             terms.iter().partition(|(coefficient, _)| coefficient.is_negative());
@@ -233,7 +233,7 @@ impl<'a> Layout<'a, '_> {
             .into_iter()
             .chain(negative)
             .map(|(coefficient, term)| match self.graph.node(term) {
-                // The coefficient joins the fraction of its term.
+                // The coefficient is merged into the fraction of its term.
                 Node::Product { factors, .. } if !self.is_hidden(term) => self.term(coefficient, factors),
                 _ => self.term(coefficient, &[(term, 1)]),
             })
@@ -256,7 +256,7 @@ impl<'a> Layout<'a, '_> {
         Arguments(arguments.iter().map(|&argument| self.part(argument)).collect())
     }
 
-    /// A product: the sign, the factors above and below the bar, 1 where there are none above.
+    /// A product as a term: sign, numerator (1 if empty) and denominator.
     fn term(&self, coefficient: Number, factors: &[(NodeId, i32)]) -> Term<'a> {
         let (number, divisor) = split(coefficient.absolute());
         let number = (!number.is_one()).then_some(number);
@@ -269,7 +269,7 @@ impl<'a> Layout<'a, '_> {
         Term { is_negative: coefficient.is_negative(), fraction }
     }
 
-    /// A number and powers, in the order of mathematics.
+    /// A number and powers, in the usual order of mathematics.
     fn factors(&self, number: Option<Number>, mut powers: Vec<(NodeId, i32)>) -> Vec<Factor<'a>> {
         powers.sort_by_key(|&(base, _)| self.place(base));
         let number = number.map(|number| Factor { base: Base::Number(number), exponent: 1 });
@@ -287,7 +287,7 @@ impl<'a> Layout<'a, '_> {
         factors
     }
 
-    /// The place of a factor among others: names, functions, sums in brackets, determinants.
+    /// The sort key of a factor: names, functions, sums in brackets, determinants.
     fn place(&self, id: NodeId) -> u8 {
         match self.graph.node(id) {
             Node::Pi | Node::Constant(_) => 0,
@@ -304,7 +304,7 @@ impl<'a> Layout<'a, '_> {
     }
 }
 
-/// A positive number as what stands above and below the bar.
+/// Splits a positive number into a numerator and a denominator.
 fn split(value: Number) -> (Number, Option<Number>) {
     match value {
         Number::Ratio(_, d) if d > LARGEST_DENOMINATOR && is_decimal(value) => (Number::Float(value.to_f64()), None),

@@ -1,4 +1,4 @@
-//! Presentation MathML, of the Core subset. Every formula is one element.
+//! Presentation MathML, in the subset MathML Core. Every formula is one element.
 
 use super::formula::Formula;
 use super::name::{Name, Word, greek, is_number, matrix_name, primes};
@@ -7,7 +7,7 @@ use crate::graph::Function;
 
 /// U+2061.
 const FUNCTION_APPLICATION: &str = "<mo>\u{2061}</mo>";
-/// The same before an argument without brackets.
+/// U+2061 with space after it, before an argument without brackets.
 const SPACED_APPLICATION: &str = "<mo rspace=\"0.17em\">\u{2061}</mo>";
 
 pub(super) struct MathMl;
@@ -16,7 +16,7 @@ const MARKS: Marks = Marks {
     plus: "<mo>+</mo>",
     minus: "<mo>−</mo>",
     leading_minus: "<mo>−</mo>",
-    // U+2062, which separates factors for readers that speak; the name of a function needs room.
+    // U+2062, invisible times, for screen readers; with space before the name of a function.
     times: "<mo>\u{2062}</mo>",
     times_function: "<mo rspace=\"0.17em\">\u{2062}</mo>",
     comma: "<mo>,</mo>",
@@ -156,7 +156,7 @@ impl Style for MathMl {
     }
 }
 
-/// The sign above a word.
+/// The marks above a name.
 #[derive(Clone, Copy)]
 struct Shape<'a> {
     dots: &'a str,
@@ -175,7 +175,7 @@ impl Shape<'_> {
     const PLAIN: Self = Self { dots: "", above: Above::Nothing };
 }
 
-/// A word; an index and an exponent stand above each other.
+/// Writes a name; subscript and exponent are aligned.
 fn word(out: &mut String, name: &str, Shape { dots, above }: Shape<'_>) {
     let name = Word::new(name);
     let mut subscripts = name.subscripts();
@@ -189,7 +189,7 @@ fn word(out: &mut String, name: &str, Shape { dots, above }: Shape<'_>) {
     if !element.is_empty() {
         out.extend(["<", element, ">"]);
     }
-    // Dots above a letter do not lift its exponent.
+    // The exponent must not be raised by the dots above the letter.
     let lowered = !dots.is_empty() && !bare;
     if lowered {
         out.push_str("<mpadded height=\"0.75em\">");

@@ -1,7 +1,7 @@
 //! Formulas as Unicode text, LaTeX and MathML.
 //!
-//! `layout` turns a node of the graph into terms, fractions and factors in the order of mathematics. `writer`
-//! decides what needs brackets, and each notation spells the pieces: `unicode`, `latex`, `mathml`.
+//! `layout` converts a node of the graph to terms, fractions and factors. `writer` decides on brackets. The modules
+//! `unicode`, `latex` and `mathml` implement the notations.
 
 mod formula;
 mod latex;
@@ -26,23 +26,23 @@ pub use name::Name;
 use unicode::Unicode;
 use writer::{Relation, write};
 
-/// The largest length of a formula, counted in bytes with the names of the `linkage!` language (`theta3` is 6). A
-/// longer part is of no use to a reader, and a shared graph can unfold without bound: an ellipsis replaces it. The
-/// reader sees about two thirds of this length, 400 characters. With half of it, formulas that fill a line or two of a
-/// page are cut; with twice of it, a long formula takes twice the room on the page and in the expansion.
+/// The largest length of a formula, in bytes with the names of the `linkage!` language (`theta3` is 6); an ellipsis
+/// replaces a longer part. The formula of a graph with shared nodes can be exponentially long. The printed length is
+/// about two thirds of this, 400 characters. With half of it, formulas of one or two lines are cut; with twice of it, a
+/// long formula takes twice the space on the page and in the expansion.
 const LONGEST: usize = 600;
 
-/// Writes formulas of one graph; parts that they share are laid out once.
+/// Prints formulas of one graph; shared subexpressions are laid out once.
 pub struct Printer<'a> {
     graph: &'a Graph,
     names: &'a dyn Fn(SymbolId) -> Name<'a>,
     longest: usize,
-    /// The parts that are laid out, by the index of their node.
+    /// The laid out subexpressions, by node index.
     parts: Vec<Option<Rc<Sum<'a>>>>,
 }
 
 impl<'a> Printer<'a> {
-    /// A printer that shows each symbol by the name that `names` gives it.
+    /// A printer; `names` returns the name of each symbol.
     #[must_use]
     pub fn new(graph: &'a Graph, names: &'a dyn Fn(SymbolId) -> Name<'a>) -> Self {
         Self { graph, names, longest: LONGEST, parts: Vec::new() }
@@ -54,12 +54,12 @@ impl<'a> Printer<'a> {
         Self { longest: bytes, ..self }
     }
 
-    /// The formula of this node.
+    /// Prints a node.
     pub fn formula(&mut self, root: NodeId) -> Formula {
         written(&self.laid_out(root), None)
     }
 
-    /// A condition such as l₄ ≠ 0.
+    /// Prints a condition such as l₄ ≠ 0.
     pub fn condition(&mut self, condition: Condition) -> Formula {
         let (node, relation) = match condition {
             Condition::NonZero(node) => (node, Relation::NotZero),
@@ -68,9 +68,9 @@ impl<'a> Printer<'a> {
         written(&self.laid_out(node), Some(relation))
     }
 
-    /// The terms of a node; all parts that it needs are laid out first.
+    /// Lays out a node and all its subexpressions.
     fn laid_out(&mut self, root: NodeId) -> Rc<Sum<'a>> {
-        // Parts have smaller numbers than the nodes that hold them.
+        // Children have smaller ids than their parents.
         if self.parts.len() <= root.index() {
             self.parts.resize_with(root.index() + 1, || None);
         }

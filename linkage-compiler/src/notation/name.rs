@@ -1,6 +1,6 @@
 //! The names of symbols: Greek letters, subscripts, dots.
 
-/// The meaning of a symbol, which decides how it is shown. Words are those of the `linkage!` language, such as
+/// A symbol with its role, which decides how it is printed. Names are those of the `linkage!` language, such as
 /// `theta3` or `z_t`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Name<'a> {
@@ -21,7 +21,7 @@ pub enum Name<'a> {
 }
 
 impl Name<'_> {
-    /// Whether it is written as a fraction of differentials.
+    /// True if it is printed as a fraction of differentials.
     pub(super) fn is_derivative(self) -> bool {
         matches!(self, Self::Ratio { .. } | Self::RatioDerivative { .. })
     }
@@ -47,8 +47,8 @@ pub(super) fn matrix_name(block: Option<usize>) -> String {
     block.map_or_else(|| "J".to_owned(), |block| format!("J{block}"))
 }
 
-/// Greek names, which are LaTeX's commands too, and their letters. Where there are two shapes, the
-/// plain name has the letter of running text and `var` the other. In the order of the names.
+/// Greek names, which are also LaTeX commands, and their letters, sorted by name. Where a letter has two shapes, the
+/// plain name has that of running text and `var…` the other.
 const GREEK: [(&str, char); 55] = [
     ("Alpha", 'Α'),
     ("Beta", 'Β'),
@@ -107,7 +107,7 @@ const GREEK: [(&str, char); 55] = [
     ("zeta", 'ζ'),
 ];
 
-/// The Greek letters that LaTeX lacks, as the Latin letters that they look like.
+/// The Greek letters without a LaTeX command, and the Latin letters of the same shape.
 const LOOK_LATIN: [(&str, char); 14] = [
     ("omicron", 'o'),
     ("Alpha", 'A'),
@@ -125,7 +125,7 @@ const LOOK_LATIN: [(&str, char); 14] = [
     ("Chi", 'X'),
 ];
 
-/// `theta3_left` in parts: `theta`, `3` and `left`.
+/// The parts of a name: `theta3_left` is `theta`, `3` and `left`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Word<'a> {
     pub(super) base: &'a str,
@@ -148,13 +148,13 @@ impl<'a> Word<'a> {
         Self { base, digits: &first[base.len()..], rest }
     }
 
-    /// The number at its end and the words behind underscores.
+    /// The number at the end of the base, and the parts after underscores.
     pub(super) fn subscripts(self) -> impl Iterator<Item = &'a str> + Clone {
         std::iter::once(self.digits).chain(self.rest.split('_')).filter(|part| !part.is_empty())
     }
 }
 
-/// As many primes, if that many are written.
+/// The primes of a derivative of this order, up to three.
 pub(super) fn primes(order: usize) -> Option<&'static str> {
     ["", "′", "″", "‴"].get(order).copied()
 }
@@ -169,7 +169,7 @@ pub(super) fn greek(word: &str) -> Option<(&'static str, char)> {
     GREEK.binary_search_by_key(&word, |&(name, _)| name).ok().map(|place| GREEK[place])
 }
 
-/// What LaTeX lacks of the Greek letters, by their names.
+/// The Latin letter for a Greek letter without a LaTeX command.
 pub(super) fn latin(greek: &str) -> Option<char> {
     LOOK_LATIN.iter().find(|(name, _)| *name == greek).map(|(_, letter)| *letter)
 }

@@ -1,4 +1,4 @@
-//! Names spelled in every notation.
+//! Names printed in all notations.
 
 use super::formula::Formula;
 use super::latex::Latex;
@@ -7,7 +7,7 @@ use super::name::Name;
 use super::style::Style;
 use super::unicode::Unicode;
 
-/// A name, spelled once for all its places in formulas.
+/// A name, printed once in all notations and reused.
 #[derive(Debug)]
 pub(super) struct Spelled<'a> {
     pub(super) name: Name<'a>,

@@ -49,7 +49,7 @@ fn names_have_greek_letters_subscripts_and_dots() {
     }
 }
 
-/// The language's functions, each with its own notation: LaTeX shows a user function as `\mathrm{asin}(x)`.
+/// Every function of the language has a notation of its own: LaTeX shows a user function as `\mathrm{asin}(x)`.
 #[test]
 fn every_function_of_the_language_has_its_own_notation() {
     for row in OPERATIONS {
@@ -215,7 +215,7 @@ fn names_in_all_notations() {
     let mixed = "<mfrac><mrow><msup><mo>∂</mo><mn>2</mn></msup><mi>s</mi></mrow>\
                  <mrow><mo>∂</mo><mi>x</mi><mo>∂</mo><mi>y</mi></mrow></mfrac>";
     assert_eq!(all(Name::RatioDerivative { of: "s", by: ["x", "y"] })[2], mixed);
-    // Names that cannot come from the language do no harm.
+    // Names that are impossible in the language must not panic.
     for name in ["", "_", "a<b&c", "r#type"] {
         all(Name::Plain(name));
     }
@@ -244,8 +244,8 @@ fn the_determinant_of_the_four_bar_in_mathml() {
     assert_eq!(mathml, expected);
 }
 
-/// Brackets where what follows could be taken for a part of an argument, bars in place of brackets, powers at the names
-/// of circular functions.
+/// LaTeX: brackets where a factor could be read as part of an argument, bars instead of brackets, exponents at the
+/// names of circular functions.
 #[test]
 fn products_and_powers_in_latex() {
     let (mut g, [x, l, ratio, rate, det]) = graph(["x", "l", "y/x", "x.", "det"]);

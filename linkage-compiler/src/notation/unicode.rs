@@ -118,7 +118,7 @@ impl Style for Unicode {
     }
 }
 
-/// A word, dots above the last letter of its base.
+/// Writes a name, with dots above the last letter of its base.
 fn word(out: &mut String, name: &str, dots: Option<char>) {
     let name = Word::new(name);
     let mut letter = [0; 4];
@@ -128,7 +128,7 @@ fn word(out: &mut String, name: &str, dots: Option<char>) {
         None => out.push_str(base),
     }
     for (index, subscript) in name.subscripts().enumerate() {
-        // Few letters have a form below the line: words stand behind an underscore.
+        // Few letters have a subscript form: other subscripts follow an underscore.
         if index == 0 && is_number(subscript) {
             shifted(out, subscript, Shift::Down);
         } else {
@@ -147,7 +147,7 @@ enum Shift {
     Down,
 }
 
-/// Digits and a minus sign above or below the line.
+/// Writes digits and minus signs as superscripts or subscripts.
 fn shifted(out: &mut String, digits: &str, shift: Shift) {
     let (ten, minus): (&[char], char) = match shift {
         Shift::Up => (&['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'], '⁻'),
@@ -158,14 +158,14 @@ fn shifted(out: &mut String, digits: &str, shift: Shift) {
     }
 }
 
-/// The letters that have a form of their own with a dot above, and with two, in the order of those
-/// forms: text in normal form C (Unicode Standard Annex 15) writes these as one character.
+/// The letters with precomposed forms with one dot and with two dots above, and these forms, as in normal form C
+/// (Unicode Standard Annex 15).
 const DOTTED: [(char, &str, &str); 2] = [
     ('\u{307}', "ABCDEFGHIMNOPRSTWXYZabcdefghmnoprstwxyz", "ȦḂĊḊĖḞĠḢİṀṄȮṖṘṠṪẆẊẎŻȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏż"),
     ('\u{308}', "AEHIOUWXYaehiotuwxyΙΥιυ", "ÄËḦÏÖÜẄẌŸäëḧïöẗüẅẍÿΪΫϊϋ"),
 ];
 
-/// A word with dots above its last letter.
+/// Writes a word with dots above its last letter.
 fn dotted(out: &mut String, word: &str, dots: char) {
     let Some(last) = word.chars().next_back() else { return };
     let table = DOTTED.iter().find(|(accent, ..)| *accent == dots);

@@ -1,18 +1,18 @@
-//! The writer of all notations: it decides what needs brackets, a [`Style`] spells the pieces.
+//! The writer of all notations: it decides on brackets and calls a [`Style`].
 
 use super::layout::{Arguments, Base, Factor, Fraction, Sum};
 use super::name::Name;
 use super::style::{Argument, Binding, Marks, Style, is_circular};
 use crate::graph::{Function, Number};
 
-/// A statement about a formula.
+/// A relation of a formula to zero or to its domain.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Relation {
     NotZero,
     Exists,
 }
 
-/// Writes a formula, or a statement about it.
+/// Writes a formula, or a relation.
 pub(super) fn write(style: &dyn Style, sum: &Sum<'_>, relation: Option<Relation>) -> String {
     let marks = style.marks();
     let mut writer = Writer { out: String::new(), style, marks };
@@ -72,7 +72,7 @@ impl Writer<'_> {
         self.push(close);
     }
 
-    /// Factors, of which a single one holds together at least as firmly as `alone`.
+    /// Writes factors; a single one is put in brackets if its precedence is below `alone`.
     fn product(&mut self, factors: &[Factor<'_>], alone: Binding) {
         if let [only] = factors {
             return self.factor(only, None, alone);
@@ -90,7 +90,7 @@ impl Writer<'_> {
     fn factor(&mut self, factor: &Factor<'_>, next: Option<&Factor<'_>>, at_least: Binding) {
         let at_least = if factor.is_power() { Binding::Atom } else { at_least };
         match &factor.base {
-            // The power of a sine stands at its name; without brackets a function ends where the next begins.
+            // The exponent of a sine follows its name; without brackets, the argument ends at the next function.
             Base::Call(function, arguments) if is_circular(*function) => {
                 let last =
                     next.is_none_or(|next| matches!(next.base, Base::Call(function, _) if is_circular(function)));
@@ -135,7 +135,7 @@ impl Writer<'_> {
         self.push(close);
     }
 
-    /// A call, whose argument may go without brackets if it is the `last` factor.
+    /// Writes a call; its argument may omit brackets if it is the `last` factor.
     fn call(&mut self, function: Function, arguments: &Arguments<'_>, exponent: u32, last: bool) {
         let around = match function {
             Function::Sqrt => Some(self.marks.root),
@@ -184,7 +184,7 @@ impl Writer<'_> {
     fn binding(&self, sum: &Sum<'_>) -> Binding {
         let Some(Fraction { above, below }) = sum.single() else { return Binding::Sum };
         match above.as_slice() {
-            // a/b·c would read as a/(b·c), and a/b/c as a/(b/c).
+            // a/b·c could be read as a/(b·c), and a/b/c as a/(b/c).
             _ if !below.is_empty() && !self.marks.has_bars => Binding::Slash,
             [only] if below.is_empty() => match &only.base {
                 _ if only.is_power() => Binding::Power,
@@ -198,7 +198,7 @@ impl Writer<'_> {
 }
 
 impl Factor<'_> {
-    /// Whether it begins with the name of a function.
+    /// True if it begins with the name of a function.
     fn opens_function(&self) -> bool {
         match &self.base {
             Base::Call(Function::Sqrt | Function::Abs, _) => false,

@@ -1,4 +1,4 @@
-//! Which of its positions a mechanism stands in: the sides of its groups, and the turns of its angles.
+//! The branch of a position: the solution of each group that has two, and the turns of angles.
 
 use std::collections::BTreeSet;
 
@@ -10,14 +10,14 @@ use crate::ids::UnknownId;
 use crate::model::{Driver, Kind, Mechanism};
 use crate::structure::Group;
 
-/// How a position is found, and what tells positions apart.
+/// The properties of the position problem that signatures and types depend on.
 #[derive(Debug, Clone, Default)]
 pub struct Position {
     /// True if every group has a closed form.
     pub is_closed: bool,
     /// The groups that have two solutions.
     pub sides: Vec<(String, Choice)>,
-    /// The solved angles that a pose holds as numbers, where every group has a closed form.
+    /// The solved angles that a pose stores as numbers; empty unless every group has a closed form.
     pub turns: Vec<AngleTurn>,
     /// The number of groups.
     pub blocks: usize,
@@ -27,14 +27,14 @@ pub struct Position {
 #[derive(Debug, Clone)]
 pub struct AngleTurn {
     pub symbol: SymbolId,
-    /// The fields of the turn in the branch, of the angle in the coordinates, and of its number in the pose.
+    /// The field of the turn in the branch, of the angle in the coordinates, and of the angle in the pose.
     pub field: String,
     pub coordinate: String,
     pub number: String,
 }
 
 impl Position {
-    /// Nobody tries all branches of more groups than this.
+    /// The largest number of groups with two solutions for which `all` and `branches` are emitted: 2^16 branches.
     const MOST_BRANCHING: usize = 16;
 
     pub fn new(derivation: &Derivation, pose: &PosePlan, assembly: &Assembly, steps: &[Step]) -> Self {
@@ -60,9 +60,8 @@ impl Position {
         Self { is_closed: assembly.guesses.is_empty(), sides, turns, blocks: derivation.blocks.len() }
     }
 
-    /// The most likely one of a mechanism with mistakes. Where the order of solution is known, its groups are those of
-    /// the equations as they are written; else they are pairs of unknowns as they were declared, each with two
-    /// solutions.
+    /// A guess for a mechanism with mistakes. If the order of solution is known, the groups are those of the equations
+    /// as written; else each pair of unknowns, in the order of declaration, is a group with two solutions.
     pub fn guessed(mechanism: &Mechanism, driver: &Driver) -> Self {
         let name = |place: UnknownId| mechanism.coordinates[driver.unknowns[place]].name.field.as_str();
         if driver.blocks.is_empty() {
@@ -100,8 +99,7 @@ impl Position {
         Self { is_closed, sides, turns, blocks: driver.blocks.len() }
     }
 
-    /// The turns of the solved angles whose numbers enter what is said of a mechanism, or the derivatives of what effects
-    /// act along.
+    /// The turns of the solved angles that appear as numbers in formulas of the mechanism or of its scenes.
     fn guessed_turns(
         mechanism: &Mechanism,
         driver: &Driver,

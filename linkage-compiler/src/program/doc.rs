@@ -1,4 +1,4 @@
-//! Descriptions of functions, line by line.
+//! Emitted doc comments of functions, line by line.
 
 use super::operations::Operations;
 
@@ -6,7 +6,7 @@ pub fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
     lines.map(str::to_owned).to_vec()
 }
 
-/// A paragraph of formulas, if there are any.
+/// A code block with these formulas; nothing if there are none.
 pub fn fenced(lines: impl Iterator<Item = String>) -> Vec<String> {
     let mut block = vec![String::new(), "```text".to_owned()];
     block.extend(lines);
@@ -34,11 +34,11 @@ pub fn count(operations: Operations) -> String {
     text
 }
 
-/// The description of a function without `Result`, which says what it gives for numbers that are not finite.
+/// Adds to the doc comment of a function without `Result` what it returns for arguments that are not finite.
 pub fn without_result(mut docs: Vec<String>) -> Vec<String> {
     docs.extend(lines([
         "",
-        "It never fails: where an argument is not finite, the result is not finite, or has no meaning.",
+        "It does not fail: if an argument is not finite, the result is not finite or meaningless.",
     ]));
     docs
 }

@@ -8,7 +8,7 @@ use crate::derivation::{Row, Step};
 use crate::graph::NodeId;
 use crate::ids::{CoordinateId, Id, RowId, Table};
 
-/// A matrix larger than this is written entry by entry if most entries are zero.
+/// Matrices with more entries than this are written entry by entry if most of these are zero.
 const LARGEST_DENSE: usize = 16;
 
 impl Plan<'_, '_> {
@@ -20,16 +20,16 @@ impl Plan<'_, '_> {
     }
 
     fn residual(&mut self) {
-        let (residual, sizes) = (self.derivation.residual.clone(), self.derivation.residual_scales.clone());
-        let mut doc = lines(["The closures Psi(q), zero where the mechanism is closed."]);
+        let (residual, scales) = (self.derivation.residual.clone(), self.derivation.residual_scales.clone());
+        let mut doc = lines(["The residual Psi(q) of the loop equations and constraints; Psi(q) = 0 at a position."]);
         doc.extend(self.numbered("Psi", &residual));
-        for closure in &self.signatures.mechanism.closures {
-            doc.extend(closure.description());
+        for constraint in &self.signatures.mechanism.constraints {
+            doc.extend(constraint.description());
         }
         let body = self.vector_of(&residual);
         self.add(self.signatures.residual(), without_result(doc), body);
-        let doc = lines(["The sum of the magnitudes of each closure's terms: what makes a residual small or large."]);
-        let body = self.vector_of(&sizes);
+        let doc = lines(["For each row of Psi, the sum of the magnitudes of its terms: the scale of its residual."]);
+        let body = self.vector_of(&scales);
         self.add(self.signatures.residual_scales(), without_result(doc), body);
     }
 
@@ -53,7 +53,8 @@ impl Plan<'_, '_> {
         self.add(self.signatures.jacobian_unknowns(), without_result(doc), body);
         self.add(self.signatures.jacobian_inputs(), without_result(doc_of_inputs), body_of_inputs);
 
-        let doc = vec![format!("The whole constraint Jacobian `Psi_q`; its columns are {}.", self.list(&order))];
+        let doc =
+            vec![format!("The constraint Jacobian `Psi_q` of all coordinates; its columns are {}.", self.list(&order))];
         let pose = &self.signatures.arguments.pose;
         let names = |places: &[CoordinateId]| -> Vec<String> {
             places.iter().map(|&place| self.signatures.mechanism.coordinates[place].name.field.clone()).collect()
@@ -76,10 +77,10 @@ impl Plan<'_, '_> {
         let (of_unknowns, of_inputs) = self.derivation.jacobian_scales();
         let (unknowns, inputs) = (self.derivation.unknowns.ids(), self.derivation.inputs.ids());
         let body = self.matrix_function(&entries(&of_unknowns, unknowns), u, u);
-        let doc = lines(["The largest magnitude that each entry of J could have at these lengths."]);
+        let doc = lines(["For each entry of J, an upper bound of its magnitude at these lengths."]);
         self.add(self.signatures.jacobian_unknowns_scales(), without_result(doc), body);
         let body = self.matrix_function(&entries(&of_inputs, inputs), u, v);
-        let doc = lines(["The largest magnitude that each entry of A could have at these lengths."]);
+        let doc = lines(["For each entry of A, an upper bound of its magnitude at these lengths."]);
         self.add(self.signatures.jacobian_inputs_scales(), without_result(doc), body);
     }
 
@@ -87,7 +88,7 @@ impl Plan<'_, '_> {
         let mut doc = lines(["det J, zero in the singular configurations."]);
         match self.derivation.determinant() {
             Some(node) => doc.extend(fenced([self.law("det J", node)].into_iter())),
-            None => doc.extend(lines(["Of blocks of more than two unknowns it is the product of the pivots."])),
+            None => doc.extend(lines(["For blocks of more than two unknowns it is the product of the pivots."])),
         }
         let (mut steps, mut factors, mut laws) = (Vec::new(), Vec::new(), Vec::new());
         for (id, block) in self.derivation.blocks.clone().enumerated() {
@@ -140,7 +141,7 @@ impl Plan<'_, '_> {
         fenced(entries.map(|(i, j, node)| self.law(format_args!("{name}_{}{}", i.number(), j.number()), node)))
     }
 
-    /// Coordinates as they were written.
+    /// The names of coordinates as the user wrote them.
     fn list(&self, places: &[CoordinateId]) -> String {
         let names = places.iter().map(|&place| &self.signatures.mechanism.coordinates[place].name.text);
         names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
@@ -153,15 +154,15 @@ fn entries<C: Id + Ord>(rows: &[Row<C>], columns: impl Iterator<Item = C>) -> Ve
     columns.flat_map(|c| rows.iter().enumerate().filter_map(move |(r, row)| entry(r, c, row))).collect()
 }
 
-/// Row, column and value of entries that are the results from a place on.
+/// Row, column and value of entries, the values being consecutive results of the kernel.
 pub(super) fn places<N>(entries: &[(usize, usize, N)], from: usize) -> Vec<(usize, usize, Expression)> {
     let places = entries.iter().enumerate();
     places.map(|(place, (row, column, _))| (*row, *column, Expression::Result(from + place))).collect()
 }
 
 impl Body {
-    /// A matrix from its entries, which come column by column, after the statements that it needs; entries that are
-    /// not named are zero. It is of this type of the runtime.
+    /// A matrix of the runtime type `of` from its entries in column-major order; other entries are zero. Adds the
+    /// statements that it needs.
     pub(super) fn matrix(
         &mut self,
         of: &'static str,

@@ -7,14 +7,14 @@ use crate::graph::{Function, Number};
 pub enum Expression {
     /// `self`, an argument, or a local value.
     Name(String),
-    /// A result of the kernel, by its place.
+    /// A result of the kernel, by its index.
     Result(usize),
-    /// A local value that gets its name when the function is lowered.
+    /// A local value, by its index; lowering gives it a name.
     Local(usize),
 
     // Arithmetic.
     Number(Number),
-    /// The terms, each with whether it is taken away.
+    /// The terms, each with true if it is subtracted.
     Sum(Vec<(bool, Expression)>),
     Product(Vec<Expression>),
     Quotient(Box<[Expression; 2]>),
@@ -41,15 +41,15 @@ pub enum Expression {
     Runtime(&'static str, Vec<Expression>),
     /// An associated function of a type.
     Associated(Type, String, Vec<Expression>),
-    /// A method.
+    /// A method call.
     Method(Box<Expression>, String, Vec<Expression>),
     /// `value?`
     Try(Box<Expression>),
     /// `&value`
     Borrowed(Box<Expression>),
     /// `*value`
-    Behind(Box<Expression>),
-    /// `|arguments| { statements value }`; `moves` if it owns what it uses.
+    Dereferenced(Box<Expression>),
+    /// `|arguments| { statements value }`, with `move` if `moves`.
     Closure {
         arguments: Vec<Pattern>,
         statements: Vec<Statement>,
@@ -70,9 +70,10 @@ pub enum Statement {
     Assign(Expression, Expression),
     /// `if !(all conditions) { … }`
     Unless(Vec<Expression>, Vec<Statement>),
-    /// Refuses values that are not finite; `blame` is what says more exactly which.
-    Check { what: String, values: Vec<Expression>, blame: Option<Expression> },
-    /// Refuses numbers of a position that are not finite, but for those that a plain triangle proves finite.
+    /// Returns an error if a value is not finite; `detail` is a function that finds a more precise error.
+    Check { what: String, values: Vec<Expression>, detail: Option<Expression> },
+    /// Returns an error if a number of a position is not finite; numbers that a well-conditioned triangle guarantees
+    /// finite are not checked.
     CheckPosition,
 }
 
@@ -114,22 +115,22 @@ pub enum Type {
     Point,
     /// `Vector2<T>`
     Plane,
-    /// A type of the runtime with these sizes: `Name<T, 2>`.
+    /// A type of the runtime with const generics: `Name<T, 2>`.
     Runtime(&'static str, Vec<usize>),
-    /// A type of the runtime with these sizes as types: `Name<T, D<2>>`.
+    /// A type of the runtime with dimensions as types: `Name<T, D<2>>`.
     Sized(&'static str, Vec<usize>),
-    /// A type of the runtime around another: `Name<Item>`.
+    /// A generic type of the runtime: `Name<Item>`.
     Around(&'static str, Box<Type>),
     List(Box<Type>, usize),
     Tuple(Vec<Type>),
-    /// Values that the functions of scenes share, for a type of pose and of rates, and so many unknowns and inputs.
+    /// `Kinematics<Pose, Rates, T, U, V>`: the values that functions of scenes share.
     Kinematics {
         pose: String,
         rates: String,
         unknowns: usize,
         inputs: usize,
     },
-    /// The positions on all branches: an iterator of results.
+    /// `impl Iterator<Item = Result<(Branch, Pose), PositionError>>`
     Branches {
         branch: String,
         pose: String,
@@ -145,7 +146,7 @@ impl Expression {
         Self::name("self")
     }
 
-    /// The name of the mechanism or the scene, as errors give it.
+    /// The name of the mechanism or scene for errors, `Self::NAME`.
     pub fn mechanism() -> Self {
         Self::Constant("Self::NAME")
     }
@@ -175,15 +176,15 @@ impl Expression {
     }
 
     #[must_use]
-    pub fn behind(self) -> Self {
-        Self::Behind(Box::new(self))
+    pub fn dereferenced(self) -> Self {
+        Self::Dereferenced(Box::new(self))
     }
 
     pub fn runtime(name: &'static str, arguments: impl IntoIterator<Item = Self>) -> Self {
         Self::Runtime(name, arguments.into_iter().collect())
     }
 
-    /// A function of a type.
+    /// A call of an associated function.
     pub fn associated(of: Type, name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
         Self::Associated(of, name.into(), arguments.into_iter().collect())
     }
@@ -197,7 +198,7 @@ impl Expression {
         Self::Struct(of, members.into_iter().collect(), None)
     }
 
-    /// A type of the runtime from something else.
+    /// `Type::from(value)` for a type of the runtime.
     pub fn made(of: &'static str, from: Self) -> Self {
         Self::associated(Type::Runtime(of, Vec::new()), "from", [from])
     }
@@ -212,22 +213,22 @@ impl Expression {
         Self::made("SMatrix", Self::listed(entries, rows))
     }
 
-    /// As [`vector`](Self::vector), of a number that is a type.
+    /// A column vector with its dimension as a type.
     pub fn sized_vector(entries: Vec<Self>) -> Self {
         Self::made("Column", Self::List(entries))
     }
 
-    /// As [`matrix`](Self::matrix), of numbers that are types.
+    /// A matrix with its dimensions as types, from its entries column by column.
     pub fn sized_matrix(entries: &[Self], rows: usize) -> Self {
         Self::made("Matrix", Self::listed(entries, rows))
     }
 
-    /// Columns of so many entries each.
+    /// The columns, as lists of `rows` entries each.
     pub fn listed(entries: &[Self], rows: usize) -> Self {
         Self::List(entries.chunks(rows).map(|column| Self::List(column.to_vec())).collect())
     }
 
-    /// The columns of a matrix as lists.
+    /// The columns of a matrix as arrays, `matrix.data.0`.
     #[must_use]
     pub fn columns(self) -> Self {
         self.field("data").field("0")
@@ -256,7 +257,7 @@ impl Expression {
             | Self::Repeated(inside, _)
             | Self::Try(inside)
             | Self::Borrowed(inside)
-            | Self::Behind(inside) => {
+            | Self::Dereferenced(inside) => {
                 inside.each_name(visit);
             }
             Self::Struct(_, members, rest) => {
@@ -276,7 +277,7 @@ impl Expression {
         }
     }
 
-    /// Expressions in lists of lists of so many each, the outer ones first.
+    /// Expressions in nested lists; `sizes` are the lengths of the inner lists, outermost first.
     pub fn nested(values: Vec<Self>, sizes: &[usize]) -> Vec<Self> {
         let Some((_, inner)) = sizes.split_first() else { return values };
         let each = sizes.iter().product::<usize>().max(1);
@@ -290,7 +291,7 @@ impl Expression {
 }
 
 impl Pattern {
-    /// Visits every name that is given.
+    /// Visits every name that the pattern binds.
     pub fn each_name<'p>(&'p self, visit: &mut dyn FnMut(&'p str)) {
         match self {
             Self::Name(name) | Self::Typed(name, _) => visit(name),
@@ -315,8 +316,8 @@ impl Statement {
                 conditions.iter().for_each(|condition| condition.each_name(visit));
                 inside.iter().for_each(|statement| statement.each_name(visit));
             }
-            Self::Check { values, blame, .. } => {
-                values.iter().chain(blame).for_each(|value| value.each_name(visit));
+            Self::Check { values, detail, .. } => {
+                values.iter().chain(detail).for_each(|value| value.each_name(visit));
             }
             Self::CheckPosition => {}
         }

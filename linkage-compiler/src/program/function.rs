@@ -1,4 +1,4 @@
-//! Functions as data: a name, a description, arguments, named results, and statements.
+//! Functions as data: a name, a doc comment, arguments, named results, and statements.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::ids::BlockId;
 #[derive(Debug, Clone)]
 pub struct Function<B> {
     pub name: String,
-    /// The lines of its description.
+    /// The lines of its doc comment.
     pub doc: Vec<String>,
     pub access: Access,
     /// True if it takes `&self`.
@@ -22,23 +22,23 @@ pub struct Function<B> {
     pub returns: Type,
     /// True if it returns a `Result`.
     pub is_fallible: bool,
-    /// Missing in a stub.
+    /// `None` in a stub.
     pub body: Option<B>,
 }
 
-/// Who calls a function.
+/// The callers of a function, which decide its visibility and attributes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
     Public,
-    /// Mostly the library, by its traits: manuals leave it out.
+    /// Public, but called mostly by the runtime through traits: `#[doc(hidden)]`.
     Hidden,
-    /// Other emitted functions, which it may be inlined into.
+    /// Private, `#[inline]`.
     Inlined,
-    /// The functions of scenes, which it is always inlined into, so that what they do not use costs nothing.
+    /// Private to scenes, `#[inline(always)]`: the optimiser removes results that the caller does not use.
     Layer,
-    /// Everybody, and the functions of scenes as a layer.
+    /// Public, and a [`Layer`](Self::Layer) for scenes.
     PublicLayer,
-    /// Other emitted functions, where something went wrong.
+    /// Private, called only after an error: `#[cold]`.
     Cold,
 }
 
@@ -54,7 +54,7 @@ pub struct Argument {
     pub passed: Passed,
 }
 
-/// How an argument is passed.
+/// The way an argument is passed.
 #[derive(Debug, Clone)]
 pub enum Passed {
     /// `T`
@@ -63,29 +63,29 @@ pub enum Passed {
     ByReference(Type),
     /// `impl Into<T>`
     Converted(Type),
-    /// `&impl Turn<T>`, what gives angles their turns.
+    /// `&impl Turn<T>`, the source of the turns of angles.
     Turns,
 }
 
-/// What a function does: statements, with one run of formulas among them, and a value.
+/// The body of a function: statements, at most one kernel among them, and a value.
 #[derive(Debug, Clone, Default)]
 pub struct Body {
     pub before: Vec<Statement>,
     pub kernel: Option<Kernel>,
     pub after: Vec<Statement>,
     pub value: Value,
-    /// The wishes for the names of local values that statements after the kernel give.
+    /// The preferred names of local values that statements after the kernel define.
     pub locals: Vec<String>,
-    /// The functions whose work is part of that of this one.
+    /// The functions called; their operations count as operations of this one.
     pub calls: Vec<String>,
-    /// Work besides that of the kernel.
+    /// Operations besides those of the kernel.
     pub operations: Operations,
 }
 
-/// What a function returns.
+/// The value that a function returns.
 #[derive(Debug, Clone)]
 pub enum Value {
-    /// A value, of a fallible function inside `Ok`.
+    /// A value; in a fallible function it is wrapped in `Ok`.
     Plain(Expression),
     /// The `Result` of another function.
     Result(Expression),
@@ -97,20 +97,19 @@ impl Default for Value {
     }
 }
 
-/// Formulas to be computed, in the order of their steps.
+/// Formulas that a function evaluates, in the order of their steps.
 #[derive(Debug, Clone, Default)]
 pub struct Kernel {
     pub sources: Vec<Source>,
-    /// The argument with the name by which errors call the mechanism; without one it is that of the type.
-    pub whose: Option<String>,
-    /// True if a pose gives sines and cosines.
+    /// The argument with the name of the mechanism in errors; `None` stands for `Self::NAME`.
+    pub error_name: Option<String>,
+    /// True if sines and cosines come from a pose.
     pub is_on_pose: bool,
     pub steps: Vec<Step>,
     pub results: Vec<Output>,
-    /// The places of the angles whose turns are given.
+    /// The index of each angle with a given turn, in the list of turns.
     pub turns: BTreeMap<SymbolId, usize>,
-    /// For each result the dyad, if there is one, whose solution keeps it in the range of the scalar where its triangle
-    /// is plain.
+    /// For each result the RRR dyad, if any, whose well-conditioned triangle guarantees that it is finite.
     pub dyads: Vec<Option<BlockId>>,
 }
 
@@ -118,23 +117,23 @@ pub struct Kernel {
 #[derive(Debug, Clone)]
 pub struct Output {
     pub node: NodeId,
-    /// The name that it gets if it has none; without one it is written where it is used.
+    /// Its name; a result without name is written inline where it is used.
     pub name: Option<String>,
 }
 
-/// Where symbols of a kernel come from.
+/// A source of symbols of a kernel: an expression that a pattern takes apart.
 #[derive(Debug, Clone)]
 pub struct Source {
-    /// What is taken apart.
+    /// The expression.
     pub from: Expression,
     pub shape: Shape,
 }
 
-/// The form of what is taken apart.
+/// The pattern that takes a source apart.
 #[derive(Debug, Clone)]
 pub enum Shape {
     Symbol(SymbolId),
-    /// Something that is not looked at.
+    /// `_`
     Ignored,
     /// The fields of a type; `is_whole` if these are all.
     Fields {
@@ -163,7 +162,7 @@ impl Shape {
 }
 
 impl<B> Function<B> {
-    /// The same name, arguments and result.
+    /// This signature without a body.
     pub fn without_body<C>(self) -> Function<C> {
         let Self { name, doc, access, is_method, arguments, returns, is_fallible, body: _ } = self;
         Function { name, doc, access, is_method, arguments, returns, is_fallible, body: None }
@@ -183,36 +182,36 @@ impl Output {
 }
 
 impl Body {
-    /// A value without formulas.
+    /// A body that only returns a value.
     pub fn plain(value: Expression) -> Self {
         Self { value: Value::Plain(value), ..Self::default() }
     }
 
-    /// A kernel, and the value made of its results.
+    /// A body with a kernel and the value made of its results.
     pub fn of(kernel: Kernel, value: Expression) -> Self {
         Self { kernel: Some(kernel), value: Value::Plain(value), ..Self::default() }
     }
 
-    /// The result of another function.
+    /// A body that returns the `Result` of another function.
     pub fn result(value: Expression) -> Self {
         Self { value: Value::Result(value), ..Self::default() }
     }
 
-    /// A check of values, after all other statements.
+    /// Adds a check that values are finite, after all other statements.
     #[must_use]
     pub fn checked(mut self, what: &str, values: impl IntoIterator<Item = Expression>) -> Self {
         let values = values.into_iter().collect();
-        self.after.push(Statement::Check { what: what.to_owned(), values, blame: None });
+        self.after.push(Statement::Check { what: what.to_owned(), values, detail: None });
         self
     }
 
-    /// A name of its own for a local value.
+    /// A new local value with this preferred name.
     pub fn local(&mut self, wish: impl Into<String>) -> Expression {
         self.locals.push(wish.into());
         Expression::Local(self.locals.len() - 1)
     }
 
-    /// Gives a value a name.
+    /// Binds a value to a new local name.
     pub fn bound(&mut self, wish: impl Into<String>, value: Expression) -> Expression {
         self.locals.push(wish.into());
         let place = self.locals.len() - 1;
@@ -221,7 +220,7 @@ impl Body {
     }
 }
 
-/// The results of a kernel from one place to another.
+/// The results of a kernel in a range.
 pub fn results(places: std::ops::Range<usize>) -> Vec<Expression> {
     places.map(Expression::Result).collect()
 }

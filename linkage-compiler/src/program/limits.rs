@@ -1,4 +1,4 @@
-//! How far an input can go.
+//! Functions for the limits of inputs.
 
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
@@ -9,9 +9,9 @@ use crate::ids::{Id, InputId};
 use crate::model::Kind;
 
 impl Plan<'_, '_> {
-    /// `limits`, or of several inputs one function each.
+    /// `limits`, or one function for each of several inputs.
     pub(super) fn limits(&mut self) {
-        // The bounds refer to the steps of a position of their own.
+        // The bounds are expressed by the symbols of a separate assembly.
         self.assembly = self.derivation.assembly();
         for place in self.derivation.inputs.ids() {
             self.limits_of(place);
@@ -26,7 +26,7 @@ impl Plan<'_, '_> {
         let one = self.derivation.graph.one();
         let nodes = bounds.iter().flat_map(|bound| bound.coefficients.into_iter().chain([bound.rate.unwrap_or(one)]));
         let nodes = unnamed(nodes);
-        // They are taken apart by reference: the position needs them whole.
+        // The pattern borrows the inputs, which the position uses again.
         let source = Source { from: Expression::name(&inputs), ..self.inputs(Order::Value) };
         let kernel = self.kernel(vec![source], Vec::new(), nodes);
 
@@ -49,9 +49,9 @@ impl Plan<'_, '_> {
             _ if !is_searched => Expression::Constant("Search::ClosedFormOnly"),
             Kind::Angle => Expression::Constant("Search::Turn"),
             _ => {
-                let sizes = Expression::call("residual_scales", [position().borrowed()]).method("sum", []);
+                let scales = Expression::call("residual_scales", [position().borrowed()]).method("sum", []);
                 let four = Expression::Number(crate::graph::Number::integer(4));
-                Expression::runtime("Search::Length", [Expression::Product(vec![four, sizes])])
+                Expression::runtime("Search::Length", [Expression::Product(vec![four, scales])])
             }
         };
         let on = Expression::name(&branch);
@@ -60,28 +60,28 @@ impl Plan<'_, '_> {
             vec![(name.field.clone(), Expression::name(&name.field))],
             Some(Box::new(position().method("coordinates", []))),
         );
-        // The position nearest to the last one, in the same turn.
+        // The position nearest to the previous one, in the same turn.
         let near = Expression::call("assemble_near", [moved.borrowed(), on.clone()]);
         let inputs_type = Type::Bare(self.signatures.types.inputs.clone());
         let is_near = !self.position.is_closed || !self.position.turns.is_empty();
         let (last, again) = if is_near {
             (Pattern::Name(here.clone()), near)
         } else {
-            // A single input leaves no other to be taken over.
+            // `..inputs` is needed only for several inputs.
             let others = (self.signatures.inputs() > 1).then(|| Box::new(Expression::name(&inputs)));
             let moved = vec![(name.field.clone(), Expression::name(&name.field))];
             let moved = Expression::Struct(inputs_type.clone(), moved, others);
             (Pattern::Ignored, Expression::call("assemble", [moved, on.clone()]))
         };
-        let closure = |arguments: Vec<Pattern>, value: Expression| Expression::Closure {
+        let function = |arguments: Vec<Pattern>, value: Expression| Expression::Closure {
             arguments,
             statements: Vec::new(),
             value: Box::new(value),
             moves: false,
         };
-        let again = closure(vec![last, Pattern::Name(name.field.clone())], again);
+        let again = function(vec![last, Pattern::Name(name.field.clone())], again);
         let determinants =
-            closure(vec![Pattern::Name(here.clone())], Expression::call("block_determinants", [position()]));
+            function(vec![Pattern::Name(here.clone())], Expression::call("block_determinants", [position()]));
         let (start, first) = if self.position.is_closed {
             let start = Expression::name(&inputs).method("into", []);
             (start, Expression::call("assemble", [Expression::name(&inputs), on]))
@@ -97,17 +97,17 @@ impl Plan<'_, '_> {
             Statement::Let(Pattern::Name(here.clone()), first.tried()),
         ];
         body.kernel = Some(kernel);
-        let others = if self.signatures.inputs() == 1 { "" } else { ", the other inputs held" };
+        let others = if self.signatures.inputs() == 1 { "" } else { ", with the other inputs fixed" };
         let doc = lines([
             &format!(
-                "The `{}` between which the mechanism can be assembled on a branch about a position{others}:",
+                "The interval of `{}` in which the mechanism can be assembled on a branch, about a position{others}.",
                 name.text
             ),
-            "in closed form for groups that depend on the inputs alone, directly or through linear equations, bracketed for",
-            "the others. Inputs at which a group is undetermined on the way are passed.",
+            "Limits of groups that depend on the inputs alone, directly or through linear equations, are in closed form; others",
+            "are bracketed by search. Inputs inside the interval at which a group is undetermined are ignored.",
             "",
             "# Errors",
-            "Those of the position asked about, `PositionError::NotFinite` if a number is not finite.",
+            "Those of the position at the given input, `PositionError::NotFinite` if a number is not finite.",
         ]);
         self.add(self.signatures.limits(&self.position, place), doc, body);
     }

@@ -1,7 +1,7 @@
 //! The emitted program as data: which functions a mechanism gets, before they are lowered and printed.
 //!
-//! [`plan`] says of each function of a driver and of its scenes what it is called, takes and returns, the steps and
-//! formulas of its kernel, and what is made of the results. [`stub`] gives the functions of a mechanism with mistakes.
+//! [`plan`] makes the functions of a driver and of its scenes: name, arguments, return type, the steps and formulas of
+//! the kernel, and the value made of their results. [`stub`] makes those of a mechanism with mistakes.
 
 mod branch;
 mod doc;
@@ -45,11 +45,11 @@ pub struct Program<'a, B> {
     pub position: Position,
     pub functions: Vec<Function<B>>,
     pub scenes: Vec<SceneProgram<'a, B>>,
-    /// Missing in a stub.
+    /// `None` in a stub.
     pub derived: Option<Derived>,
 }
 
-/// What functions and types are made of.
+/// The derived data that bodies of functions and types are made of.
 pub struct Derived {
     pub pose: PosePlan,
     pub formulas: Formulas,
@@ -68,7 +68,7 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
         scenes.extend(ScenePlan::of(&mut plan, scene, number).map(ScenePlan::into_program));
     }
     let Plan { signatures, position, functions, pose, formulas, named, .. } = plan;
-    // A private function is there only if it is called, by those of scenes or by functions after it.
+    // A private function is kept only if a function of a scene or a later function calls it.
     let calls =
         |function: &Function<Body>| function.body.iter().flat_map(|body| body.calls.clone()).collect::<Vec<_>>();
     let mut called: BTreeSet<String> = scenes.iter().flat_map(|scene| &scene.functions).flat_map(calls).collect();

@@ -8,16 +8,16 @@ use crate::derivation::Coordinate;
 use crate::graph::SymbolId;
 use crate::model::{Driver, Mechanism};
 
-/// A longer name says less than a number.
+/// The greatest length of a generated name in bytes; values with longer ones are numbered.
 pub const LONGEST_NAME: usize = 36;
 
-/// The names in use.
+/// The names in use in one scope.
 #[derive(Debug, Clone)]
 pub struct Taken<'a> {
-    /// Words that no value may be called, such as the arguments.
+    /// Names that no value may have, such as those of arguments.
     reserved: &'a BTreeSet<String>,
     names: FxHashSet<String>,
-    /// The next number of a stem, so that the thousandth name is found as fast as the second.
+    /// The next number for each stem: finding a free name takes constant time.
     numbers: FxHashMap<String, usize>,
 }
 
@@ -26,7 +26,7 @@ impl<'a> Taken<'a> {
         Self { reserved, names: FxHashSet::default(), numbers: FxHashMap::default() }
     }
 
-    /// The name wished for, or one like it that is not taken.
+    /// Returns the preferred name, or one with a number if it is taken.
     pub fn unique(&mut self, wish: &str) -> String {
         if self.claim(wish) { wish.to_owned() } else { self.numbered(wish, 2) }
     }
@@ -35,7 +35,7 @@ impl<'a> Taken<'a> {
         !self.reserved.contains(name) && self.names.insert(name.to_owned())
     }
 
-    /// The stem with the next number, from `first` on.
+    /// Returns the stem with the next free number, from `first` on.
     pub fn numbered(&mut self, stem: &str, first: usize) -> String {
         let mut number = self.numbers.get(stem).copied().unwrap_or(first);
         loop {
@@ -49,8 +49,8 @@ impl<'a> Taken<'a> {
     }
 }
 
-/// A name made of a text: of a coordinate its own, of a short sum such as `phi2 - delta` its words. None if that is no
-/// name, or a long one.
+/// Converts a text to a name: `phi2` stays, `phi2 - delta` becomes `phi2_minus_delta`. `None` if the result is not an
+/// identifier or longer than [`LONGEST_NAME`].
 pub fn name_of(text: &str) -> Option<String> {
     let mut name = String::new();
     let mut separate = false;
@@ -88,7 +88,7 @@ pub fn call_of(names: &[String]) -> String {
     format!("extern_{}", names.first().map_or("", String::as_str))
 }
 
-/// How often coordinates are derived by time.
+/// The order of a derivative with respect to time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
     Value,
@@ -115,7 +115,7 @@ impl Order {
 /// The names of the types of one driver, or of one of its scenes.
 #[derive(Debug, Clone)]
 pub struct TypeNames {
-    /// The type that the functions belong to.
+    /// The type that has the functions.
     pub itself: String,
     /// The driver, with the kinematics.
     pub driver: String,
@@ -150,7 +150,7 @@ impl TypeNames {
         }
     }
 
-    /// The type of all coordinates, or of their derivatives by time.
+    /// The type of all coordinates, or of their derivatives with respect to time.
     pub fn of(&self, order: Order) -> &str {
         match order {
             Order::Value => &self.coordinates,
@@ -160,7 +160,7 @@ impl TypeNames {
         }
     }
 
-    /// The name under which scenes know a function of the driver.
+    /// The name of a function of the driver in the call lists of scenes.
     pub fn function(&self, name: &str) -> String {
         format!("{}::{name}", self.driver)
     }
@@ -187,8 +187,8 @@ pub struct Arguments {
     pub position: String,
     pub ratios: String,
     pub bias: String,
-    /// The name by which errors call whoever asks.
-    pub whose: String,
+    /// The name of the mechanism or scene in errors.
+    pub error_name: String,
     pub time: String,
 }
 
@@ -212,12 +212,12 @@ impl Arguments {
             position: name("position"),
             ratios: name("ratios"),
             bias: name("bias"),
-            whose: name("whose"),
+            error_name: name("error_name"),
             time: mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time)).to_owned(),
         }
     }
 
-    /// The argument that holds all coordinates, or their derivatives by time.
+    /// The argument that holds all coordinates, or their derivatives with respect to time.
     pub fn of(&self, order: Order) -> &str {
         match order {
             Order::Value => &self.q,
@@ -227,7 +227,7 @@ impl Arguments {
         }
     }
 
-    /// The argument that holds the inputs, or their derivatives by time.
+    /// The argument that holds the inputs, or their derivatives with respect to time.
     pub fn of_inputs(&self, order: Order) -> &str {
         match order {
             Order::Value => &self.inputs,
@@ -237,7 +237,7 @@ impl Arguments {
         }
     }
 
-    /// The words that no value may be called.
+    /// The names that no value may have.
     pub fn reserved(&self) -> BTreeSet<String> {
         let Self {
             pose,
@@ -256,7 +256,7 @@ impl Arguments {
             position,
             ratios,
             bias,
-            whose,
+            error_name,
             time: _,
         } = self;
         let all = [
@@ -276,13 +276,13 @@ impl Arguments {
             position,
             ratios,
             bias,
-            whose,
+            error_name,
         ];
         all.into_iter().cloned().chain(["self".to_owned()]).collect()
     }
 }
 
-/// The name of an argument, which no name of the user's has.
+/// Returns the preferred name of an argument, with underscores added if a parameter or coordinate has it.
 pub fn argument(mechanism: &Mechanism, wish: &str) -> String {
     let parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
     let parameters = parameters.map(|parameter| &parameter.name.field);

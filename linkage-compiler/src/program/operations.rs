@@ -1,4 +1,4 @@
-//! The work of a function as operation counts.
+//! Operation counts of functions.
 
 /// Operation counts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -6,13 +6,13 @@ pub struct Operations {
     pub multiplications: usize,
     pub additions: usize,
     pub divisions: usize,
-    /// Roots among them; sine and cosine of one angle count as one, and so do a user function and its
-    /// derivatives.
+    /// Elementary functions, including square roots. Sine and cosine of one angle count as one, and so do a user
+    /// function and its derivatives.
     pub functions: usize,
 }
 
 impl Operations {
-    /// The sum of both.
+    /// Returns the sum of both.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         Self {
@@ -23,7 +23,7 @@ impl Operations {
         }
     }
 
-    /// True if no count is above that of `limit`.
+    /// Returns true if no count exceeds that of `limit`.
     #[must_use]
     pub fn within(self, limit: Self) -> bool {
         self.multiplications <= limit.multiplications

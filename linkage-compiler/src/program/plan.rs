@@ -1,4 +1,4 @@
-//! The plan of a driver: its pose, its functions, and what they are made of.
+//! The plan of a driver: its pose and its functions, and helpers that build their kernels.
 
 use std::cell::RefCell;
 
@@ -13,7 +13,7 @@ use crate::graph::{NodeId, SymbolId, Texts};
 use crate::ids::{ColumnId, Id, InputId, Table};
 use crate::model::{Driver, Mechanism, Request};
 
-/// The endings of the names of quantities and of their derivatives by time.
+/// The endings of the names of quantities and of their derivatives with respect to time.
 pub const ENDINGS: [&str; 4] = ["", "_rate", "_acceleration", "_jerk"];
 
 /// A driver whose functions are planned one by one.
@@ -24,10 +24,10 @@ pub struct Plan<'d, 'a> {
     pub pose: PosePlan,
     pub assembly: Assembly,
     pub position: Position,
-    /// The expressions that have names: the user's own, and those of points and outputs.
+    /// Named expressions: `let`s of the user, points, outputs and their rates.
     pub named: Vec<(NodeId, String)>,
     pub functions: Vec<Function<Body>>,
-    /// The formulas written so far.
+    /// A cache of printed formulas.
     texts: RefCell<Texts>,
 }
 
@@ -81,13 +81,13 @@ impl<'d, 'a> Plan<'d, 'a> {
         plan
     }
 
-    /// Parts of formulas that are a point, an output or a rate of one are called so.
+    /// Names subexpressions that equal a point, an output or a derivative of one.
     fn name_quantities(&mut self) {
         for family in [Family::Points, Family::Outputs] {
             let names = family.names(self.signatures.mechanism);
             for (quantity, name) in self.quantities_of(family).to_vec().iter().zip(names) {
                 let orders = [&quantity.value, &quantity.rate, &quantity.acceleration, &quantity.jerk];
-                // An acceleration of an output is seldom a part of anything else.
+                // Accelerations of outputs seldom occur in other formulas.
                 let orders = orders.into_iter().zip(ENDINGS).take(if family == Family::Points { 4 } else { 2 });
                 for (nodes, ending) in orders {
                     let axes = family.axes().iter().zip(nodes);
@@ -97,7 +97,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         }
     }
 
-    /// Adds a function with its description and its body.
+    /// Adds a function with its doc comment and its body.
     pub(super) fn add(&mut self, signature: Function<Body>, doc: Vec<String>, body: Body) {
         self.functions.push(Function { doc, body: Some(body), ..signature });
     }
@@ -125,20 +125,20 @@ impl<'d, 'a> Plan<'d, 'a> {
         symbols.iter().map(|&symbol| self.derivation.graph.variable(symbol)).collect()
     }
 
-    /// The names of symbols as wishes for the names of results.
+    /// Symbols as results, with their names as preferred names.
     pub(super) fn outputs(&mut self, symbols: &[SymbolId]) -> Vec<Output> {
         let nodes = self.variables(symbols);
         let name = |symbol: &SymbolId| self.derivation.graph.symbol_name(*symbol);
         nodes.into_iter().zip(symbols).map(|(node, symbol)| Output::named(node, name(symbol))).collect()
     }
 
-    /// Steps that name W.
+    /// The steps that compute W.
     pub(super) fn ratio_steps(&mut self, form: Form) -> Vec<Step> {
         let systems = self.derivation.ratio_systems();
         self.derivation.solution(&systems, form)
     }
 
-    /// Without a pose the determinants are computed where they are checked.
+    /// Adds the computation of determinants before their checks, for kernels without a pose.
     pub(super) fn with_determinants(&self, steps: Vec<Step>) -> Vec<Step> {
         let with = |step: Step| {
             let block = if let Step::Guard { block, .. } = step { Some(block) } else { None };
@@ -149,9 +149,9 @@ impl<'d, 'a> Plan<'d, 'a> {
         steps.into_iter().flat_map(with).collect()
     }
 
-    /// The coordinates whose rates are to be checked where some are the user's own: the unknowns, and the inputs that are
-    /// in no loop equation. Rates of unknowns are sums of multiples of the rates of the other inputs, so that they are not
-    /// finite where those are not.
+    /// The coordinates whose rates must be checked where the input rates are arguments: the unknowns, and the inputs
+    /// that no loop equation contains. A rate of another input that is not finite makes the rate of an unknown not
+    /// finite.
     pub(super) fn to_check(&self) -> Vec<ColumnId> {
         let (derivation, rows) = (&self.derivation, self.derivation.jacobian_inputs());
         let is_idle = |place: InputId| {
@@ -162,7 +162,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         derivation.unknowns.iter().chain(idle.map(|(_, index)| index)).copied().collect()
     }
 
-    /// These coordinates as results, which from a place on are in the order of the coordinates.
+    /// The results to check, where the results from `from` on are derivatives of the coordinates in order.
     pub(super) fn checked(&self, from: usize) -> Vec<Expression> {
         self.to_check().into_iter().map(|column| Expression::Result(from + column.index())).collect()
     }
@@ -172,7 +172,7 @@ impl<'d, 'a> Plan<'d, 'a> {
     pub(super) fn parameters(&self) -> Source {
         let fields = self.signatures.mechanism.parameters.iter();
         let fields = fields.map(|parameter| (parameter.name.field.clone(), parameter.symbol));
-        Source { from: Expression::own().behind(), shape: Shape::fields(Type::Itself, fields, true) }
+        Source { from: Expression::own().dereferenced(), shape: Shape::fields(Type::Itself, fields, true) }
     }
 
     pub(super) fn pose_source(&self) -> Source {
@@ -182,12 +182,12 @@ impl<'d, 'a> Plan<'d, 'a> {
         let fields = values.chain(determinants).chain(externals);
         let argument = self.signatures.arguments.pose.clone();
         Source {
-            from: Expression::name(&argument).behind(),
+            from: Expression::name(&argument).dereferenced(),
             shape: Shape::fields(self.signatures.pose_type(), fields, self.pose.directions.is_empty()),
         }
     }
 
-    /// What a pose holds beside directions and coordinates: determinants, and values of user functions.
+    /// The determinants and the values of user functions of a pose.
     pub(super) fn computed(&self) -> Source {
         let determinants = self.pose.determinants.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
         let externals = self.pose.externals.iter().map(|(_, field, symbol)| (field.clone(), *symbol));
@@ -197,16 +197,16 @@ impl<'d, 'a> Plan<'d, 'a> {
         Source { from: Expression::name(pose), shape }
     }
 
-    /// All coordinates, or their derivatives by time, from an argument that is a reference.
+    /// All coordinates, or their derivatives with respect to time, from an argument that is a reference.
     pub(super) fn coordinates(&self, order: Order) -> Source {
         let fields = self.derivation.coordinates.iter().map(|c| (c.name.clone(), order.symbol(c)));
         Source {
-            from: Expression::name(self.signatures.arguments.of(order)).behind(),
+            from: Expression::name(self.signatures.arguments.of(order)).dereferenced(),
             shape: Shape::fields(self.signatures.coordinates_type(order), fields, true),
         }
     }
 
-    /// The inputs, or their derivatives by time, from an argument that has still to be converted.
+    /// The inputs, or their derivatives with respect to time, from an argument of type `impl Into`.
     pub(super) fn inputs(&self, order: Order) -> Source {
         let coordinates = self.derivation.inputs.iter().map(|&index| &self.derivation.coordinates[index]);
         let fields = coordinates.map(|c| (c.name.clone(), order.symbol(c)));
@@ -216,7 +216,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         }
     }
 
-    /// The columns of a matrix that another function gives for the pose.
+    /// The columns of a matrix that another function returns for the pose.
     pub(super) fn columns(&self, function: &str, symbols: &[SymbolId]) -> Source {
         let pose = &self.signatures.arguments.pose;
         Source {
@@ -227,13 +227,13 @@ impl<'d, 'a> Plan<'d, 'a> {
 
     // Kernels.
 
-    /// A kernel on the parameters and what else it is given.
+    /// A kernel with the parameters and other sources.
     pub(super) fn kernel(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Kernel {
         let sources = std::iter::once(self.parameters()).chain(sources).collect();
         Kernel { sources, steps, results, ..Kernel::default() }
     }
 
-    /// A kernel on a pose and what else it is given.
+    /// A kernel with the parameters, a pose and other sources.
     pub(super) fn on_pose(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Kernel {
         let sources = std::iter::once(self.pose_source()).chain(sources).collect();
         Kernel { is_on_pose: true, ..self.kernel(sources, steps, results) }
@@ -241,12 +241,12 @@ impl<'d, 'a> Plan<'d, 'a> {
 
     // Values.
 
-    /// The fields of the coordinates, in their order.
+    /// The field names of the coordinates, in order.
     pub(super) fn fields(&self) -> Vec<String> {
         self.derivation.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect()
     }
 
-    /// Derivatives of the coordinates from as many results.
+    /// The coordinates, or their derivatives, from consecutive results.
     pub(super) fn coordinates_of(&self, order: Order, from: usize) -> Expression {
         let fields = self.fields();
         let values = results(from..from + fields.len());

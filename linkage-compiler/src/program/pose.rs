@@ -1,5 +1,5 @@
-//! The fields of a pose: the direction of every angle that a formula takes a sine or cosine of, the inputs and the
-//! coordinates whose number matters, the determinants, and the values of user functions.
+//! The fields of a pose: the directions of all angles in sines and cosines of formulas, the inputs and other
+//! coordinates that formulas use as numbers, the determinants, and the values of user functions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,14 +13,14 @@ use crate::ids::{BlockId, ColumnId};
 /// Formulas that a kernel need not compute.
 #[derive(Debug, Clone, Default)]
 pub struct Given {
-    /// The angles whose sine and cosine are given.
+    /// The angles with known sine and cosine.
     pub directions: BTreeSet<NodeId>,
-    /// Expressions that are given by a name.
+    /// Expressions with the symbol that holds their value.
     pub values: FxHashMap<NodeId, SymbolId>,
 }
 
 impl Given {
-    /// True of a sine, a cosine or another formula that is given.
+    /// True if a sine, a cosine or another formula is known.
     pub fn holds(&self, graph: &Graph, id: NodeId) -> bool {
         match graph.node(id) {
             Node::Call(Function::Sin | Function::Cos, angle) => self.directions.contains(&angle[0]),
@@ -49,7 +49,7 @@ impl PosePlan {
         let formulas = formulas(derivation);
         let numeric: Vec<NodeId> = formulas.iter().copied().chain(formulas_of_scenes(derivation)).collect();
         let graph = &mut derivation.graph;
-        // Sines inside the determinant alone are taken when the pose is made.
+        // `pose_at` computes the sines that only determinants use.
         let mut angles = BTreeSet::new();
         let mut bare = BTreeSet::new();
         let mut externals = BTreeSet::new();
@@ -121,13 +121,13 @@ impl PosePlan {
     }
 }
 
-/// The formulas of the scenes that hold coordinates not only by the motion of the mechanism.
+/// The formulas of the scenes that depend on coordinates other than through the motion of the mechanism.
 fn formulas_of_scenes(derivation: &Derivation) -> impl Iterator<Item = NodeId> {
     derivation.scenes.iter().flat_map(|scene| {
         let energies = [scene.potential, scene.applied, scene.dissipated];
         let contacts = scene.contacts.iter().flat_map(|contact| {
             match &contact.law {
-                // It acts along a rate.
+                // A friction depends on the rate of its scalar, not on its value.
                 ContactFormula::Friction { limit, .. } => vec![*limit],
                 ContactFormula::Stop { range: [lower, upper], .. } => vec![*lower, *upper, contact.value],
             }
@@ -144,7 +144,7 @@ fn formulas(derivation: &Derivation) -> Vec<NodeId> {
     formulas.extend(derivation.eta.iter().flatten());
     formulas.extend(derivation.ratio_derivatives.iter().flat_map(|second| second.terms.iter().flatten()));
     formulas.extend(derivation.sensitivity.iter().flat_map(|first| first.jacobian.iter().flat_map(Row::values)));
-    formulas.extend(derivation.blocks.iter().filter_map(|block| Some(block.determinant?.size)));
+    formulas.extend(derivation.blocks.iter().filter_map(|block| Some(block.determinant?.scale)));
     for quantity in derivation.points.iter().chain(&derivation.outputs) {
         formulas.extend(&quantity.value);
         formulas.extend(quantity.jacobian.iter().flat_map(Row::values));

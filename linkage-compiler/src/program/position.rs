@@ -1,4 +1,4 @@
-//! The position: ready for use at coordinates, near a guess, and group by group in closed form.
+//! Functions for the position: from coordinates, near a guess, and group by group in closed form.
 
 use super::branch::Position;
 use super::doc::{lines, without_result};
@@ -11,11 +11,11 @@ use crate::graph::{Function as Elementary, NodeId, SymbolId};
 use crate::ids::BlockId;
 
 const ASSEMBLE: [&str; 5] = [
-    "The position at these inputs in closed form: group by group, on the branch that is asked for.",
+    "The position at these inputs in closed form, group by group, on the given branch.",
     "",
     "# Errors",
-    "`PositionError::Unbuildable` if a group does not reach, `PositionError::Undetermined` if it can stand anywhere, as between",
-    "joints that coincide, `PositionError::NotFinite` if a number is not finite.",
+    "`PositionError::Unbuildable` if the links of a group do not reach, `PositionError::Undetermined` if its position is arbitrary,",
+    "as between joints that coincide, `PositionError::NotFinite` if a number is not finite.",
 ];
 
 impl Plan<'_, '_> {
@@ -43,10 +43,9 @@ impl Plan<'_, '_> {
         let body = Body::of(kernel, self.pose_of_results());
         let calls = match self.signatures.mechanism.externals.as_slice() {
             [] => "",
-            _ => ", one call for each function of the user's",
+            _ => " and one call of each user function",
         };
-        let doc =
-            [format!("The position at these coordinates, ready for use: one sine and cosine for each angle{calls}.")];
+        let doc = [format!("The pose at these coordinates: computes one sine and cosine for each angle{calls}.")];
         self.add(self.signatures.pose_at(), without_result(doc.to_vec()), body);
     }
 
@@ -54,15 +53,15 @@ impl Plan<'_, '_> {
         let guess = self.signatures.arguments.guess.clone();
         let newton = |name| Body::result(Expression::runtime(name, [Expression::own(), Expression::name(&guess)]));
         let doc = lines([
-            "The position near `guess` whose inputs are those of `guess`, by Newton's method.",
+            "The position near `guess` at the inputs of `guess`, by Newton's method.",
             "",
             "# Errors",
-            "`PositionError::NotConverged` if no position is found, `PositionError::OtherBranch` if the determinant of a group has",
-            "another sign there than at the guess, `PositionError::NotFinite` if a number is not finite.",
+            "`PositionError::NotConverged` if no position is found, `PositionError::OtherBranch` if the determinant of a group differs",
+            "in sign from that at the guess, `PositionError::NotFinite` if a number is not finite.",
         ]);
         self.add(self.signatures.solve(), doc, newton("newton"));
         let doc = lines([
-            "The position near `guess` whose inputs are those of `guess`, by Newton's method, on whatever branch it is found.",
+            "The position near `guess` at the inputs of `guess`, by Newton's method, on any branch.",
             "",
             "# Errors",
             "`PositionError::NotConverged` if no position is found, `PositionError::NotFinite` if a number is not finite.",
@@ -70,7 +69,7 @@ impl Plan<'_, '_> {
         self.add(self.signatures.solve_any_branch(), doc, newton("newton_any_branch"));
     }
 
-    /// Cosine and sine of each angle that a pose holds.
+    /// Cosine and sine of each angle of a pose.
     fn directions(&mut self) -> Vec<NodeId> {
         let angles: Vec<NodeId> = self.pose.angles().collect();
         let graph = &mut self.derivation.graph;
@@ -127,13 +126,13 @@ impl Plan<'_, '_> {
         } else if self.position.turns.is_empty() {
             self.add(self.signatures.assemble(), lines(ASSEMBLE), body);
         } else {
-            let doc = lines(["The position at these inputs on this branch, with angles in the turns that are given."]);
+            let doc = lines(["The position at these inputs on this branch, with angles in the given turns."]);
             self.add(self.signatures.assemble_in_turns(), doc, body);
             self.assemble_by_turns();
         }
     }
 
-    /// `assemble` and `assemble_near` of a mechanism with angles whose number matters.
+    /// `assemble` and `assemble_near` of a mechanism with turns of angles.
     fn assemble_by_turns(&mut self) {
         let Arguments { inputs, branch, turn, guess, .. } = self.signatures.arguments.clone();
         let [v, on, near] = [&inputs, &branch, &guess].map(Expression::name);
@@ -145,11 +144,11 @@ impl Plan<'_, '_> {
 
         let names: Vec<_> = self.position.turns.iter().map(|turn| format!("`{}`", turn.coordinate)).collect();
         let doc = lines([
-            "The position at the inputs of a guess in closed form, on the branch that is asked for, but in the turns of",
-            &format!("{} that are nearest to the guess.", names.join(", ")),
+            "The position at the inputs of a guess in closed form, on the given branch, but with the turns of",
+            &format!("{} nearest to the guess.", names.join(", ")),
             "",
             "# Errors",
-            "Those of `assemble`, and `InputError::OutOfRange` if a guess is more turns away than a branch can count.",
+            "Those of `assemble`, and `InputError::OutOfRange` if a turn of the guess is out of the range of `i32`.",
         ]);
         let inputs = Type::Bare(self.signatures.types.inputs.clone());
         let inputs = Expression::associated(inputs, "from", [near]);
@@ -159,7 +158,7 @@ impl Plan<'_, '_> {
         self.add(self.signatures.assemble_near(), doc, body);
     }
 
-    /// The turns nearest to a guess, under the name of the argument that holds turns.
+    /// Statements that bind `turn` to the turns nearest to a guess.
     fn nearest_turns(&self, guess: &str, turn: &str) -> Vec<Statement> {
         let near = self.position.turns.iter().map(|turn| Expression::name(guess).field(&turn.coordinate));
         let near = Expression::List(near.collect());
@@ -169,7 +168,7 @@ impl Plan<'_, '_> {
         vec![Statement::Do(countable.tried()), Statement::Let(Pattern::Name(turn.to_owned()), nearest)]
     }
 
-    /// The inputs of a guess, and the unknowns that have no closed form under names of their own.
+    /// The inputs of a guess, and the guesses of the unknowns without closed form.
     fn guess(&self) -> Source {
         let coordinates = &self.derivation.coordinates;
         let inputs = self.derivation.inputs.iter().map(|&index| (index, coordinates[index].value));
@@ -178,7 +177,7 @@ impl Plan<'_, '_> {
         let is_whole = fields.len() == coordinates.len();
         let guess = &self.signatures.arguments.guess;
         Source {
-            from: Expression::name(guess).behind(),
+            from: Expression::name(guess).dereferenced(),
             shape: Shape::fields(self.signatures.coordinates_type(Order::Value), fields, is_whole),
         }
     }
@@ -191,17 +190,17 @@ impl Plan<'_, '_> {
         let blocks = self.derivation.blocks.enumerated().filter(|(number, _)| is_iterated(*number));
         let iterated: Vec<_> = blocks.map(|(_, block)| block.names(self.derivation)).collect();
         lines([
-            "The position at the inputs of a guess: group by group, in closed form on the branch that is asked for,",
+            "The position at the inputs of a guess, group by group: in closed form on the given branch,",
             &format!("but {} by Newton's method from the guess.", iterated.join(", then ")),
             "",
             "# Errors",
-            "`PositionError::Unbuildable` if a group does not reach, `PositionError::Undetermined` if it can stand anywhere,",
-            "`PositionError::NotConverged` if Newton's method finds no position, `PositionError::OtherBranch` if it finds one beyond",
-            "a dead point, `PositionError::NotFinite` if a number is not finite.",
+            "`PositionError::Unbuildable` if the links of a group do not reach, `PositionError::Undetermined` if its position is arbitrary,",
+            "`PositionError::NotConverged` if Newton's method finds no position, `PositionError::OtherBranch` if the position it finds is",
+            "beyond a dead point, `PositionError::NotFinite` if a number is not finite.",
         ])
     }
 
-    /// The steps of a position, and the results that make a pose.
+    /// The steps of a position, and the results that form a pose.
     fn position_steps(&mut self) -> (Vec<Step>, Vec<Output>) {
         let determinants: Vec<NodeId> =
             self.pose.determinants.iter().map(|(block, _, _)| self.assembly.determinants[block]).collect();
@@ -220,7 +219,7 @@ impl Plan<'_, '_> {
         (self.assembly.steps.clone(), results)
     }
 
-    /// For each result of a position the dyad that it is solved by, if there is one.
+    /// For each result of a position, the RRR dyad that determines it, if any.
     fn dyads(&self) -> Vec<Option<BlockId>> {
         let dyad_of = |symbol: Option<SymbolId>| symbol.and_then(|s| self.assembly.of_dyads.get(&s).copied());
         let mut dyads = vec![None; self.pose.determinants.len()];
@@ -230,7 +229,7 @@ impl Plan<'_, '_> {
         dyads
     }
 
-    /// All positions at some inputs.
+    /// `branches`: the positions on all branches.
     fn branches(&mut self) {
         if !self.position.has_few_branches() {
             return;
@@ -251,15 +250,15 @@ impl Plan<'_, '_> {
             "Every position that exists at these inputs, each with its branch.",
             "",
             "# Errors",
-            "`PositionError::NotFinite` if a number is not finite; a branch that cannot be assembled is left out, and one on which",
-            "a group is undetermined.",
+            "`PositionError::NotFinite` if a number is not finite. Branches on which a group cannot be assembled or is undetermined",
+            "are omitted.",
         ]);
         self.add(self.signatures.branches(), doc, body);
     }
 
     fn branch_of(&mut self) {
         let Arguments { pose, branch, turn, .. } = self.signatures.arguments.clone();
-        // Newton's method starts from a guess, which says the turns as well.
+        // Without a closed form the turns come from the guess.
         let turns = if self.position.is_closed { self.position.turns.as_slice() } else { &[] };
         let of = Type::Bare(self.signatures.types.branch.clone());
         let on = Expression::name(&pose);
@@ -272,15 +271,15 @@ impl Plan<'_, '_> {
         let zeros = turns.iter().map(|turn| (turn.field.clone(), Expression::Count(0)));
         let members = Expression::structure(of.clone(), sides.chain(zeros));
         let mut doc = lines([
-            "The branch that a position belongs to, by the signs of determinants. It never fails: a determinant that is not",
-            "a number counts by its sign bit.",
+            "The branch of a position, by the signs of the determinants of its groups. It does not fail: for NaN it",
+            "uses the sign bit.",
         ]);
         let mut body = Body::plain(members.clone());
         if !turns.is_empty() {
             doc = lines([
-                "The branch that a position belongs to, by the signs of determinants, and by assembling it for the turns:",
-                "`assemble` on the branch gives the numbers of the angles back. It never fails: a determinant that is not a",
-                "number counts by its sign bit, and the turn of such an angle is 0.",
+                "The branch of a position, by the signs of the determinants of its groups, with the turns of its angles:",
+                "`assemble` on this branch reproduces the angles. It does not fail: for a determinant that is NaN it uses the",
+                "sign bit, for an angle that is NaN the turn is 0.",
             ]);
             let given = self.pose.values.iter().filter(|(index, ..)| self.derivation.inputs.contains(index));
             let given = given
@@ -294,7 +293,7 @@ impl Plan<'_, '_> {
             body.before = vec![
                 Statement::Let(Pattern::Name(branch.clone()), members),
                 Statement::Let(Pattern::Name(turn.clone()), nearest),
-                // Where nothing can be assembled, the turns are those of the numbers alone.
+                // If the assembly fails, the turns are those of the angles alone.
                 Statement::Let(Pattern::Ignored, Expression::call("assemble_in_turns", at)),
                 Statement::Let(counted, Expression::name(&turn).method("turns", [])),
             ];

@@ -24,7 +24,7 @@ impl Plan<'_, '_> {
         }
     }
 
-    /// `name_ending = formula` of each component, for the description.
+    /// `name_ending = formula` of each component, for the doc comment.
     pub(super) fn laws(&self, family: Family, name: &str, ending: &str, nodes: &[NodeId]) -> Vec<String> {
         let components = family.axes().iter().zip(nodes);
         components.map(|(axis, &node)| self.law(format_args!("{name}{axis}_{ending}"), node)).collect()
@@ -40,7 +40,7 @@ impl Plan<'_, '_> {
         self.quantity_ratios(family);
     }
 
-    /// The values, or their derivatives by time.
+    /// The values, or their derivatives with respect to time.
     fn derived(&mut self, family: Family, order: usize) {
         let word = family.word();
         let meaning = match order {
@@ -59,7 +59,7 @@ impl Plan<'_, '_> {
             });
             doc.extend(fenced(formulas.map(|(name, node)| self.law(name, node))));
         }
-        doc.extend(lines(["", "# Errors", "`PositionError::NotFinite` where a formula has no finite value."]));
+        doc.extend(lines(["", "# Errors", "`PositionError::NotFinite` if a result is not finite."]));
         let part = |quantity: &Quantity| match order {
             0 => quantity.value.clone(),
             1 => quantity.rate.clone(),
@@ -105,7 +105,7 @@ impl Plan<'_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` where a formula has no finite value.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a result is not finite.",
         ]));
         let mut nodes = Vec::new();
         for quantity in self.quantities_of(family).to_vec() {
@@ -118,7 +118,7 @@ impl Plan<'_, '_> {
         let kernel = self.on_pose(vec![self.columns("velocity_ratios", &ratios)], Vec::new(), unnamed(nodes));
         let values = Expression::List(Expression::nested(results(0..count), &[v, dimension]));
         let value = Expression::runtime("finite_matrices", [Expression::mechanism(), Expression::text(word), values]);
-        // A call costs what the ratios cost, too.
+        // The count includes the operations of `velocity_ratios`, which it calls.
         let calls = vec!["velocity_ratios".to_owned()];
         let body = Body { kernel: Some(kernel), calls, ..Body::result(value) };
         self.add(self.signatures.quantity_ratios(family), doc, body);

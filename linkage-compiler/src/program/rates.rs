@@ -1,4 +1,4 @@
-//! Linear systems in J: velocity ratios, velocities, accelerations and jerks.
+//! Functions that solve linear systems in J: velocity ratios, velocities, accelerations and jerks.
 
 use std::collections::BTreeMap;
 
@@ -27,12 +27,12 @@ impl Plan<'_, '_> {
             "The rates q' of all coordinates at the input rates v'.",
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if a rate is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a rate is not finite.",
         ]);
         self.add(self.signatures.velocity(), doc, body);
     }
 
-    /// The places of all coordinates.
+    /// The ids of all coordinates.
     fn all(&self) -> Table<ColumnId, ColumnId> {
         self.derivation.coordinates.ids().collect()
     }
@@ -59,7 +59,7 @@ impl Plan<'_, '_> {
             "The solution x of J x = `right`.",
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if the solution is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if the solution is not finite.",
         ]);
         self.add(self.signatures.solve_jacobian(), doc, body);
     }
@@ -87,15 +87,15 @@ impl Plan<'_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if a ratio is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a ratio is not finite.",
         ]));
         self.add(self.signatures.velocity_ratios(), doc, body);
     }
 
-    /// What the functions of scenes are made of: W, q' = (W v', v'), and u'' at v'' = 0. Of these a determinant is refused,
-    /// and nothing else: what is made of them is checked by whoever calls them.
+    /// The private functions that scenes call: W, q' = (W v', v'), and u'' at v'' = 0. They check determinants only;
+    /// their callers check that results are finite.
     pub(super) fn layers(&mut self) {
-        let Arguments { input_rates, ratios, whose, .. } = self.signatures.arguments.clone();
+        let Arguments { input_rates, ratios, error_name, .. } = self.signatures.arguments.clone();
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
         let steps = self.ratio_steps(Form::Entries);
         let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
@@ -103,7 +103,7 @@ impl Plan<'_, '_> {
         let kernel = self.on_pose(Vec::new(), steps, unnamed(nodes));
         let columns = Expression::List(Expression::nested(results(0..u * v), &[u]));
         let signature = self.layer(self.signatures.ratio_columns(), &kernel);
-        let kernel = Kernel { whose: signature.is_fallible.then(|| whose.clone()), ..kernel };
+        let kernel = Kernel { error_name: signature.is_fallible.then(|| error_name.clone()), ..kernel };
         self.add(signature, lines(["W = -J^-1 A, column by column."]), Body::of(kernel, columns));
 
         let rates = self.rates(&self.derivation.inputs.clone());
@@ -118,7 +118,7 @@ impl Plan<'_, '_> {
         }
         nodes.extend(self.derivation.inputs.iter().copied().zip(rates));
         let by_value = Source { from: Expression::name(&input_rates), ..self.inputs(Order::Rate) };
-        let columns = Source { from: Expression::name(&ratios).behind(), shape: Shape::columns(u, &names) };
+        let columns = Source { from: Expression::name(&ratios).dereferenced(), shape: Shape::columns(u, &names) };
         let outputs = unnamed(nodes.into_values());
         let kernel = Kernel { sources: vec![columns, by_value], results: outputs, ..Kernel::default() };
         let body = Body::of(kernel, self.coordinates_of(Order::Rate, 0));
@@ -128,20 +128,20 @@ impl Plan<'_, '_> {
         self.kinematics_at();
     }
 
-    /// Everything that moves at the rates of the inputs.
+    /// `kinematics_at`: the pose, W, q' and u'' at v'' = 0.
     fn kinematics_at(&mut self) {
-        let Arguments { q, input_rates, pose, ratios, rates, whose, .. } = self.signatures.arguments.clone();
+        let Arguments { q, input_rates, pose, ratios, rates, error_name, .. } = self.signatures.arguments.clone();
         let names = self.derivation.scenes.first().map(|scene| scene.bias.clone()).unwrap_or_default();
         let side = self.derivation.bias_side();
         let mut steps = self.derivation.solution(&[(side, names.clone())], Form::Entries);
-        // The ratios have been refused already.
+        // `ratio_columns` has checked the determinants.
         steps.retain(|step| !matches!(step, Step::Guard { .. }));
         let nodes = self.variables(&names);
         let name = |name: &String| Expression::name(name);
         let ratio_columns = self.functions.iter().find(|function| function.name == "ratio_columns");
         let (is_fallible, is_method) = ratio_columns.map_or((true, true), |layer| (layer.is_fallible, layer.is_method));
         let mut on = vec![name(&pose).borrowed()];
-        on.extend(is_fallible.then(|| name(&whose)));
+        on.extend(is_fallible.then(|| name(&error_name)));
         let ratios_at = match is_method {
             true => Expression::call("ratio_columns", on),
             false => Expression::associated(Type::Itself, "ratio_columns", on),
@@ -157,8 +157,9 @@ impl Plan<'_, '_> {
         let moving = Source { from: name(&rates), ..self.coordinates(Order::Rate) };
         let at_pose = Source { from: name(&pose), ..self.pose_source() };
         let sources = vec![self.parameters(), at_pose, moving];
-        let whose = is_fallible.then_some(whose);
-        let kernel = Kernel { sources, steps, results: unnamed(nodes), whose, is_on_pose: true, ..Kernel::default() };
+        let error_name = is_fallible.then_some(error_name);
+        let kernel =
+            Kernel { sources, steps, results: unnamed(nodes), error_name, is_on_pose: true, ..Kernel::default() };
         let bias = Expression::List(results(0..names.len()));
         let members = [("pose", name(&pose)), ("ratios", name(&ratios)), ("rates", name(&rates)), ("bias", bias)];
         let members = members.map(|(field, value)| (field.to_owned(), value));
@@ -170,7 +171,7 @@ impl Plan<'_, '_> {
         if !is_fallible {
             signature.arguments.pop();
         }
-        let doc = lines(["The pose, W, q' = (W v', v'), and u'' where the inputs do not accelerate: J u'' = -gamma."]);
+        let doc = lines(["The pose, W, q' = (W v', v'), and u'' at v'' = 0: J u'' = -gamma."]);
         self.add(signature, doc, body);
     }
 
@@ -196,7 +197,7 @@ impl Plan<'_, '_> {
             "The accelerations q'' of all coordinates at the rates q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if an acceleration is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if an acceleration is not finite.",
         ]);
         self.add(self.signatures.acceleration(), doc, body);
     }
@@ -211,7 +212,7 @@ impl Plan<'_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if a jerk is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a jerk is not finite.",
         ]));
         let jerks: Table<ColumnId, SymbolId> =
             self.derivation.coordinates.iter().map(|coordinate| coordinate.jerk).collect();
@@ -226,7 +227,7 @@ impl Plan<'_, '_> {
         self.add(self.signatures.jerk(), doc, body);
     }
 
-    /// Everything at once, in one kernel.
+    /// `motion`: position, velocity and acceleration of everything in one kernel.
     pub(super) fn motion(&mut self) {
         let unknowns = self.derivation.unknowns.clone();
         let sides = [
@@ -251,7 +252,7 @@ impl Plan<'_, '_> {
         let (count, total) = (all.len(), nodes.len());
         let kernel = self.kernel(sources, steps, unnamed(nodes));
         let mut members = vec![
-            ("position".to_owned(), Expression::name(&self.signatures.arguments.q).behind()),
+            ("position".to_owned(), Expression::name(&self.signatures.arguments.q).dereferenced()),
             ("rates".to_owned(), self.coordinates_of(Order::Rate, 0)),
             ("accelerations".to_owned(), self.coordinates_of(Order::Acceleration, count)),
         ];
@@ -266,27 +267,27 @@ impl Plan<'_, '_> {
                 members.push((format!("{}s", family.word()), motions));
             }
         }
-        // No rate need be other than finite where a coordinate is.
+        // A coordinate that is not finite need not make a rate so: check coordinates, too.
         let checked = [self.checked(0), self.checked(count), results(2 * count..3 * count)].concat();
         let motion = Type::Bare(self.signatures.types.motion.clone());
         let body = Body::of(kernel, Expression::structure(motion, members)).checked("motion", checked);
         let doc = lines([
-            "Everything at once at coordinates that close the mechanism and at the input rates v' and accelerations v'': the",
-            "rates q', the accelerations q'', points and outputs, every shared subexpression computed once.",
+            "The rates q', the accelerations q'', and the motion of points and outputs at the coordinates q of a position, input",
+            "rates v' and input accelerations v'', with common subexpressions computed once.",
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` where a formula has no finite value.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a result is not finite.",
         ]);
         self.add(self.signatures.motion(), doc, body);
     }
 }
 
 impl Plan<'_, '_> {
-    /// A private function as it is called: one that refuses nothing has no name to refuse by, which is the last argument,
-    /// and one without parameters takes no `self`.
+    /// The final signature of a private function: without checks it has no `Result` and no last argument, the name in
+    /// errors; without parameters of the mechanism it takes no `self`.
     fn layer(&self, mut signature: Function<Body>, kernel: &Kernel) -> Function<Body> {
-        let refuses = |step: &Step| matches!(step, Step::Guard { .. } | Step::Factor { .. });
-        let is_fallible = kernel.steps.iter().any(refuses);
+        let may_fail = |step: &Step| matches!(step, Step::Guard { .. } | Step::Factor { .. });
+        let is_fallible = kernel.steps.iter().any(may_fail);
         if !is_fallible {
             signature.arguments.pop();
         }

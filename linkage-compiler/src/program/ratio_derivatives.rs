@@ -1,4 +1,4 @@
-//! The derivatives of the velocity ratios, of the unknowns and of points and outputs.
+//! Functions for the derivatives of the velocity ratios of unknowns, points and outputs.
 
 use super::doc::{fenced, lines};
 use super::expression::Expression;
@@ -12,11 +12,11 @@ use crate::ids::{PairId, Table};
 const ERRORS: [&str; 3] = [
     "",
     "# Errors",
-    "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` where a formula has no finite value.",
+    "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a result is not finite.",
 ];
 
 impl Plan<'_, '_> {
-    /// Steps that name W and L, and L.
+    /// The steps that compute W and L, and the values of L.
     fn ratio_derivative_steps(&mut self) -> (Vec<Step>, Solutions<PairId, NodeId>) {
         let systems = self.derivation.ratio_derivative_systems();
         let (steps, mut solved) = self.derivation.solve(&systems, Form::Entries);
@@ -24,7 +24,7 @@ impl Plan<'_, '_> {
         (steps, derivatives.into())
     }
 
-    /// A symmetric matrix from its entries.
+    /// A symmetric matrix from its entries for j <= k.
     fn symmetric(&self, entries: &Table<PairId, Expression>) -> Expression {
         let Some(derivatives) = &self.derivation.ratio_derivatives else { return Expression::zero() };
         let columns: Vec<Expression> = derivatives.places.iter().flatten().map(|&pair| entries[pair].clone()).collect();
@@ -33,7 +33,7 @@ impl Plan<'_, '_> {
 
     pub(super) fn ratio_derivatives(&mut self) {
         let mut doc = lines([
-            "The derivatives of the velocity ratios, d2u/dv dv: of each unknown a symmetric matrix `L` with",
+            "The derivatives of the velocity ratios, d2u/dv dv: for each unknown a symmetric matrix `L` with",
             "u'' = W v'' + v' . `L` v'; from `J L_jk = -(Psi_q w_j)_q w_k`, where `w_j = (W_j, e_j)`.",
         ]);
         let second = self.derivation.ratio_derivatives.iter();
@@ -63,8 +63,8 @@ impl Plan<'_, '_> {
 
     fn quantity_ratio_derivatives(&mut self, family: Family) {
         let mut doc = lines([match family {
-            Family::Points => "The second derivatives of the points by the inputs: of x and of y a symmetric matrix.",
-            Family::Outputs => "The second derivatives of the outputs by the inputs: of each a symmetric matrix.",
+            Family::Points => "The second derivatives of the points by the inputs: symmetric matrices for x and for y.",
+            Family::Outputs => "The second derivatives of the outputs by the inputs: a symmetric matrix for each.",
         }]);
         let second = self.derivation.ratio_derivatives.as_ref();
         let endings = second.map(|second| second.endings.clone()).unwrap_or_default();

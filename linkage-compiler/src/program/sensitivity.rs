@@ -1,4 +1,4 @@
-//! Sensitivities to the parameters, of the unknowns and of points and outputs.
+//! Functions for the sensitivities of unknowns, points and outputs to the parameters.
 
 use super::doc::{fenced, lines};
 use super::equations::places;
@@ -14,7 +14,7 @@ use crate::ids::{Id, ParameterId, Table, UnknownId};
 const ERRORS: [&str; 3] = [
     "",
     "# Errors",
-    "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` where a formula has no finite value.",
+    "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a result is not finite.",
 ];
 
 impl Plan<'_, '_> {
@@ -35,7 +35,7 @@ impl Plan<'_, '_> {
         doc.extend(lines(ERRORS));
         let (mut steps, solved) = self.derivation.solve(&systems, Form::Factored);
         let solved = Table::from(solved);
-        // The length of a link turns its own side of J: cos^2 + sin^2 is 1.
+        // The derivative by a link length is a unit vector along a column of J, so that cos^2 + sin^2 = 1 shortens it.
         let given = self.pose.angles().collect();
         for step in &mut steps {
             if let Step::Let { node, .. } = step {
@@ -67,9 +67,7 @@ impl Plan<'_, '_> {
         let (word, dimension) = (family.word(), family.dimension());
         let names = family.names(self.signatures.mechanism);
         let mut doc = vec![
-            format!(
-                "The sensitivity of the {word}s to the parameters at fixed inputs, through the unknowns and their own formulas:"
-            ),
+            format!("The total derivatives of the {word}s with respect to the parameters, at fixed inputs:"),
             "`dl/dp = l_p + l_u du/dp`.".to_owned(),
         ];
         let mut laws = Vec::new();
@@ -90,7 +88,7 @@ impl Plan<'_, '_> {
         let symbols: Vec<SymbolId> = first.flat_map(|first| first.names.iter().flatten()).copied().collect();
         let source = self.columns("sensitivity", &symbols);
         let kernel = self.on_pose(vec![source], Vec::new(), unnamed(nodes.iter().copied()));
-        // A call costs what the sensitivity of the unknowns costs, too.
+        // The count includes the operations of `sensitivity`, which it calls.
         let calls = vec!["sensitivity".to_owned()];
         let mut body = Body { kernel: Some(kernel), calls, ..Body::default() };
         let columns = nodes.len() / (names.len() * dimension);
@@ -111,7 +109,7 @@ impl Plan<'_, '_> {
 }
 
 impl Body {
-    /// Gives a matrix a name and refuses one that is not finite.
+    /// Names a matrix and adds a check that it is finite.
     fn finite_matrix(&mut self, wish: &str, what: &str, matrix: Expression) -> Expression {
         let name = self.bound(wish, matrix);
         let check = [Expression::mechanism(), Expression::text(what), name.clone().borrowed()];

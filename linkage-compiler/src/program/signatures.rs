@@ -1,4 +1,4 @@
-//! The functions of a driver by their names, arguments and results: all that a stub has.
+//! The signatures of the functions of a driver: names, arguments and return types. A stub has nothing else.
 
 use super::branch::Position;
 use super::expression::Type;
@@ -43,7 +43,7 @@ impl Family {
         }
     }
 
-    /// Their field names.
+    /// The field names of all points or outputs.
     pub fn names(self, mechanism: &Mechanism) -> Vec<String> {
         match self {
             Self::Points => mechanism.points.iter().map(|point| point.name.field.clone()).collect(),
@@ -52,7 +52,7 @@ impl Family {
     }
 }
 
-/// How often a quantity is derived by time, and what it is then called.
+/// The endings of function names, by the order of the derivative with respect to time.
 pub const ORDERS: [&str; 4] = ["s", "_velocities", "_accelerations", "_jerks"];
 
 impl<'a> Signatures<'a> {
@@ -61,7 +61,7 @@ impl<'a> Signatures<'a> {
         Self { mechanism, driver, types, arguments }
     }
 
-    /// All of them, in the order in which they are emitted: what people call first comes first.
+    /// All signatures in the order of emission: the most used first.
     pub fn all(&self, position: &Position) -> Vec<Function<Body>> {
         let wants = |request| self.mechanism.requests.contains(&request);
         let families = || [Family::Points, Family::Outputs].into_iter().filter(|&family| self.has(family));
@@ -104,7 +104,7 @@ impl<'a> Signatures<'a> {
         all
     }
 
-    /// True if something of a family is declared.
+    /// True if points, or outputs, are declared.
     pub fn has(&self, family: Family) -> bool {
         match family {
             Family::Points => !self.mechanism.points.is_empty(),
@@ -112,7 +112,7 @@ impl<'a> Signatures<'a> {
         }
     }
 
-    /// The orders of derivatives that points and outputs have functions for.
+    /// The number of functions of points and outputs: values, velocities, accelerations, with `derive jerk` jerks.
     pub fn orders(&self) -> usize {
         if self.mechanism.requests.contains(&Request::Jerk) { 4 } else { 3 }
     }
@@ -143,7 +143,7 @@ impl<'a> Signatures<'a> {
         fallible("solve_any_branch", [self.guess()], found)
     }
 
-    /// The functions that assemble a position, and the one that goes through all branches.
+    /// The functions that assemble a position, and `branches`.
     pub fn assemblies(&self, position: &Position) -> Vec<Function<Body>> {
         if !position.is_closed {
             return vec![self.assemble_near()];
@@ -249,11 +249,11 @@ impl<'a> Signatures<'a> {
         fallible("velocity_ratios", [self.pose()], Type::Matrix(self.unknowns(), self.inputs()))
     }
 
-    // What scenes are made of.
+    // Functions that those of scenes call.
 
     /// W, column by column.
     pub fn ratio_columns(&self) -> Function<Body> {
-        layer(fallible("ratio_columns", [self.pose(), self.whose()], self.columns()))
+        layer(fallible("ratio_columns", [self.pose(), self.error_name()], self.columns()))
     }
 
     fn columns(&self) -> Type {
@@ -269,7 +269,7 @@ impl<'a> Signatures<'a> {
 
     /// The pose, W, q', and u'' at v'' = 0.
     pub fn kinematics_at(&self) -> Function<Body> {
-        let arguments = [self.coordinates(Order::Value), self.input_rates(), self.whose()];
+        let arguments = [self.coordinates(Order::Value), self.input_rates(), self.error_name()];
         let of = Type::Kinematics {
             pose: self.types.pose.clone(),
             rates: self.types.rates.clone(),
@@ -355,11 +355,11 @@ impl<'a> Signatures<'a> {
         Argument { name: self.arguments.branch.clone(), passed: Passed::ByValue(of) }
     }
 
-    fn whose(&self) -> Argument {
-        Argument { name: self.arguments.whose.clone(), passed: Passed::ByValue(Type::Text) }
+    fn error_name(&self) -> Argument {
+        Argument { name: self.arguments.error_name.clone(), passed: Passed::ByValue(Type::Text) }
     }
 
-    /// All coordinates, or their derivatives by time.
+    /// All coordinates, or their derivatives with respect to time.
     fn coordinates(&self, order: Order) -> Argument {
         let passed = Passed::ByReference(self.coordinates_type(order));
         Argument { name: self.arguments.of(order).to_owned(), passed }
@@ -369,13 +369,13 @@ impl<'a> Signatures<'a> {
         Argument { name: self.arguments.guess.clone(), ..self.coordinates(Order::Value) }
     }
 
-    /// The inputs, or their derivatives by time, to be converted.
+    /// The inputs, or their derivatives with respect to time, as `impl Into`.
     fn inputs_by(&self, order: Order) -> Argument {
         let of = Type::Own(self.types.inputs.clone());
         Argument { name: self.arguments.of_inputs(order).to_owned(), passed: Passed::Converted(of) }
     }
 
-    /// The rates of the inputs as they are.
+    /// The rates of the inputs by value.
     fn input_rates(&self) -> Argument {
         let of = Type::Own(self.types.inputs.clone());
         Argument { name: self.arguments.input_rates.clone(), passed: Passed::ByValue(of) }
@@ -393,7 +393,7 @@ impl<'a> Signatures<'a> {
         Type::Each(self.each_name(family).to_owned(), Box::new(item))
     }
 
-    /// The type that holds one of each.
+    /// The type with one field for each point or output.
     pub fn each_name(&self, family: Family) -> &str {
         match family {
             Family::Points => &self.types.points,
@@ -402,7 +402,7 @@ impl<'a> Signatures<'a> {
     }
 }
 
-/// A public function that always has a result.
+/// A public function without `Result`.
 pub fn total(name: impl Into<String>, arguments: impl IntoIterator<Item = Argument>, returns: Type) -> Function<Body> {
     Function {
         name: name.into(),
@@ -416,22 +416,22 @@ pub fn total(name: impl Into<String>, arguments: impl IntoIterator<Item = Argume
     }
 }
 
-/// A public function that always has a result, and that the library calls more than people do.
+/// A public function without `Result`, hidden from the documentation.
 pub fn hidden(name: impl Into<String>, arguments: impl IntoIterator<Item = Argument>, returns: Type) -> Function<Body> {
     Function { access: Access::Hidden, ..total(name, arguments, returns) }
 }
 
-/// A private function that scenes are made of.
+/// A private function that is inlined into functions of scenes.
 fn layer(function: Function<Body>) -> Function<Body> {
     Function { access: Access::Layer, ..function }
 }
 
-/// A private function that others call.
+/// A private function marked `#[inline]`.
 fn inlined(function: Function<Body>) -> Function<Body> {
     Function { access: Access::Inlined, ..function }
 }
 
-/// A public function that may refuse.
+/// A public function that returns a `Result`.
 pub fn fallible(
     name: impl Into<String>,
     arguments: impl IntoIterator<Item = Argument>,

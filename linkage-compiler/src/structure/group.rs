@@ -1,12 +1,12 @@
-//! What a block is to a mechanic: the Assur group whose closure it solves.
+//! Classification of a block as an Assur group.
 //!
-//! A closure of two rows is a vector equation x + i y = 0, and the way an unknown enters it tells the joint:
-//! - an angle phi turns its part V of the closure: dV/dphi = i V
-//! - a modulus s moves its part along a line: D = dV/ds holds no s
+//! A loop equation of two rows is a complex equation x + i y = 0. The way an unknown enters identifies its joint:
+//! - an angle phi rotates the terms V that contain it: dV/dphi = i V
+//! - a length s moves its terms along a line: D = dV/ds does not depend on s
 //!
 //! With two unknowns these are the four cases of M. A. Chace, "Vector analysis of linkages", Journal of
-//! Engineering for Industry 85, 1963: two angles, an angle and a modulus, an angle and a modulus that it
-//! turns, two moduli.
+//! Engineering for Industry 85, 1963: two angles, an angle and a length, an angle and a length along a line that it
+//! rotates, two lengths.
 
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 
@@ -15,11 +15,11 @@ use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 pub enum Group {
     /// Two angles: two links between three revolute joints.
     Rrr,
-    /// An angle, and a modulus along a line that does not turn with it: a link and a slider on a guide.
+    /// An angle, and a length along a line that does not turn with it: a link and a slider on a guide.
     Rrp,
-    /// An angle, and a modulus along a line that turns with it: a slider on a turning guide.
+    /// An angle, and a length along a line that turns with it: a slider on a turning guide.
     Rpr,
-    /// Two moduli along given lines: two sliders.
+    /// Two lengths along given lines: two sliders.
     Sliders,
     /// One unknown that enters linearly: gears, belts, a slider whose link is known.
     Linear,
@@ -29,19 +29,19 @@ pub enum Group {
     Scalar,
     /// Two unknowns in any other way.
     Pair,
-    /// So many unknowns that depend on one another.
+    /// More than two unknowns that depend on one another.
     Irreducible(usize),
 }
 
 impl Group {
-    /// In the words of a mechanic.
+    /// A description for documentation.
     #[must_use]
     pub fn words(self) -> String {
         match self {
             Self::Rrr => "dyad RRR: two angles".to_owned(),
-            Self::Rrp => "dyad RRP: an angle, and a modulus along a given line".to_owned(),
-            Self::Rpr => "dyad RPR: an angle, and a modulus that turns with it".to_owned(),
-            Self::Sliders => "dyad PRP or RPP: two moduli along given lines".to_owned(),
+            Self::Rrp => "dyad RRP: an angle, and a length along a given line".to_owned(),
+            Self::Rpr => "dyad RPR: an angle, and a length along a line that turns with it".to_owned(),
+            Self::Sliders => "dyad PRP or RPP: two lengths along given lines".to_owned(),
             Self::Linear => "one unknown, linear".to_owned(),
             Self::Angle => "one angle".to_owned(),
             Self::Scalar => "one unknown".to_owned(),
@@ -50,7 +50,7 @@ impl Group {
         }
     }
 
-    /// The group that these closure rows are for these unknowns.
+    /// Classifies the block of these scalar equations and unknowns.
     pub fn of(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Self {
         match (rows, unknowns) {
             (&[row], &[unknown]) => scalar(graph, row, unknown),
@@ -91,8 +91,8 @@ fn pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Group
     }
 }
 
-/// Whether what holds `b` alone turns with b, and what holds `a` with a + k b: two links, whose angles
-/// are a + k b and b. k is other than zero where `a` is measured from the other link.
+/// True for two links with the angles a + k b and b: the terms with `a` rotate with a + k b, the other terms with `b`
+/// rotate with b. k is not zero if `a` is measured relative to the other link.
 fn two_links(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> bool {
     let link_a = rows.map(|row| terms_with(graph, row, a));
     let others = [0, 1].map(|row| graph.subtract(rows[row], link_a[row]));
@@ -104,7 +104,7 @@ fn two_links(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> 
     (-2..=2).any(|k| derivatives == [graph.scale(Number::integer(-k), y), graph.scale(Number::integer(k), x)])
 }
 
-/// Whether the line of a slider stands still or turns with the angle.
+/// RRP if the line of a slider does not depend on the angle, RPR if it turns with it.
 fn slider(graph: &mut Graph, line: [NodeId; 2], angle: SymbolId) -> Group {
     if line.iter().all(|&part| !holds(graph, part, angle)) {
         Group::Rrp
@@ -115,7 +115,7 @@ fn slider(graph: &mut Graph, line: [NodeId; 2], angle: SymbolId) -> Group {
     }
 }
 
-/// dV/dphi = i V for the part V of two rows that holds the unknown.
+/// True if dV/dphi = i V for the terms V of two rows with the unknown phi.
 fn turns(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> bool {
     let [x, y] = rows.map(|row| terms_with(graph, row, unknown));
     let derivatives = graph.partial(&[x, y], unknown);
@@ -123,7 +123,7 @@ fn turns(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> bool {
     !(graph.is_zero(x) && graph.is_zero(y)) && derivatives == [minus_y, x]
 }
 
-/// D = dV/ds, if it holds no s.
+/// D = dV/ds, if it does not depend on s.
 fn direction(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> Option<[NodeId; 2]> {
     let derivatives = graph.partial(&rows, unknown);
     let still = derivatives.iter().all(|&part| !holds(graph, part, unknown));
@@ -134,7 +134,7 @@ fn holds(graph: &Graph, node: NodeId, symbol: SymbolId) -> bool {
     graph.symbols_of(&[node]).contains(&symbol)
 }
 
-/// The terms of a sum that hold a symbol.
+/// The terms of a sum that depend on a symbol.
 fn terms_with(graph: &mut Graph, row: NodeId, symbol: SymbolId) -> NodeId {
     let terms: Vec<_> = terms(graph, row).into_iter().filter(|&(_, term)| holds(graph, term, symbol)).collect();
     graph.sum(&terms)
@@ -170,7 +170,7 @@ mod tests {
             self.graph.variable(self.symbols[name])
         }
 
-        /// Vectors r@phi, the angle perhaps offset by another name, on the ground d@0.
+        /// The group of a loop of vectors r@(phi - offset) and the ground d@0.
         fn group(&mut self, vectors: &[(&str, &str, &str)], unknowns: [&str; 2]) -> Group {
             let ground = self.variable("d");
             let (mut x, mut y) = (vec![(Number::ONE, ground)], Vec::new());

@@ -1,23 +1,23 @@
-//! An equation for each unknown: a maximum matching of the incidence.
+//! A maximum matching of equations and unknowns.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::ids::{RowId, Table, UnknownId};
 
-/// What is left over on either side.
+/// Unknowns and equations that cannot be matched.
 #[derive(Debug, PartialEq, Eq)]
 pub struct StructurallySingular {
-    /// Unknowns of which one is determined by nothing.
+    /// Unknowns that appear in too few equations.
     pub undetermined: Vec<UnknownId>,
-    /// The fewer equations in which they appear.
+    /// The equations in which they appear, fewer than the unknowns.
     pub too_few: Vec<RowId>,
-    /// Equations that compete, more of them than unknowns that they hold.
+    /// Equations that contain too few unknowns.
     pub competing: Vec<RowId>,
-    /// The unknowns that they hold.
+    /// The unknowns that they contain, fewer than the equations.
     pub contested: Vec<UnknownId>,
 }
 
-/// Which unknown each equation is given to, and the other way round.
+/// The unknown of each equation, and the equation of each unknown.
 pub(super) struct Matching {
     unknown: Table<RowId, Option<UnknownId>>,
     equation: Table<UnknownId, Option<RowId>>,
@@ -25,7 +25,7 @@ pub(super) struct Matching {
 
 impl Matching {
     /// # Errors
-    /// [`StructurallySingular`] if some unknowns together appear in fewer equations than they are.
+    /// [`StructurallySingular`] if some unknowns appear in fewer equations than there are of them.
     pub(super) fn new(incidence: &Table<RowId, Vec<UnknownId>>, unknowns: usize) -> Result<Self, StructurallySingular> {
         let mut equations_of: Table<UnknownId, Vec<RowId>> = vec![Vec::new(); unknowns].into();
         for (equation, row) in incidence.enumerated() {
@@ -45,7 +45,7 @@ impl Matching {
         Err(StructurallySingular { undetermined, too_few, competing, contested })
     }
 
-    /// An equation that is left over, with all that compete with it for the same unknowns.
+    /// An unmatched equation and the equations that it competes with, and their unknowns.
     fn surplus(&self, incidence: &Table<RowId, Vec<UnknownId>>) -> (Vec<RowId>, Vec<UnknownId>) {
         let left_over = self.unknown.ids().find(|&equation| self.unknown[equation].is_none());
         let mut equations: Vec<RowId> = left_over.into_iter().collect();
@@ -71,14 +71,14 @@ impl Matching {
         self.equation[unknown]
     }
 
-    /// Finds an equation for `start` along an alternating path, breadth first; else the unknowns and the
-    /// equations that the search came to.
+    /// Finds an equation for `start` along an alternating path, by breadth-first search; the error holds the unknowns
+    /// and equations that the search reached.
     fn augment(
         &mut self,
         start: UnknownId,
         equations_of: &Table<UnknownId, Vec<RowId>>,
     ) -> Result<(), (Vec<UnknownId>, Vec<RowId>)> {
-        // Ordered, so that what an error names does not depend on chance.
+        // An ordered map, so that errors are deterministic.
         let mut reached_from = BTreeMap::new();
         let mut queue = vec![start];
         let mut next = 0;
@@ -94,7 +94,7 @@ impl Matching {
                     queue.push(other);
                     continue;
                 }
-                // Walk back, handing each equation to the unknown that reached it.
+                // Walk back along the path and assign each equation to the unknown that reached it.
                 let mut free = Some(equation);
                 while let Some(equation) = free {
                     let unknown = reached_from[&equation];
@@ -131,7 +131,7 @@ mod tests {
             contested: ids(&[2]),
         };
         assert_eq!(error, Some(expected));
-        // The chain 3 - 1 - 0 holds two unknowns, whatever stands beside it.
+        // Equations 3, 1 and 0 contain only two unknowns.
         let error = Matching::new(&incidence(&[&[0, 1], &[0], &[2], &[1]]), 4).err().unwrap();
         assert_eq!((error.undetermined, error.too_few), (ids(&[3]), ids(&[])));
         assert_eq!((error.competing, error.contested), (ids(&[0, 1, 3]), ids(&[0, 1])));

@@ -1,10 +1,9 @@
-//! In what order the closures can be solved: the block-triangular form.
+//! The order of solution of the equations: block-triangular form.
 //!
-//! Each unknown is given an equation of its own (`matching`). An equation then depends on those that
-//! determine its other unknowns; equations that depend on one another must be solved together. These
-//! groups are the strong components of the dependencies, and Tarjan's algorithm finds them in the
-//! order in which they can be solved (I. S. Duff, J. K. Reid, "An implementation of Tarjan's algorithm
-//! for the block triangularization of a matrix", ACM TOMS 4, 1978).
+//! A maximum matching assigns an equation to each unknown. An equation depends on the equations assigned to its other
+//! unknowns; equations that depend on one another must be solved together. These groups are the strongly connected
+//! components of the dependency graph, which Tarjan's algorithm finds in the order of solution (I. S. Duff, J. K. Reid,
+//! "An implementation of Tarjan's algorithm for the block triangularization of a matrix", ACM TOMS 4, 1978).
 
 mod group;
 mod matching;
@@ -15,21 +14,21 @@ pub use matching::StructurallySingular;
 
 use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
 
-/// Unknowns that are solved together, from as many equations, once all blocks before are solved.
+/// Unknowns that are solved together from as many equations, after all earlier blocks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Block {
-    /// Ascending.
+    /// In ascending order.
     pub equations: Vec<RowId>,
-    /// Ascending.
+    /// In ascending order.
     pub unknowns: Vec<UnknownId>,
 }
 
-/// How the linear systems of a block are solved.
+/// The solution method for the linear systems of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// One or two unknowns, by formula.
     ClosedForm,
-    /// More, by a factorisation with partial pivoting.
+    /// More unknowns, by LU factorisation with partial pivoting.
     Factorization,
 }
 
@@ -43,8 +42,8 @@ impl Block {
 /// Orders a system in which `incidence[equation]` lists the unknowns of each equation.
 ///
 /// # Errors
-/// [`StructurallySingular`] if for every value of the parameters the system is singular: it names
-/// a set of unknowns that together appear in fewer equations than there are unknowns.
+/// [`StructurallySingular`] if the system is singular for all values of the parameters: a set of unknowns that
+/// appear in fewer equations than there are unknowns in the set.
 pub fn order(
     incidence: &Table<RowId, Vec<UnknownId>>,
     unknowns: usize,
@@ -70,8 +69,8 @@ pub fn order(
         .collect())
 }
 
-/// The sign of det J beside the product of the determinants of the blocks: that of the two
-/// permutations that bring J to its block-triangular form.
+/// True if det J is minus the product of the determinants of the blocks: the permutations of rows and columns to
+/// block-triangular form have different parity.
 #[must_use]
 pub fn is_odd(blocks: &Table<BlockId, Block>) -> bool {
     let equations = blocks.iter().flat_map(|block| block.equations.iter().copied()).collect();
@@ -79,7 +78,7 @@ pub fn is_odd(blocks: &Table<BlockId, Block>) -> bool {
     odd::<RowId>(&equations) != odd::<UnknownId>(&unknowns)
 }
 
-/// A cycle of even length is an odd permutation.
+/// The parity of a permutation: each cycle of even length is odd.
 fn odd<I: Id>(permutation: &Table<I, I>) -> bool {
     let mut seen = permutation.filled(false);
     let mut odd = false;
@@ -96,8 +95,8 @@ fn odd<I: Id>(permutation: &Table<I, I>) -> bool {
     odd
 }
 
-/// R. E. Tarjan, "Depth-first search and linear graph algorithms" (1972), without recursion:
-/// a component comes out after all that it depends on.
+/// The strongly connected components, each after those that it depends on, without recursion (R. E. Tarjan,
+/// "Depth-first search and linear graph algorithms", 1972).
 fn strong_components(depends: &Table<RowId, Vec<RowId>>) -> Vec<Vec<RowId>> {
     let mut index = depends.filled(None);
     let mut low = depends.filled(0);
@@ -118,7 +117,7 @@ fn strong_components(depends: &Table<RowId, Vec<RowId>>) -> Vec<Vec<RowId>> {
             } else {
                 low[node] = low[node].min(low[depends[node][edge - 1]]);
             }
-            // The next edge to a node not seen yet; an edge back to one that waits lowers the mark.
+            // Find the next edge to a new node; an edge to a node on the stack lowers `low`.
             let mut descend = None;
             for (position, &other) in depends[node].iter().enumerate().skip(edge) {
                 let Some(at) = index[other] else {
@@ -167,7 +166,7 @@ mod tests {
 
     #[test]
     fn blocks_come_in_the_order_in_which_they_can_be_solved() {
-        // Equations 2 and 3 hold the dyad that 0 and 1 stand on; 4 closes no loop of its own.
+        // Equations 2 and 3 form a dyad; that of 0 and 1 depends on it, and 4 depends on 0.
         let incidence = incidence(&[&[0, 1, 2], &[0, 1, 2], &[2, 3], &[2, 3], &[4, 0]]);
         let blocks = order(&incidence, 5).unwrap();
         assert_eq!(*blocks, [block(&[2, 3], &[2, 3]), block(&[0, 1], &[0, 1]), block(&[4], &[4])]);

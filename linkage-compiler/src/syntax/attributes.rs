@@ -1,4 +1,4 @@
-//! Attributes: which have a meaning where.
+//! The attributes that each construct accepts.
 
 use proc_macro2::TokenTree;
 use quote::ToTokens;
@@ -13,17 +13,17 @@ use crate::diagnostics::Diagnostics;
 /// The construct that an attribute belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bearer {
-    /// A mechanism, all of whose items may be configured out together.
+    /// A mechanism; `cfg` applies to all its items.
     Mechanism,
-    /// A part of a mechanism that becomes a type, or a field of the type of the parameters.
+    /// A part of a mechanism that becomes a type or a parameter field.
     Item,
-    /// A field of types that the macro alone defines.
+    /// A field of types that the macro defines.
     Field,
-    /// A part that becomes nothing that could bear it; a doc comment is for the reader.
+    /// A part that becomes no item or field; it accepts doc comments for readers of the source.
     Part,
 }
 
-/// The attributes before something; one that does not parse is reported and skipped.
+/// Parses the attributes before a construct; one with a syntax error is reported and skipped.
 pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<Attribute> {
     let mut attributes = Vec::new();
     while stream.peek(Token![#]) {
@@ -35,7 +35,7 @@ pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<At
             }
             Err(error) => {
                 diagnostics.push(error);
-                // The sign and its brackets.
+                // Skip `#` and its brackets.
                 for _ in 0..2 {
                     if stream.peek(Token![#]) || stream.peek(Bracket) {
                         drop(stream.parse::<TokenTree>());
@@ -47,8 +47,7 @@ pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<At
     attributes
 }
 
-/// The attributes that have a meaning; those that would have no effect, or another one than somebody means, are
-/// refused.
+/// Returns the accepted attributes; reports those that would have no effect or a misleading one.
 pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mut Diagnostics) -> Vec<Attribute> {
     attributes.retain(|attribute| {
         let path = attribute.path();
@@ -58,18 +57,18 @@ pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mu
             if has_meaning {
                 return true;
             }
-            "a doc comment has text alone here".to_owned()
+            "only a plain doc comment is allowed here".to_owned()
         } else if path.is_ident("deprecated") {
-            "emitted code itself uses what is declared here and would warn: mark a `type` alias of it".to_owned()
+            "`deprecated` would warn in the emitted code itself: put it on a `type` alias instead".to_owned()
         } else if configures && on == Bearer::Mechanism && path.is_ident("cfg_attr") {
-            "write `#[cfg(…)]` itself: a `cfg_attr` would reach only some of the items emitted".to_owned()
+            "`cfg_attr` would apply to some of the emitted items only: write `#[cfg(…)]` instead".to_owned()
         } else if configures && on != Bearer::Mechanism {
-            "a part of a mechanism cannot be configured out: the macro runs before `cfg` is evaluated\nwrite one \
-             mechanism for each case, with the `#[cfg(…)]` before the word `mechanism`"
+            "`cfg` does not work on a part of a mechanism: macros run before it is evaluated\nwrite one \
+             mechanism for each case, with `#[cfg(…)]` before `mechanism`"
                 .to_owned()
         } else if matches!(on, Bearer::Field | Bearer::Part) {
             let name = path.to_token_stream().to_string().replace(' ', "");
-            format!("`#[{name}]` has no effect here: this takes doc comments alone")
+            format!("`#[{name}]` has no effect here: only doc comments are allowed")
         } else {
             return true;
         };
@@ -79,13 +78,13 @@ pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mu
     attributes
 }
 
-/// True if it is text, as a comment is.
+/// True if it is `doc = "…"`, as a doc comment is.
 fn is_text(attribute: &Attribute) -> bool {
     let Meta::NameValue(MetaNameValue { value, .. }) = &attribute.meta else { return false };
     matches!(value, Expr::Lit(ExprLit { lit: Lit::Str(_), .. }))
 }
 
-/// True if it is text, or a macro that gives text, or a setting such as `doc(hidden)`.
+/// True if it is `doc = "…"`, `doc = macro!(…)`, or a setting such as `doc(hidden)`.
 fn can_be_text(attribute: &Attribute) -> bool {
     is_text(attribute)
         || match &attribute.meta {
@@ -95,7 +94,7 @@ fn can_be_text(attribute: &Attribute) -> bool {
         }
 }
 
-/// True if a `cfg_attr` makes a `cfg`.
+/// True if a `cfg_attr` contains a `cfg`.
 fn holds_cfg(attribute: &Attribute) -> bool {
     let Meta::List(list) = &attribute.meta else { return false };
     let after = list.tokens.clone().into_iter().skip_while(|token| !matches!(token, TokenTree::Punct(_)));

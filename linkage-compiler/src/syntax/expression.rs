@@ -1,6 +1,6 @@
-//! Expressions, in an arena whose ids ascend from the leaves to the root.
+//! Expressions, in an arena in which operands have smaller ids than the expressions that use them.
 //!
-//! From loose to tight: `+ -`, then `@`, then `* /`, then unary `-`, then `^`.
+//! Precedence from low to high: `+ -`, `@`, `* /`, unary `-`, `^`.
 
 use proc_macro2::{Delimiter, Ident, Span};
 use syn::ext::IdentExt;
@@ -13,10 +13,10 @@ use crate::diagnostics::Region;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExpressionId(usize);
 
-/// What was written.
+/// An expression as written.
 #[derive(Debug)]
 pub enum Expression {
-    /// The digits of a literal, and whether `deg` follows.
+    /// The digits of a literal; `degrees` if the suffix is `deg`.
     Number {
         digits: String,
         degrees: bool,
@@ -30,21 +30,21 @@ pub enum Expression {
     Negate(ExpressionId),
     Power(ExpressionId, ExpressionId),
     Call(Ident, Vec<ExpressionId>),
-    /// One that could not be read: the names in it.
+    /// An expression with a syntax error: its names.
     Unread(Vec<Unread>),
 }
 
-/// A name in an expression that could not be read.
+/// A name in an expression with a syntax error.
 #[derive(Debug, Clone)]
 pub struct Unread {
     pub name: Ident,
-    /// True if it stands behind an `@`.
+    /// True if it follows an `@`.
     pub is_angle: bool,
-    /// True if it stands before an `@`.
+    /// True if it precedes an `@`.
     pub is_length: bool,
 }
 
-/// How an operand joins a sum or a product; the first one joins with `Direct`.
+/// The operator before an operand of a sum or product; the first operand has `Direct`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Operator {
     /// `+` or `*`.
@@ -75,23 +75,23 @@ impl Expressions {
         self.nodes.is_empty()
     }
 
-    /// Where the expression stands that was read last.
+    /// The region of the last expression.
     #[must_use]
     pub fn last_region(&self) -> Option<Region> {
         self.nodes.last().map(|(_, region)| *region)
     }
 
-    /// Adds an expression that could not be read.
+    /// Adds an expression with a syntax error.
     pub(super) fn unread(&mut self, names: Vec<Unread>, region: Region) -> ExpressionId {
         self.push(Expression::Unread(names), region)
     }
 
-    /// Forgets what a statement that did not parse has left.
+    /// Removes the expressions of a statement with a syntax error.
     pub(super) fn truncate(&mut self, length: usize) {
         self.nodes.truncate(length);
     }
 
-    /// The name that an expression is, if it is no more.
+    /// The name, if the expression is only a name.
     #[must_use]
     pub fn as_name(&self, id: ExpressionId) -> Option<&Ident> {
         match &self.nodes[id.0] {
@@ -105,7 +105,7 @@ impl Expressions {
         self.nodes[id.0].1
     }
 
-    /// The expressions from a place on, in the order of their ids: operands before what they are part of.
+    /// The expressions from an index on; operands come before the expressions that use them.
     pub fn from(&self, start: usize) -> impl Iterator<Item = (&Expression, Region)> {
         self.nodes.iter().skip(start).map(|(expression, region)| (expression, *region))
     }
@@ -266,7 +266,7 @@ fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
             _ => Err(syn::Error::new_spanned(region, "expected `(expression)` or a vector `(x, y)`")),
         };
     }
-    // What another macro passed on as `$x:expr` arrives in invisible delimiters.
+    // An `$x:expr` from another macro comes in invisible delimiters.
     if let Ok(proc_macro2::TokenTree::Group(group)) = stream.fork().parse()
         && group.delimiter() == Delimiter::None
     {
@@ -293,7 +293,7 @@ fn number(literal: &Lit, arena: &mut Expressions) -> syn::Result<ExpressionId> {
         "" => false,
         "deg" => true,
         other => {
-            let message = format!("no unit `{other}`: write a plain number, or `deg` for degrees");
+            let message = format!("unknown unit `{other}`: write a plain number, or `deg` for degrees");
             return Err(syn::Error::new(literal.span(), message));
         }
     };

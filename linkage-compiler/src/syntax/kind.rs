@@ -7,7 +7,7 @@ use super::attributes::Bearer;
 use super::expression::ExpressionId;
 use super::scene::{Body, Scene};
 
-/// What a statement says.
+/// The kind and the content of a statement.
 pub enum StatementKind {
     Parameters(Vec<(Ident, Option<ExpressionId>)>),
     Inputs(Vec<Ident>),
@@ -37,7 +37,7 @@ pub enum StatementKind {
         name: Ident,
         value: ExpressionId,
     },
-    /// A function of the user's: where it is found, what it takes and gives.
+    /// A user function: its path, its arguments, and the names of its value and derivatives.
     External {
         path: Path,
         arguments: Vec<Ident>,
@@ -51,7 +51,7 @@ pub enum StatementKind {
         name: Ident,
         value: ExpressionId,
     },
-    /// One that could not be read: the names in it, and whether it could be a list of coordinates.
+    /// A statement with a syntax error: its names; `is_list` if it may be a list of coordinates.
     Unread {
         names: Vec<Ident>,
         is_list: bool,
@@ -59,7 +59,7 @@ pub enum StatementKind {
 }
 
 impl StatementKind {
-    /// The construct that its attributes belong to.
+    /// The kind of construct that its attributes belong to.
     pub(super) fn bearer(&self) -> Bearer {
         match self {
             Self::Parameters(_) | Self::Drive { .. } | Self::Scene(_) => Bearer::Item,

@@ -1,7 +1,7 @@
-//! What was written: a faithful tree of the `linkage!` language, with spans.
+//! The parser: from tokens to a syntax tree of the `linkage!` language, with spans.
 //!
-//! A statement that does not parse is reported, and the names that it declares are kept, so that one mistake costs one
-//! message and the rest of the mechanism is still understood.
+//! A statement with a syntax error is reported, and the names that it seems to declare are kept, so that one mistake
+//! causes one message and the rest of the mechanism is still checked.
 
 mod attributes;
 mod expression;
@@ -29,10 +29,10 @@ pub struct Mechanism {
     pub expressions: Expressions,
 }
 
-/// Parentheses deeper than this are refused; everything else in the parser is a loop.
+/// The largest nesting of parentheses; it bounds the recursion of the parser.
 pub const DEEPEST_NESTING: usize = 64;
 
-/// An invocation of more tokens than this is refused before it is read: nobody waits for it.
+/// The largest number of tokens of an invocation; it bounds the time of parsing.
 pub const LONGEST: usize = 100_000;
 
 /// Reads every mechanism of one invocation.
@@ -44,7 +44,7 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
             return Vec::new();
         }
         Some(Excess::Length(token)) => {
-            let advice = format_args!("longer than {LONGEST} words and signs; split the mechanism");
+            let advice = format_args!("more than {LONGEST} tokens; split the invocation");
             diagnostics.error(token.span(), advice);
             return Vec::new();
         }
@@ -63,7 +63,8 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
         }
         Ok(())
     };
-    // Tokens that are left over inside an attribute are told at the end, those of a mistake with it.
+    // `syn` reports unparsed tokens, such as those in an attribute, only here; after other errors they are a
+    // consequence.
     if let Err(error) = parser.parse2(input)
         && diagnostics.is_empty()
     {
@@ -120,7 +121,7 @@ fn skip_to_brace(stream: ParseStream) {
     }
 }
 
-/// The first token beyond what is allowed.
+/// The first token beyond a limit.
 enum Excess {
     Depth(TokenTree),
     Length(TokenTree),

@@ -1,4 +1,4 @@
-//! The names that a statement that does not parse declares all the same, with values that are unread.
+//! Error recovery: the names that a statement with a syntax error seems to declare.
 
 use proc_macro2::{Ident, Span, TokenTree};
 
@@ -7,7 +7,7 @@ use super::kind::{KEYWORDS, StatementKind};
 use super::scene::{Body, Scene};
 use crate::diagnostics::{Region, nearest};
 
-/// The kind of a statement by its tokens, the keyword among them.
+/// Guesses the kind of a statement from its tokens, including the keyword.
 pub(super) fn kind(tokens: &[TokenTree], expressions: &mut Expressions) -> StatementKind {
     let [TokenTree::Ident(keyword), rest @ ..] = tokens else { return unread(tokens) };
     let names = || rest.iter().filter_map(name);
@@ -45,7 +45,7 @@ pub(super) fn kind(tokens: &[TokenTree], expressions: &mut Expressions) -> State
     }
 }
 
-/// Each name that begins a part between commas, or that stands before `=`.
+/// Parameters: each name at the beginning, after a comma or before `=`.
 fn parameters(tokens: &[TokenTree], expressions: &mut Expressions) -> StatementKind {
     let mut parameters = Vec::new();
     for (place, token) in tokens.iter().enumerate() {
@@ -61,7 +61,7 @@ fn parameters(tokens: &[TokenTree], expressions: &mut Expressions) -> StatementK
     StatementKind::Parameters(parameters)
 }
 
-/// All names, however deep.
+/// A statement of unknown kind, with all names at any depth.
 fn unread(tokens: &[TokenTree]) -> StatementKind {
     let is_list = tokens.iter().all(|token| name(token).is_some() || is_punct(Some(token), ','));
     let names = names_with_places(tokens).into_iter().map(|unread| unread.name);
@@ -74,7 +74,7 @@ fn unread_value(tokens: &[TokenTree], keyword: Span, expressions: &mut Expressio
     expressions.unread(names_with_places(tokens), Region { first, last })
 }
 
-/// All names, however deep, and on which side of an `@` they stand.
+/// All names at any depth, with their position relative to `@`.
 fn names_with_places(tokens: &[TokenTree]) -> Vec<Unread> {
     let mut names = Vec::new();
     let mut levels = vec![tokens.to_vec()];
@@ -92,7 +92,7 @@ fn names_with_places(tokens: &[TokenTree]) -> Vec<Unread> {
     names
 }
 
-/// A name that a user may choose.
+/// The token as a name, unless it is a Rust keyword.
 fn name(token: &TokenTree) -> Option<Ident> {
     match token {
         TokenTree::Ident(name) => syn::parse_str::<Ident>(&name.to_string()).is_ok().then(|| name.clone()),

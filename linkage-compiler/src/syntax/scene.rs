@@ -1,4 +1,4 @@
-//! Bodies, and scenes: braces in braces, one effect a line.
+//! Bodies and scenes.
 
 use proc_macro2::{Ident, Span, TokenTree};
 use syn::ext::IdentExt;
@@ -13,9 +13,9 @@ use crate::diagnostics::{Diagnostics, suggestion};
 /// `body NAME { mass m; inertia j; center G; angle phi; }`
 pub struct Body {
     pub name: Ident,
-    /// What is said of it: the word, and its value.
+    /// The keyword and the value of each property.
     pub properties: Vec<(Ident, ExpressionId)>,
-    /// True if all of it could be read.
+    /// True if it has no syntax error.
     pub is_complete: bool,
 }
 
@@ -24,7 +24,7 @@ pub struct Scene {
     pub name: Ident,
     pub of: Option<Ident>,
     pub effects: Vec<Effect>,
-    /// True if all of it could be read.
+    /// True if it has no syntax error.
     pub is_complete: bool,
 }
 
@@ -34,9 +34,9 @@ pub struct Effect {
     pub kind: EffectKind,
 }
 
-/// What an effect says.
+/// The kind and the content of an effect.
 pub enum EffectKind {
-    /// Of these bodies, or of all.
+    /// The inertia of these bodies, of all if there are none.
     Inertia(Vec<Ident>),
     Gravity {
         field: ExpressionId,
@@ -61,7 +61,7 @@ pub enum EffectKind {
     },
     Potential(ExpressionId),
     Friction {
-        /// Whose product is the greatest force.
+        /// The factors of the largest force.
         factors: Vec<ExpressionId>,
         on: ExpressionId,
     },
@@ -74,11 +74,11 @@ pub enum EffectKind {
         input: Ident,
         law: ExpressionId,
     },
-    /// A word that asks for more functions.
-    Wish,
+    /// A keyword that adds functions.
+    Request,
 }
 
-/// Where a spring or a damper acts.
+/// The scalar that a spring or damper acts along: an expression, or the distance of two points.
 pub enum Place {
     On(ExpressionId),
     Between(ExpressionId, ExpressionId),
@@ -113,7 +113,7 @@ pub(super) fn body(
         let text = word.to_string();
         if !PROPERTIES.contains(&text.as_str()) {
             let (hint, all) = (suggestion(&text, PROPERTIES), PROPERTIES.join(", "));
-            return Err(syn::Error::new(word.span(), format!("a body has no `{text}`{hint}\nit has: {all}")));
+            return Err(syn::Error::new(word.span(), format!("a body has no `{text}`{hint}\nproperties: {all}")));
         }
         Ok((word, expression::parse(stream, expressions)?))
     };
@@ -135,7 +135,7 @@ pub(super) fn scene(
     Ok(Scene { name: scene, of, effects, is_complete: diagnostics.len() == before })
 }
 
-/// The items in the next braces, each ended by `;`; one that does not parse is reported and skipped.
+/// Parses the items in the next braces, each ended by `;`; one with a syntax error is reported and skipped.
 fn braces<V>(
     stream: ParseStream,
     before: Span,
@@ -151,7 +151,7 @@ fn braces<V>(
     let content;
     let braces = syn::braced!(content in stream);
     if content.is_empty() {
-        return Err(syn::Error::new(braces.span.join(), format!("nothing is said here: `{{ {example} }}`")));
+        return Err(syn::Error::new(braces.span.join(), format!("empty braces: write for example `{{ {example} }}`")));
     }
     let mut items = Vec::new();
     while !content.is_empty() {
@@ -185,7 +185,7 @@ fn skip(stream: ParseStream) {
     }
 }
 
-/// Takes a word that stands between two parts, if it is there.
+/// Takes the next token if it is this keyword.
 fn word(stream: ParseStream, expected: &str) -> bool {
     let is_there = stream.fork().call(Ident::parse_any).is_ok_and(|word| word == expected);
     is_there && stream.call(Ident::parse_any).is_ok()
@@ -268,13 +268,10 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
             equals(stream)?;
             EffectKind::Drive { input, law: expression::parse(stream, expressions)? }
         }
-        "energy" | "power" | "reactions" | "equilibrium" => EffectKind::Wish,
+        "energy" | "power" | "reactions" | "equilibrium" => EffectKind::Request,
         unknown => {
             let (hint, all) = (suggestion(unknown, EFFECTS), EFFECTS.join(", "));
-            return Err(syn::Error::new(
-                keyword.span(),
-                format!("no effect is called `{unknown}`{hint}\neffects: {all}"),
-            ));
+            return Err(syn::Error::new(keyword.span(), format!("unknown effect `{unknown}`{hint}\neffects: {all}")));
         }
     };
     Ok(Effect { keyword, kind })
@@ -288,7 +285,7 @@ fn bodies(stream: ParseStream) -> syn::Result<Vec<Ident>> {
     Ok(bodies)
 }
 
-/// `on phi`, or `between P and Q`.
+/// Parses `on phi` or `between P and Q`.
 fn place(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Option<Place>> {
     if word(stream, "on") {
         return Ok(Some(Place::On(expression::parse(stream, expressions)?)));

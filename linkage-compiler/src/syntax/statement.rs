@@ -1,4 +1,4 @@
-//! Statements: one a line of the language, each ended by `;`.
+//! Statements, each ended by `;` or braces.
 
 use proc_macro2::{Ident, Span, TokenTree};
 use syn::ext::IdentExt;
@@ -12,13 +12,13 @@ use super::tokens::{end, equals, name};
 use super::{attributes, recovery, scene};
 use crate::diagnostics::{Diagnostics, nearest, suggestion};
 
-/// A statement and the doc comments above it.
+/// A statement with its attributes.
 pub struct Statement {
     pub attributes: Vec<Attribute>,
     pub kind: StatementKind,
 }
 
-/// Every statement up to the end of the braces.
+/// Parses all statements up to the end of the braces.
 pub(super) fn statements(
     stream: ParseStream,
     expressions: &mut Expressions,
@@ -30,7 +30,7 @@ pub(super) fn statements(
         let (before, messages) = (expressions.len(), diagnostics.len());
         let ahead = stream.fork();
         let read = kind(&ahead, expressions, diagnostics).and_then(|kind| {
-            // Braces end a statement.
+            // A statement that ends with braces needs no `;`.
             if matches!(kind, StatementKind::Body(_) | StatementKind::Scene(_)) {
                 if ahead.peek(Token![;]) {
                     ahead.parse::<TokenTree>()?;
@@ -67,7 +67,7 @@ pub(super) fn statements(
     statements
 }
 
-/// The tokens up to the end of a statement, without its `;`.
+/// Takes the tokens up to the end of a statement, without its `;`.
 fn statement_tokens(stream: ParseStream) -> Vec<TokenTree> {
     let mut tokens = Vec::new();
     while !stream.is_empty() && (tokens.is_empty() || !at_keyword(stream)) {
@@ -93,7 +93,7 @@ fn kind(
         let hint = suggestion(&word, KEYWORDS);
         diagnostics.error(
             keyword.span(),
-            format_args!("no statement begins with `{word}`{hint}\nstatements: {}", KEYWORDS.join(", ")),
+            format_args!("unknown statement `{word}`{hint}\nstatements: {}", KEYWORDS.join(", ")),
         );
         word = nearest(&word, KEYWORDS).unwrap_or_default().to_owned();
     }
@@ -146,11 +146,11 @@ fn kind(
         "derive" => StatementKind::Derive(names(stream)?),
         "body" => StatementKind::Body(scene::body(stream, expressions, diagnostics)?),
         "scene" => StatementKind::Scene(scene::scene(stream, expressions, diagnostics)?),
-        _ => return Err(syn::Error::new(keyword.span(), "no statement")),
+        _ => return Err(syn::Error::new(keyword.span(), "unknown statement")),
     })
 }
 
-/// A name in a list, which the next statement ends where the `;` is missing.
+/// A name in a list; a keyword instead of it means that a `;` is missing.
 fn listed(stream: ParseStream) -> syn::Result<Ident> {
     if at_keyword(stream) && stream.peek2(syn::Ident) {
         return Err(syn::Error::new(stream.span(), "expected a name; end the statement before this with `;`"));
@@ -166,7 +166,7 @@ fn names(stream: ParseStream) -> syn::Result<Vec<Ident>> {
     Ok(names)
 }
 
-/// The rest of `extern fn path::of(x, p) -> (f, df, ddf)`.
+/// Parses `fn path::of(x, p) -> (f, df, ddf)`, after `extern`.
 fn external(stream: ParseStream, keyword: Span) -> syn::Result<StatementKind> {
     const FORM: &str = "`extern fn path::to(x) -> (f, df, ddf);`";
     let expected = |found: Span, what: &str| syn::Error::new(found, format!("expected {what}: {FORM}"));
@@ -174,14 +174,14 @@ fn external(stream: ParseStream, keyword: Span) -> syn::Result<StatementKind> {
     stream.parse::<Token![fn]>().map_err(|_| expected(found, "`fn`"))?;
     let found = stream.span();
     let path = Path::parse_mod_style(stream).map_err(|_| expected(found, "the path of a function"))?;
-    let arguments = list(stream, |found| expected(found, "what it takes"))?;
+    let arguments = list(stream, |found| expected(found, "the arguments in parentheses"))?;
     let found = stream.span();
-    stream.parse::<Token![->]>().map_err(|_| expected(found, "what it gives"))?;
+    stream.parse::<Token![->]>().map_err(|_| expected(found, "`->` and the names of its results"))?;
     let names = list(stream, |found| expected(found, "the names of its value and its derivatives"))?;
     Ok(StatementKind::External { path, arguments, names })
 }
 
-/// Names in parentheses, at least one.
+/// Parses names in parentheses, at least one.
 fn list(stream: ParseStream, missing: impl Fn(Span) -> syn::Error) -> syn::Result<Vec<Ident>> {
     let found = stream.span();
     if !stream.peek(syn::token::Paren) {
@@ -207,7 +207,7 @@ fn sides(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(Exp
     Ok((left, expression::parse(stream, expressions)?))
 }
 
-/// True before an attribute and before a keyword that something follows.
+/// True before an attribute, and before a keyword that begins a statement.
 fn at_keyword(stream: ParseStream) -> bool {
     let ahead = stream.fork();
     let at_word = ahead.call(Ident::parse_any).is_ok_and(|word| KEYWORDS.iter().any(|keyword| word == *keyword));

@@ -1,4 +1,4 @@
-//! The tokens that statements, bodies and scenes have in common: a name, `=` and `;`.
+//! Parsers of a name, of `=` and of `;`.
 
 use proc_macro2::Ident;
 use syn::Token;
@@ -12,7 +12,7 @@ pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
     let name = stream.call(Ident::parse_any).map_err(|error| syn::Error::new(error.span(), "expected a name"))?;
     let text = name.to_string();
     if !is_free || text.starts_with("r#") {
-        return Err(syn::Error::new(name.span(), format!("`{text}` is a word of Rust; choose another name")));
+        return Err(syn::Error::new(name.span(), format!("`{text}` is a Rust keyword; choose another name")));
     }
     Ok(name)
 }
@@ -22,7 +22,7 @@ pub(super) fn equals(stream: ParseStream) -> syn::Result<()> {
     stream.parse::<Token![=]>().map(drop).map_err(|_| syn::Error::new(found, "expected `=`"))
 }
 
-/// The `;`; at the end of the braces its absence is reported on the last token that was written.
+/// Parses `;`. If it is missing at the end of the braces, the error is on the last token of the statement.
 pub(super) fn end(stream: ParseStream, last: Option<Region>) -> syn::Result<()> {
     if stream.is_empty() {
         let span = last.map_or_else(|| stream.span(), |region| region.last);

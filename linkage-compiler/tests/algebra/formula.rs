@@ -1,4 +1,4 @@
-//! Formulas as text, read straight into a graph.
+//! A parser of formulas into a graph.
 
 use std::collections::BTreeMap;
 use std::iter::Peekable;

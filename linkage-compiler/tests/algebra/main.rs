@@ -1,5 +1,4 @@
-//! Algebra that proves itself: equality is decided, and every simplification is proved equal to what
-//! it came from.
+//! Proofs of the algebra: a decision procedure proves every simplification equal to its original.
 
 mod equality;
 mod formula;

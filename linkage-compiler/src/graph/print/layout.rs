@@ -1,10 +1,10 @@
-//! What is a sum, a fraction or a power, which signs are written and what needs brackets.
+//! Layout of formulas: sums, fractions, powers, signs and brackets.
 
 use crate::graph::arena::Graph;
 use crate::graph::node::{External, Node, NodeId};
 use crate::graph::number::Number;
 
-/// The strength with which a text holds together: any neighbour tears a sum apart, none an atom.
+/// The precedence of the outermost operator of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Binding {
     Sum,
@@ -13,14 +13,14 @@ pub(super) enum Binding {
     Atom,
 }
 
-/// A part that is written.
+/// A printed subexpression.
 #[derive(Debug, Clone)]
 pub(super) struct Piece {
     pub(super) body: String,
     pub(super) binding: Binding,
 }
 
-/// The parts by the index of their node.
+/// Printed subexpressions, by node index.
 #[derive(Debug, Default)]
 pub(super) struct Pieces(pub(super) Vec<Option<Piece>>);
 
@@ -33,7 +33,7 @@ impl Pieces {
     }
 }
 
-/// Writes one expression, its parts being written already.
+/// Prints one node, whose children are printed already.
 pub(super) struct Layout<'a> {
     pub(super) graph: &'a Graph,
     pub(super) pieces: &'a Pieces,
@@ -72,7 +72,7 @@ impl Layout<'_> {
     }
 
     fn sum(&self, out: &mut String, constant: Number, terms: &[(Number, NodeId)]) {
-        // A leading positive term reads better than a leading minus.
+        // Positive terms come first, to avoid a leading minus.
         for negative in [false, true] {
             for &(coefficient, term) in terms {
                 if coefficient.is_negative() == negative {
@@ -107,7 +107,7 @@ impl Layout<'_> {
         out.push(')');
     }
 
-    /// The magnitude of a product: the factors above and below the bar, 1 where there are none.
+    /// Prints the magnitude of a product: numerator (1 if empty) and denominator.
     fn fraction(&self, out: &mut String, coefficient: Number, factors: &[(NodeId, i32)]) -> Binding {
         let (number, divisor) = split(coefficient.absolute());
         let (mut above, mut below) = (Vec::new(), Vec::new());
@@ -120,7 +120,7 @@ impl Layout<'_> {
             out.push('1');
         }
         self.factors(out, number, &above, Binding::Product);
-        // As the graph holds it a number divides first: 3*a/2/b.
+        // Numeric divisors come first: 3*a/2/b.
         if let Some(divisor) = divisor {
             out.push('/');
             out.push_str(&divisor.to_string());
@@ -145,7 +145,7 @@ impl Layout<'_> {
         }
     }
 
-    /// A number and powers, in brackets where they are less firm than `at_least`.
+    /// Prints a number and powers, in brackets if their precedence is below `at_least`.
     fn factors(&self, out: &mut String, number: Option<Number>, powers: &[(NodeId, u32)], at_least: Binding) {
         if let Some(number) = number {
             out.push_str(&number.to_string());
@@ -171,7 +171,7 @@ impl Layout<'_> {
     }
 }
 
-/// A positive number as a numerator and a denominator other than 1.
+/// Splits a positive number into a numerator and a denominator other than 1.
 fn split(value: Number) -> (Number, Option<Number>) {
     match value {
         Number::Ratio(n, d) if d != 1 => (Number::integer(n), Some(Number::integer(d))),
@@ -179,7 +179,7 @@ fn split(value: Number) -> (Number, Option<Number>) {
     }
 }
 
-/// The sign between two terms, or of the first.
+/// Prints the sign before a term.
 fn join(out: &mut String, negative: bool) {
     out.push_str(match (out.is_empty(), negative) {
         (true, false) => "",

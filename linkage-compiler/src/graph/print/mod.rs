@@ -1,5 +1,4 @@
-//! Expressions as plain text in the notation of the `linkage!` language, as the graph holds them: doc comments of
-//! emitted functions and messages show it.
+//! Expressions as plain text in the notation of the `linkage!` language, for doc comments and messages.
 
 mod layout;
 #[cfg(test)]
@@ -9,11 +8,11 @@ use crate::graph::arena::Graph;
 use crate::graph::node::NodeId;
 use layout::{Binding, Layout, Piece, Pieces};
 
-/// The largest length of a text in bytes. A longer one is of no use to a reader, and a shared graph can unfold
-/// without bound: an ellipsis replaces a part that is longer.
+/// The largest length of a text in bytes; an ellipsis replaces a longer part. The text of a graph with shared nodes can
+/// be exponentially long.
 const LONGEST: usize = 400;
 
-/// Texts of one graph; parts that they share are written once.
+/// A cache of printed subexpressions of one graph.
 #[derive(Debug, Default)]
 pub struct Texts(Pieces);
 
@@ -21,7 +20,7 @@ impl Texts {
     /// The expression as text.
     pub fn of(&mut self, graph: &Graph, root: NodeId) -> &str {
         let pieces = &mut self.0;
-        // Parts have smaller numbers than the nodes that hold them.
+        // Children have smaller ids than their parents.
         if pieces.0.len() <= root.index() {
             pieces.0.resize_with(root.index() + 1, || None);
         }
@@ -38,7 +37,7 @@ impl Texts {
 }
 
 impl Graph {
-    /// The expression as text; of many, [`Texts`] write what they share once.
+    /// The expression as text; for several expressions use [`Texts`], which prints shared subexpressions once.
     #[must_use]
     pub fn text(&self, root: NodeId) -> String {
         Texts::default().of(self, root).to_owned()

@@ -22,7 +22,7 @@ fn factors_stand_in_the_order_of_the_graph() {
 }
 
 #[test]
-fn fractions_nest_beside_their_coefficients() {
+fn fractions_nest_with_their_coefficients() {
     let (mut g, [a, b, c]) = graph(["a", "b", "c"]);
     let inner = g.divide(a, b);
     let one = g.one();

@@ -1,4 +1,4 @@
-//! Bodies, as they are written.
+//! Analysis of `body` statements.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +10,7 @@ use crate::model::name::Name;
 use crate::syntax::{self, ExpressionId};
 
 impl Lowering<'_> {
-    /// Time and the rates of the coordinates, which the laws of scenes may hold.
+    /// Declares time and the rates of the coordinates, for the laws of scenes.
     pub(in crate::model) fn declare_motion(&mut self, result: &mut Mechanism) {
         let mut name = "t".to_owned();
         let fields =
@@ -35,7 +35,7 @@ impl Lowering<'_> {
                 self.diagnostics.error(word.span(), format_args!("`{word}` of `{}` is given twice", tree.name));
             }
         }
-        // In the order in which they were written.
+        // Expressions must be evaluated in the order of the source.
         let (mut scalars, mut center) = (BTreeMap::new(), None);
         for (word, value) in &tree.properties {
             if word == "center" {
@@ -60,7 +60,7 @@ impl Lowering<'_> {
         missing("center", "mass", "mass m;");
         missing("angle", "inertia", "inertia j;");
         if result.bodies.iter().any(|body| tree.name == body.name.text) {
-            self.diagnostics.error(tree.name.span(), format_args!("a body is called `{}` already", tree.name));
+            self.diagnostics.error(tree.name.span(), format_args!("the body `{}` is declared twice", tree.name));
         }
         result.bodies.push(Body {
             name: Name::new(&tree.name),
@@ -69,7 +69,7 @@ impl Lowering<'_> {
         });
     }
 
-    /// Refuses what moves, and a constant less than zero.
+    /// Reports an expression that is not constant in time, or is a negative number.
     pub(super) fn positive(&mut self, id: ExpressionId, node: NodeId, what: &str) {
         self.still(id, node, what);
         if self.graph.constant_value(node).is_some_and(|value| value < 0.0) {
@@ -77,12 +77,12 @@ impl Lowering<'_> {
         }
     }
 
-    /// Refuses what is made of anything but parameters.
+    /// Reports an expression that depends on coordinates, rates or time.
     pub(super) fn still(&mut self, id: ExpressionId, node: NodeId, what: &str) {
         let motion = self.rates.values().chain(&self.time).filter_map(|&node| self.graph.as_symbol(node));
         let motion: BTreeSet<SymbolId> = motion.chain(self.rates.keys().copied()).collect();
         if self.graph.symbols_of(&[node]).iter().any(|symbol| motion.contains(symbol)) {
-            let message = format!("{what} must not move: it is made of parameters");
+            let message = format!("{what} must be constant: use parameters only");
             self.diagnostics.error(self.expressions.region(id), message);
         }
     }

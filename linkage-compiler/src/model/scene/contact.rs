@@ -1,4 +1,4 @@
-//! Frictions and stops, as they are written.
+//! Analysis of frictions and stops.
 
 use super::{Contact, ContactLaw};
 use crate::graph::NodeId;
@@ -6,7 +6,7 @@ use crate::model::expression::Lowering;
 use crate::syntax::{EffectKind, ExpressionId};
 
 impl Lowering<'_> {
-    /// A friction or a stop. Every expression is read, whatever is wrong with the others.
+    /// Evaluates a friction or a stop: all its expressions, also after a mistake in one.
     pub(super) fn contact(&mut self, kind: &EffectKind) -> Option<Contact> {
         match kind {
             EffectKind::Friction { factors, on } => {
@@ -43,10 +43,10 @@ impl Lowering<'_> {
                     && lower >= upper
                 {
                     let region = self.expressions.region(*on);
-                    self.diagnostics.error(region, format_args!("nothing is left between {lower} and {upper}"));
+                    self.diagnostics.error(region, format_args!("the range {lower}..{upper} of this stop is empty"));
                 }
                 if value(restitution_node).is_some_and(|value| !(0.0..=1.0).contains(&value)) {
-                    let message = "a restitution is between 0 and 1: the part of the rate that an impact gives back";
+                    let message = "a restitution must be between 0 and 1: s'+ = -e s'- at an impact";
                     self.diagnostics.error(self.expressions.region(*restitution), message);
                 }
                 let law = ContactLaw::Stop { range, restitution: restitution_node };

@@ -1,10 +1,10 @@
-//! Scenes and their effects, as they are written.
+//! Analysis of scenes and their effects.
 
 use std::collections::BTreeSet;
 
 use syn::Attribute;
 
-use super::{Account, Draft, Law, Reading, Wish};
+use super::{Account, Draft, Law, Reading, SceneRequest};
 use crate::graph::{Function, NodeId, Number, SymbolId};
 use crate::model::expression::Lowering;
 use crate::model::scope::Value;
@@ -18,7 +18,7 @@ impl Lowering<'_> {
             of: tree.of.clone(),
             laws: Vec::new(),
             contacts: Vec::new(),
-            wishes: BTreeSet::new(),
+            requests: BTreeSet::new(),
             inertia: None,
             contact: None,
             gravity: Vec::new(),
@@ -26,10 +26,10 @@ impl Lowering<'_> {
         };
         for effect in &tree.effects {
             self.effect(effect, &mut scene);
-            self.blame(effect.keyword.span());
+            self.report_fault(effect.keyword.span());
         }
         if !tree.is_complete {
-            // What a contact needs may be in what could not be read.
+            // The `inertia` that a contact needs may be in a statement with a syntax error.
             scene.contact = None;
         }
         reading.scenes.push(scene);
@@ -40,7 +40,8 @@ impl Lowering<'_> {
         match &effect.kind {
             EffectKind::Inertia(bodies) => {
                 if scene.inertia.replace((keyword.span(), bodies.clone())).is_some() {
-                    let message = "`inertia` is said twice; name all bodies at once, or none for all";
+                    let message =
+                        "`inertia` is written twice; name all bodies in one statement, or none for all bodies";
                     self.diagnostics.error(keyword.span(), message);
                 }
             }
@@ -99,7 +100,7 @@ impl Lowering<'_> {
             }
             EffectKind::Potential(value) => {
                 if let Some(node) = self.scalar(*value) {
-                    // F = -dV, by V itself
+                    // F = -dV: the law -1 along V
                     let label = format!("potential {}", self.text(*value).unwrap_or_default());
                     let law = self.graph.number(Number::MINUS_ONE);
                     scene.laws.push(Law { label, law, along: node, account: Account::Stored(node) });
@@ -115,25 +116,25 @@ impl Lowering<'_> {
                 let moves = |symbol: &SymbolId| self.rates.contains_key(symbol) || rates.contains(symbol);
                 if self.graph.symbols_of(&[node]).iter().any(moves) {
                     let region = self.expressions.region(*law);
-                    self.diagnostics.error(region, "a drive is a law of `t` and parameters alone");
+                    self.diagnostics.error(region, "the law of a drive may depend on `t` and parameters only");
                 }
                 scene.drives.push((input.clone(), node));
             }
-            EffectKind::Wish => {
-                let wish = match keyword.to_string().as_str() {
-                    "energy" => Wish::Energy,
-                    "power" => Wish::Power,
-                    "equilibrium" => Wish::Equilibrium,
-                    _ => Wish::Reactions,
+            EffectKind::Request => {
+                let request = match keyword.to_string().as_str() {
+                    "energy" => SceneRequest::Energy,
+                    "power" => SceneRequest::Power,
+                    "equilibrium" => SceneRequest::Equilibrium,
+                    _ => SceneRequest::Reactions,
                 };
-                if !scene.wishes.insert(wish) {
-                    self.diagnostics.error(keyword.span(), format_args!("`{keyword}` is asked for twice"));
+                if !scene.requests.insert(request) {
+                    self.diagnostics.error(keyword.span(), format_args!("`{keyword};` is written twice; remove one"));
                 }
             }
         }
     }
 
-    /// Where a spring or a damper acts, as the scalar it acts along, and its words.
+    /// The scalar that a spring or damper acts along, and its text for the label.
     pub(super) fn place(&mut self, place: &Place) -> Option<(NodeId, String)> {
         match *place {
             Place::On(on) => Some((self.scalar(on)?, format!(" on {}", self.text(on)?))),
@@ -148,7 +149,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// An expression by its name, or as a formula that somebody would read.
+    /// The text of an expression for a label: its name, or its formula if that is short.
     pub(super) fn text(&self, id: ExpressionId) -> Option<String> {
         const LONGEST: usize = 24;
         if let Some(name) = self.expressions.as_name(id) {
@@ -163,7 +164,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// An expression that may hold `t` and `rate(…)`.
+    /// Evaluates an expression that may contain `t` and `rate(…)`.
     pub(super) fn law(&mut self, id: ExpressionId) -> Option<NodeId> {
         self.is_law = true;
         let law = self.scalar(id);
@@ -171,19 +172,19 @@ impl Lowering<'_> {
         law
     }
 
-    /// A scalar that the mechanism moves.
+    /// Evaluates a scalar that must depend on coordinates.
     pub(super) fn moving(&mut self, id: ExpressionId) -> Option<NodeId> {
         let node = self.scalar(id)?;
         if !self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol)) {
             let message =
-                "nothing moves this: a friction or a stop acts on a coordinate, an output or what is made of them";
+                "this is constant: a friction or a stop acts on a coordinate, an output or an expression of these";
             self.diagnostics.error(self.expressions.region(id), message);
             return None;
         }
         Some(node)
     }
 
-    /// The rate of an expression, by the rates of the coordinates.
+    /// The rate of an expression in terms of the rates of the coordinates.
     pub(in crate::model) fn rate_of(&mut self, node: NodeId) -> NodeId {
         self.graph.differentiate(&[node], &self.rates)[0]
     }

@@ -1,4 +1,4 @@
-//! What is known of scenes once all statements are read.
+//! Completion of scenes after all statements are analysed.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::model::expression::Lowering;
 use crate::model::mechanism::{Driver, Mechanism};
 
 impl Lowering<'_> {
-    /// What is known of the scenes once all statements are read: their bodies, drivers and parameters.
+    /// Resolves the bodies, drivers and parameters of all scenes.
     pub(in crate::model) fn finish_scenes(&mut self, reading: Reading, result: &mut Mechanism) {
         let mut used = BTreeSet::new();
         for draft in reading.scenes {
@@ -26,19 +26,19 @@ impl Lowering<'_> {
                 laws: draft.laws,
                 contacts: draft.contacts,
                 drives: Vec::new(),
-                wishes: draft.wishes,
+                requests: draft.requests,
                 parameters: Vec::new(),
             };
             if let Some((span, bodies)) = &draft.inertia {
                 let all = self.bodies(bodies, result);
                 if all.is_empty() {
-                    self.diagnostics.error(*span, "there is no `body` whose inertia could count");
+                    self.diagnostics.error(*span, "`inertia` needs a body: declare one with `body NAME { … }`");
                 }
                 used.extend(all.iter().copied());
                 scene.inertia = Some(all);
             }
             if let (Some((span, word)), None) = (&draft.contact, &draft.inertia) {
-                let message = format!("a `{word}` acts on what moves: add `inertia;` to `{}`", scene.name);
+                let message = format!("a `{word}` needs inertia: add `inertia;` to `{}`", scene.name);
                 self.diagnostics.error(*span, message);
             }
             for ([x, y], bodies) in &draft.gravity {
@@ -54,11 +54,11 @@ impl Lowering<'_> {
                 let Some(place) = place else {
                     let of = inputs.iter().map(|&index| result.coordinates[index].name.text.as_str());
                     let hint = suggestion(&text, of);
-                    self.diagnostics.error(input.span(), format_args!("`{text}` is no input of `{name}`{hint}"));
+                    self.diagnostics.error(input.span(), format_args!("`{text}` is not an input of `{name}`{hint}"));
                     continue;
                 };
                 if scene.drives.iter().any(|drive| drive.input == place) {
-                    self.diagnostics.error(input.span(), format_args!("`{text}` is driven twice"));
+                    self.diagnostics.error(input.span(), format_args!("`{text}` is driven twice; remove one `drive`"));
                 }
                 scene.drives.push(Drive { input: place, law });
             }
@@ -70,11 +70,11 @@ impl Lowering<'_> {
             }
             result.scenes.push(scene);
         }
-        // A scene that was not understood would be missed.
+        // After mistakes, a scene that uses the body may be missing.
         let is_complete = self.diagnostics.is_empty();
         for (id, body) in result.bodies.enumerated().filter(|_| is_complete) {
             if !used.contains(&id) && !body.name.text.starts_with('_') {
-                let message = format!("no scene counts the inertia or the weight of `{}`; remove it", body.name.text);
+                let message = format!("no scene uses the inertia or the weight of `{}`; remove it", body.name.text);
                 self.diagnostics.error(body.name.span, message);
             }
         }
@@ -92,11 +92,14 @@ impl Lowering<'_> {
             let (span, message) = match &scene.of {
                 Some(name) => {
                     let hint = suggestion(&name.to_string(), names.iter().map(String::as_str));
-                    (name.span(), format!("no driver is called `{name}`{hint}"))
+                    (name.span(), format!("unknown driver `{name}`{hint}"))
                 }
                 None => {
                     let first = names.first().map_or("", String::as_str);
-                    (scene.name.span(), format!("which driver? write `scene {} of {first} {{ … }}`", scene.name))
+                    (
+                        scene.name.span(),
+                        format!("this scene needs a driver: write `scene {} of {first} {{ … }}`", scene.name),
+                    )
                 }
             };
             self.diagnostics.error(span, message);
@@ -104,7 +107,7 @@ impl Lowering<'_> {
         place
     }
 
-    /// Bodies by their names; all of them if none is named.
+    /// The bodies with these names; all bodies if there are no names.
     fn bodies(&mut self, names: &[Ident], result: &Mechanism) -> Vec<BodyId> {
         if names.is_empty() {
             return result.bodies.ids().collect();
@@ -114,19 +117,19 @@ impl Lowering<'_> {
             let text = name.to_string();
             match result.bodies.ids().find(|&id| result.bodies[id].name.text == text) {
                 Some(index) if found.contains(&index) => {
-                    self.diagnostics.error(name.span(), format_args!("`{text}` is named twice"));
+                    self.diagnostics.error(name.span(), format_args!("`{text}` is named twice; remove one"));
                 }
                 Some(index) => found.push(index),
                 None => {
                     let hint = suggestion(&text, result.bodies.iter().map(|body| body.name.text.as_str()));
-                    self.diagnostics.error(name.span(), format_args!("no body is called `{text}`{hint}"));
+                    self.diagnostics.error(name.span(), format_args!("unknown body `{text}`{hint}"));
                 }
             }
         }
         found
     }
 
-    /// A parameter that no closure, point or output holds, but a scene, belongs to the scenes that hold it.
+    /// Moves parameters that only scenes use from the mechanism to these scenes.
     fn part_parameters(&self, result: &mut Mechanism) {
         let kinematic: BTreeSet<SymbolId> = self.graph.symbols_of(&result.kinematic_formulas()).into_iter().collect();
         let held: Vec<BTreeSet<SymbolId>> = result

@@ -1,4 +1,4 @@
-//! Bodies and scenes: every effect as a potential, or as a law that acts along a scalar.
+//! Bodies and scenes; every effect is a potential, or a law that acts along a scalar.
 
 mod body;
 mod contact;
@@ -17,33 +17,33 @@ use crate::ids::{BodyId, DriverId, InputId, SceneParameterId, Table};
 /// A rigid body.
 pub struct Body {
     pub name: Name,
-    /// m and its centre.
+    /// The mass and its centre.
     pub mass: Option<(NodeId, [NodeId; 2])>,
-    /// The moment of inertia about the centre, and the angle that the body turns by.
+    /// The moment of inertia about the centre, and the angle of the body.
     pub inertia: Option<(NodeId, NodeId)>,
 }
 
-/// A mechanism with the effects that somebody called for.
+/// A mechanism with forces and inertia.
 pub struct Scene {
     pub name: Ident,
     pub attributes: Vec<Attribute>,
     pub driver: DriverId,
-    /// The bodies whose inertia counts; nothing accelerates in a scene without.
+    /// The bodies with inertia; `None` in a static scene.
     pub inertia: Option<Vec<BodyId>>,
-    /// A body and the field that its mass is in.
+    /// Bodies with weight, and their gravitational field.
     pub weights: Vec<(BodyId, [NodeId; 2])>,
     pub laws: Vec<Law>,
     pub contacts: Vec<Contact>,
     pub drives: Vec<Drive>,
-    pub wishes: BTreeSet<Wish>,
+    pub requests: BTreeSet<SceneRequest>,
     pub parameters: Vec<SceneParameterId>,
 }
 
 /// A force along a scalar: its work is `law` times the change of `along`.
 pub struct Law {
-    /// The label that errors give.
+    /// The name in errors.
     pub label: String,
-    /// In terms of parameters, coordinates, rates and time.
+    /// The force, in terms of parameters, coordinates, rates and time.
     pub law: NodeId,
     pub along: NodeId,
     pub account: Account,
@@ -51,7 +51,7 @@ pub struct Law {
 
 /// A dry friction or a stop.
 pub struct Contact {
-    /// The label that errors give.
+    /// The name in errors.
     pub label: String,
     pub along: NodeId,
     pub law: ContactLaw,
@@ -59,62 +59,62 @@ pub struct Contact {
 
 /// The law of a contact.
 pub enum ContactLaw {
-    /// The greatest force is the product of these, in terms of parameters, coordinates, rates and time.
+    /// The factors of the largest force, in terms of parameters, coordinates, rates and time.
     Friction(Vec<NodeId>),
-    /// In terms of parameters.
+    /// The range and the restitution, in terms of parameters.
     Stop { range: [NodeId; 2], restitution: NodeId },
 }
 
-/// Where the work of a law goes.
+/// The account of the work of a law in the energy balance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Account {
-    /// From a potential energy.
+    /// Taken from a potential energy.
     Stored(NodeId),
-    /// Out of the mechanism.
+    /// Dissipated.
     Dissipated,
-    /// Into the mechanism.
+    /// Applied from outside.
     Applied,
 }
 
-/// The motion of an input is given.
+/// A driven input: its motion is prescribed.
 pub struct Drive {
     pub input: InputId,
-    /// In terms of parameters and time.
+    /// The value of the input, in terms of parameters and time.
     pub law: NodeId,
 }
 
-/// Functions that a scene has only if they are asked for.
+/// A statement of a scene that adds functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Wish {
+pub enum SceneRequest {
     Energy,
     Power,
     Reactions,
     Equilibrium,
 }
 
-/// What the scenes of a mechanism share while they are read.
+/// The scenes read so far, before their names are resolved.
 #[derive(Default)]
 pub(super) struct Reading {
     scenes: Vec<Draft>,
 }
 
-/// A scene with names in place of the bodies, drivers and inputs, which are not all known yet.
+/// A scene with unresolved names of bodies, drivers and inputs.
 struct Draft {
     name: Ident,
     attributes: Vec<Attribute>,
     of: Option<Ident>,
     laws: Vec<Law>,
     contacts: Vec<Contact>,
-    wishes: BTreeSet<Wish>,
+    requests: BTreeSet<SceneRequest>,
     inertia: Option<(Span, Vec<Ident>)>,
-    /// Where the first contact is named.
+    /// The keyword of the first contact.
     contact: Option<(Span, String)>,
     gravity: Vec<([NodeId; 2], Vec<Ident>)>,
     drives: Vec<(Ident, NodeId)>,
 }
 
 impl Scene {
-    /// Everything whose value it takes: forces, energies, the bounds of contacts.
+    /// The expressions that the scene evaluates: forces, energies, limits of contacts.
     #[must_use]
     pub fn values(&self) -> Vec<NodeId> {
         let mut values: Vec<NodeId> = self.laws.iter().map(|law| law.law).collect();
@@ -133,7 +133,7 @@ impl Scene {
         values
     }
 
-    /// Everything that forces act along.
+    /// The scalars that forces act along.
     #[must_use]
     pub fn paths(&self, bodies: &Table<BodyId, Body>) -> Vec<NodeId> {
         let mut paths: Vec<NodeId> = self.laws.iter().map(|law| law.along).collect();
@@ -147,7 +147,7 @@ impl Scene {
         paths
     }
 
-    /// Everything that it is made of.
+    /// All expressions of the scene.
     fn formulas(&self, bodies: &Table<BodyId, Body>) -> Vec<NodeId> {
         let mut formulas: Vec<NodeId> = self.laws.iter().flat_map(|law| [law.law, law.along]).collect();
         for (index, field) in &self.weights {

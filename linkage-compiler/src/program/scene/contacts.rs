@@ -10,7 +10,7 @@ use crate::program::names::Order;
 use crate::program::plan::unnamed;
 
 impl ScenePlan<'_, '_, '_> {
-    /// Each friction and stop with its scalar, the derivatives of that, and its numbers.
+    /// `contacts`: each friction and stop with its scalar s, the derivatives of s, and its limits.
     pub(super) fn contacts(&mut self) {
         let mut doc = lines(["The frictions and stops at a position and the rates q', in the order of the scene."]);
         let formulas = self.scene.contacts.iter().map(|contact| {
@@ -29,8 +29,8 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`PositionError::NotFinite` with the name of the effect that has no finite value, `InputError::OutOfRange` with that of the",
-            "friction whose limit is negative.",
+            "`PositionError::NotFinite` with the name of the contact if a number is not finite, `InputError::OutOfRange` with its name if",
+            "the limit of a friction is negative.",
         ]));
         let zero = self.plan.derivation.graph.zero();
         let derivation = &self.plan.derivation;
@@ -76,7 +76,7 @@ impl ScenePlan<'_, '_, '_> {
         self.add(self.signatures.contacts(), doc, body);
     }
 
-    /// M, Q, W and u'' at v'' = 0 in one function.
+    /// `equations`: M, Q, W and u'' at v'' = 0.
     pub(super) fn equations(&mut self) {
         let (u, v) = (self.plan.signatures.unknowns(), self.signatures.inputs.len());
         let (inertia, forces) = (self.layers.inertia.iter().flatten(), &self.layers.forces);
@@ -85,7 +85,7 @@ impl ScenePlan<'_, '_, '_> {
         let outputs = unnamed(self.plan.variables(&symbols));
         let count = outputs.len();
         let body = self.on_motion(outputs, None);
-        let body = self.blamed(body, "the equations of motion", results(0..count));
+        let body = self.checked_with_effects(body, "the equations of motion", results(0..count));
         let body = self.with_rates(body);
         let (forces, ratios) = (v * v + v, v * v + v + u * v);
         let members = [
@@ -99,14 +99,14 @@ impl ScenePlan<'_, '_, '_> {
             "M and Q of M v'' = Q without frictions and stops, W of u' = W v', and u'' at v'' = 0.",
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` with the name of the body or the effect that",
-            "has no finite value.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` with the name of the body or effect if its force is not",
+            "finite.",
         ]);
         self.add(self.signatures.equations(), doc, body);
     }
 }
 
-/// A type of the runtime with its members.
+/// A struct of the runtime with these fields.
 fn structure<'m>(of: &'static str, members: impl IntoIterator<Item = (&'m str, Expression)>) -> Expression {
     let members = members.into_iter().map(|(name, value)| (name.to_owned(), value));
     Expression::structure(Type::Runtime(of, Vec::new()), members)

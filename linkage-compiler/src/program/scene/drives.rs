@@ -1,4 +1,4 @@
-//! The laws of drives, and the forces that they take.
+//! `drives` and `drive_forces`: the laws of driven inputs, and inverse dynamics.
 
 use super::{ERRORS, ScenePlan};
 use crate::derivation::Prescribed;
@@ -11,7 +11,7 @@ use crate::program::operations::Operations;
 use crate::program::plan::unnamed;
 
 impl ScenePlan<'_, '_, '_> {
-    /// The driven inputs as they are called in descriptions.
+    /// The names of the driven inputs, for doc comments.
     fn driven(&self) -> String {
         let names = self.signatures.driven.iter().map(|&at| format!("`{}`", self.signatures.inputs[at]));
         names.collect::<Vec<_>>().join(", ")
@@ -19,7 +19,7 @@ impl ScenePlan<'_, '_, '_> {
 
     /// The laws of the driven inputs with their derivatives.
     pub(super) fn drives(&mut self) {
-        let doc = vec![format!("The value, the rate and the acceleration that are prescribed of {}.", self.driven())];
+        let doc = vec![format!("The prescribed value, rate and acceleration of {}.", self.driven())];
         let laws = self.scene.drives.values();
         let many = laws.len();
         let nodes = laws.flat_map(|Prescribed { value, rate, acceleration }| [*value, *rate, *acceleration]);
@@ -37,7 +37,7 @@ impl ScenePlan<'_, '_, '_> {
     /// Inverse dynamics: `M_d v'' - Q_d`.
     pub(super) fn drive_forces(&mut self) {
         let mut doc = vec![
-            format!("The forces, of angles the torques, that drive {} by inverse dynamics: M v'' - Q,", self.driven()),
+            format!("The forces (for angles, torques) that drive {}, by inverse dynamics: M v'' - Q,", self.driven()),
             "at this position and these rates of the inputs.".to_owned(),
         ];
         if !self.signatures.scene.contacts.is_empty() {
@@ -45,12 +45,12 @@ impl ScenePlan<'_, '_, '_> {
         }
         doc.extend(lines(ERRORS));
         let (mut body, forces) = self.driving(Vec::new());
-        body = self.blamed(body, "the driving force", forces.clone());
+        body = self.checked_with_effects(body, "the driving force", forces.clone());
         let body = Body { value: Value::Plain(Expression::List(forces)), ..self.with_rates(body) };
         self.add(self.signatures.drive_forces(), doc, body);
     }
 
-    /// A body that computes first other results and then the forces of the drives, and these.
+    /// A body that computes other results and then the forces of the drives; returns these as well.
     pub(super) fn driving(&mut self, others: Vec<Output>) -> (Body, Vec<Expression>) {
         let driven = self.signatures.driven.clone();
         let free = match self.scene.mass_matrix {
@@ -67,7 +67,7 @@ impl ScenePlan<'_, '_, '_> {
         let name = |at: &InputId| format!("{}_drive", inputs[*at]);
         for (side, at) in sides.into_iter().zip(&driven) {
             let force = self.plan.derivation.graph.negate(side);
-            // Without a free input this is the force; with one, what is added to it has the name.
+            // With free inputs, the name belongs to the sum that includes the coupling terms.
             outputs.push(Output { node: force, name: free.is_empty().then(|| name(at)) });
         }
         let entries = first..first + free.len().pow(2);

@@ -1,4 +1,4 @@
-//! Energy and power.
+//! `energy` and `power`.
 
 use super::{ERRORS, ScenePlan};
 use crate::program::doc::lines;
@@ -11,7 +11,7 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if it is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if an energy is not finite.",
         ]));
         let members = ["kinetic", "potential"];
         let nodes = [self.scene.kinetic, self.scene.potential];
@@ -28,15 +28,15 @@ impl ScenePlan<'_, '_, '_> {
         let driven = self.signatures.driven.clone();
         let mut doc = match (has_contacts, driven.is_empty()) {
             (false, _) => lines([
-                "The power of forces, torques and drives, and that of dampers: the energy changes by their difference.",
+                "The applied power of forces, torques and drives, and the power that dampers dissipate: dE/dt is their difference.",
             ]),
             (true, true) => lines([
-                "The power of forces and torques, and that of dampers and frictions, which take limit |s'|: between",
-                "impacts the energy changes by their difference.",
+                "The applied power of forces and torques, and the power that dampers and frictions, limit |s'| each, dissipate:",
+                "between impacts dE/dt is their difference.",
             ]),
             (true, false) => lines([
-                "The power of forces and torques, and that of dampers and frictions, which take limit |s'|. That of the",
-                "drives depends on what sticks, and is not among them.",
+                "The applied power of forces and torques, and the power that dampers and frictions, limit |s'| each, dissipate.",
+                "The power of the drives, which depends on the modes of the contacts, is not included.",
             ]),
         };
         doc.extend(lines(ERRORS));
@@ -64,7 +64,7 @@ impl ScenePlan<'_, '_, '_> {
             (self.on_motion(outputs, None), Expression::Result(0))
         };
         let values = [applied, Expression::Result(1)];
-        let body = self.blamed(body, "the power", values.to_vec());
+        let body = self.checked_with_effects(body, "the power", values.to_vec());
         let body = self.with_rates(body);
         let members = ["applied", "dissipated"].map(str::to_owned).into_iter().zip(values);
         let power = Expression::structure(Type::Runtime("Power", Vec::new()), members);

@@ -1,4 +1,4 @@
-//! Where the forces vanish at rest.
+//! `equilibrium` and `balance`: static equilibrium.
 
 use super::ScenePlan;
 use crate::derivation::{Form, needed};
@@ -10,7 +10,7 @@ use crate::program::function::{Body, Output, Value, results};
 use crate::program::names::Arguments;
 
 impl ScenePlan<'_, '_, '_> {
-    /// The forces at rest with their derivatives, and where they vanish.
+    /// Plans `balance` and `equilibrium`.
     pub(super) fn equilibrium(&mut self) {
         self.balance();
         let Arguments { time, q, guess, .. } = self.signatures.arguments.clone();
@@ -23,18 +23,18 @@ impl ScenePlan<'_, '_, '_> {
         let near = Expression::Struct(
             Type::Bare(self.signatures.types.coordinates.clone()),
             members.collect(),
-            Some(Box::new(Expression::name(&guess).behind())),
+            Some(Box::new(Expression::name(&guess).dereferenced())),
         );
         let found = self.mechanism().method("solve", [near.borrowed()]).tried().field("coordinates");
         let balance = Expression::call("balance", [Expression::name(&time), Expression::name(&q).borrowed()]).tried();
         let both = Expression::Tuple(vec![Expression::name(&q), balance]);
-        let closure = Expression::Closure {
+        let function = Expression::Closure {
             arguments: vec![Pattern::List(free.into_iter().map(Pattern::Name).collect())],
             statements: vec![Statement::Let(Pattern::Name(q), found)],
             value: Box::new(Expression::runtime("Ok", [both])),
             moves: false,
         };
-        let search = [Expression::mechanism(), Expression::List(start), closure];
+        let search = [Expression::mechanism(), Expression::List(start), function];
         let mut body = Body::result(Expression::runtime("equilibrium", search));
         if !driven.is_empty() {
             let laws = driven.into_iter().map(|input| Pattern::Struct {
@@ -46,12 +46,12 @@ impl ScenePlan<'_, '_, '_> {
             body.before = vec![Statement::Let(Pattern::List(laws.collect()), drives)];
         }
         let doc = lines([
-            "The position near the guess where the forces of the free inputs vanish at rest, by Newton's method; it may be",
-            "stable or not.",
+            "The position of static equilibrium near the guess, stable or unstable, by Newton's method: the forces of the free",
+            "inputs at rest are zero.",
             "",
             "# Errors",
-            "`PositionError::NotConverged` if there is none to be found, `PositionError::OtherBranch` if the guess belongs to no",
-            "position of its branch, `PositionError::NotFinite` if a number is not finite.",
+            "`PositionError::NotConverged` if none is found, `PositionError::OtherBranch` if a position near the guess is on another",
+            "branch, `PositionError::NotFinite` if a number is not finite.",
         ]);
         self.add(self.signatures.equilibrium(), doc, body);
     }
@@ -85,11 +85,11 @@ impl ScenePlan<'_, '_, '_> {
         let value = Expression::structure(Type::Runtime("Balance", Vec::new()), members);
         let body = Body { value: Value::Plain(value), ..body };
         let doc = lines([
-            "The forces of the free inputs at rest, the sums of the magnitudes of their parts, and their derivatives by these",
-            "inputs along the closures, column by column: an equilibrium of one input is stable where its slope is negative.",
+            "The forces Q of the free inputs at rest, the sums of the magnitudes of their parts, and dQ/dv for these inputs along the",
+            "motion of the mechanism, column by column. An equilibrium with one free input is stable if dQ/dv is negative.",
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if a force, its size or a derivative is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a number is not finite.",
         ]);
         self.add(self.signatures.balance(), doc, body);
     }

@@ -1,5 +1,5 @@
-//! The private functions that those of a scene are made of: M, what each body and effect adds to Q, and Q. They refuse
-//! nothing: what is made of them is checked by whoever calls them.
+//! The private functions that those of a scene call: M, the contribution of each body and effect to Q, and Q. They
+//! check nothing; their callers check that results are finite.
 
 use std::collections::BTreeSet;
 
@@ -22,8 +22,8 @@ impl ScenePlan<'_, '_, '_> {
         for (row, name) in names.enumerated() {
             let mut entries: Table<InputId, SymbolId> = self.layers.inertia.iter().map(|above| above[row]).collect();
             let right = names.iter().skip(row.number()).map(|other| format!("{name}_{other}_inertia"));
-            let wishes = std::iter::once(format!("{name}_inertia")).chain(right);
-            entries.extend(wishes.map(|wish| self.plan.derivation.graph.symbol(wish)));
+            let names = std::iter::once(format!("{name}_inertia")).chain(right);
+            entries.extend(names.map(|name| self.plan.derivation.graph.symbol(name)));
             self.layers.inertia.push(entries);
         }
         let entries: Vec<NodeId> = matrix.into_iter().flatten().collect();
@@ -36,7 +36,7 @@ impl ScenePlan<'_, '_, '_> {
         self.add_layer(signature, "M, column by column.", entries, columns);
     }
 
-    /// The part of Q of each body and effect, with the label that errors give.
+    /// The contribution of each body and effect to Q, with its label in errors.
     pub(super) fn effects(&mut self) {
         let inputs = self.signatures.inputs.clone();
         let mut nodes = Vec::new();
@@ -61,10 +61,10 @@ impl ScenePlan<'_, '_, '_> {
         let parts = Expression::List(parts.collect());
         let of = Type::List(Box::new(Type::Tuple(vec![Type::Text, Type::Scalar])), nodes.len());
         let signature = self.layer("effects", &nodes, of);
-        self.add_layer(signature, "What each body and effect adds to the forces of the inputs.", nodes, parts);
+        self.add_layer(signature, "The contribution of each body and effect to Q, with its name.", nodes, parts);
     }
 
-    /// Calls formulas as the symbols that stand for them elsewhere; names that the user gave go before.
+    /// Gives formulas the names of their symbols.
     fn name(&mut self, nodes: &[NodeId], symbols: &[SymbolId]) {
         let graph = &self.plan.derivation.graph;
         let names = symbols.iter().map(|&symbol| graph.symbol_name(symbol).to_owned());
@@ -72,7 +72,7 @@ impl ScenePlan<'_, '_, '_> {
         self.plan.named.splice(0..0, named);
     }
 
-    /// Q, the sums of what bodies and effects add.
+    /// Q, the sum of the contributions of bodies and effects.
     pub(super) fn reduced_forces(&mut self) {
         let inputs = self.signatures.inputs.clone();
         let graph = &mut self.plan.derivation.graph;
@@ -99,25 +99,29 @@ impl ScenePlan<'_, '_, '_> {
         let of = Type::List(Box::new(Type::Scalar), inputs.len());
         let signature = layer("reduced_forces", self.arguments(&self.layers.parts_read), of);
         let is_method = self.find("effects").is_some_and(|effects| effects.is_method);
-        self.add(Function { is_method, ..signature }, lines(["Q, the sums of what bodies and effects add."]), body);
+        self.add(
+            Function { is_method, ..signature },
+            lines(["Q, the sum of the contributions of bodies and effects."]),
+            body,
+        );
     }
 
     /// True if some effect depends on time.
-    pub(super) fn blame_takes_time(&self) -> bool {
+    pub(super) fn effects_depend_on_time(&self) -> bool {
         self.layers.parts_read.contains(&Read::Time)
     }
 
-    /// The function that says which body or effect has no finite value.
-    pub(super) fn blame(&mut self) {
+    /// `check_effects`: an error that names the body or effect whose force is not finite.
+    pub(super) fn check_effects(&mut self) {
         let body = self.moved(&self.layers.parts_read);
         let finite = [Expression::mechanism(), self.call_of("effects", |argument| self.passed(argument))];
         let body = Body { value: Value::Result(Expression::runtime("finite_each", finite)), ..body };
-        let doc = lines(["Refuses the body or the effect that has no finite value, by its name."]);
-        self.add(self.signatures.blame(self.blame_takes_time()), doc, body);
+        let doc = lines(["Returns an error with the name of a body or effect if its force is not finite."]);
+        self.add(self.signatures.check_effects(self.effects_depend_on_time()), doc, body);
     }
 
-    /// A body on coordinates and the rates of the inputs, with W, q', u'' at v'' = 0, M and Q as far as results need them,
-    /// and what else is read under its name.
+    /// A body with coordinates and input rates that computes W, q', u'' at v'' = 0, M and Q as far as the results
+    /// depend on them; `by_name` is a dependency of later statements.
     pub(super) fn on_motion(&self, results: Vec<Output>, by_name: Option<Read>) -> Body {
         let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
         let own = self.reads(&nodes);
@@ -154,7 +158,7 @@ impl ScenePlan<'_, '_, '_> {
         body
     }
 
-    /// A body that finds pose, W, q' and u'' at v'' = 0, as far as these are read.
+    /// A body that computes the pose, W, q' and u'' at v'' = 0 as far as they are read.
     fn moved(&self, reads: &BTreeSet<Read>) -> Body {
         let arguments = &self.signatures.arguments;
         let input_rates = Expression::name(&arguments.input_rates);
@@ -171,13 +175,13 @@ impl ScenePlan<'_, '_, '_> {
             let fields: Vec<_> = fields.collect();
             let of = Type::Runtime("Kinematics", Vec::new());
             let pattern = Pattern::Struct { of, is_whole: fields.len() == found.len(), fields };
-            let call = self.judged("kinematics_at", vec![Expression::name(&arguments.q), input_rates]);
+            let call = self.driver_call("kinematics_at", vec![Expression::name(&arguments.q), input_rates]);
             body.before.push(Statement::Let(pattern, call));
             body.calls.push(self.of_driver("kinematics_at"));
             return body;
         }
         self.pose_at(&mut body);
-        let call = self.judged("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
+        let call = self.driver_call("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
         body.calls.push(self.of_driver("ratio_columns"));
         body.before.push(match reads.contains(&Read::Ratios) || reads.contains(&Read::Rates) {
             true => Statement::Let(Pattern::Name(arguments.ratios.clone()), call),
@@ -193,7 +197,7 @@ impl ScenePlan<'_, '_, '_> {
         body
     }
 
-    /// W, q' and u'' at v'' = 0 as symbols, as far as these are read.
+    /// Sources of W, q' and u'' at v'' = 0, as far as they are read.
     fn moving(&self, reads: &BTreeSet<Read>) -> Vec<Source> {
         let (arguments, derivation) = (&self.signatures.arguments, &self.plan.derivation);
         let ratios: Vec<SymbolId> = derivation.ratios.iter().flatten().copied().collect();
@@ -207,7 +211,7 @@ impl ScenePlan<'_, '_, '_> {
         read.map(|(_, name, shape)| Source { from: Expression::name(name), shape }).collect()
     }
 
-    /// The dependencies of formulas on a pose.
+    /// The dependencies of formulas, where a pose holds sines and cosines.
     pub(super) fn reads(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
         let (derivation, given) = (&*self.plan.derivation, &self.plan.pose.given);
         let graph = &derivation.graph;
@@ -231,7 +235,7 @@ impl ScenePlan<'_, '_, '_> {
         reads
     }
 
-    /// The dependencies of a layer, which takes q' even where the rates of the inputs would do.
+    /// The dependencies of a layer, which takes q' instead of the input rates.
     fn read_by_layer(&self, nodes: &[NodeId]) -> BTreeSet<Read> {
         let reads = self.reads(nodes).into_iter();
         reads.map(|read| if read == Read::InputRates { Read::Rates } else { read }).collect()
@@ -242,7 +246,7 @@ impl ScenePlan<'_, '_, '_> {
         reads.iter().filter_map(|&read| self.signatures.of_layer(read)).collect()
     }
 
-    /// A layer with these formulas; one without parameters takes no `self`.
+    /// The signature of a layer with these formulas; without parameters it takes no `self`.
     fn layer(&self, name: &str, nodes: &[NodeId], of: Type) -> Function<Body> {
         let symbols = self.plan.derivation.graph.symbols_of(nodes);
         let mechanism = self.signatures.mechanism;
@@ -256,7 +260,7 @@ impl ScenePlan<'_, '_, '_> {
         // All but the parameters are references.
         let [parameters, coordinates, computed] = self.still();
         let others = std::iter::once(computed).chain(moving);
-        let others = others.map(|source| Source { from: source.from.behind(), ..source });
+        let others = others.map(|source| Source { from: source.from.dereferenced(), ..source });
         let sources = [parameters, coordinates].into_iter().chain(others).collect();
         let kernel = Kernel { sources, results: unnamed(nodes), is_on_pose: true, ..Kernel::default() };
         self.add(signature, lines([doc]), Body::of(kernel, value));
@@ -266,14 +270,14 @@ impl ScenePlan<'_, '_, '_> {
         self.functions.iter().find(|function| function.name == name)
     }
 
-    /// An argument of a layer where it is a local value, but for q.
+    /// An argument in a call from a body that holds it as a local value; q is a reference already.
     fn passed(&self, argument: &Argument) -> Expression {
         let value = Expression::name(&argument.name);
         let is_local = argument.name != self.signatures.arguments.q;
         if is_local && matches!(argument.passed, Passed::ByReference(_)) { value.borrowed() } else { value }
     }
 
-    /// A call of a layer with arguments of the names that it gives them itself.
+    /// A call of a layer, each argument by `argument`.
     fn call_of(&self, name: &str, argument: impl Fn(&Argument) -> Expression) -> Expression {
         let called = self.find(name);
         let arguments = called.into_iter().flat_map(|layer| &layer.arguments).map(argument);

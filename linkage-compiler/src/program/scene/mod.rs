@@ -18,15 +18,15 @@ use super::names::Order;
 use super::plan::Plan;
 use crate::derivation::{Scene, Step};
 use crate::graph::NodeId;
-use crate::model::{self, Wish};
+use crate::model::{self, SceneRequest};
 use reads::{Layers, Read};
 pub use signatures::SceneSignatures;
 
 const ERRORS: [&str; 4] = [
     "",
     "# Errors",
-    "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` with the name of the body or the effect that",
-    "has no finite value.",
+    "`PositionError::Singular` if J is singular, `PositionError::NotFinite` with the name of the body or effect if its force is not",
+    "finite.",
 ];
 
 /// The program of one scene.
@@ -42,17 +42,17 @@ pub struct ScenePlan<'p, 'd, 'a> {
     pub scene: Scene,
     pub functions: Vec<Function<Body>>,
     layers: Layers,
-    /// True if there is an effect that may have no finite value, and if some function asks which.
-    is_blamable: bool,
-    blames: bool,
+    /// True if the force of some body or effect is not a constant.
+    has_varying_effects: bool,
+    calls_check_effects: bool,
 }
 
 impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
-    /// Plans the functions of a scene of a driver; `number` is its place among the scenes of the driver.
+    /// Plans the functions of a scene; `number` is its index among the scenes of the driver.
     pub fn of(plan: &'p mut Plan<'d, 'a>, scene: &'a model::Scene, number: usize) -> Option<Self> {
         let derived = plan.derivation.scenes.get(number)?.clone();
         let mut parts = derived.parts.iter().flat_map(|(_, parts)| parts);
-        let is_blamable = parts.any(|&part| plan.derivation.graph.constant_value(part).is_none());
+        let has_varying_effects = parts.any(|&part| plan.derivation.graph.constant_value(part).is_none());
         let signatures = SceneSignatures::new(plan.signatures.mechanism, plan.signatures.driver, scene);
         let mut planned = ScenePlan {
             plan,
@@ -60,8 +60,8 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
             scene: derived,
             functions: Vec::new(),
             layers: Layers::default(),
-            is_blamable,
-            blames: false,
+            has_varying_effects,
+            calls_check_effects: false,
         };
         planned.reduced_inertia();
         planned.effects();
@@ -79,13 +79,13 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
             planned.drives();
             planned.drive_forces();
         }
-        let wishes = [Wish::Energy, Wish::Power, Wish::Reactions, Wish::Equilibrium];
-        for wish in wishes.into_iter().filter(|wish| scene.wishes.contains(wish)) {
-            match wish {
-                Wish::Energy => planned.energy(),
-                Wish::Power => planned.power(),
-                Wish::Reactions => planned.reactions(),
-                Wish::Equilibrium => planned.equilibrium(),
+        let requests = [SceneRequest::Energy, SceneRequest::Power, SceneRequest::Reactions, SceneRequest::Equilibrium];
+        for request in requests.into_iter().filter(|request| scene.requests.contains(request)) {
+            match request {
+                SceneRequest::Energy => planned.energy(),
+                SceneRequest::Power => planned.power(),
+                SceneRequest::Reactions => planned.reactions(),
+                SceneRequest::Equilibrium => planned.equilibrium(),
             }
         }
         if !scene.contacts.is_empty() {
@@ -93,8 +93,8 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
             planned.equations();
         }
         planned.check();
-        if planned.blames {
-            planned.blame();
+        if planned.calls_check_effects {
+            planned.check_effects();
         }
         Some(planned)
     }
@@ -126,7 +126,7 @@ impl ScenePlan<'_, '_, '_> {
         let own = own.map(|(field, symbol)| (field, Shape::Symbol(symbol)));
         let fields = std::iter::once((field.clone(), kinematics)).chain(own).collect();
         let shape = Shape::Fields { of: Type::Itself, fields, is_whole: true };
-        Source { from: Expression::own().behind(), shape }
+        Source { from: Expression::own().dereferenced(), shape }
     }
 
     /// A kernel on parameters and time.
@@ -142,13 +142,13 @@ impl ScenePlan<'_, '_, '_> {
         body.calls.push(self.of_driver("pose_at"));
     }
 
-    /// The name under which the work of a function of the driver is known.
+    /// The name of a function of the driver in call lists.
     fn of_driver(&self, function: &str) -> String {
         self.signatures.types.function(function)
     }
 
-    /// A body on coordinates and what else it is given, without any motion: it takes the sines that it needs itself, of
-    /// which a pose holds more.
+    /// A body with parameters, coordinates and other sources. It computes only the sines that it needs, fewer than
+    /// those of a pose.
     fn on_coordinates(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Body {
         let coordinates = self.plan.coordinates(Order::Value);
         let sources = [self.given(), coordinates].into_iter().chain(sources).collect();
@@ -156,7 +156,7 @@ impl ScenePlan<'_, '_, '_> {
         Body { kernel: Some(Kernel { sources, steps, results, ..Kernel::default() }), ..Body::default() }
     }
 
-    /// A body on the pose at coordinates and what else it is given.
+    /// A body with parameters, coordinates, the pose at these and other sources.
     fn on_pose(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Body {
         let mut body = Body::default();
         let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
@@ -168,14 +168,14 @@ impl ScenePlan<'_, '_, '_> {
         body
     }
 
-    /// The parameters, the coordinates, and what a pose holds beside directions.
+    /// The parameters, the coordinates, and the determinants and user function values of a pose.
     fn still(&self) -> [Source; 3] {
         let coordinates = self.plan.coordinates(Order::Value);
         [self.given(), coordinates, self.plan.computed()]
     }
 
-    /// A call of a function of the mechanism that refuses determinants in the name of the scene, if there are any.
-    fn judged(&self, function: &str, mut on: Vec<Expression>) -> Expression {
+    /// A call of a private function of the driver, with the name of the scene for its errors if it can fail.
+    fn driver_call(&self, function: &str, mut on: Vec<Expression>) -> Expression {
         let layer = self.plan.functions.iter().find(|layer| layer.name == function);
         let (is_method, is_fallible) = layer.map_or((true, true), |layer| (layer.is_method, layer.is_fallible));
         on.extend(is_fallible.then(Expression::mechanism));
@@ -187,8 +187,8 @@ impl ScenePlan<'_, '_, '_> {
         if is_fallible { call.tried() } else { call }
     }
 
-    /// A check that is made more precise only where it fails.
-    fn blamed(&mut self, mut body: Body, what: &str, values: Vec<Expression>) -> Body {
+    /// Adds a check that values are finite; if it fails, `check_effects` finds the body or effect to name.
+    fn checked_with_effects(&mut self, mut body: Body, what: &str, values: Vec<Expression>) -> Body {
         let arguments = &self.signatures.arguments;
         let is_formula = |value: &Expression| match value {
             Expression::Result(place) => {
@@ -198,24 +198,24 @@ impl ScenePlan<'_, '_, '_> {
             }
             _ => true,
         };
-        let blame = (self.is_blamable && values.iter().any(is_formula)).then(|| {
-            let time = self.blame_takes_time().then_some(&arguments.time);
+        let check_effects = (self.has_varying_effects && values.iter().any(is_formula)).then(|| {
+            let time = self.effects_depend_on_time().then_some(&arguments.time);
             let state = time.into_iter().chain([&arguments.q, &arguments.input_rates]);
-            let blame = Expression::call("blame", state.map(Expression::name));
-            let refused = Expression::runtime("Err", [Expression::name("error").method("into", [])]);
+            let check_effects = Expression::call("check_effects", state.map(Expression::name));
+            let error = Expression::runtime("Err", [Expression::name("error").method("into", [])]);
             Expression::Closure {
                 arguments: vec![Pattern::Name("error".to_owned())],
                 statements: Vec::new(),
-                value: Box::new(blame.method("and", [refused])),
+                value: Box::new(check_effects.method("and", [error])),
                 moves: false,
             }
         });
-        self.blames |= blame.is_some();
-        body.after.push(Statement::Check { what: what.to_owned(), values, blame });
+        self.calls_check_effects |= check_effects.is_some();
+        body.after.push(Statement::Check { what: what.to_owned(), values, detail: check_effects });
         body
     }
 
-    /// The rates of the inputs by their name, which a body may use more than once.
+    /// Converts the input rates once, at the start of a body.
     fn with_rates(&self, mut body: Body) -> Body {
         let input_rates = &self.signatures.arguments.input_rates;
         let inputs = Type::Own(self.signatures.types.inputs.clone());

@@ -25,7 +25,7 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(lines([
             "",
             "# Errors",
-            "`PositionError::Singular` where J has no inverse, `PositionError::NotFinite` if an entry is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if an entry is not finite.",
         ]));
         let symbols: Vec<SymbolId> = self.layers.inertia.iter().flatten().copied().collect();
         let outputs = unnamed(self.plan.variables(&symbols));
@@ -37,7 +37,7 @@ impl ScenePlan<'_, '_, '_> {
 
     pub(super) fn forces(&mut self) {
         let quadratic = match self.signatures.scene.inertia {
-            Some(_) => ", with the quadratic velocity terms: M v'' = Q.",
+            Some(_) => ", including the quadratic velocity terms: M v'' = Q.",
             None => ".",
         };
         let mut doc = vec![format!("The generalised forces Q of the inputs{quadratic}")];
@@ -47,19 +47,19 @@ impl ScenePlan<'_, '_, '_> {
         let count = self.scene.forces.len();
         let outputs = unnamed(self.plan.variables(&self.layers.forces));
         let body = self.on_motion(outputs, None);
-        let body = self.blamed(body, "the forces", results(0..count));
+        let body = self.checked_with_effects(body, "the forces", results(0..count));
         let body = Body { value: Value::Plain(Expression::vector(results(0..count))), ..self.with_rates(body) };
         self.add(self.signatures.forces(), doc, body);
     }
 
-    /// M of some rows and columns.
+    /// The entries of M in some rows and columns.
     pub(super) fn minor(&mut self, rows: &[InputId], columns: &[InputId]) -> Vec<NodeId> {
         let entry = |row: InputId, column: InputId| self.layers.inertia[row][column];
         let entries = rows.iter().flat_map(|&row| columns.iter().map(move |&column| entry(row, column)));
         self.plan.variables(&entries.collect::<Vec<SymbolId>>())
     }
 
-    /// `Q - M_d a_d` of some inputs, with the accelerations of the driven ones.
+    /// `Q - M_d a_d` in some rows; `a_d` are the accelerations of the driven inputs.
     pub(super) fn right_sides(&mut self, rows: &[InputId]) -> Vec<NodeId> {
         let graph = &mut self.plan.derivation.graph;
         let mut sides = Vec::new();
@@ -76,8 +76,7 @@ impl ScenePlan<'_, '_, '_> {
         sides
     }
 
-    /// Solves for the accelerations of the free inputs, from results that are the entries of M and the right sides; gives
-    /// them as local values.
+    /// Adds the solution of M a = side for the accelerations of the free inputs; returns these as local values.
     pub(super) fn solve_free(
         &self,
         body: &mut Body,
@@ -100,7 +99,7 @@ impl ScenePlan<'_, '_, '_> {
         });
         let pattern = Pattern::List(pattern.collect());
         body.after.push(Statement::Let(pattern, Expression::runtime("reduced", arguments).tried()));
-        // One division a pivot, and the two triangles.
+        // The operations of a Cholesky factorisation and of two triangular systems.
         let pairs = count * (count - 1) / 2;
         let inner: usize = (0..count).map(|left| left * (left + 1) / 2 * 2).sum();
         body.operations += Operations {
@@ -112,7 +111,7 @@ impl ScenePlan<'_, '_, '_> {
         names
     }
 
-    /// q' and v'' in one function, and v'' alone by the same.
+    /// `rates` returns q' and v'', `acceleration` v'' by calling it.
     pub(super) fn rates(&mut self) {
         let free = self.signatures.free.clone();
         let mut outputs = unnamed(self.minor(&free, &free));
@@ -136,22 +135,25 @@ impl ScenePlan<'_, '_, '_> {
         let unchecked = self.plan.to_check().into_iter();
         let unchecked = unchecked.map(|column| rates.clone().field(&self.plan.derivation.coordinates[column].name));
         let checked = accelerations.iter().cloned().chain(unchecked).collect();
-        let body = self.blamed(body, "the acceleration", checked);
+        let body = self.checked_with_effects(body, "the acceleration", checked);
         let body = self.with_rates(body);
         let inputs = self.signatures.inputs.iter().cloned().zip(accelerations);
         let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), inputs);
         let body = Body { value: Value::Plain(Expression::Tuple(vec![rates, inputs])), ..body };
         let mut errors = lines(ERRORS);
         if !self.signatures.free.is_empty() {
-            errors.push("`MotionError::NoInertia` where an input could accelerate without a force.".to_owned());
+            errors.push(
+                "`MotionError::NoInertia` if M is singular: some inputs could accelerate without a force.".to_owned(),
+            );
         }
         let mut doc = lines([
-            "The rates q' = (W v', v') and the input accelerations v'' of M v'' = Q: the right-hand side for an integrator.",
+            "The rates q' = (W v', v') and the input accelerations v'' from M v'' = Q: the right-hand side for an integrator.",
         ]);
         doc.extend(errors.clone());
         self.add(self.signatures.rates(), doc, body);
 
-        let mut doc = lines(["The accelerations v'' of the inputs: M v'' = Q, and the laws of what is driven."]);
+        let mut doc =
+            lines(["The accelerations v'' of the inputs: from M v'' = Q, or from the law of a driven input."]);
         doc.extend(errors);
         let arguments = &self.signatures.arguments;
         let state = [&arguments.time, &arguments.q, &arguments.input_rates];

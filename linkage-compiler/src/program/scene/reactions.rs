@@ -1,4 +1,4 @@
-//! The forces that keep the loops closed.
+//! `reactions`: the Lagrange multipliers of the loop equations and constraints.
 
 use super::{ERRORS, ScenePlan};
 use crate::derivation::needed;
@@ -13,9 +13,8 @@ impl ScenePlan<'_, '_, '_> {
     pub(super) fn reactions(&mut self) {
         let Some(reactions) = self.scene.reactions.clone() else { return };
         let mut doc = lines([
-            "The reactions lambda of the closures in the motion that the scene gives, two for each `loop` and one for",
-            "each `equation`: `M q'' + Psi_q' lambda = F`. A loop is cut where its two sides meet, and lambda is the force",
-            "with which the left side pulls there at the right side.",
+            "The Lagrange multipliers lambda of `M q'' + Psi_q' lambda = F` in the motion of the scene, two for each `loop` and",
+            "one for each `equation`. For a `loop`, lambda is the force of its left side on its right side where they meet.",
         ]);
         doc.extend(lines(ERRORS));
         let Arguments { time, q, rates, accelerations, input_rates, input_accelerations, pose, .. } =

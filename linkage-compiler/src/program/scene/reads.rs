@@ -25,14 +25,14 @@ pub enum Read {
     Forces,
 }
 
-/// M and Q as symbols of formulas that are made of them, and what they depend on.
+/// The symbols of M and Q in other formulas, and the dependencies of M and Q.
 #[derive(Debug, Default)]
 pub struct Layers {
-    /// M by rows; an entry and the one opposite are the same.
+    /// M by rows; both entries of a symmetric pair are one symbol.
     pub inertia: Table<InputId, Table<InputId, SymbolId>>,
     /// Q.
     pub forces: Table<InputId, SymbolId>,
-    /// For each part of Q that varies its label and its name.
+    /// The label and the symbol of each part of Q that is not constant.
     pub(super) parts: Vec<(String, SymbolId)>,
     pub(super) inertia_reads: BTreeSet<Read>,
     pub(super) parts_read: BTreeSet<Read>,

@@ -1,8 +1,8 @@
-//! The functions of a scene by their names, arguments and results.
+//! The signatures of the functions of a scene: names, arguments and return types.
 
 use super::reads::Read;
 use crate::ids::{InputId, Table};
-use crate::model::{self, Driver, Mechanism, Wish};
+use crate::model::{self, Driver, Mechanism, SceneRequest};
 use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
 use crate::program::names::{Arguments, Order, TypeNames, argument};
@@ -14,9 +14,9 @@ pub struct SceneSignatures<'a> {
     pub scene: &'a model::Scene,
     pub types: TypeNames,
     pub arguments: Arguments,
-    /// The field of the mechanism.
+    /// The field that holds the mechanism.
     pub field: String,
-    /// The inputs by field, and the places of those that are free and of those that are driven.
+    /// The field names of the inputs, the ids of free inputs and those of driven ones.
     pub inputs: Table<InputId, String>,
     pub free: Vec<InputId>,
     pub driven: Vec<InputId>,
@@ -41,7 +41,7 @@ impl<'a> SceneSignatures<'a> {
         }
     }
 
-    /// All of them, in the order in which they are emitted: what people call first comes first.
+    /// All signatures in the order of emission: the most used first.
     pub fn all(&self) -> Vec<Function<Body>> {
         let (scene, mut all) = (self.scene, Vec::new());
         let has_inertia = scene.inertia.is_some();
@@ -51,13 +51,13 @@ impl<'a> SceneSignatures<'a> {
         if !self.driven.is_empty() {
             all.extend([self.drive_forces(), self.drives()]);
         }
-        let wishes = [Wish::Energy, Wish::Power, Wish::Reactions, Wish::Equilibrium];
-        for wish in wishes.into_iter().filter(|wish| scene.wishes.contains(wish)) {
-            match wish {
-                Wish::Energy => all.push(self.energy()),
-                Wish::Power => all.push(self.power()),
-                Wish::Reactions => all.push(self.reactions()),
-                Wish::Equilibrium => all.extend([self.equilibrium(), self.balance()]),
+        let requests = [SceneRequest::Energy, SceneRequest::Power, SceneRequest::Reactions, SceneRequest::Equilibrium];
+        for request in requests.into_iter().filter(|request| scene.requests.contains(request)) {
+            match request {
+                SceneRequest::Energy => all.push(self.energy()),
+                SceneRequest::Power => all.push(self.power()),
+                SceneRequest::Reactions => all.push(self.reactions()),
+                SceneRequest::Equilibrium => all.extend([self.equilibrium(), self.balance()]),
             }
         }
         if has_inertia {
@@ -143,15 +143,15 @@ impl<'a> SceneSignatures<'a> {
         fallible("check", [], Type::Tuple(Vec::new()))
     }
 
-    pub fn blame(&self, takes_time: bool) -> Function<Body> {
+    pub fn check_effects(&self, takes_time: bool) -> Function<Body> {
         let rates = Passed::ByValue(Type::Own(self.types.inputs.clone()));
         let rates = Argument { name: self.arguments.input_rates.clone(), passed: rates };
         let time = takes_time.then(|| self.time());
         let arguments = time.into_iter().chain([self.coordinates(Order::Value), rates]);
-        Function { access: Access::Cold, ..fallible("blame", arguments, Type::Tuple(Vec::new())) }
+        Function { access: Access::Cold, ..fallible("check_effects", arguments, Type::Tuple(Vec::new())) }
     }
 
-    /// What a layer may take.
+    /// The argument for a dependency of a layer, if there is one.
     pub fn of_layer(&self, read: Read) -> Option<Argument> {
         let Arguments { q, pose, ratios, rates, bias, .. } = &self.arguments;
         let list = |of: Type, many: usize| Type::List(Box::new(of), many);
@@ -193,7 +193,7 @@ impl<'a> SceneSignatures<'a> {
     }
 }
 
-/// A private function that is inlined into those of its scene.
+/// A private function that is inlined into the functions of its scene.
 pub fn layer(name: &str, arguments: Vec<Argument>, of: Type) -> Function<Body> {
     Function { access: Access::Layer, ..total(name, arguments, of) }
 }

@@ -1,4 +1,4 @@
-//! Mass matrix and forces in all coordinates.
+//! `unreduced`: mass matrix and forces in all coordinates.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ impl ScenePlan<'_, '_, '_> {
             self.on_coordinates(sources, Vec::new(), outputs).checked("the equations of motion", results(0..count));
         let entries: BTreeMap<(ColumnId, ColumnId), usize> =
             unreduced.mass_matrix.keys().enumerate().map(|(result, &place)| (place, result)).collect();
-        // Each entry above the diagonal is below it as well.
+        // M is symmetric; only its upper triangle is computed.
         let block = |rows: &[ColumnId], columns: &[ColumnId]| -> Vec<(usize, usize, Expression)> {
             let mut block = Vec::new();
             for (j, &column) in columns.iter().enumerate() {
@@ -54,7 +54,7 @@ impl ScenePlan<'_, '_, '_> {
         let value = Expression::structure(Type::Runtime("Unreduced", Vec::new()), members);
         let body = Body { value: Value::Plain(value), ..body };
         let doc = lines([
-            "The inertia and the forces in all coordinates, at the rates of all coordinates: `M q'' + Psi_q' lambda = F`.",
+            "The mass matrix M and the forces F in all coordinates: `M q'' + Psi_q' lambda = F`.",
             "",
             "# Errors",
             "`PositionError::NotFinite` if an entry is not finite.",

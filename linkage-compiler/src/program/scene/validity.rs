@@ -1,4 +1,4 @@
-//! Which parameters a scene refuses.
+//! `check`: the ranges of masses, inertias, frictions and stops.
 
 use super::ScenePlan;
 use crate::derivation::ContactFormula;
@@ -12,18 +12,19 @@ impl ScenePlan<'_, '_, '_> {
     pub(super) fn check(&mut self) {
         let doc = match self.signatures.scene.contacts.as_slice() {
             [] => lines([
-                "Refuses parameters that no body has.",
+                "Checks that masses and inertias are finite and not negative.",
                 "",
                 "# Errors",
-                "With its name: `InputError::OutOfRange` if a mass or an inertia is negative, `PositionError::NotFinite` if it is",
-                "not finite.",
+                "`InputError::OutOfRange` with the name of a mass or an inertia that is negative, `PositionError::NotFinite` with the name",
+                "of one that is not finite.",
             ]),
             _ => lines([
-                "Refuses parameters that no body, no friction and no stop has.",
+                "Checks the masses, inertias, frictions, and the ranges and restitutions of stops.",
                 "",
                 "# Errors",
-                "With its name: `InputError::OutOfRange` if a mass, an inertia or a friction is negative or a restitution not between",
-                "0 and 1, `InputError::EmptyRange` if nothing is left between stops, `PositionError::NotFinite` if a number is not finite.",
+                "With the name of the parameter or stop: `InputError::OutOfRange` if a mass, an inertia or a friction is negative or a",
+                "restitution is not between 0 and 1, `InputError::EmptyRange` if the range of a stop is empty, `PositionError::NotFinite` if",
+                "a number is not finite.",
             ]),
         };
         let mut nodes: Vec<NodeId> = self.scene.masses.iter().map(|(_, node)| *node).collect();
@@ -48,7 +49,7 @@ impl ScenePlan<'_, '_, '_> {
         self.add(self.signatures.check(), doc, body);
     }
 
-    /// `[("label", result, …), …]`, each with so many results from a place on.
+    /// `[("label", result, …), …]`, each with the next `each` results, starting at `from`.
     fn labelled<'l>(&self, labels: impl Iterator<Item = &'l str>, from: usize, each: usize) -> Expression {
         let entry = |(at, label): (usize, &str)| {
             let results = (0..each).map(|place| Expression::Result(from + each * at + place));

@@ -1,4 +1,4 @@
-//! What the compiler relies on, proved for linkages with one input and two unknowns.
+//! Theorems that the compiler relies on, proved for linkages with one input and two unknowns.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use linkage_equality::{Answer, compare, is_zero};
 
 use crate::formula::Formulas;
 
-/// Two closure rows, the input and the unknowns.
+/// Two scalar equations, the input and the unknowns.
 struct Linkage {
     rows: [&'static str; 2],
     input: &'static str,
@@ -39,7 +39,7 @@ struct Derived {
     rows: Vec<NodeId>,
     /// Input and unknowns.
     coordinates: [SymbolId; 3],
-    /// The rows derived by the unknowns, and by the input.
+    /// The derivatives of the rows by the unknowns, and by the input in the next field.
     jacobian: [[NodeId; 2]; 2],
     input: [NodeId; 2],
     determinant: NodeId,
@@ -73,7 +73,7 @@ impl Derived {
         })
     }
 
-    /// What the coordinates change by per second at this input rate.
+    /// The rates of the coordinates at this input rate.
     fn seeds(&mut self, rate: NodeId) -> BTreeMap<SymbolId, NodeId> {
         let one = self.formulas.graph.one();
         let rates = [one, self.ratios[0], self.ratios[1]];
@@ -153,7 +153,7 @@ fn both_methods_for_accelerations_agree() {
 }
 
 #[test]
-fn closures_do_not_change_along_the_motion() {
+fn residuals_are_constant_along_the_motion() {
     for linkage in &LINKAGES {
         let mut derived = Derived::new(linkage);
         let one = derived.formulas.graph.one();
@@ -162,7 +162,7 @@ fn closures_do_not_change_along_the_motion() {
         for rate in graph.differentiate(&derived.rows, &seeds) {
             assert_eq!(is_zero(graph, rate), Answer::Equal);
         }
-        // With one of the ratios left out they do.
+        // Without one of the ratios the rates are not zero.
         seeds.remove(&derived.coordinates[1]);
         let rates = graph.differentiate(&derived.rows, &seeds);
         assert!(rates.iter().any(|&rate| is_zero(graph, rate) == Answer::Different));

@@ -1,4 +1,4 @@
-//! What is not decided, and what is in spite of functions outside the class.
+//! Cases outside the decidable class: those that remain undecided, and those that are decided all the same.
 
 use linkage_compiler::graph::{External, Number};
 use linkage_equality::{Answer, MOST_TERMS, Reason, compare, is_zero};
@@ -36,7 +36,7 @@ fn functions_outside_the_class_may_cancel() {
         ("sqrt(x) + a - a", "sqrt(x)"),
         ("(sqrt(x) + 1)^2", "sqrt(x)^2 + 2*sqrt(x) + 1"),
         ("exp(x)*(sin(y)^2 + cos(y)^2)", "exp(x)"),
-        // Arguments are compared as expressions, not by how they are written.
+        // Arguments are compared by equality, not by text.
         ("sqrt((x + y)^2)", "sqrt(x^2 + 2*x*y + y^2)"),
         ("atan2(sin(2*x), y)", "atan2(2*sin(x)*cos(x), y)"),
         ("sin(asin(x))^2", "1 - cos(asin(x))^2"),
@@ -46,7 +46,7 @@ fn functions_outside_the_class_may_cancel() {
     ] {
         assert_eq!(Formulas::default().compare(left, right), Answer::Equal, "{left} = {right}");
     }
-    // The function is gone from the difference, which is 2 a.
+    // The difference is 2 a, without the function.
     assert_eq!(Formulas::default().compare("sqrt(x) + a", "sqrt(x) - a"), Answer::Different);
 }
 
@@ -115,9 +115,9 @@ fn angles_and_constants_beyond_what_is_known() {
         let answer = formulas.compare(left, right);
         assert!(answer == Answer::Undecided(reason), "{left}, {right}: {answer}");
     }
-    // Nobody has proved that pi and sin(1) are independent, but the values differ.
+    // It is not known if pi and sin(1) are algebraically independent, but the values differ.
     assert_eq!(Formulas::default().compare("pi*sin(1)", "sin(pi^2)"), Answer::Different);
-    // An angle as large as this leaves no digit to tell.
+    // At such a large angle the numerical values have no correct digit.
     let answer = Formulas::default().compare("pi*sin(1) + cos(pi^9)", "2");
     assert_eq!(answer, Answer::Undecided(Reason::Constants));
     let text = Reason::TooManyTerms.to_string();

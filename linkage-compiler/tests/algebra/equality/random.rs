@@ -1,4 +1,4 @@
-//! Random identities: an expression against itself rewritten, and against that with one mistake.
+//! Random identities: an expression against a rewritten form, and against a form with one mistake.
 
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -13,7 +13,7 @@ const CASES: usize = 100;
 const LENGTHS: [&str; 3] = ["l1", "l2", "l3"];
 const ANGLES: [&str; 3] = ["a", "b", "c"];
 
-/// Quarters of a, b and c, and 24ths of pi.
+/// Multiples of a/4, b/4, c/4 and pi/24.
 type Angle = [i64; 4];
 
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ fn minus(left: Angle, right: Angle) -> Angle {
     std::array::from_fn(|i| left[i] - right[i])
 }
 
-/// Half an angle, where it still is one in quarters.
+/// Half of an angle, if it is representable.
 fn half(angle: Angle) -> Option<Angle> {
     angle.iter().all(|part| part % 2 == 0).then(|| angle.map(|part| part / 2))
 }
@@ -69,7 +69,7 @@ impl Source {
         self.below(100) < percent
     }
 
-    /// An integer combination of a, b and c, at times ahead by a multiple of pi/6.
+    /// An integer combination of a, b and c, sometimes plus a multiple of pi/6.
     fn angle(&mut self) -> Angle {
         let mut angle = [0; 4];
         angle[self.below(3)] = 4 * self.0.random_range(1..=2);
@@ -107,7 +107,7 @@ impl Source {
         }
     }
 
-    /// The same value, written otherwise in some places.
+    /// Rewrites an expression by random identities.
     fn rewrite(&mut self, expression: &Expression) -> Expression {
         let inner = match expression {
             Integer(_) | Length(_) | Circular(..) => expression.clone(),
@@ -120,7 +120,7 @@ impl Source {
         if self.chance(8) { self.insert(stepped) } else { stepped }
     }
 
-    /// One law.
+    /// Applies one identity.
     fn step(&mut self, expression: Expression) -> Expression {
         match expression {
             Circular(function, angle) => self.circular_law(function, angle),
@@ -200,7 +200,7 @@ impl Source {
         }
     }
 
-    /// A factor 1 or a summand 0 that does not look like it.
+    /// Inserts a disguised factor 1 or summand 0.
     fn insert(&mut self, expression: Expression) -> Expression {
         match self.below(3) {
             // sin^2 + cos^2 = 1
@@ -224,7 +224,7 @@ impl Source {
         }
     }
 
-    /// The expression with one mistake.
+    /// Returns the expression with one mistake.
     fn spoil(&mut self, expression: &Expression) -> Expression {
         let descend = self.chance(75);
         match expression.clone() {
@@ -269,7 +269,7 @@ impl Source {
     }
 }
 
-/// sin u cos v and the like as half a sum.
+/// Converts a product of two sines or cosines to half a sum.
 fn product_as_sum((f, u): (Function, Angle), (g, v): (Function, Angle)) -> Expression {
     let (sum, difference) = (plus(u, v), minus(u, v));
     let terms = match (f, g) {
@@ -343,7 +343,7 @@ fn true_identities() {
         let expression = source.expression(2);
         let rewritten = source.rewrite(&expression);
         let (left, right) = (formulas.build(&expression), formulas.build(&rewritten));
-        // A zero divisor is no identity; neither is what the graph itself sees.
+        // Skip zero divisors, and pairs that are the same node.
         if formulas.graph.take_fault().is_some() {
             continue;
         }

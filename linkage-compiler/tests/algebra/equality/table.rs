@@ -1,4 +1,4 @@
-//! A table of trigonometry.
+//! A table of trigonometric identities.
 
 use linkage_equality::Answer;
 
@@ -70,7 +70,7 @@ fn identities_of_the_table() {
     }
 }
 
-/// The same with a small error on one side.
+/// The table with a small error on one side of each identity.
 #[test]
 fn the_table_with_a_mistake() {
     for (left, right) in TABLE {

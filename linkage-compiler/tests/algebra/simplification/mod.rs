@@ -1,4 +1,4 @@
-//! Simplification: what each rule does, that it preserves meaning, and what it takes for granted.
+//! Simplification: the result of each rule, its equality with the original, and its assumptions.
 
 mod random;
 mod rules;

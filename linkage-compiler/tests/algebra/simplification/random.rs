@@ -1,6 +1,5 @@
-//! Random expressions, evaluated as written with a bound for the rounding, against their simplest
-//! form: of one value where both have one, and where only the simplest form has a value, something
-//! that it takes for granted fails there and is on record.
+//! Random expressions against their simplified forms, by interval-like evaluation with a bound of the rounding error:
+//! both have the same value; if only the simplified form has a value, a recorded condition fails.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +13,7 @@ use linkage_equality::{Answer, compare};
 const CASES: usize = 1500;
 const SYMBOLS: usize = 4;
 
-/// An expression as somebody writes it.
+/// An expression as written.
 #[derive(Debug, Clone)]
 enum Tree {
     Integer(i64),
@@ -54,7 +53,7 @@ impl Value {
 
     fn inverse(self) -> Self {
         let value = self.value.recip();
-        // A divisor that rounding cannot tell from zero.
+        // A divisor that may be zero within its error.
         let error = if self.value.abs() <= 4.0 * self.error { f64::INFINITY } else { 2.0 * self.error * value * value };
         Self::rounded(value, error)
     }
@@ -64,13 +63,13 @@ impl Value {
         if exponent < 0 { power.inverse() } else { power }
     }
 
-    /// A function, its error from values at both ends of the interval and from its rounding.
+    /// A function; its error is from the values at both ends of the interval and from its rounding error.
     fn call(function: Function, arguments: &[Self]) -> Self {
         let at =
             |shift: fn(&Self) -> f64| (function.operation().value)(&arguments.iter().map(shift).collect::<Vec<_>>());
         let value = at(|x| x.value);
         let spread = [at(|x| x.value - x.error), at(|x| x.value + x.error)].map(|end| (end - value).abs());
-        // At the edge of where it is defined a function is as good as undefined.
+        // A function at the edge of its domain counts as undefined.
         let spread =
             if spread.iter().any(|spread| spread.is_nan()) && value.is_finite() { [f64::INFINITY; 2] } else { spread };
         Self::rounded(value, 4.0 * (spread[0].max(spread[1]) + arguments.iter().map(|x| x.error).sum::<f64>()))
@@ -80,7 +79,7 @@ impl Value {
         self.value.is_finite()
     }
 
-    /// Whether the value says anything.
+    /// True if the error is small enough for a comparison.
     fn is_sure(self) -> bool {
         self.error.is_finite() && self.error <= 1e-6 * self.value.abs().max(1e-3)
     }
@@ -103,7 +102,7 @@ impl Tree {
             4..=6 => Self::Product(left, right),
             7 => Self::Quotient(left, right),
             8 => Self::Power(left, [2, 3, 0, -1, -2][random.random_range(0..5)]),
-            // What the identities are about.
+            // Products that the trigonometric identities match.
             9 => {
                 let circular = |function, tree: &Self| Self::Call(function, vec![tree.clone()]);
                 let (sin_a, cos_a) = (circular(Function::Sin, &left), circular(Function::Cos, &left));
@@ -200,14 +199,14 @@ fn value_of(graph: &Graph, root: NodeId, at: &[f64; SYMBOLS], symbols: &[SymbolI
                 let arguments: Vec<Value> = arguments.iter().map(|argument| values[argument]).collect();
                 Value::call(*function, &arguments)
             }
-            Node::External(..) => unreachable!("no expression here has a function of the user's"),
+            Node::External(..) => unreachable!("no expression here has a user function"),
         };
         values.insert(id, value);
     }
     values[&root]
 }
 
-/// Whether one of the conditions does not hold at a point.
+/// True if one of the conditions fails at a point.
 fn fails(graph: &Graph, conditions: &BTreeSet<Condition>, at: &[f64; SYMBOLS], symbols: &[SymbolId]) -> bool {
     conditions.iter().any(|condition| match *condition {
         Condition::NonZero(id) => {
@@ -250,7 +249,7 @@ fn simplest_forms_mean_what_was_written() {
             Answer::Undecided(_) => {}
         }
         for _ in 0..8 {
-            // Small whole numbers meet zero divisors often.
+            // Small integers often cause zero divisors.
             let at: [f64; SYMBOLS] = std::array::from_fn(|_| {
                 if random.random_range(0..2) == 0 {
                     f64::from(random.random_range(-2..=2))

@@ -1,4 +1,4 @@
-//! Every rule by example: the form it gives, proved equal to the one it came from.
+//! Examples of every rule: the simplified form, proved equal to the original.
 
 use std::collections::BTreeSet;
 
@@ -8,8 +8,7 @@ use linkage_equality::{Answer, Reason, compare};
 
 use crate::formula::Formulas;
 
-/// An expression, its simplest form where the directions of `given` are at hand, and what that
-/// takes for granted.
+/// The simplest form of an expression, where the sines and cosines of `given` cost nothing, and its conditions.
 fn simplified(text: &str, given: &[&str]) -> (String, Vec<String>) {
     let mut formulas = Formulas::default();
     let given: BTreeSet<NodeId> = given.iter().map(|angle| formulas.node(angle)).collect();
@@ -43,7 +42,7 @@ fn common_factors() {
     becomes("x^2*y - x*y^2", "x*y*(x - y)");
     becomes("x/z + y/z", "(x + y)/z");
     becomes("2*x*y + 4*x", "x*(2*y + 4)");
-    // Powers of both signs have no common factor worth taking out.
+    // Powers of both signs are not factored.
     becomes("x + 1/x", "x + 1/x");
 }
 

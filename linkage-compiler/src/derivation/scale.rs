@@ -1,9 +1,9 @@
-//! How large an expression could be at these lengths: the yardstick that makes verdicts scale-free.
+//! Upper bounds of expressions at given lengths: the scales that make checks independent of units.
 
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 
-/// The largest value that a determinant could take, up to its sign: of a plain product the product
-/// itself without its sines, which costs nothing beside the determinant.
+/// An upper bound of the magnitude of a determinant. For a product without sums it is the product without its sines and
+/// cosines, which shares its factors with the determinant.
 pub(super) fn of_determinant(graph: &mut Graph, id: NodeId) -> NodeId {
     let Node::Product { coefficient, factors } = graph.node(id).clone() else { return of(graph, id) };
     if factors.iter().any(|(base, _)| matches!(graph.node(*base), Node::Sum { .. })) {
@@ -18,8 +18,8 @@ pub(super) fn of_determinant(graph: &mut Graph, id: NodeId) -> NodeId {
 
 /// The sum of the absolute values of the terms, with every sine and cosine replaced by 1.
 ///
-/// It has the unit of the expression itself, so a quotient of the two is a pure number: scaling all
-/// lengths by a power of two changes no bit of it.
+/// It has the unit of the expression, so that their quotient is dimensionless: scaling all lengths by a power of two
+/// changes no bit of it.
 pub(super) fn of(graph: &mut Graph, id: NodeId) -> NodeId {
     match graph.node(id).clone() {
         Node::Constant(value) => graph.number(value.absolute()),
@@ -56,7 +56,7 @@ fn of_product(graph: &mut Graph, id: NodeId) -> NodeId {
     graph.product(&product)
 }
 
-/// The terms of a sum inside a product, each by its absolute value as it stands.
+/// The sum of the absolute values of the terms of a sum inside a product; sums inside these terms are not expanded.
 fn of_sum_once(graph: &mut Graph, id: NodeId) -> NodeId {
     let Node::Sum { constant, terms } = graph.node(id).clone() else { return id };
     let constant = graph.number(constant.absolute());
