@@ -102,7 +102,7 @@ fn a_budget_that_ends_anywhere_is_one_message() {
                 _ => None,
             });
             let messages: Vec<String> = messages.collect();
-            assert!(matches!(messages.as_slice(), [one] if one.contains("takes more work")), "{messages:?}");
+            assert!(matches!(messages.as_slice(), [one] if one.contains("budget of work")), "{messages:?}");
         }
     }
 }

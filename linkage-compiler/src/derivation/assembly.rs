@@ -88,7 +88,7 @@ impl Choice {
 
     /// The variants of the positive and of the negative root.
     #[must_use]
-    pub fn words(self) -> [&'static str; 2] {
+    pub fn variants(self) -> [&'static str; 2] {
         match self {
             Self::Elbow => ["Left", "Right"],
             Self::Slider => ["Far", "Near"],

@@ -338,7 +338,7 @@ impl<'a> Document<'a> {
             block.unknowns.iter().map(|&place| formula(&Formula::of_name(Name::Plain(self.unknowns[place]))));
         let unknowns = list(unknowns);
         let equations = block.equations.iter().map(|&equation| Literal::usize_unsuffixed(equation.index()));
-        let group = string(&block.group.words());
+        let group = string(&block.group.description());
         let method = format_ident!("{}", if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
         let determinant = block.determinant.as_ref().map(|determinant| determinant.value);
         let determinant = option(determinant.map(|value| self.equation(Name::Determinant(number), value)));

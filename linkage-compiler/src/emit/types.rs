@@ -476,7 +476,7 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
         .collect();
     let names: Vec<&Ident> = choices.iter().map(|(side, _)| side).collect();
     let members = sides.iter().zip(&choices).map(|((text, choice), (side, of))| {
-        let [first, second] = choice.words().map(str::to_lowercase);
+        let [first, second] = choice.variants().map(str::to_lowercase);
         let docs = comment(&format!(" The solution of the group of `{text}`: {first} or {second}."));
         quote!(#[doc = #docs] pub #side: #of)
     });
@@ -518,7 +518,7 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
         }
     });
     let each = sides.iter().zip(&choices).zip(bits).map(|(((_, choice), (side, of)), bit)| {
-        let [first, second] = choice.words().map(ident);
+        let [first, second] = choice.variants().map(ident);
         quote!(#side: if #bit == 0 { #of::#first } else { #of::#second })
     });
     let every = match sides.len() {

@@ -69,7 +69,7 @@ fn body(body: Body, is_layer: bool, context: &Context) -> Code {
     let mut formulas =
         kernel.map_or_else(|| Formulas::none(context), |kernel| Formulas::of(&kernel, is_layer, context));
     operations += formulas.operations;
-    let locals: Vec<String> = locals.iter().map(|wish| formulas.taken.unique(wish)).collect();
+    let locals: Vec<String> = locals.iter().map(|preferred| formulas.taken.unique(preferred)).collect();
     let computed = std::mem::take(&mut formulas.statements);
     let finished = Finished { results: &formulas.results, locals: &locals };
     let all = |planned: Vec<Statement>| {
@@ -134,7 +134,7 @@ struct Formulas<'a> {
     is_proven: Vec<bool>,
     dyads: Vec<Option<BlockId>>,
     /// The names of the flags that are true if the triangle of a dyad is well conditioned.
-    plain: Vec<String>,
+    well_conditioned: Vec<String>,
     taken: Taken<'a>,
     externals: BTreeSet<ExternalId>,
     operations: Operations,
@@ -148,7 +148,7 @@ impl<'a> Formulas<'a> {
             results: Vec::new(),
             is_proven: Vec::new(),
             dyads: Vec::new(),
-            plain: Vec::new(),
+            well_conditioned: Vec::new(),
             taken: Taken::new(context.reserved),
             externals: BTreeSet::new(),
             operations: Operations::default(),
@@ -182,23 +182,23 @@ impl<'a> Formulas<'a> {
         let mut writer = Writer::new((derivation, kernel), arguments, &schedule, names);
         writer.statements = statements;
         let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);
-        writer.plain = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
+        writer.well_conditioned = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
         writer.write();
         let results = writer.all_signed(&schedule.results);
-        let Writer { mut statements, names, externals, plain, .. } = writer;
+        let Writer { mut statements, names, externals, well_conditioned, .. } = writer;
         let mut taken = names.taken;
         let results = kernel.results.iter().zip(results).map(|(output, result)| match &output.name {
-            Some(wish) if is_formula(&result) => {
-                let name = taken.unique(wish);
+            Some(preferred) if is_formula(&result) => {
+                let name = taken.unique(preferred);
                 statements.push(Statement::Let(Pattern::Name(name.clone()), result));
                 Expression::Name(name)
             }
             _ => result,
         });
         let results = results.collect();
-        let (dyads, plain) = (kernel.dyads.clone(), plain.into_values().flatten().collect());
+        let (dyads, well_conditioned) = (kernel.dyads.clone(), well_conditioned.into_values().flatten().collect());
         let operations = schedule.operations();
-        Self { statements, results, is_proven, dyads, plain, taken, externals, operations }
+        Self { statements, results, is_proven, dyads, well_conditioned, taken, externals, operations }
     }
 }
 
@@ -318,11 +318,11 @@ impl Finished<'_> {
         let [of_dyads, others] = [of_dyads, others]
             .map(|values| check("the position", values.into_iter().map(|(value, _)| value.clone()).collect(), None));
         out.extend(others);
-        let plain: Vec<Expression> = formulas.plain.iter().map(Expression::name).collect();
-        if plain.is_empty() {
+        let well_conditioned: Vec<Expression> = formulas.well_conditioned.iter().map(Expression::name).collect();
+        if well_conditioned.is_empty() {
             out.extend(of_dyads);
         } else if let Some(of_dyads) = of_dyads {
-            out.push(Statement::Unless(plain, vec![of_dyads]));
+            out.push(Statement::Unless(well_conditioned, vec![of_dyads]));
         }
     }
 

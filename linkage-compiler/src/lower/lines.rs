@@ -24,7 +24,7 @@ pub(super) struct Writer<'a, 'n> {
     /// The user functions that are called.
     pub(super) externals: BTreeSet<ExternalId>,
     /// For each dyad with unproven results, the name of the flag that is true if its triangle is well conditioned.
-    pub(super) plain: BTreeMap<BlockId, Option<String>>,
+    pub(super) well_conditioned: BTreeMap<BlockId, Option<String>>,
     /// The factorisations, by block.
     factors: BTreeMap<BlockId, String>,
 }
@@ -45,7 +45,7 @@ impl<'a, 'n> Writer<'a, 'n> {
             names,
             statements: Vec::new(),
             externals: BTreeSet::new(),
-            plain: BTreeMap::new(),
+            well_conditioned: BTreeMap::new(),
             factors: BTreeMap::new(),
         }
     }
@@ -62,9 +62,9 @@ impl<'a, 'n> Writer<'a, 'n> {
             Line::Let(id) => {
                 // The operands are written before the value gets its name.
                 match self.schedule.name(*id) {
-                    Some((wish, true)) => {
+                    Some((preferred, true)) => {
                         let value = self.signed(Signed { negative: true, value: *id });
-                        let name = self.names.give_negative(*id, wish);
+                        let name = self.names.give_negative(*id, preferred);
                         self.let_name(name, value);
                     }
                     _ => {
@@ -192,10 +192,10 @@ impl<'a, 'n> Writer<'a, 'n> {
         let of = of.map(|value| self.signed(value));
         let side = Expression::name(self.branch).field(self.derivation.blocks[block].branch(self.derivation));
         let name = Pattern::Name(self.names.introduce(symbol));
-        let plain = match self.plain.get_mut(&block) {
-            Some(plain) => {
-                let name = self.names.taken.unique(&format!("is_plain_{}", block.number()));
-                Pattern::Name(plain.insert(name).clone())
+        let well_conditioned = match self.well_conditioned.get_mut(&block) {
+            Some(well_conditioned) => {
+                let name = self.names.taken.unique(&format!("is_well_conditioned_{}", block.number()));
+                Pattern::Name(well_conditioned.insert(name).clone())
             }
             None => Pattern::Ignored,
         };
@@ -212,7 +212,7 @@ impl<'a, 'n> Writer<'a, 'n> {
                 ];
                 let members = members.map(|(name, value)| (name.to_owned(), value));
                 let triangle = Expression::structure(Type::Runtime("Triangle", Vec::new()), members);
-                (Pattern::Tuple(vec![name, plain]), self.group_call("elbow_chord", block, [triangle, side]))
+                (Pattern::Tuple(vec![name, well_conditioned]), self.group_call("elbow_chord", block, [triangle, side]))
             }
             ChordOf::Reach { scales, may_cancel } => {
                 let chord = if may_cancel { "reach_chord" } else { "chord" };

@@ -49,9 +49,9 @@ impl<'a> Names<'a> {
     }
 
     /// Gives a value the name of its negative.
-    pub(super) fn give_negative(&mut self, value: ValueId, wish: &str) -> String {
+    pub(super) fn give_negative(&mut self, value: ValueId, preferred: &str) -> String {
         self.negatives.insert(value);
-        self.give(value, wish)
+        self.give(value, preferred)
     }
 
     pub(super) fn is_negative(&self, value: ValueId) -> bool {
@@ -72,20 +72,20 @@ impl<'a> Names<'a> {
     }
 
     /// Names a value by a preferred name, or by one with a number if that is taken.
-    pub(super) fn give(&mut self, value: ValueId, wish: &str) -> String {
-        let name = self.taken.unique(wish);
+    pub(super) fn give(&mut self, value: ValueId, preferred: &str) -> String {
+        let name = self.taken.unique(preferred);
         self.set(value, name.clone());
         name
     }
 
     /// Names a value by its preferred name or by a description of its operation.
     pub(super) fn invent(&mut self, schedule: &Schedule, value: ValueId) -> String {
-        let wish = match schedule.name(value) {
+        let preferred = match schedule.name(value) {
             Some((name, false)) => Some(name.to_owned()),
             _ => self.describe(schedule, value),
         };
-        let name = match wish.filter(|wish| wish.len() <= LONGEST_NAME) {
-            Some(wish) => self.taken.unique(&wish),
+        let name = match preferred.filter(|preferred| preferred.len() <= LONGEST_NAME) {
+            Some(preferred) => self.taken.unique(&preferred),
             None => self.taken.numbered(kind(schedule.value(value)), 1),
         };
         self.set(value, name.clone());

@@ -97,13 +97,13 @@ impl Plan<'_, '_> {
                 let symbol = self.derivation.graph.symbol(format!("pivots_{}", id.number()));
                 steps.push(Step::Pivots { symbol, matrix: self.derivation.block_matrix(block) });
                 factors.push(self.derivation.graph.variable(symbol));
-                laws.push(format!("{names} ({}): the product of the pivots", block.group.words()));
+                laws.push(format!("{names} ({}): the product of the pivots", block.group.description()));
                 continue;
             };
             let varies = self.derivation.graph.constant_value(determinant.value).is_none();
             let named = self.derivation.graph.variable(determinant.symbol);
             factors.push(if varies { named } else { determinant.value });
-            laws.push(format!("{names} ({}): {}", block.group.words(), self.text(determinant.value)));
+            laws.push(format!("{names} ({}): {}", block.group.description(), self.text(determinant.value)));
         }
         let graph = &mut self.derivation.graph;
         let one = graph.one();

@@ -206,14 +206,14 @@ impl Body {
     }
 
     /// A new local value with this preferred name.
-    pub fn local(&mut self, wish: impl Into<String>) -> Expression {
-        self.locals.push(wish.into());
+    pub fn local(&mut self, preferred: impl Into<String>) -> Expression {
+        self.locals.push(preferred.into());
         Expression::Local(self.locals.len() - 1)
     }
 
     /// Binds a value to a new local name.
-    pub fn bound(&mut self, wish: impl Into<String>, value: Expression) -> Expression {
-        self.locals.push(wish.into());
+    pub fn bound(&mut self, preferred: impl Into<String>, value: Expression) -> Expression {
+        self.locals.push(preferred.into());
         let place = self.locals.len() - 1;
         self.after.push(Statement::Let(Pattern::Local(place), value));
         Expression::Local(place)

@@ -27,8 +27,8 @@ impl<'a> Taken<'a> {
     }
 
     /// Returns the preferred name, or one with a number if it is taken.
-    pub fn unique(&mut self, wish: &str) -> String {
-        if self.claim(wish) { wish.to_owned() } else { self.numbered(wish, 2) }
+    pub fn unique(&mut self, preferred: &str) -> String {
+        if self.claim(preferred) { preferred.to_owned() } else { self.numbered(preferred, 2) }
     }
 
     fn claim(&mut self, name: &str) -> bool {
@@ -194,7 +194,7 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn new(mechanism: &Mechanism) -> Self {
-        let name = |wish: &str| argument(mechanism, wish);
+        let name = |preferred: &str| argument(mechanism, preferred);
         Self {
             pose: name("pose"),
             q: name("q"),
@@ -283,12 +283,12 @@ impl Arguments {
 }
 
 /// Returns the preferred name of an argument, with underscores added if a parameter or coordinate has it.
-pub fn argument(mechanism: &Mechanism, wish: &str) -> String {
+pub fn argument(mechanism: &Mechanism, preferred: &str) -> String {
     let parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
     let parameters = parameters.map(|parameter| &parameter.name.field);
     let coordinates = mechanism.coordinates.iter().map(|coordinate| &coordinate.name.field);
     let all: BTreeSet<&String> = parameters.chain(coordinates).collect();
-    let mut name = wish.to_owned();
+    let mut name = preferred.to_owned();
     while all.contains(&name) {
         name.push('_');
     }

@@ -110,8 +110,8 @@ impl Plan<'_, '_> {
 
 impl Body {
     /// Names a matrix and adds a check that it is finite.
-    fn finite_matrix(&mut self, wish: &str, what: &str, matrix: Expression) -> Expression {
-        let name = self.bound(wish, matrix);
+    fn finite_matrix(&mut self, preferred: &str, what: &str, matrix: Expression) -> Expression {
+        let name = self.bound(preferred, matrix);
         let check = [Expression::mechanism(), Expression::text(what), name.clone().borrowed()];
         self.after.push(Statement::Do(Expression::runtime("finite_matrix", check).tried()));
         name

@@ -36,7 +36,7 @@ pub enum Group {
 impl Group {
     /// A description for documentation.
     #[must_use]
-    pub fn words(self) -> String {
+    pub fn description(self) -> String {
         match self {
             Self::Rrr => "dyad RRR: two angles".to_owned(),
             Self::Rrp => "dyad RRP: an angle, and a length along a given line".to_owned(),
