@@ -118,7 +118,10 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
             if !found.iter().any(|symbol| symbols.contains(symbol)) {
                 diagnostics.error(
                     constraint.span,
-                    format_args!("this equation contains no unknown of `{}`: remove it", driver.name),
+                    format_args!(
+                        "this equation contains no unknown of `{}`: remove it, or use an unknown in it",
+                        driver.name
+                    ),
                 );
             }
         }

@@ -339,7 +339,7 @@ impl Lowering<'_> {
             .externals
             .iter()
             .filter(|external| external.path.segments.last().is_some_and(|segment| segment.ident == function));
-        Some(format!(": its value is `{}(…)`", named.next()?.names.first()?.text))
+        Some(format!(": write `{}(…)` for its value", named.next()?.names.first()?.text))
     }
 
     fn takes(&mut self, name: &str, arity: usize, arguments: &[ExpressionId], region: Region) -> bool {
