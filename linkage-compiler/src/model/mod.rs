@@ -1,5 +1,5 @@
 //! Semantic analysis: names resolved, expressions in the graph, all checks made. Later stages report only mistakes that
-//! appear in derivatives, see [`derivation::check`](crate::derivation::check).
+//! appear in derivatives, see `derivation::check`.
 
 mod check;
 mod expression;
