@@ -39,6 +39,8 @@ fn crate_called(name: &str) -> PathBuf {
     fs::create_dir_all(folder.join("src")).unwrap();
     let manifest = MANIFEST.replace("ROOT", root).replacen("emitted", name, 1);
     fs::write(folder.join("Cargo.toml"), manifest).unwrap();
+    // A name in the user's own doc comments.
+    fs::write(folder.join("clippy.toml"), r#"doc-valid-idents = ["McCarthy", ".."]"#).unwrap();
     // The versions under test are those of this workspace.
     fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
     folder

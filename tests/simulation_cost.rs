@@ -41,19 +41,32 @@ fn apart(found: State<Turning>, expected: State<Turning>) -> f64 {
     (found - expected).largest()
 }
 
-/// Where the code is optimised also at a tighter tolerance, by another method, and for 44 turns.
-#[test]
-fn the_references_by_31_digits() {
+/// The sprung four-bar at the end, by numbers of 31 digits and a method, and its reference.
+fn sprung_end<M: Method>(tolerance: f64) -> [State<four_bars::Sprung>; 2] {
     let problem = four_bars::sprung();
     let four_bars::Sprung { m, g, k, l0, xp, yp, .. } = problem.scene;
     let scene = four_bars::Sprung::from((bars(), [m, g, k, l0, xp, yp].map(DoubleDouble::from)));
-    let sprung = |tolerance| end::<Dop853, _, _>(&problem, &scene, tolerance);
-    assert!(apart(sprung(1e-16), problem.expected) < 2e-13);
-    if cfg!(debug_assertions) {
-        return;
-    }
-    assert!(apart(sprung(1e-18), problem.expected) < 2e-14);
-    assert!(apart(end::<Dopri5, _, _>(&problem, &scene, 1e-14), problem.expected) < 5e-13);
+    [end::<M, _, _>(&problem, &scene, tolerance), problem.expected]
+}
+
+#[test]
+fn the_reference_of_the_sprung_four_bar() {
+    let [found, expected] = sprung_end::<Dop853>(1e-16);
+    assert!(apart(found, expected) < 2e-13);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unoptimised: `.ci/run` runs it for release")]
+fn the_reference_of_the_sprung_four_bar_by_two_methods() {
+    let [found, expected] = sprung_end::<Dop853>(1e-18);
+    assert!(apart(found, expected) < 2e-14);
+    let [found, expected] = sprung_end::<Dopri5>(1e-14);
+    assert!(apart(found, expected) < 5e-13);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unoptimised: `.ci/run` runs it for release")]
+fn the_reference_of_44_turns() {
     let problem = four_bars::turning();
     let four_bars::Turning { m, g, .. } = problem.scene;
     let scene = four_bars::Turning::from((bars(), [m, g].map(DoubleDouble::from)));
@@ -78,6 +91,14 @@ where
 
 /// Steps, theta at the end and the widest gap by another program, written in another language for the same equations.
 type Rows = [(u32, f64, f64); 2];
+
+const FORMULATIONS: [(Hold, Rows); 4] = [
+    (Hold::Accelerations, ACCELERATIONS),
+    (Hold::Baumgarte(5.0), WEAKLY),
+    (Hold::Baumgarte(50.0), STRONGLY),
+    (Hold::Projection, PROJECTED),
+];
+
 const ACCELERATIONS: Rows =
     [(5000, 275.063_206_182_975_6, 5.915_420_5e-3), (20_000, 274.967_904_587_985_46, 2.332_102_6e-5)];
 const WEAKLY: Rows = [(5000, 274.974_741_823_660_34, 1.415_255_8e-6), (20_000, 274.967_532_238_091_9, 5.535_610_4e-9)];
@@ -85,26 +106,30 @@ const STRONGLY: Rows =
     [(5000, 274.975_866_395_133_9, 1.116_225_7e-6), (20_000, 274.967_550_437_505_74, 3.880_448_7e-9)];
 const PROJECTED: Rows = [(5000, 274.964_844_557_934_1, 0.0), (20_000, 274.967_494_473_272_04, 0.0)];
 
-#[test]
-fn the_formulations_are_those_of_another_program() {
+/// One row of every formulation.
+fn are_those_of_another_program(row: usize) {
     let problem = four_bars::turning();
     let theta = |y: &State<Turning>| Turning::parts(y).0.theta;
-    let rows = if cfg!(debug_assertions) { 1 } else { 2 };
-    for (hold, expected) in [
-        (Hold::Accelerations, ACCELERATIONS),
-        (Hold::Baumgarte(5.0), WEAKLY),
-        (Hold::Baumgarte(50.0), STRONGLY),
-        (Hold::Projection, PROJECTED),
-    ] {
-        for (steps, end, widest) in &expected[..rows] {
-            let (y, gap) = with_multipliers(&problem, hold, *steps);
-            println!("{hold:?} {steps}: {:e} {gap:e} {:e}", theta(&y) - end, gap / widest - 1.0);
-            assert!((theta(&y) - end).abs() < 2e-9, "{hold:?} {steps}");
-            assert!((gap - widest).abs() < 1e-3 * widest + 1e-14, "{hold:?} {steps}: {gap:e}");
-        }
+    for (hold, expected) in FORMULATIONS {
+        let (steps, end, widest) = expected[row];
+        let (y, gap) = with_multipliers(&problem, hold, steps);
+        println!("{hold:?} {steps}: {:e} {gap:e} {:e}", theta(&y) - end, gap / widest - 1.0);
+        assert!((theta(&y) - end).abs() < 2e-9, "{hold:?} {steps}");
+        assert!((gap - widest).abs() < 1e-3 * widest + 1e-14, "{hold:?} {steps}: {gap:e}");
     }
     // Its reference, in double precision.
     assert!((theta(&problem.expected) - 274.967_493_169_763_77).abs() < 5e-9);
+}
+
+#[test]
+fn the_formulations_by_5000_steps() {
+    are_those_of_another_program(0);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unoptimised: `.ci/run` runs it for release")]
+fn the_formulations_by_20_000_steps() {
+    are_those_of_another_program(1);
 }
 
 /// Half the step is a sixteenth of the error, by Kutta's method in every formulation.

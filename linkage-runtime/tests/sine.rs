@@ -184,15 +184,11 @@ fn reference_is_right() {
     }
 }
 
+/// `SAMPLES=20000000 cargo test --release -p linkage-runtime --test sine` takes so many, and every multiple of pi/2.
 #[test]
 fn within_the_promise() {
-    sweep(20_000, 7);
-}
-
-#[test]
-#[ignore = "minutes, optimised"]
-fn within_the_promise_at_length() {
-    sweep(20_000_000, 1);
+    let samples = std::env::var("SAMPLES").ok().and_then(|samples| samples.parse().ok());
+    samples.map_or_else(|| sweep(20_000, 7), |samples| sweep(samples, 1));
 }
 
 fn bits((sine, cosine): (f64, f64)) -> [u64; 2] {

@@ -34,9 +34,15 @@ pub(super) fn powers_of_length(mechanism: &Mechanism, derivation: &Derivation, p
                 search.expect(residual, power)?;
             }
         }
-        if search.powers.len() == before {
-            return Some(search.powers);
+        if search.powers.len() > before {
+            continue;
         }
+        // What nothing determines: a coordinate is a number, then its factors may follow.
+        let free = derivation.coordinates.iter().map(|coordinate| coordinate.value);
+        match free.into_iter().find(|symbol| !search.powers.contains_key(symbol)) {
+            Some(symbol) => search.powers.insert(symbol, 0.0),
+            None => return Some(search.powers),
+        };
     }
 }
 

@@ -33,8 +33,9 @@ fn the_last_turns_of_a_million() {
     turn(TAU * (1e6 - 50.0), 50, 77);
 }
 
+/// `TURNS=1000000 cargo test --release --test hard_cases many_turns` makes so many; it took XX s.
 #[test]
-#[ignore = "minutes without optimisation"]
-fn a_million_turns() {
-    turn(0.3, 1_000_000, 100_000);
+fn turns_from_the_start() {
+    let turns = std::env::var("TURNS").ok().and_then(|turns| turns.parse().ok()).unwrap_or(1000);
+    turn(0.3, turns, turns / 10);
 }

@@ -284,21 +284,14 @@ fn four_bars(steps: usize) -> Count {
     count
 }
 
+/// `STEPS=20000 cargo test --release --test hard_cases random_steps` takes so many steps with each mechanism, and forty
+/// times as many with four-bars: XX.
 #[test]
 fn no_silent_change() {
-    let mut count = gallery(100);
-    count += four_bars(4_000);
+    let steps = std::env::var("STEPS").ok().and_then(|steps| steps.parse().ok()).unwrap_or(100);
+    let mut count = gallery(steps);
+    count += four_bars(40 * steps);
     println!("{count:?}");
     assert_eq!(count.silent, 0);
     assert!(count.dead_points > 30 && count.errors * 100 < count.steps);
-}
-
-#[test]
-#[ignore = "minutes without optimisation"]
-fn no_silent_change_in_a_million_steps() {
-    let mut count = gallery(20_000);
-    count += four_bars(400_000);
-    println!("{count:?}");
-    assert_eq!(count.silent, 0);
-    assert!(count.steps >= 1_000_000);
 }

@@ -34,7 +34,7 @@ fn what_contacts_have_taken_does_not_come_back() {
         let scene = Hitting { e, ..Hitting::default() };
         let error = simulate(&scene, start, end, 1e-9).err();
         assert_eq!(error, refused("Hitting", "stop on x"));
-        assert!(error.unwrap().to_string().contains("back in time"));
+        assert!(error.unwrap().to_string().contains("backwards in time"));
         assert!(simulate(&scene, start, 2.0, 1e-9).is_ok());
         assert!(simulate(&scene, start, 1.0, 1e-9).is_ok());
     }

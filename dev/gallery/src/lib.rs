@@ -57,6 +57,7 @@ macro_rules! all_mechanisms {
             inverted_slider_crank: InvertedSliderCrank closed;
             jansen: Jansen closed, orders;
             klann: Klann closed;
+            klann_mirrored: KlannMirrored closed, orders;
             multiples: Multiples closed;
             norton_four_bar: NortonFourBar closed, orders;
             offset_slider_crank: OffsetSliderCrank closed, orders;
@@ -64,9 +65,11 @@ macro_rules! all_mechanisms {
             pantograph: Pantograph closed;
             peaucellier: Peaucellier closed;
             pin_and_slot: PinAndSlot closed;
+            rack_steering: RackSteering closed, orders;
             roberts: Roberts closed;
             rpr: Rpr closed;
             rrr: Rrr closed;
+            scissor_lift: ScissorLift closed, orders;
             scotch_yoke: ScotchYoke closed;
             six_bar: SixBar closed;
             slider_crank: Engine closed Compressor closed;

@@ -6,7 +6,7 @@ linkage! {
     ///
     /// James Watt, British patent 1432 of 1784, and his letters of that year. The dimensions are this gallery's: the
     /// arms are level and the link upright in the middle of the stroke, where the path has five points in common
-    /// with its tangent: x = y^5 / (8 arm^3 half_link) + ...
+    /// with its tangent: x = y^5 / (8 `arm`^3 `half_link`) + ...
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism WattLine {
         param arm = 5, half_link = 1;
