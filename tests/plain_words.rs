@@ -113,7 +113,8 @@ fn no_banned_word() {
                 note(path, number, line, "a sentence or a noun phrase that names the thing");
             }
             was_doc = is_doc;
-            let texts: Vec<String> = strings(line).filter(|_| !is_prose).chain([comment]).map(str::to_lowercase).collect();
+            let texts: Vec<String> =
+                strings(line).filter(|_| !is_prose).chain([comment]).map(str::to_lowercase).collect();
             for (words, instead) in BANNED {
                 if texts.iter().any(|text| has(text, words)) {
                     note(path, number, line, instead);
