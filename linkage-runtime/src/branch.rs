@@ -30,24 +30,24 @@ macro_rules! choices {
     )*};
 }
 
-// The choice is the sign of the determinant of the group's block of J, up to the order of its rows and columns: it
-// changes only where the group is singular.
+// The choice is the sign of the determinant of the group's block of J, up to the order of its rows and columns. So a
+// motion changes it only where the group is singular.
 choices! {
     /// The side on which the middle joint of a dyad of two links (RRR) lies.
     ///
-    /// The line runs from the outer joint of the link that the group names first to the outer joint of
-    /// the other.
+    /// It is seen along the line from the outer joint of the link that the group names first to the outer joint of the
+    /// other.
     Elbow {
         /// Left of the line.
         Left,
         /// Right of the line.
         Right
     }
-    /// The position of a slider on its guide (RRP, RPR).
+    /// The position of a slider on its guide (RRP, RPR), by its length as an unknown.
     Slider {
-        /// The larger of the two moduli.
+        /// The larger of the two solutions for the length.
         Far,
-        /// The smaller of the two moduli.
+        /// The smaller of the two solutions for the length.
         Near
     }
     /// The choice between the two angles that solve a scalar equation a cos(phi) + b sin(phi) = h.
@@ -71,7 +71,8 @@ pub fn existing<B: Copy, P>(
     })
 }
 
-/// A negative factor of at most this many ulps of its scale counts as zero: the links are in line.
+/// A factor under the root of a chord that is negative by at most this many ulps of its scale counts as zero: the links
+/// are in line.
 ///
 /// Limits of an input are then off by up to 1.9 ulp times their condition number; with 1.5 by up to 3.2, with 2 by up
 /// to 4.0 (`tests/limits_to_forty_digits.rs`). With 0, links in line whose lengths are rounded decimals do not reach
@@ -79,12 +80,17 @@ pub fn existing<B: Copy, P>(
 const TOUCHING_ULPS: f64 = 1.0;
 
 /// A distance of at most this many ulps of the sum of the magnitudes of its terms counts as zero. The joints of the
-/// gallery are accurate to three ulp of that sum times their condition number (`tests/forty_digits`). With 0, joints
-/// that coincide up to rounding error count as apart; with more, positions that still have correct digits are rejected.
+/// test mechanisms are accurate to three ulp of that sum times their condition number (`tests/forty_digits`). With 0,
+/// joints that coincide up to rounding error count as apart; with more, positions that still have correct digits are
+/// rejected.
 const COINCIDENT_ULPS: f64 = 8.0;
 
-/// ±sqrt((n - h) (n + h)), with the sign of `side`: the half chord of a group. `factors` are n - h and n + h, `size` is
-/// n, `scales` are the sums of the magnitudes of the terms of n and of h.
+/// ±sqrt((n - h) (n + h)), with the sign of `side`: the half chord of a circle of radius n at the distance h from its
+/// centre. The joint of a link (RRP) is on both the circle about its other end, with the link's length as n, and the
+/// guide at the distance h; for RPR n is the distance of the outer joints and h the offset of the arm; for
+/// a cos(phi) + b sin(phi) = h, n is hypot(a, b).
+///
+/// `factors` are n - h and n + h, `radius` is n, `scales` are the sums of the magnitudes of the terms of n and of h.
 ///
 /// # Errors
 /// [`PositionError::Unbuildable`] if the product is negative, [`PositionError::Undetermined`] if n and h are both zero,
@@ -94,7 +100,7 @@ pub fn chord<T: Real, S: Side>(
     mechanism: &'static str,
     group: &'static str,
     factors: [T; 2],
-    size: T,
+    radius: T,
     scales: [T; 2],
     side: S,
 ) -> Result<T, PositionError> {
@@ -104,12 +110,12 @@ pub fn chord<T: Real, S: Side>(
     let root = if is_in_range(radicand) {
         radicand.sqrt()
     } else {
-        touching_chord(mechanism, group, low, high, size, scales)?
+        touching_chord(mechanism, group, low, high, radius, scales)?
     };
     Ok(if side == S::OF_POSITIVE_ROOT { root } else { -root })
 }
 
-/// Computes the [`chord`] where n is a distance between joints, or another sum that may vanish up to rounding error.
+/// Computes the [`chord`] where n is a distance between joints, or another sum that may cancel to rounding error.
 ///
 /// # Errors
 /// Those of [`chord`].
@@ -118,18 +124,18 @@ pub fn reach_chord<T: Real, S: Side>(
     mechanism: &'static str,
     group: &'static str,
     factors: [T; 2],
-    size: T,
+    radius: T,
     scales: [T; 2],
     side: S,
 ) -> Result<T, PositionError> {
-    if size <= real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scales[0] {
-        touching_chord(mechanism, group, factors[0], factors[1], size, scales)?;
+    if radius <= real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scales[0] {
+        touching_chord(mechanism, group, factors[0], factors[1], radius, scales)?;
     }
-    chord(mechanism, group, factors, size, scales, side)
+    chord(mechanism, group, factors, radius, scales, side)
 }
 
 /// Returns an error if the determinant of a group of linear unknowns is zero. `numerators` are those of Cramer's rule,
-/// `scales` the sums of the magnitudes of their terms.
+/// `scales` the sums of the magnitudes of the terms of each.
 ///
 /// # Errors
 /// [`PositionError::Undetermined`] if the numerators are zero as well, else [`PositionError::Unbuildable`];
@@ -176,7 +182,8 @@ fn relative<T: Real>(magnitude: T, scale: T) -> f64 {
     }
 }
 
-/// True if a product of squared lengths is far from overflow and underflow. If not, [`root`] computes in other units.
+/// True if a product of two squared lengths is far from overflow and underflow. If not, [`root`] computes in other
+/// units.
 #[inline]
 fn is_in_range<T: Real>(product: T) -> bool {
     let epsilon = T::default_epsilon();
@@ -184,7 +191,7 @@ fn is_in_range<T: Real>(product: T) -> bool {
     product > tiny && product < T::one() / tiny
 }
 
-/// If a factor is less than this part of the squares whose difference it is, the difference is computed without
+/// If a factor, a difference of two squares, is less than this fraction of the larger one, it is computed without
 /// rounding error.
 const CANCELLATION: f64 = 1.0 / 16.0;
 
@@ -208,10 +215,10 @@ pub struct Triangle<T> {
 
 /// ±sqrt(((p + q)^2 - D^2) (D^2 - (p - q)^2)), with the sign of `side`: twice the half chord of a triangle.
 ///
-/// The flag returned is true if the triangle is far from flat and of moderate size, so that no step from here to the
-/// directions of the links can overflow or underflow. With s = p + q, then D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16,
-/// so that neither link is shorter than s/32; and since D^2 / s^2, s^2 D^2 and 1 / s are in range, so are the links'
-/// components, which are less than 2 s even after rounding errors.
+/// The flag returned is true if the triangle is far from flat and of moderate size. The directions of the links then
+/// follow without overflow and underflow: with s = p + q, D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16, so that neither
+/// link is shorter than s/32; and since D^2 / s^2, s^2 D^2 and 1 / s are in range, so are the links' components, which
+/// are less than 2 s even after rounding errors.
 ///
 /// Near a dead point a factor is a difference of nearly equal squares. It is then computed in extended precision, so
 /// that the chord is accurate to a few ulp however flat the triangle is: T. J. Dekker, "A floating-point technique for
@@ -326,7 +333,7 @@ fn two_product<T: Real>(a: T) -> [T; 2] {
     [square, a.mul_add(a, -square)]
 }
 
-/// The chord of a group that is in line or does not exist, or whose factors overflow or underflow.
+/// The chord of a group whose links are in line or do not reach each other, or whose factors overflow or underflow.
 #[cold]
 #[inline(never)]
 fn touching_chord<T: Real>(
@@ -334,20 +341,20 @@ fn touching_chord<T: Real>(
     group: &'static str,
     low: T,
     high: T,
-    size: T,
-    [of_size, of_rest]: [T; 2],
+    radius: T,
+    [radius_scale, offset_scale]: [T; 2],
 ) -> Result<T, PositionError> {
-    if !(low.is_finite() && high.is_finite() && size.is_finite()) {
+    if !(low.is_finite() && high.is_finite() && radius.is_finite()) {
         return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
     }
-    let (scale, epsilon) = (of_size + of_rest, T::default_epsilon());
+    let (scale, epsilon) = (radius_scale + offset_scale, T::default_epsilon());
     let least = if low < high { low } else { high };
-    let vanishes = size <= real::<T>(COINCIDENT_ULPS) * epsilon * of_size;
+    let vanishes = radius <= real::<T>(COINCIDENT_ULPS) * epsilon * radius_scale;
     let tolerance = real::<T>(if vanishes { COINCIDENT_ULPS } else { TOUCHING_ULPS }) * epsilon * scale;
     if least > T::zero() && !vanishes {
-        Ok(root(low, high, size))
+        Ok(root(low, high, radius))
     } else if -least > tolerance {
-        Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, size) })
+        Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, radius) })
     } else if vanishes {
         Err(PositionError::Undetermined { mechanism, group })
     } else {
@@ -356,14 +363,15 @@ fn touching_chord<T: Real>(
     }
 }
 
-/// sqrt(`low` `high`) of positive factors, computed in units of a power of two: the same digits as for lengths near 1.
+/// sqrt(`low` `high`) of positive factors, divided by a power of two near `size` against overflow: the digits are those
+/// of a mechanism with lengths near 1.
 #[cold]
 fn root<T: Real>(low: T, high: T, size: T) -> T {
     let unit = power_of_two_below(size);
     ((low / unit) * (high / unit)).sqrt() * unit
 }
 
-/// Returns the side of a root by its sign bit: at a dead point, where the root is zero, by the sign of the zero.
+/// Returns the side from the sign bit of a root: at a dead point, where the root is zero, from the sign of that zero.
 #[must_use]
 pub fn side_of<T: Real, S: Side>(root: T) -> S {
     if root.is_sign_positive() { S::OF_POSITIVE_ROOT } else { S::OF_NEGATIVE_ROOT }

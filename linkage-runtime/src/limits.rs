@@ -1,9 +1,10 @@
 //! Limits of an input: the interval about a position in which a mechanism can be assembled.
 //!
-//! A group that depends on the input alone, or through linear equations solved before it, can be assembled where one or
-//! two functions of the input are not negative: a + b cos(k v) + c sin(k v) or a + b v + c v^2. Their zeros have a
-//! closed form. Groups that depend on other groups are searched in steps, refined wherever the determinant of a group
-//! is smallest. A search passes inputs at which a group is undetermined ([`PositionError::Undetermined`]).
+//! A group has a position where one or two functions are not negative, such as (p + q)^2 - D^2 for two links p and q
+//! whose outer joints are D apart. If the group depends on the input v alone, or through linear equations solved before
+//! it, they are of the form a + b cos(k v) + c sin(k v) or a + b v + c v^2, whose zeros have a closed form. Groups that
+//! depend on other groups are searched in steps, refined wherever the determinant of a group has a minimum. A search
+//! skips inputs at which a group is undetermined ([`PositionError::Undetermined`]).
 
 use crate::linear::power_of_two_below;
 use crate::{PositionError, Real, real};
@@ -23,8 +24,8 @@ pub enum Limit<T> {
     /// No limit: an angle can turn fully, a length can have any value. If groups were searched, no limit was found
     /// within a turn, or within four times the sum of the lengths of all links.
     Unlimited,
-    /// A limit in closed form, accurate to two ulp times its condition number, the sum of its changes by a relative
-    /// change of each length. The links are in line there; a later group may be undetermined
+    /// A limit v in closed form, accurate to two ulp times its condition number, 1 + the sum of |(l / v) dv/dl| over
+    /// the lengths l. The links are in line there; a later group may be undetermined
     /// ([`PositionError::Undetermined`]).
     Exact {
         /// The last input at which the mechanism can be assembled.
@@ -68,7 +69,7 @@ pub enum Bound<T> {
 /// A group: its index among the determinants, and its unknowns.
 pub type Block = (usize, &'static str);
 
-/// The range in which groups that have no [`Bound`] are searched.
+/// The range in which groups that have no [`Bound`] are searched for limits.
 #[derive(Debug, Clone, Copy)]
 pub enum Search<T> {
     /// No group is searched: all have bounds.
@@ -80,29 +81,29 @@ pub enum Search<T> {
 }
 
 /// Steps of a search, one degree each for an angle without other limits. A group that turns forty times as fast as the
-/// input is then sampled nine times in its turn. With a tenth of the steps it is lost; twice as many take twice the
-/// time.
+/// input is then sampled nine times in its turn. With a tenth of the steps its limits are missed; twice as many take
+/// twice the time.
 const STEPS: u32 = 360;
 
-/// The most narrowings of an interval to rounding error, by bisection over a turn or by golden section at a minimum.
+/// The most steps that narrow an interval to rounding error: about 55 by bisection, about 77 by golden section.
 const NARROWINGS: usize = 80;
 
-/// The distance from a limit in closed form at which other groups are tested, relative to that of the start. A group
-/// that stops the mechanism nearer to the limit than this may count as undetermined there; half the distance loses
-/// digits of the positions.
+/// The distance from a limit in closed form at which other groups are tested, divided by the distance from `start` to
+/// the limit. A group that stops the mechanism nearer to the limit than this may be missed; at half the distance
+/// positions lose digits.
 const INSET: f64 = 1e-12;
 
-/// The most secant steps towards a limit: one where its closed form is accurate, up to a dozen where the coefficients
-/// cancel to a digit. With half as many, some of those are not found.
+/// The most secant steps towards a limit: one is enough where its closed form is accurate, a dozen where cancellation
+/// leaves one digit of the coefficients. With half as many, some of the latter are not found.
 const SECANTS: usize = 16;
 
-/// The most doublings of the step, one ulp at first, by which a limit in closed form is moved inward until the
-/// mechanism can be assembled: enough for the digits that an angle loses in a thousand turns. If another group stops
-/// the mechanism before, the limit is not moved.
+/// The most steps, of one ulp, two, four and so on, by which a limit in closed form is moved inward until the mechanism
+/// can be assembled: enough for the digits that an angle loses in a thousand turns. If that is not enough, another
+/// group stops the mechanism before, and the limit is not moved.
 const ULPS_INWARD: usize = 10;
 
 /// Computes the limits about the input `start` of `position`. `assemble` computes the position at an input from one
-/// nearby, `determinants` those of its blocks.
+/// nearby, `determinants` the determinants of the blocks of a position.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if a number is not finite.
@@ -118,8 +119,8 @@ pub fn limits<T: Real, P, const B: usize, const N: usize>(
     let [mut lower, mut upper] = [None; 2];
     for bound in &bounds {
         let [below, above] = bound.about(start).ok_or(PositionError::NotFinite { mechanism, quantity: "a limit" })?;
-        lower = tighter(lower, below, |new, old| new > old);
-        upper = tighter(upper, above, |new, old| new < old);
+        lower = nearer(lower, below, |new, old| new > old);
+        upper = nearer(upper, above, |new, old| new < old);
     }
     let searched = Searched { assemble, determinants };
     let exact = |end: Option<(T, Block)>| -> Result<Limit<T>, PositionError> {
@@ -139,8 +140,8 @@ pub fn limits<T: Real, P, const B: usize, const N: usize>(
     })
 }
 
-/// The nearer of two ends.
-fn tighter<T: Copy>(
+/// The end nearer to the start, of two that may not exist.
+fn nearer<T: Copy>(
     known: Option<(T, Block)>,
     new: Option<(T, Block)>,
     is_nearer: fn(&T, &T) -> bool,
@@ -236,6 +237,7 @@ fn normalised<T: Real>(coefficients: [T; 3]) -> Option<[T; 3]> {
     }
 }
 
+/// The functions of a mechanism that a search calls.
 struct Searched<A, D> {
     assemble: A,
     determinants: D,
@@ -245,13 +247,13 @@ struct Searched<A, D> {
 enum Found<S> {
     /// A position.
     Assembled(S),
-    /// A group is undetermined here: the search passes the input.
+    /// A group is undetermined here: the search skips the input.
     Undetermined,
     /// A group has no position: its unknowns.
     Stopped(&'static str),
 }
 
-/// A position evaluated by the search, with the magnitudes of its determinants.
+/// A position evaluated by the search, with the magnitudes of the determinants of its blocks.
 struct Sample<T, P, const N: usize> {
     input: T,
     position: P,
@@ -269,10 +271,11 @@ impl<A, D> Searched<A, D> {
     /// Corrects a limit in closed form for the rounding errors of its coefficients, which cancel where lengths are
     /// nearly equal.
     ///
-    /// The square of the determinant of the group is proportional to the distance from the limit. A secant through its
-    /// values at two inputs before the limit finds its zero; the inputs approach the limit as the corrections become
-    /// smaller. The error of the secant is four times the square of their distance, relative to that of the next zero:
-    /// at `NEAREST` it is negligible, and the distance has three digits left, of which a limit this near needs one.
+    /// Near the limit the square of the determinant of the group is proportional to the distance from it. The zero is
+    /// found by the secant through its values at the distances x and 4 x before the limit, where x is 2^-exponent of
+    /// the distance from `start`; the exponent grows as the corrections become smaller. If the next zero is at the
+    /// distance X beyond the limit, the error of the secant is 4 x^2 / X: at the exponent `NEAREST` it is negligible,
+    /// while x, the difference of two inputs, still has three correct digits.
     fn corrected<T: Real, P, const N: usize>(
         &self,
         start: T,
@@ -293,7 +296,7 @@ impl<A, D> Searched<A, D> {
         for _ in 0..SECANTS {
             let step = (start - end) * real::<T>(2.0).powi(-exponent);
             let (near, far) = (input + step, input + step * real::<T>(4.0));
-            let mut by = None;
+            let mut correction = None;
             if let (Found::Assembled(one), Found::Assembled(other)) =
                 (self.at(position, near)?, self.at(position, far)?)
             {
@@ -301,18 +304,18 @@ impl<A, D> Searched<A, D> {
                 let part = ratio * ratio;
                 let secant = ((near - input) - part * (far - input)) / (T::one() - part);
                 // From farther away the two determinants differ in too few digits.
-                by = (secant.abs() <= step.abs() * real::<T>(1000.0)).then_some(secant);
+                correction = (secant.abs() <= step.abs() * real::<T>(1000.0)).then_some(secant);
             }
-            match by {
-                Some(by) => {
-                    input += by;
-                    if by.abs() > step.abs() {
+            match correction {
+                Some(correction) => {
+                    input += correction;
+                    if correction.abs() > step.abs() {
                         continue;
                     }
                     if exponent == NEAREST {
                         // Without cancellation the closed form is accurate to the last digit.
-                        let is_right = (input - end).abs() <= real::<T>(2.0) * T::default_epsilon() * end.abs();
-                        return Ok(if is_right { end } else { input });
+                        let is_accurate = (input - end).abs() <= real::<T>(2.0) * T::default_epsilon() * end.abs();
+                        return Ok(if is_accurate { end } else { input });
                     }
                     exponent += 8;
                 }
@@ -324,7 +327,8 @@ impl<A, D> Searched<A, D> {
         Ok(end)
     }
 
-    /// Moves a rounded limit inward to the last input at which no group stops the mechanism.
+    /// Moves a limit, which rounding error may have put outside, inward to an input at which no group stops the
+    /// mechanism.
     fn last<T: Real, P, const N: usize>(&self, start: T, position: &P, end: T) -> Result<T, PositionError>
     where
         A: Fn(&P, T) -> Result<P, PositionError>,
@@ -385,7 +389,7 @@ impl<A, D> Searched<A, D> {
                 for (block, ((a, b), c)) in determinants.enumerate() {
                     if b < a
                         && b <= c
-                        && let Some(limit) = self.lowest(before, there.input, block)?
+                        && let Some(limit) = self.limit_at_minimum(before, there.input, block)?
                     {
                         return Ok(limit);
                     }
@@ -453,9 +457,9 @@ impl<A, D> Searched<A, D> {
         Ok(Limit::Bracketed { assembled, unbuildable, group })
     }
 
-    /// Minimises the determinant of a block between two positions, and returns the limit if it cannot be assembled
-    /// there.
-    fn lowest<T: Real, P, const N: usize>(
+    /// Minimises the determinant of a block between two inputs, and returns the limit if the mechanism cannot be
+    /// assembled at the minimum.
+    fn limit_at_minimum<T: Real, P, const N: usize>(
         &self,
         from: &Sample<T, P, N>,
         to: T,

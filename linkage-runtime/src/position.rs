@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use crate::error::all_finite;
 use crate::jacobian::Blocks;
 use crate::jacobian::correction;
-use crate::jacobian::ulp::weak;
+use crate::jacobian::ulp::nearly_zero;
 use crate::linear::{Factorization, product_of_pivots, same_signs};
 use crate::mechanism::finite_coordinates;
 use crate::newton::{Constraints, Iterate, search};
@@ -73,7 +73,7 @@ fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Op
     let ends = [Blocks::of(mechanism, start), Blocks::of(mechanism, end)];
     let [before, after] = ends.each_ref().map(Blocks::determinants);
     let mut signs = before.iter().zip(after).map(|(&before, &after)| same_signs(&[before], &[after])).enumerate();
-    let left = signs.find(|&(place, same)| !same && ends.iter().all(|blocks| blocks.regularity(place) > weak()));
+    let left = signs.find(|&(place, same)| !same && ends.iter().all(|blocks| blocks.regularity(place) > nearly_zero()));
     left.and_then(|(place, _)| M::GROUPS.get(place)).map(|group| group.name)
 }
 

@@ -62,7 +62,7 @@ use core::fmt;
 
 use crate::error::{all_finite, finite};
 use crate::jacobian::ulp::{ZERO_ULPS, ulps};
-use crate::jacobian::{Blocks, largest_entries, positive};
+use crate::jacobian::{Blocks, largest_entries, scale_or_one};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
 use crate::{Column, Dim, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real, real};
@@ -154,7 +154,7 @@ struct Equilibrated<M: Mechanism> {
 impl<M: Mechanism> Equilibrated<M> {
     fn of(mechanism: &M, pose: &M::Pose) -> Result<Self, PositionError> {
         let residual_scales = mechanism.residual_scales(pose);
-        let divisors = residual_scales.map(positive);
+        let divisors = residual_scales.map(scale_or_one);
         let (unknowns, unknown_scales) =
             equilibrated(&divisors, &mechanism.jacobian_unknowns(pose), &mechanism.jacobian_unknowns_scales(pose));
         let (inputs, input_scales) =
@@ -177,7 +177,7 @@ fn equilibrated<T: Real, R: Dim, C: Dim>(
     matrix: &Matrix<T, R, C>,
     largest: &Matrix<T, R, C>,
 ) -> (Matrix<T, R, C>, Column<T, C>) {
-    let scales = largest_entries(largest, divisors).map(positive);
+    let scales = largest_entries(largest, divisors).map(scale_or_one);
     let columns = matrix.columns().zip_map(&scales, |column, scale| column.component_div(divisors).map(|x| x / scale));
     (Matrix::from_columns(columns), scales)
 }
@@ -264,7 +264,7 @@ fn in_units<T: Real, N: Dim>(vectors: Matrix<T, N, N>, scales: &Column<T, N>) ->
     Matrix::from_columns(vectors.columns().map(|vector| {
         let leading = vector.leading();
         let rates = vector.component_div(scales);
-        rates.map(|rate| rate / positive(rates[leading]))
+        rates.map(|rate| rate / scale_or_one(rates[leading]))
     }))
 }
 

@@ -16,7 +16,7 @@ use crate::integrate::Interpolant;
 use crate::{MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::larger;
-use linkage_runtime::jacobian::ulp::weak;
+use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{EliminationOf as Elimination, root};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real, real};
 
@@ -242,6 +242,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let pose = mechanism.pose_at(&Self::unpack(&step.at_fraction(middle)).0);
         let jacobian = self.scales.jacobian(mechanism, &pose);
         let residual = mechanism.residual(&pose).component_div(&self.scales.residuals);
-        Elimination::<S::Mechanism>::in_order_above(weak(), &independent.order, jacobian).left(&residual).largest()
+        Elimination::<S::Mechanism>::in_order_above(nearly_zero(), &independent.order, jacobian)
+            .left_null_product(&residual)
+            .largest()
     }
 }

@@ -74,7 +74,7 @@ impl<T: Real, U: Dim, V: Dim> Factors<T, U, V> {
     pub(super) fn basis(&self) -> (Matrix<T, U, V>, Matrix<T, V, V>) {
         let scales = &self.scales.coordinates;
         let columns = self.free.map(|free| {
-            let column = self.elimination.null(free).scaled(scales);
+            let column = self.elimination.null_vector(free).scaled(scales);
             (column.unknowns / scales.get(free), column.inputs / scales.get(free))
         });
         (Matrix::from_columns(columns.map(|column| column.0)), Matrix::from_columns(columns.map(|column| column.1)))

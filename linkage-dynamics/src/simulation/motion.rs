@@ -9,7 +9,7 @@ use crate::integrate::Interpolant;
 use crate::{Coordinates, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, smallest};
-use linkage_runtime::jacobian::{Closing, ScalesOf, VectorOf, contract, correction};
+use linkage_runtime::jacobian::{Iteration, ScalesOf, VectorOf, contract, correction};
 use linkage_runtime::{Column, Dim, Mechanism, PerInput, Real, newton, real};
 
 /// A choice of independent coordinates of a scene.
@@ -233,14 +233,14 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         let small = S::Scalar::default_epsilon().sqrt();
         let mut last = None;
         contract(*q, MAX_CORRECTIONS, |q| {
-            let Some(step) = step(&mechanism.pose_at(q))? else { return Ok(Closing::Stuck) };
+            let Some(step) = step(&mechanism.pose_at(q))? else { return Ok(Iteration::Failed) };
             let (next, size) = (Self::moved(q, &-step), self.scaled_norm(&step));
             if size <= enough {
-                return Ok(Closing::Closed(next));
+                return Ok(Iteration::Converged(next));
             }
             let is_rounding = last.is_some_and(|last| last < small && size > last * real(0.5));
             last = Some(size);
-            Ok(if is_rounding { Closing::Closed(*q) } else { Closing::Step(next, size) })
+            Ok(if is_rounding { Iteration::Converged(*q) } else { Iteration::Step(next, size) })
         })
     }
 }

@@ -73,7 +73,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let mechanism = motion.scene.mechanism();
         let pose = mechanism.pose_at(&S::parts(&y).0);
         let blocks = Blocks::of(mechanism, &pose);
-        let (regularity, _) = blocks.weakest();
+        let (regularity, _) = blocks.least_regular();
         let determinants = *blocks.determinants();
         match motion.parametrisation {
             Parametrisation::Inputs
@@ -185,7 +185,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 .regularity()
         };
         // At a change point some group is singular for its inputs too: if none is near it, skip the rest.
-        let (by_inputs, _) = Blocks::of(mechanism, &mechanism.pose_at(&S::parts(end).0)).weakest();
+        let (by_inputs, _) = Blocks::of(mechanism, &mechanism.pose_at(&S::parts(end).0)).least_regular();
         if by_inputs > real(2.0 * LEAST_CLEARANCE) {
             return false;
         }

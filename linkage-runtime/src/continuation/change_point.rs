@@ -1,19 +1,19 @@
 //! Change points, where [J A] loses rank and curves cross.
 //!
-//! Let n1 .. nk span the null space of [J A], and let the k - 1 rows of L span its left null space. At a crossing the
-//! slopes of L Psi along n1 .. nk vanish (H. B. Keller, "Lectures on Numerical Methods in Bifurcation Problems", 1987,
-//! section 5). If L has one row, the crossing is a saddle point of L Psi: a regular root of the slopes, which Newton's
-//! method finds to rounding error even if [J A] is only nearly singular. If L has more rows, there are more slopes than
-//! directions, and the Gauss-Newton method is used. At a change point L Psi is zero there; where curves only come close
-//! to each other it is not. The tangents are the common zeros of the quadratic forms L Psi_qq.
-//!
-//! The elimination of [J A] leaves k - 1 rows open, that is without a pivot: they are the rows of L.
+//! Let n1 .. nk span the null space of [J A], and let the k - 1 rows of N span its left null space: the elimination of
+//! [J A] leaves k - 1 rows open, that is without a pivot, and each is a left null vector. At a crossing the slopes of
+//! N Psi, its derivatives along n1 .. nk, vanish (H. B. Keller, "Lectures on Numerical Methods in Bifurcation
+//! Problems", 1987, section 5). If N has one row, the crossing is a saddle point of N Psi: a regular root of the
+//! slopes, which Newton's method finds to rounding error even if [J A] is only nearly singular. If N has more rows,
+//! there are more slopes than directions, and the Gauss-Newton method is used. At a change point N Psi is zero there;
+//! where curves only come close to each other it is not. The tangents are the common zeros of the quadratic forms
+//! x . (N Psi_qq) x in the null space.
 
 use super::cone::{Cone, DIMENSIONS, Form};
 use super::curve::{Curve, Linear};
 use super::groups::Groups;
 use super::tangents::MOST_TANGENTS;
-use crate::jacobian::ulp::{EQUAL_ULPS, ulps, weak};
+use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{Cholesky, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::largest;
@@ -22,14 +22,14 @@ use crate::{Column, D, Dim, Matrix, Mechanism, PathError, PerUnknown, real};
 /// The most Newton steps; a search from the path takes three to five.
 const MOST_ITERATIONS: usize = 12;
 
-/// A change point and its unit tangents, each in either direction.
+/// A change point and the unit tangents of the curves that cross there; their signs are arbitrary.
 pub(super) struct Crossing<M: Mechanism> {
     pub(super) q: M::Coordinates,
     tangents: [Vector<M>; MOST_TANGENTS],
     count: usize,
     /// True if `tangents` holds all of them.
     pub(super) is_complete: bool,
-    /// The number of pivots of [J A] that are zero.
+    /// The rank deficiency of [J A].
     pub(super) defect: usize,
     /// The groups that are singular there.
     pub(super) groups: Groups,
@@ -48,8 +48,8 @@ impl<M: Mechanism> Crossing<M> {
         &self.tangents[..self.count]
     }
 
-    /// Moves the tangent nearest to a direction to the front, and gives it that direction.
-    pub(super) fn followed(&mut self, direction: &Vector<M>) {
+    /// Moves the tangent nearest to a direction to the front, with the sign of that direction.
+    pub(super) fn put_first(&mut self, direction: &Vector<M>) {
         let nearness = |tangent: &Vector<M>| tangent.dot(direction).abs();
         for place in 1..self.count {
             if nearness(&self.tangents[place]) > nearness(&self.tangents[0]) {
@@ -75,14 +75,15 @@ where
         direction: &Vector<M>,
     ) -> Result<Option<Crossing<M>>, PathError> {
         let at = self.linear(guess)?;
-        let gap = Elimination::<M>::new(at.jacobian).after_gap();
-        for open in [1, gap].into_iter().take(if gap == 1 { 1 } else { 2 }) {
-            let Some(mut q) = self.degenerate(guess, reach, open)? else { continue };
+        // A simple crossing first; then one with the rank deficiency that the pivots suggest.
+        let likely = Elimination::<M>::new(at.jacobian).count_after_largest_drop();
+        for open in [1, likely].into_iter().take(if likely == 1 { 1 } else { 2 }) {
+            let Some(mut q) = self.stationary(guess, reach, open)? else { continue };
             let at = self.linear(&q)?;
-            let defect = Elimination::<M>::new(at.jacobian).defect(weak());
+            let defect = Elimination::<M>::new(at.jacobian).defect(nearly_zero());
             if defect > open {
-                // The null space is larger than assumed: the search is repeated with all open rows.
-                let Some(better) = self.degenerate(&q, weak(), defect)? else { continue };
+                // The null space is larger than assumed: the search is repeated with more open rows.
+                let Some(better) = self.stationary(&q, nearly_zero(), defect)? else { continue };
                 q = better;
             }
             if let Some(crossing) = self.tangents(q, defect.max(1), direction)? {
@@ -92,8 +93,9 @@ where
         Ok(None)
     }
 
-    /// Finds the position within `reach` of `guess` where the slopes of `open` open rows vanish.
-    fn degenerate(
+    /// Finds the position within `reach` of `guess` where Psi = 0 in the rows with a pivot and the slopes of the `open`
+    /// other rows vanish.
+    fn stationary(
         &self,
         guess: &M::Coordinates,
         reach: M::Scalar,
@@ -122,11 +124,12 @@ where
         Ok(None)
     }
 
-    /// The Newton step in the two-dimensional null space of one open row, to where its slopes are zero after `part`.
+    /// The Newton step in the two-dimensional null space of one open row, to the zero of its slopes; `part` is the step
+    /// outside the null space, taken first.
     fn saddle_step(&self, q: &M::Coordinates, elimination: &Elimination<M>, part: &Vector<M>) -> Option<Vector<M>> {
         let mut free = elimination.free();
         let columns = [free.next()?, free.next()?];
-        let [one, two] = columns.map(|column| elimination.null(column));
+        let [one, two] = columns.map(|column| elimination.null_vector(column));
         // Only the open row is not zero.
         let form = |x: &Vector<M>, y: &Vector<M>| self.mixed(q, elimination, x, y).sum();
         let [h11, h12, h22] = [form(&one, &one), form(&one, &two), form(&two, &two)];
@@ -143,8 +146,8 @@ where
         )
     }
 
-    /// The Gauss-Newton step in the null space of several open rows: it minimises the squares of their slopes after
-    /// `part`.
+    /// The Gauss-Newton step in the null space of several open rows: it minimises the sum of the squares of their
+    /// slopes after the step `part` outside the null space.
     fn least_slopes_step(
         &self,
         q: &M::Coordinates,
@@ -158,24 +161,24 @@ where
         let mut normal = with_units_from::<M>(count, Matrix::zeros());
         let mut right = PerUnknown::<M>::zeros();
         for column in elimination.free() {
-            let along = elimination.null(column);
+            let along = elimination.null_vector(column);
             let slopes = elimination.slope(column) + self.mixed(q, elimination, part, &along);
             let mut turns = Matrix::<M::Scalar, M::U, M::U>::zeros();
             for (place, other) in elimination.free().enumerate() {
-                turns.set_column(place, self.mixed(q, elimination, &elimination.null(other), &along));
+                turns.set_column(place, self.mixed(q, elimination, &elimination.null_vector(other), &along));
             }
             normal += turns.tr_mul_matrix(&turns);
             right -= turns.tr_mul(&slopes);
         }
         let cholesky = Cholesky::new(&normal)?;
         let diagonal = cholesky.diagonal();
-        let least = largest(diagonal.iter().copied().take(count)) * weak();
+        let least = largest(diagonal.iter().copied().take(count)) * nearly_zero();
         if diagonal.iter().take(count).any(|&entry| entry <= least) {
             return None;
         }
         let solution = cholesky.solve(&right);
         let parts = elimination.free().zip(solution.iter());
-        Some(parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null(column) * part))
+        Some(parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null_vector(column) * part))
     }
 
     /// Computes the crossing at a position where the slopes vanish, if Psi = 0 there.
@@ -187,10 +190,10 @@ where
     ) -> Result<Option<Crossing<M>>, PathError> {
         let at = self.linear(&q)?;
         let elimination = Elimination::<M>::all_but(defect, at.jacobian);
-        let (height, noise) = (elimination.left(&at.residual), elimination.left_of_noise(&at.noise));
+        let (height, noise) = (elimination.left_null_product(&at.residual), elimination.left_null_error(&at.noise));
         let is_on_curve =
             height.iter().zip(noise.iter()).all(|(height, noise)| height.abs() <= *noise * real(EQUAL_ULPS));
-        let is_flat = elimination.free().all(|column| elimination.slope(column).largest() <= weak());
+        let is_flat = elimination.free().all(|column| elimination.slope(column).largest() <= nearly_zero());
         if !(is_on_curve && is_flat) {
             return Ok(None);
         }
@@ -201,14 +204,15 @@ where
             is_complete = cone.is_complete();
             for (tangent, line) in tangents.iter_mut().zip(cone.lines()) {
                 let parts = elimination.free().zip(line.iter());
-                let sum = parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null(column) * part);
+                let sum = parts
+                    .fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null_vector(column) * part);
                 *tangent = sum.normalized();
                 count += 1;
             }
         }
         // If not all tangents are found, that of the followed motion is added.
         if !is_complete && let Some(nearest) = self.nearest_tangent(&q, &at, &elimination, direction) {
-            let is_known = |known: &Vector<M>| nearest.across(known) <= weak();
+            let is_known = |known: &Vector<M>| nearest.across(known) <= nearly_zero();
             if !tangents[..count].iter().any(is_known) {
                 count = (count + 1).min(MOST_TANGENTS);
                 tangents[count - 1] = nearest;
@@ -221,16 +225,16 @@ where
         Ok(Some(Crossing { q, tangents, count, is_complete, defect, groups }))
     }
 
-    /// The common zeros of the quadratic forms of the open rows in the null space.
+    /// The lines on which the quadratic forms of all open rows are zero, in coordinates of the null space.
     fn cone(&self, q: &M::Coordinates, elimination: &Elimination<M>, direction: &Vector<M>) -> Cone<M::Scalar> {
         let mut forms = [Form::zeros(); DIMENSIONS];
         let (mut gram, mut along) = (Form::<M::Scalar>::identity(), Column::<M::Scalar, D<DIMENSIONS>>::zeros());
         let size = elimination.free().count();
         for (i, one) in elimination.free().enumerate() {
-            let one = elimination.null(one);
+            let one = elimination.null_vector(one);
             along[i] = one.dot(direction);
             for (j, two) in elimination.free().enumerate().take(i + 1) {
-                let two = elimination.null(two);
+                let two = elimination.null_vector(two);
                 (gram[(i, j)], gram[(j, i)]) = (one.dot(&two), one.dot(&two));
                 let values = self.mixed(q, elimination, &one, &two);
                 for (form, row) in forms.iter_mut().zip(elimination.open_rows()) {
@@ -243,7 +247,7 @@ where
         Cone::of(&forms[..size - 1], size, &along)
     }
 
-    /// The common zero of the forms near a direction, by the Gauss-Newton method.
+    /// The tangent nearest to a direction: a common zero of the forms, by the Gauss-Newton method.
     fn nearest_tangent(
         &self,
         q: &M::Coordinates,
@@ -266,7 +270,7 @@ where
             let mut turns = Matrix::<M::Scalar, M::U, M::U>::zeros();
             let mut along = PerUnknown::<M>::zeros();
             for (place, column) in elimination.free().enumerate() {
-                let null = elimination.null(column);
+                let null = elimination.null_vector(column);
                 along[place] = null.dot(&tangent);
                 turns.set_column(place, self.mixed(q, elimination, &tangent, &null) * real(2.0));
             }
@@ -274,17 +278,19 @@ where
             let normal = with_units_from::<M>(count, turns.tr_mul_matrix(&turns) + products);
             let solution = Cholesky::new(&normal)?.solve(&-turns.tr_mul(&values));
             let parts = elimination.free().zip(solution.iter());
-            let step = parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null(column) * part);
+            let step =
+                parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null_vector(column) * part);
             tangent = (tangent + step).normalized();
         }
         let left = self.mixed(q, elimination, &tangent, &tangent).largest();
-        (left <= weak() && tangent.dot(direction).abs() > direction.norm() * real(0.5)).then_some(tangent)
+        (left <= nearly_zero() && tangent.dot(direction).abs() > direction.norm() * real(0.5)).then_some(tangent)
     }
 
-    /// L (Psi_q x)_q y in the open rows, from the second derivatives along x + y and x - y.
+    /// N (Psi_q x)_q y in the open rows, from the second derivatives along x + y and x - y: (Psi_q z)_q z is a
+    /// quadratic form in z.
     fn mixed(&self, q: &M::Coordinates, elimination: &Elimination<M>, x: &Vector<M>, y: &Vector<M>) -> PerUnknown<M> {
         let along = |z: &Vector<M>| -> PerUnknown<M> { self.curvature(q, z) };
-        elimination.left(&(along(&(*x + *y)) - along(&(*x - *y)))) * real::<M::Scalar>(0.25)
+        elimination.left_null_product(&(along(&(*x + *y)) - along(&(*x - *y)))) * real::<M::Scalar>(0.25)
     }
 }
 

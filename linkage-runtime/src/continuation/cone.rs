@@ -9,7 +9,7 @@
 use core::convert::Infallible;
 
 use super::tangents::MOST_TANGENTS;
-use crate::jacobian::ulp::weak;
+use crate::jacobian::ulp::nearly_zero;
 use crate::jacobian::{Cholesky, root};
 use crate::{Column, D, Matrix, Real, real};
 
@@ -137,7 +137,7 @@ impl<T: Real> Cone<T> {
 
     fn push(&mut self, line: &Coordinates<T>) {
         let line = *line * line.norm().recip();
-        let is_known = |known: &Coordinates<T>| (*known * known.dot(&line) - line).norm() <= weak();
+        let is_known = |known: &Coordinates<T>| (*known * known.dot(&line) - line).norm() <= nearly_zero();
         if self.lines().iter().any(is_known) {
             return;
         }
@@ -175,7 +175,7 @@ impl<T: Real> Space<T> {
     fn drop_zeros(&mut self) {
         let mut kept = 0;
         for place in 0..self.count {
-            if self.forms[place].largest() > weak() {
+            if self.forms[place].largest() > nearly_zero() {
                 self.forms.swap(kept, place);
                 kept += 1;
             }
@@ -255,7 +255,7 @@ impl<T: Real> Squares<T> {
                     }
                 }
             }
-            if most.abs() <= weak() {
+            if most.abs() <= nearly_zero() {
                 break;
             }
             let image = rest * along;

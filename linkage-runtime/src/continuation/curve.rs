@@ -3,13 +3,13 @@
 
 use crate::jacobian::ulp::{EQUAL_ULPS, ZERO_ULPS};
 use crate::jacobian::{
-    Closing, EliminationOf as Elimination, JacobianOf as Jacobian, ScalesOf as Scales, VectorOf as Vector, contract,
+    EliminationOf as Elimination, Iteration, JacobianOf as Jacobian, ScalesOf as Scales, VectorOf as Vector, contract,
 };
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::{D, Mechanism, PathError, PerInput, PerUnknown, PositionError, real};
 
-/// The most Newton steps of one correction: each at least halves the distance, and squares it from a good prediction.
+/// The most Newton steps of one correction: each at least halves the distance to the curve, and near it squares it.
 const MOST_CORRECTIONS: usize = 12;
 
 /// A mechanism with the scales of its coordinates and residuals.
@@ -49,7 +49,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
         Self { mechanism, scales: Scales::<M>::of(mechanism, &mechanism.pose_at(q)) }
     }
 
-    /// q + `by`, the vector being nondimensional.
+    /// q + `by`, where `by` is nondimensional.
     pub(super) fn moved(&self, q: &M::Coordinates, by: &Vector<M>) -> M::Coordinates {
         let Vector::<M> { unknowns, inputs } = coordinates::<M>(q) + by.scaled(&self.scales.coordinates);
         M::coordinates(unknowns, inputs)
@@ -112,7 +112,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
         self.mechanism.gamma(&pose, &self.rates(x)).component_div(&self.scales.residuals)
     }
 
-    /// Corrects `guess` by Newton's method to the point of the curve in the plane through `guess` across `normal`.
+    /// Corrects `guess` by Newton's method to the point of the curve in the plane through `guess` with this normal.
     ///
     /// # Errors
     /// Rejected where Newton's method does not contract, or where the curve is nearly parallel to the plane.
@@ -127,25 +127,28 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
             let drift = normal.dot(&(self.difference(q, &guess) + part));
             let step = part - tangent * (drift / along);
             let size = step.norm();
-            if at.is_closed() {
-                // A last step reduces the residual further; it is not taken if it exceeds rounding error.
+            if at.is_on_curve() {
+                // A last step reduces the residual further; it is not taken if it is longer than rounding error, which
+                // happens where the tangent is unreliable.
                 let is_short = size <= self.rounding_error(q) * real(EQUAL_ULPS);
-                return Ok(Closing::Closed((if is_short { self.moved(q, &step) } else { *q }, elimination)));
+                return Ok(Iteration::Converged((if is_short { self.moved(q, &step) } else { *q }, elimination)));
             }
             let (residual, regularity) = (to_f64(at.residual.largest()), to_f64(elimination.regularity()));
             rejection = Rejection { residual, regularity };
-            let cuts = along.abs() > real(LEAST_CROSSING);
-            Ok(if cuts { Closing::Step(self.moved(q, &step), size) } else { Closing::Stuck })
+            let intersects = along.abs() > real(LEAST_SINE);
+            Ok(if intersects { Iteration::Step(self.moved(q, &step), size) } else { Iteration::Failed })
         })?;
         Ok(found.ok_or(rejection))
     }
 }
 
-/// The sine of the least angle between plane and curve. A quarter or four times as much changes no path of the tests.
-const LEAST_CROSSING: f64 = 1.0 / 64.0;
+/// The sine of the least angle between plane and curve at which the correction continues. A quarter or four times as
+/// much changes no path of the tests.
+const LEAST_SINE: f64 = 1.0 / 64.0;
 
 impl<M: Mechanism> Linear<M> {
-    pub(super) fn is_closed(&self) -> bool {
+    /// True if every residual is zero to rounding error.
+    pub(super) fn is_on_curve(&self) -> bool {
         let enough = real::<M::Scalar>(ZERO_ULPS);
         self.residual.iter().zip(&self.noise).all(|(residual, noise)| residual.abs() <= *noise * enough)
     }

@@ -7,11 +7,11 @@ use super::options::Options;
 use super::place::Place;
 use super::tangents::Tangents;
 use crate::jacobian::VectorOf as Vector;
-use crate::jacobian::ulp::{EQUAL_ULPS, weak};
+use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::scalar::arithmetic::*;
 use crate::{D, Dim, Mechanism, PathError, PositionError, real};
 
-/// An event of a path. It ends the step, at the position of the event to rounding error.
+/// An event of a path. The step ends at the event, located to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event<R> {
     /// The determinant of a group of unknowns changes its sign: the input reverses, and the path continues.
@@ -23,7 +23,7 @@ pub enum Event<R> {
     ChangePoint {
         /// All groups that are singular there.
         groups: Groups,
-        /// The rates of the coordinates along the motions.
+        /// The derivatives of the coordinates by arc length along each motion.
         tangents: Tangents<R>,
     },
     /// The input is at an end of its range.
@@ -84,10 +84,10 @@ where
     ) -> Result<Option<End<M>>, PathError> {
         for (index, group) in M::GROUPS.iter().map(|group| group.name).enumerate() {
             let determinant = |place: &Place<M>| place.determinants[index];
-            match self.cut(from, &end.place, determinant)? {
-                Cut::None => {}
-                Cut::Lost => return Ok(None),
-                Cut::At(mut place) => {
+            match self.find_zero(from, &end.place, determinant)? {
+                SignChange::None => {}
+                SignChange::Lost => return Ok(None),
+                SignChange::At(mut place) => {
                     place.forget_sign(group);
                     end = End {
                         place,
@@ -102,7 +102,7 @@ where
         let limits = options.range.into_iter().flatten().map(|limit| (limit, false));
         for (limit, is_target) in limits.chain(wanted.target.map(|input| (input, true))) {
             let gap = |place: &Place<M>| Self::input(&place.q) - limit;
-            // At a change point the input is reached if it agrees to rounding error.
+            // A change point counts as at the limit or target if its input agrees to rounding error.
             let is_crossing = matches!(end.event, Some(Event::ChangePoint { .. }));
             let slack =
                 if is_crossing { self.rounding_error(&end.place.q) * real(EQUAL_ULPS) } else { M::Scalar::zero() };
@@ -112,10 +112,10 @@ where
                 end = End { event, is_target, ..end };
                 continue;
             }
-            match self.cut(from, &end.place, gap)? {
-                Cut::None => {}
-                Cut::Lost => return Ok(None),
-                Cut::At(place) => {
+            match self.find_zero(from, &end.place, gap)? {
+                SignChange::None => {}
+                SignChange::Lost => return Ok(None),
+                SignChange::At(place) => {
                     let place = self.with_exact_input(place, limit)?;
                     end =
                         End { place, event: (!is_target).then_some(Event::Limit), is_target, resume: Resume::OnTheWay };
@@ -129,10 +129,10 @@ where
                 return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
             }
             if !wanted.is_at_zero {
-                match self.cut(from, &end.place, value)? {
-                    Cut::None => {}
-                    Cut::Lost => return Ok(None),
-                    Cut::At(place) => {
+                match self.find_zero(from, &end.place, value)? {
+                    SignChange::None => {}
+                    SignChange::Lost => return Ok(None),
+                    SignChange::At(place) => {
                         end = End { place, event: Some(Event::Zero), is_target: false, resume: Resume::AtZero }
                     }
                 }
@@ -142,37 +142,37 @@ where
     }
 
     /// Finds the place between two at which a value changes its sign.
-    fn cut(
+    fn find_zero(
         &self,
         from: &Place<M>,
         end: &Place<M>,
         value: impl Fn(&Place<M>) -> M::Scalar,
-    ) -> Result<Cut<M>, PathError> {
+    ) -> Result<SignChange<M>, PathError> {
         let values = [value(from), value(end)];
         let changes = |[low, high]: [M::Scalar; 2]| {
             (low < M::Scalar::zero() && high > M::Scalar::zero())
                 || (low > M::Scalar::zero() && high < M::Scalar::zero())
         };
         if !changes(values) {
-            return Ok(Cut::None);
+            return Ok(SignChange::None);
         }
         let distance = self.difference(&end.q, &from.q).dot(&from.tangent);
         let Some(root) = self.sign_change(from, [M::Scalar::zero(), distance], values, value)? else {
-            return Ok(Cut::Lost);
+            return Ok(SignChange::Lost);
         };
         Ok(if root <= M::Scalar::zero() {
-            Cut::At(from.clone())
+            SignChange::At(from.clone())
         } else if root >= distance {
-            Cut::At(end.clone())
+            SignChange::At(end.clone())
         } else {
-            self.at(from, root)?.map_or(Cut::Lost, Cut::At)
+            self.at(from, root)?.map_or(SignChange::Lost, SignChange::At)
         })
     }
 
     /// Gives a place exactly this input and corrects the other coordinates, unless the input is at rest.
     pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathError> {
         let q = Self::with_input(&place.q, input);
-        let moves = place.tangent.inputs[0].abs() > weak() && place.regularity > weak();
+        let moves = place.tangent.inputs[0].abs() > nearly_zero() && place.regularity > nearly_zero();
         if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(M::U::COUNT))? {
             return Ok(self.place(q, &elimination, &place.tangent));
         }
@@ -180,7 +180,7 @@ where
     }
 }
 
-enum Cut<M: Mechanism> {
+enum SignChange<M: Mechanism> {
     None,
     Lost,
     At(Place<M>),

@@ -6,15 +6,15 @@
 //!
 //! 1. *Tangent*: the null vector of [J A], proportional to (W, 1), by elimination with complete pivoting. Where [J A]
 //!    is nearly singular the previous tangent is kept.
-//! 2. *Step*: the tangent predicts, Newton's method in the plane across it corrects. A step is accepted if it is an
-//!    arc: it turns little, deviates from neither tangent more than its turn explains, and the orientation det [J A;
-//!    tangent'] keeps its sign. Otherwise it is halved. This is needed for correctness: without a predictor a
-//!    parallelogram may become an antiparallelogram unnoticed.
+//! 2. *Step*: predictor along the tangent, corrector by Newton's method in the plane normal to it. A step is accepted
+//!    if it is an arc of one curve: the tangent turns little, the step deviates from neither tangent more than this
+//!    turn explains, and the orientation det [J A; tangent'] keeps its sign. Otherwise it is halved. Without these
+//!    checks a parallelogram may become an antiparallelogram unnoticed.
 //! 3. *Events*: the step ends, to rounding error, where the determinant of a group changes its sign (a dead point),
 //!    where the input reaches the end of its range or its target, and where a watched function is zero.
 //! 4. *Change points*, where [J A] loses rank and motions cross: all tangents follow from the second derivatives, all
-//!    singular groups are found, and [`AtChangePoint`] selects the motion. Motions that only come close to each other
-//!    leave a residual; they are followed round their bend, however sharp it is.
+//!    singular groups are found, and [`AtChangePoint`] selects the motion. Where motions only come close to each other,
+//!    Psi is not zero at the point between them; they are followed round their bend, however sharp it is.
 //!
 //! The branch changes only as [`AtChangePoint`] says; otherwise following fails with a [`PathError`](crate::PathError)
 //! that names the group.

@@ -10,8 +10,9 @@ pub enum AtChangePoint {
     /// The path continues smoothly: a parallelogram stays a parallelogram.
     #[default]
     Keep,
-    /// The path continues on the other motion, in the direction in which the input keeps its sign, or if it rests the
-    /// first moving unknown. If more than two motions cross, the path ends as with `Stop`.
+    /// The path continues on the other motion, in the direction in which the rate of the input keeps its sign, or if
+    /// the input rests, that of the first unknown that moves. If more than two motions cross, the path ends as with
+    /// `Stop`.
     Switch,
     /// The path ends; [`choose`](super::Path::choose) selects the motion on which it continues.
     Stop,
@@ -58,7 +59,8 @@ impl<T: Real> Default for Options<T> {
     }
 }
 
-/// The least `longest_step` and `largest_turn`, in ulps: six halvings later it is [`EQUAL_ULPS`].
+/// The least `longest_step` and `largest_turn`, in ulps. It leaves room for six halvings of a step before
+/// [`EQUAL_ULPS`], at which a path gives up.
 const LEAST_STEP_ULPS: f64 = 64.0 * EQUAL_ULPS;
 
 impl<T: Real> Options<T> {

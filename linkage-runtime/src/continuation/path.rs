@@ -6,7 +6,7 @@ use super::groups::Groups;
 use super::options::{AtChangePoint, Direction, Options};
 use super::place::Place;
 use super::tangents::Tangents;
-use crate::jacobian::ulp::{EQUAL_ULPS, weak};
+use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
@@ -16,10 +16,11 @@ use crate::{D, Dim, InputError, Mechanism, PathError, PositionError, position, r
 pub struct PathStep<M: Mechanism> {
     /// The position.
     pub position: M::Coordinates,
-    /// The rates of the coordinates along the path, proportional to the velocity ratios (W, 1); that of the input is
+    /// The derivatives of the coordinates by `length`, proportional to the velocity ratios (W, 1); that of the input is
     /// zero at a dead point.
     pub rates: M::Rates,
-    /// The length of the path so far, with angles in radians and lengths divided by those of their loops.
+    /// The arc length of the path so far, in the space of all coordinates: angles in radians, lengths divided by the
+    /// lengths of their loops.
     pub length: M::Scalar,
     /// The event that ended the step, if any.
     pub event: Option<Event<M::Rates>>,
@@ -34,30 +35,31 @@ pub struct Path<'a, M: Mechanism> {
     curve: Curve<'a, M>,
     place: Place<M>,
     options: Options<M::Scalar>,
-    /// The length of the next trial.
+    /// The length at which the next step is tried first.
     step: M::Scalar,
+    /// The arc length so far.
     length: M::Scalar,
-    /// The change point just passed, until the path has left it.
+    /// The change point just passed, which is not reported again, until the path has left it.
     passed: Option<M::Coordinates>,
     resume: Resume<M>,
     is_ended: bool,
 }
 
-/// The most trial lengths of one step: 2^-64 of it is below rounding error.
+/// The most lengths at which one step is tried, each half the one before: 2^-64 of the first is below rounding error.
 const MOST_TRIALS: usize = 64;
 
-/// A change point is sought up to this many step lengths ahead.
+/// A change point up to this many step lengths ahead ends the step, so that no step ends just before one.
 const AHEAD: f64 = 1.25;
 
-/// A dead point where [J A] is less regular than this may be a change point: if an even number of pivots vanishes
-/// there, the orientation does not change its sign.
+/// At a dead point [J A] is regular. Where its regularity is less than this, the dead point may be a change point at
+/// which an even number of pivots vanishes, so that the orientation does not show it.
 const DOUBTFUL: f64 = 1e-3;
 
 impl<'a, M> Path<'a, M>
 where
     M: Mechanism<V = D<1>>,
 {
-    /// Starts a path at the position near `guess` at its input, with the default options.
+    /// Starts a path at the position near `guess` with the same input, with the default options.
     ///
     /// # Errors
     /// Those of [`with`](Self::with).
@@ -65,7 +67,7 @@ where
         Self::with(mechanism, guess, direction, Options::default())
     }
 
-    /// Starts a path at the position near `guess` at its input.
+    /// Starts a path at the position near `guess` with the same input.
     ///
     /// # Errors
     /// Those of [`position::newton`]; [`PathError::NoDirection`] and [`PathError::ChangePoint`] if `direction` is
@@ -86,13 +88,13 @@ where
         let (step, length) = (options.longest_step * real(0.25), M::Scalar::zero());
         let path =
             |place, passed, resume| Self { curve, place, options, step, length, passed, resume, is_ended: false };
-        if elimination.regularity() < weak() {
+        if elimination.regularity() < nearly_zero() {
             let rates = match direction {
                 Direction::Along(rates) => Some(rates),
                 Direction::Increasing | Direction::Decreasing => None,
             };
             let along = rates.map_or(Vector::<M>::zero(), |rates| curve.direction(&rates));
-            if let Some(crossing) = curve.crossing(&q, weak(), &along)? {
+            if let Some(crossing) = curve.crossing(&q, nearly_zero(), &along)? {
                 let group = crossing.groups.first();
                 let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: M::NAME, group }) };
                 let tangent = curve.choose(crossing.tangents(), &rates)?;
@@ -107,7 +109,7 @@ where
         let tangent = elimination.tangent();
         let forward = match direction {
             Direction::Along(rates) => curve.choose(&[tangent], &rates)?,
-            _ if tangent.inputs[0].abs() < weak() => return Err(PathError::NoDirection { mechanism: M::NAME }),
+            _ if tangent.inputs[0].abs() < nearly_zero() => return Err(PathError::NoDirection { mechanism: M::NAME }),
             _ if (tangent.inputs[0] > M::Scalar::zero()) == matches!(direction, Direction::Increasing) => tangent,
             _ => -tangent,
         };
@@ -120,7 +122,7 @@ where
         self.place.q
     }
 
-    /// The current rates of the coordinates along the path.
+    /// The derivatives of the coordinates by the arc length, at the current position.
     #[must_use]
     pub fn rates(&self) -> M::Rates {
         self.curve.rates(&self.place.tangent)
@@ -129,9 +131,10 @@ where
     /// Reverses the path.
     pub fn turn_back(&mut self) {
         self.place.tangent = -self.place.tangent;
-        // At a change point the orientation changes its sign twice: with the tangent, and at the crossing.
+        // At a change point the orientation changes its sign twice: with the tangent, and since the path leaves on the
+        // side from which it came.
         if !matches!(self.resume, Resume::AtChangePoint) {
-            self.place.side = -self.place.side;
+            self.place.orientation = -self.place.orientation;
             self.passed = None;
         }
         self.is_ended = false;
@@ -147,8 +150,8 @@ where
             return Err(PathError::NoDirection { mechanism: M::NAME });
         };
         self.place.tangent = self.curve.choose(crossing.tangents(), rates)?;
-        // The orientation beyond the change point depends on the motion chosen.
-        self.place.side = M::Scalar::zero();
+        // The orientation beyond the change point depends on the motion chosen: it is unknown until the next step.
+        self.place.orientation = M::Scalar::zero();
         self.resume = Resume::AtChangePoint;
         self.is_ended = false;
         Ok(())
@@ -160,12 +163,12 @@ where
     /// [`PathError::ChangePoint`] if the path stopped at one and no motion has been chosen, [`PathError::Lost`] if the
     /// path cannot be continued, [`PositionError::NotFinite`] if a number is not finite.
     pub fn advance(&mut self) -> Result<PathStep<M>, PathError> {
-        self.advance_wanting(None, None).map(|(step, _)| step)
+        self.advance_until(None, None).map(|(step, _)| step)
     }
 
     /// Takes one step, which ends early at an event; the zeros of `watched` are events, too. `watched` is a function of
-    /// the position and of the rates of the coordinates along the path: an output, or one of the rates, which is zero
-    /// where that coordinate reverses.
+    /// the position and of the derivatives of the coordinates by the arc length: an output, or one of the derivatives,
+    /// which is zero where that coordinate reverses.
     ///
     /// # Errors
     /// Those of [`advance`](Self::advance).
@@ -173,7 +176,7 @@ where
         &mut self,
         watched: impl Fn(&M::Coordinates, &M::Rates) -> M::Scalar,
     ) -> Result<PathStep<M>, PathError> {
-        self.advance_wanting(None, Some(&watched)).map(|(step, _)| step)
+        self.advance_until(None, Some(&watched)).map(|(step, _)| step)
     }
 
     /// Follows the path until the input is `input`, without passing a dead point; the event is the last change point
@@ -183,8 +186,8 @@ where
     ///
     /// # Errors
     /// [`PathError::DeadPoint`] if the input reverses before: the path is then at the dead point;
-    /// [`PathError::TooManySteps`] after the most steps, [`InputError::OutOfRange`] if the input is outside its range,
-    /// and those of [`advance`](Self::advance).
+    /// [`PathError::TooManySteps`] after [`most_steps`](Options::most_steps), [`InputError::OutOfRange`] if the input is
+    /// outside its range, and those of [`advance`](Self::advance).
     pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError> {
         if !input.is_finite() {
             return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the input" }.into());
@@ -196,29 +199,29 @@ where
             let of = Some(M::NAME);
             return Err(InputError::OutOfRange { of, quantity: "the input", value, least, most }.into());
         }
-        let (mut passed, mut turns, mut rests) = (None, 0, 0_usize);
+        let (mut passed, mut reversals, mut zero_steps) = (None, 0, 0_usize);
         for _ in 0..self.options.most_steps {
             let gap = self.curve.input_distance(input - self.input());
             if gap.is_zero() {
                 return Ok(PathStep { event: passed, ..self.here(None) });
             }
             let mut heading = self.place.tangent.inputs[0] * gap;
-            if heading < M::Scalar::zero() && self.place.tangent.inputs[0].abs() > weak() {
+            if heading < M::Scalar::zero() && self.place.tangent.inputs[0].abs() > nearly_zero() {
                 // At most two reversals: one if the input is behind, one if a dead point was left in the wrong
                 // direction.
-                if turns == 2 {
+                if reversals == 2 {
                     let rejection = Rejection { residual: 0.0, regularity: to_f64(self.place.regularity) };
                     return Err(self.curve.lost(&self.place.q, 0, rejection));
                 }
                 self.turn_back();
-                (heading, turns) = (-heading, turns + 1);
+                (heading, reversals) = (-heading, reversals + 1);
             }
             let before = self.length;
-            let (step, is_target) = self.advance_wanting(Some(input), None)?;
+            let (step, is_target) = self.advance_until(Some(input), None)?;
             // A path that starts at a dead point may report it again; after three steps of zero length the input cannot
             // be reached.
-            rests += usize::from(self.length - before <= weak());
-            let is_onward = heading > M::Scalar::zero() || rests > 2;
+            zero_steps += usize::from(self.length - before <= nearly_zero());
+            let is_onward = heading > M::Scalar::zero() || zero_steps > 2;
             match step.event {
                 Some(Event::DeadPoint { group }) => {
                     let left = self.curve.input_distance(input - self.input()).abs();
@@ -237,7 +240,7 @@ where
                         return Err(PathError::ChangePoint { mechanism: M::NAME, group });
                     }
                     // Where all groups are singular at once, the motions cross at a limit of the input.
-                    if !is_target && is_onward && self.place.tangent.inputs[0].abs() <= weak() {
+                    if !is_target && is_onward && self.place.tangent.inputs[0].abs() <= nearly_zero() {
                         let left = self.curve.input_distance(input - self.input()).abs();
                         return Err(PathError::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
                     }
@@ -259,7 +262,9 @@ where
         PathStep { position: self.place.q, rates: self.rates(), length: self.length, event }
     }
 
-    fn advance_wanting(
+    /// Takes one step that ends early at an event, at a target of the input, or at a zero of a watched function; the
+    /// flag returned is true at the target.
+    fn advance_until(
         &mut self,
         target: Option<M::Scalar>,
         watch: Option<Watch<'_, M>>,
@@ -269,9 +274,9 @@ where
             return Err(PathError::ChangePoint { mechanism: M::NAME, group });
         }
         // At a limit of its range the input cannot move outward.
-        let (input, way) = (self.input(), self.place.tangent.inputs[0]);
+        let (input, rate) = (self.input(), self.place.tangent.inputs[0]);
         let is_outward = |[low, high]: [M::Scalar; 2]| {
-            (input <= low && way < M::Scalar::zero()) || (input >= high && way > M::Scalar::zero())
+            (input <= low && rate < M::Scalar::zero()) || (input >= high && rate > M::Scalar::zero())
         };
         if self.options.range.is_some_and(is_outward) {
             self.is_ended = true;
@@ -284,12 +289,12 @@ where
         for number in 0..MOST_TRIALS {
             match self.attempt(trial, &wanted)? {
                 Ok((end, tried)) => {
-                    let way = self.curve.difference(&end.place.q, &self.place.q).norm();
-                    if !(self.length + way).is_finite() {
+                    let chord = self.curve.difference(&end.place.q, &self.place.q).norm();
+                    if !(self.length + chord).is_finite() {
                         let quantity = "the length of the path";
                         return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
                     }
-                    return Ok(self.arrive(end, tried, way, number > 0));
+                    return Ok(self.arrive(end, tried, chord, number > 0));
                 }
                 Err(why) => rejection = why,
             }
@@ -305,7 +310,8 @@ where
     /// Tries a step of this length; returns its end, at the first event, and the length tried.
     fn attempt(&self, trial: M::Scalar, wanted: &Wanted<'_, M>) -> Tried<(End<M>, M::Scalar)> {
         let (curve, from) = (&self.curve, &self.place);
-        // A target within the step is aimed at: the tangent predicts its position.
+        // If the tangent predicts that the input reaches its target within the step, the step is corrected at that
+        // input.
         let aim = wanted.target.and_then(|target| {
             let distance = curve.input_distance(target - self.input()) / from.tangent.inputs[0];
             (distance > M::Scalar::zero() && distance <= trial).then_some((target, distance))
@@ -324,17 +330,18 @@ where
             Ok(place) => Rejection { residual: 0.0, regularity: to_f64(place.regularity) },
             Err(rejection) => *rejection,
         };
-        let flips = |place: &Place<M>| place.side * from.side < M::Scalar::zero();
-        let is_weak = |place: &Place<M>| place.regularity < weak();
+        let flips = |place: &Place<M>| place.orientation * from.orientation < M::Scalar::zero();
+        let is_nearly_singular = |place: &Place<M>| place.regularity < nearly_zero();
         let arc = found
             .as_ref()
             .ok()
             .filter(|place| curve.is_arc(from, &place.q, &place.tangent, from.regularity, &self.options));
-        let turns = |place: &Place<M>| from.sign_changes(place).is_some();
+        let changes_branch = |place: &Place<M>| from.sign_changes(place).is_some();
+        // The distance at which a change point is sought, if anything suggests one.
         let guess = match &found {
-            Ok(place) if flips(place) => Some(tried * (from.side / (from.side - place.side))),
-            Ok(place) if turns(place) => from.sign_changes(place).map(|share| tried * share),
-            Ok(place) if arc.is_some() && !is_weak(place) => curve.falls_twice(from, place, tried)?,
+            Ok(place) if flips(place) => Some(tried * (from.orientation / (from.orientation - place.orientation))),
+            Ok(place) if changes_branch(place) => from.sign_changes(place).map(|share| tried * share),
+            Ok(place) if arc.is_some() && !is_nearly_singular(place) => curve.double_zero(from, place, tried)?,
             _ => Some(tried),
         };
         if let Some(guess) = guess
@@ -345,16 +352,16 @@ where
         }
         let Some(place) = arc.filter(|place| !flips(place)) else { return Ok(Err(rejection)) };
         let mut place = place.clone();
-        if place.side.is_zero() {
-            place.side = from.side;
+        if place.orientation.is_zero() {
+            place.orientation = from.orientation;
         }
         if place.regularity <= curve.rounding_error(&place.q) * real(EQUAL_ULPS) {
-            let (_, group) = curve.weakest_group(&place.q);
+            let (_, group) = curve.least_regular_group(&place.q);
             place.forget_sign(group);
         }
         let end = End { place, event: None, is_target: false, resume: Resume::OnTheWay };
         let mut found = curve.first_event(from, end, wanted, &self.options)?;
-        // [J A] has full rank at a dead point, but not at a change point.
+        // A dead point where [J A] is nearly singular is checked for a change point.
         let is_doubtful =
             |end: &End<M>| matches!(end.event, Some(Event::DeadPoint { .. })) && end.place.regularity < real(DOUBTFUL);
         if let Some(end) = found.as_ref().filter(|end| is_doubtful(end)) {
@@ -366,20 +373,20 @@ where
         Ok(found.ok_or(rejection).map(|end| (end, tried)))
     }
 
-    /// Finds the change point within the distance `tried` ahead, starting at the distance `guess`.
+    /// Finds the change point within [`AHEAD`] times the distance `tried`, from a guess of its distance.
     fn crossing_ahead(&self, guess: M::Scalar, tried: M::Scalar) -> Result<Option<End<M>>, PathError> {
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
-        let reach = tried * real(AHEAD) + weak();
+        let reach = tried * real(AHEAD) + nearly_zero();
         let Some(mut crossing) = curve.crossing(&guess, reach, &from.tangent)? else { return Ok(None) };
         let at = crossing.q;
-        let is_near = |q: &M::Coordinates| curve.difference(&at, q).norm() <= weak();
+        let is_near = |q: &M::Coordinates| curve.difference(&at, q).norm() <= nearly_zero();
         if self.passed.as_ref().is_some_and(is_near) {
             return Ok(None);
         }
         let ahead = curve.difference(&crossing.q, &from.q).dot(&from.tangent);
-        crossing.followed(&from.tangent);
-        curve.add_fallen_groups(&mut crossing, from);
+        crossing.put_first(&from.tangent);
+        curve.add_vanished_groups(&mut crossing, from);
         let kept = crossing.tangents()[0];
         let is_on_the_way = ahead > M::Scalar::zero()
             && ahead <= tried * real(AHEAD)
@@ -388,13 +395,15 @@ where
             return Ok(None);
         }
         // The orientation changes its sign once for each pivot that passes zero.
-        let side_if_kept = if crossing.defect % 2 == 1 { -from.side } else { from.side };
-        let side_if_switched = if crossing.defect == 1 { from.side } else { M::Scalar::zero() };
-        let (tangent, side, is_decided) = match (self.options.at_change_point, crossing.tangents()) {
-            (AtChangePoint::Switch, &[_, other]) if crossing.is_complete => (other.like(&kept), side_if_switched, true),
-            (policy, _) => (kept, side_if_kept, policy == AtChangePoint::Keep),
+        let orientation_if_kept = if crossing.defect % 2 == 1 { -from.orientation } else { from.orientation };
+        let orientation_if_switched = if crossing.defect == 1 { from.orientation } else { M::Scalar::zero() };
+        let (tangent, orientation, is_decided) = match (self.options.at_change_point, crossing.tangents()) {
+            (AtChangePoint::Switch, &[_, other]) if crossing.is_complete => {
+                (other.like(&kept), orientation_if_switched, true)
+            }
+            (policy, _) => (kept, orientation_if_kept, policy == AtChangePoint::Keep),
         };
-        let place = curve.at_crossing(&crossing, tangent, side);
+        let place = curve.at_crossing(&crossing, tangent, orientation);
         let tangents = crossing.tangents().iter().map(|tangent| curve.rates(tangent));
         let tangents = Tangents::new(tangents, crossing.is_complete);
         let event = Event::ChangePoint { groups: crossing.groups, tangents };
@@ -402,19 +411,21 @@ where
         Ok(Some(End { place, event: Some(event), is_target: false, resume }))
     }
 
-    fn arrive(&mut self, end: End<M>, tried: M::Scalar, way: M::Scalar, was_rejected: bool) -> (PathStep<M>, bool) {
+    /// Moves to the end of a step that was tried with a length and whose chord is given; `was_rejected` if longer
+    /// trials failed.
+    fn arrive(&mut self, end: End<M>, tried: M::Scalar, chord: M::Scalar, was_rejected: bool) -> (PathStep<M>, bool) {
         let resume = end.resume;
         let turn = (end.place.tangent - self.place.tangent).norm();
         let is_whole = end.event.is_none() && !end.is_target;
-        // Adapts the step to the largest turn allowed.
+        // The next step is to turn by 0.7 of the largest turn: at most twice, at least half as long as this one.
         let factor = real::<M::Scalar>(0.7) * self.options.largest_turn / turn;
         let factor = if is_whole { factor.min(real(2.0)).max(real(0.5)) } else { M::Scalar::one() };
         let last = if is_whole || was_rejected { tried } else { self.step };
         self.step = (last * factor).min(self.options.longest_step);
-        self.length += way;
+        self.length += chord;
         if matches!(resume, Resume::AtChangePoint | Resume::Undecided(..)) {
             self.passed = Some(end.place.q);
-        } else if end.place.regularity >= weak() {
+        } else if end.place.regularity >= nearly_zero() {
             self.passed = None;
         }
         self.resume = resume;

@@ -4,7 +4,7 @@ use super::change_point::Crossing;
 use super::curve::{Curve, Rejection, Tried};
 use super::groups::Groups;
 use super::options::Options;
-use crate::jacobian::ulp::{EQUAL_ULPS, weak};
+use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{Blocks, EliminationOf as Elimination, VectorOf as Vector, root};
 use crate::scalar::arithmetic::*;
 use crate::{Column, D, Dim, Mechanism, PathError, PositionError, real};
@@ -14,12 +14,13 @@ pub(super) struct Place<M: Mechanism> {
     pub(super) q: M::Coordinates,
     /// The unit tangent, in the direction of the path.
     pub(super) tangent: Vector<M>,
-    /// The orientation det [J A; tangent'], which changes its sign at a change point; zero if unknown.
-    pub(super) side: M::Scalar,
+    /// det [J A; tangent'], which changes its sign at a change point where one pivot vanishes; zero if unknown.
+    pub(super) orientation: M::Scalar,
     /// The determinants of the blocks of J; zero where the sign is unknown.
     pub(super) determinants: Column<M::Scalar, M::G>,
+    /// The last pivot of [J A] divided by the first.
     pub(super) regularity: M::Scalar,
-    /// The last but one pivot of [J A], relative to the largest.
+    /// The last but one pivot of [J A] divided by the first.
     pub(super) last_but_one: M::Scalar,
 }
 
@@ -48,13 +49,14 @@ impl<M: Mechanism> Place<M> {
     }
 }
 
-/// A step may deviate from its prediction by its turn and by this part of its length, in addition to rounding errors.
+/// A step may deviate from each tangent by its length times the turn between the tangents, and by this fraction of its
+/// length.
 const SLACK: f64 = 1.0 / 64.0;
 
-/// Two pivots may vanish within a step if the last but one is, where its zero is expected, below this part of the sum
-/// of its values at both ends. It is zero there if it falls and rises with the same slope, an eighth with one slope
-/// twice the other. At 1/2 every step would qualify, at 1/16 a bend hides a change point.
-const FALLEN: f64 = 0.25;
+/// Two pivots may vanish within a step if the last but one, at the zero expected from a fall and a rise of equal slope,
+/// is below this fraction of the sum of its values at both ends. With equal slopes it is zero there, with one slope
+/// twice the other an eighth of the sum. At 1/2 every step would qualify, at 1/16 a bend hides a change point.
+const DOUBLE_ZERO_SHARE: f64 = 0.25;
 
 impl<M> Curve<'_, M>
 where
@@ -71,15 +73,15 @@ where
         if tangent.dot(forward) < M::Scalar::zero() {
             tangent = -tangent;
         }
-        let mut side = elimination.orientation(&tangent);
+        let mut orientation = elimination.orientation(&tangent);
         if regularity < M::Scalar::default_epsilon().sqrt() {
             // The tangent is unreliable here; the previous one is kept.
-            (tangent, side) = (*forward, M::Scalar::zero());
+            (tangent, orientation) = (*forward, M::Scalar::zero());
         }
         Place {
             q,
             tangent,
-            side,
+            orientation,
             determinants: self.determinants(&q),
             regularity,
             last_but_one: elimination.last_but_one(),
@@ -94,8 +96,9 @@ where
         Ok(found.map(|(q, elimination)| self.place(q, &elimination, &from.tangent)))
     }
 
-    /// True if the way from one place to the other is an arc: it turns little, and deviates from neither tangent more
-    /// than that turn explains. A jump to a neighbouring curve does not satisfy this.
+    /// True if the step from `from` to `q` is an arc of one curve: the tangent turns by at most the largest turn of the
+    /// options, and the step deviates from neither tangent by more than the turn between them explains. A jump to a
+    /// neighbouring curve does not satisfy this.
     pub(super) fn is_arc(
         &self,
         from: &Place<M>,
@@ -104,14 +107,14 @@ where
         regularity: M::Scalar,
         options: &Options<M::Scalar>,
     ) -> bool {
-        let (way, turn) = (self.difference(q, &from.q), (*tangent - from.tangent).norm());
+        let (step, turn) = (self.difference(q, &from.q), (*tangent - from.tangent).norm());
         let rounding_error =
             self.rounding_error(q) * real(EQUAL_ULPS) / regularity.max(M::Scalar::default_epsilon().sqrt());
-        let most = way.norm() * (turn + real(SLACK)) + rounding_error;
-        way.dot(&from.tangent) > M::Scalar::zero()
+        let most = step.norm() * (turn + real(SLACK)) + rounding_error;
+        step.dot(&from.tangent) > M::Scalar::zero()
             && turn <= options.largest_turn
-            && way.across(&from.tangent) <= most
-            && way.across(tangent) <= most
+            && step.across(&from.tangent) <= most
+            && step.across(tangent) <= most
     }
 
     /// Finds the distance along the tangent of `from` at which a value changes its sign.
@@ -126,47 +129,47 @@ where
         root([low, high], values, smallest, |distance| Ok(self.at(from, distance)?.ok().map(|place| value(&place))))
     }
 
-    /// Finds the distance from one place towards another at which two pivots may be zero at once. No determinant and no
-    /// orientation need change its sign there.
-    pub(super) fn falls_twice(
+    /// Estimates the distance from one place towards another at which two pivots may be zero at once; `None` if they do
+    /// not approach zero. At such a change point neither the orientation nor a determinant need change its sign.
+    pub(super) fn double_zero(
         &self,
         from: &Place<M>,
         to: &Place<M>,
-        way: M::Scalar,
+        length: M::Scalar,
     ) -> Result<Option<M::Scalar>, PathError> {
         if M::U::COUNT < 2 {
             return Ok(None);
         }
         let sum = from.last_but_one + to.last_but_one;
-        let distance = way * (from.last_but_one / sum);
+        let distance = length * (from.last_but_one / sum);
         if !distance.is_finite() {
             return Ok(None);
         }
         let at = self.linear(&self.moved(&from.q, &(from.tangent * distance)))?;
         let between = Elimination::<M>::new(at.jacobian).last_but_one();
-        Ok((between <= sum * real(FALLEN)).then_some(distance))
+        Ok((between <= sum * real(DOUBLE_ZERO_SHARE)).then_some(distance))
     }
 
-    /// The groups whose regularity is at most [`weak`], because rounding errors of Psi move a double root by their
-    /// square root.
+    /// The groups that are singular at a change point: their regularity is at most [`nearly_zero`], since rounding
+    /// errors of Psi move the change point, a double root, by their square root.
     pub(super) fn singular_groups(&self, q: &M::Coordinates) -> Groups {
         let mut groups = Groups::none(M::GROUPS);
         let blocks = Blocks::of(self.mechanism, &self.mechanism.pose_at(q));
         for place in 0..M::GROUPS.len() {
-            if blocks.regularity(place) <= weak() {
+            if blocks.regularity(place) <= nearly_zero() {
                 groups.insert(place);
             }
         }
         groups
     }
 
-    /// Adds the groups whose determinants have fallen by the factor [`weak`] since another place: where all terms of an
-    /// equation vanish at the crossing, the regularity of a block is meaningless.
-    pub(super) fn add_fallen_groups(&self, crossing: &mut Crossing<M>, from: &Place<M>) {
+    /// Adds the groups whose determinants have fallen by the factor [`nearly_zero`] since another place. Where all terms
+    /// of an equation vanish at the crossing, the regularity of its block is 0/0.
+    pub(super) fn add_vanished_groups(&self, crossing: &mut Crossing<M>, from: &Place<M>) {
         let determinants = self.determinants(&crossing.q);
         let pairs = determinants.iter().zip(&from.determinants);
         for (place, (at, before)) in pairs.enumerate() {
-            if at.abs() <= before.abs() * weak() && !before.is_zero() {
+            if at.abs() <= before.abs() * nearly_zero() && !before.is_zero() {
                 crossing.groups.insert(place);
             }
         }
@@ -174,7 +177,7 @@ where
 
     /// The place at a crossing; the determinants of singular groups, whose signs are those of rounding errors, are set
     /// to zero.
-    pub(super) fn at_crossing(&self, crossing: &Crossing<M>, tangent: Vector<M>, side: M::Scalar) -> Place<M> {
+    pub(super) fn at_crossing(&self, crossing: &Crossing<M>, tangent: Vector<M>, orientation: M::Scalar) -> Place<M> {
         let mut determinants = self.determinants(&crossing.q);
         for (place, determinant) in determinants.iter_mut().enumerate() {
             if crossing.groups.contains(place) {
@@ -184,7 +187,7 @@ where
         Place {
             q: crossing.q,
             tangent,
-            side,
+            orientation,
             determinants,
             regularity: M::Scalar::zero(),
             last_but_one: M::Scalar::zero(),
@@ -201,7 +204,7 @@ where
         let mut nearest = None;
         for tangent in tangents {
             let along = tangent.dot(&direction);
-            if along.abs() > nearest.map_or(weak(), |(most, _): (M::Scalar, _)| most) {
+            if along.abs() > nearest.map_or(nearly_zero(), |(most, _): (M::Scalar, _)| most) {
                 nearest = Some((along.abs(), if along < M::Scalar::zero() { -*tangent } else { *tangent }));
             }
         }
@@ -209,13 +212,13 @@ where
     }
 
     pub(super) fn lost(&self, q: &M::Coordinates, iterations: usize, why: Rejection) -> PathError {
-        let (_, group) = self.weakest_group(q);
+        let (_, group) = self.least_regular_group(q);
         let Rejection { residual, regularity } = why;
         PathError::Lost { mechanism: M::NAME, group, iterations, residual, regularity }
     }
 
-    /// The regularity and the name of the group nearest to a singularity.
-    pub(super) fn weakest_group(&self, q: &M::Coordinates) -> (M::Scalar, &'static str) {
-        Blocks::of(self.mechanism, &self.mechanism.pose_at(q)).weakest()
+    /// The regularity and the name of the group that is nearest to singular.
+    pub(super) fn least_regular_group(&self, q: &M::Coordinates) -> (M::Scalar, &'static str) {
+        Blocks::of(self.mechanism, &self.mechanism.pose_at(q)).least_regular()
     }
 }

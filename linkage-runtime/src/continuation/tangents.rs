@@ -2,8 +2,8 @@
 
 use core::ops::Index;
 
-/// The most tangents of one change point: three groups singular at once with a motion each have 2^3, and seven in a
-/// chain 7 + 1. Every event takes the memory for this many coordinates.
+/// The most tangents of one change point: three parallelograms side by side, singular at once, have 2^3, seven in a
+/// chain 7 + 1. Every event takes the memory for this many sets of coordinates.
 pub(super) const MOST_TANGENTS: usize = 8;
 
 /// Rates of the coordinates along the motions that cross at a change point: first the followed motion, in its

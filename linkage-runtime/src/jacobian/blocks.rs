@@ -1,6 +1,6 @@
 //! The distance of each group of unknowns from a singularity.
 
-use super::scales::positive;
+use super::scales::scale_or_one;
 use super::{EliminationOf, Jacobian};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, largest, relative, smallest};
@@ -32,9 +32,9 @@ impl<M: Mechanism> Blocks<M> {
         &self.determinants
     }
 
-    /// The regularity of the block of a group: its determinant divided by the largest value that its formula could take
-    /// at these lengths; for more than two unknowns the smallest pivot of the equilibrated block. 1 is far from
-    /// singular, 0 is singular. [`PositionError::Singular`](crate::PositionError::Singular) contains it.
+    /// The regularity of the block of a group, from 0 if it is singular to about 1: its determinant divided by the
+    /// largest product of entries that it could be made of at these lengths; for more than two unknowns the smallest
+    /// pivot of the equilibrated block. [`PositionError::Singular`](crate::PositionError::Singular) contains it.
     pub fn regularity(&self, group: usize) -> M::Scalar {
         // An index that is out of range has regularity 0.
         let Some(block) = M::GROUPS.get(group) else { return M::Scalar::zero() };
@@ -54,27 +54,28 @@ impl<M: Mechanism> Blocks<M> {
     }
 
     /// The regularity and the name of the group nearest to a singularity; the name is empty if there are no groups.
-    pub fn weakest(&self) -> (M::Scalar, &'static str) {
-        let mut weakest = (M::Scalar::one(), M::GROUPS.first().map_or("", |group| group.name));
+    pub fn least_regular(&self) -> (M::Scalar, &'static str) {
+        let mut least = (M::Scalar::one(), M::GROUPS.first().map_or("", |group| group.name));
         for (place, group) in M::GROUPS.iter().enumerate() {
             let regularity = self.regularity(place);
             // NaN counts as singular.
-            let is_better = regularity >= weakest.0;
-            if !is_better {
-                weakest = (regularity, group.name);
+            let is_more_regular = regularity >= least.0;
+            if !is_more_regular {
+                least = (regularity, group.name);
             }
         }
-        weakest
+        least
     }
 
-    /// The equilibrated block of a group: its rows are divided by the scales of their residuals, its columns by the
-    /// largest entry that they could then have. The rest of the matrix has `diagonal` on its diagonal.
+    /// The equilibrated block of a group, in the upper left corner: its rows are divided by the scales of their
+    /// residuals, its columns by the largest entry that they could then have at any angle. The rest of the matrix is
+    /// `diagonal` times the identity.
     pub fn equilibrated(&self, block: &Group, diagonal: M::Scalar) -> Matrix<M::Scalar, M::U, M::U> {
-        let rows = self.residual_scales.map(positive);
+        let rows = self.residual_scales.map(scale_or_one);
         let mut matrix = Matrix::identity() * diagonal;
         for (column, &unknown) in block.unknowns.iter().enumerate() {
             let possible = block.equations.iter().map(|&row| self.scales.part(row, unknown) / rows.part(row));
-            let scale = positive(largest(possible));
+            let scale = scale_or_one(largest(possible));
             for (row, &equation) in block.equations.iter().enumerate() {
                 if let Some(entry) = matrix.get_mut(row, column) {
                     *entry = self.jacobian.part(equation, unknown) / rows.part(equation) / scale;

@@ -13,34 +13,34 @@ pub fn correction<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<PerUnkn
 
 /// The result of one iteration of Newton's method.
 #[derive(Debug, Clone, Copy)]
-pub enum Closing<P, X, T> {
+pub enum Iteration<P, X, T> {
     /// The iteration has converged.
-    Closed(X),
+    Converged(X),
     /// The next position, and the length of the step to it.
     Step(P, T),
     /// No step is possible.
-    Stuck,
+    Failed,
 }
 
-/// Undamped Newton's method from near a solution: each step is at most half as long as the one before, until `look`
-/// finds that the iteration has converged. `None` if the steps do not shrink, or if `most` of them do not converge.
+/// Undamped Newton's method from near a solution: calls `iterate` until it returns that the iteration has converged.
+/// `None` if a step is longer than half the one before, or if `most` iterations are not enough.
 ///
 /// [`newton`](crate::newton) damps its steps, because it must handle every guess. Here the caller, who follows a
-/// motion, takes a shorter step instead.
+/// motion, takes a shorter step along it instead.
 ///
 /// # Errors
-/// Those of `look`.
+/// Those of `iterate`.
 pub fn contract<P, X, T: Real, E>(
     start: P,
     most: usize,
-    mut look: impl FnMut(&P) -> Result<Closing<P, X, T>, E>,
+    mut iterate: impl FnMut(&P) -> Result<Iteration<P, X, T>, E>,
 ) -> Result<Option<X>, E> {
     let (mut here, mut last) = (start, None);
     for _ in 0..most {
-        match look(&here)? {
-            Closing::Closed(found) => return Ok(Some(found)),
-            Closing::Stuck => return Ok(None),
-            Closing::Step(next, size) => {
+        match iterate(&here)? {
+            Iteration::Converged(found) => return Ok(Some(found)),
+            Iteration::Failed => return Ok(None),
+            Iteration::Step(next, size) => {
                 let contracts = size.is_finite() && last.is_none_or(|last| size <= last * real(0.5));
                 if !contracts {
                     return Ok(None);

@@ -21,8 +21,11 @@ pub struct Order<U: Dim> {
 }
 
 /// The factorisation of [J A]: a unit lower triangle L times the reduced [J A], in the order of the pivots.
+///
+/// An open row, which has no pivot, is reduced to nearly zero: that row of L^-1 is a left null vector of [J A].
 #[derive(Debug, Clone)]
 pub struct Elimination<T: Real, U: Dim, V: Dim> {
+    /// The reduced [J A].
     jacobian: Jacobian<T, U, V>,
     /// L below its diagonal, by the rows of [J A] and the numbers of the pivots.
     lower: Matrix<T, U, U>,
@@ -67,11 +70,11 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         Self::all_but(0, jacobian)
     }
 
-    /// Eliminates with all pivots but the last `open`; the rows without a pivot are called open.
+    /// Eliminates with all pivots but the last `open`: so many rows stay open.
     pub fn all_but(open: usize, jacobian: Jacobian<T, U, V>) -> Self {
         let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
         while elimination.order.pivots + open < U::COUNT {
-            elimination.pivot_among(&|_| true);
+            elimination.eliminate_largest(&|_| true);
         }
         elimination
     }
@@ -80,26 +83,26 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     pub fn holding(held: &Column<bool, V>, jacobian: Jacobian<T, U, V>) -> Self {
         let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
         while elimination.order.pivots < U::COUNT {
-            elimination.pivot_among(&|column| column < U::COUNT || !held[column - U::COUNT]);
+            elimination.eliminate_largest(&|column| column < U::COUNT || !held[column - U::COUNT]);
         }
         elimination
     }
 
     /// Eliminates with the pivots of an earlier elimination.
     pub fn in_order(order: &Order<U>, jacobian: Jacobian<T, U, V>) -> Self {
-        Self::where_strong(order, jacobian, |_| true)
+        Self::with_accepted_pivots(order, jacobian, |_| true)
     }
 
-    /// Eliminates with the pivots of an earlier elimination that are larger than `weak`; the rows of the others stay
-    /// open.
-    pub fn in_order_above(weak: T, order: &Order<U>, jacobian: Jacobian<T, U, V>) -> Self {
-        Self::where_strong(order, jacobian, |pivot| pivot.abs() > weak)
+    /// Eliminates with the pivots of an earlier elimination that are larger than `tolerance`; the rows of the others
+    /// stay open.
+    pub fn in_order_above(tolerance: T, order: &Order<U>, jacobian: Jacobian<T, U, V>) -> Self {
+        Self::with_accepted_pivots(order, jacobian, |pivot| pivot.abs() > tolerance)
     }
 
-    fn where_strong(order: &Order<U>, jacobian: Jacobian<T, U, V>, is_strong: impl Fn(T) -> bool) -> Self {
+    fn with_accepted_pivots(order: &Order<U>, jacobian: Jacobian<T, U, V>, is_accepted: impl Fn(T) -> bool) -> Self {
         let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
         for (&row, &column) in order.rows.iter().zip(order.dependent()) {
-            if is_strong(elimination.entry(row, column)) {
+            if is_accepted(elimination.entry(row, column)) {
                 elimination.eliminate(row, column);
             }
         }
@@ -117,33 +120,34 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         Column::from_iterator(places.map(|(&row, &column)| self.entry(row, column)))
     }
 
-    /// The smallest pivot relative to the largest: 0 where [J A] loses rank.
+    /// The last pivot divided by the first: 0 where [J A] loses rank.
     pub fn regularity(&self) -> T {
-        self.share(U::COUNT.checked_sub(1))
+        self.relative_pivot(U::COUNT.checked_sub(1))
     }
 
-    /// The last but one pivot relative to the largest: 0 where [J A] loses rank twice.
+    /// The last but one pivot divided by the first: 0 where the rank deficiency of [J A] is at least two.
     pub fn last_but_one(&self) -> T {
-        self.share(U::COUNT.checked_sub(2))
+        self.relative_pivot(U::COUNT.checked_sub(2))
     }
 
-    /// A pivot relative to the first; 1 if the pivot does not exist.
-    fn share(&self, step: Option<usize>) -> T {
+    /// A pivot divided by the first; 1 if the pivot does not exist.
+    fn relative_pivot(&self, step: Option<usize>) -> T {
         let Some(step) = step else { return T::one() };
         let pivots = self.pivots();
         let first = pivots[0].abs();
         if first > T::zero() { pivots[step].abs() / first } else { T::zero() }
     }
 
-    /// The number of pivots that are at most `weak` times the largest.
-    pub fn defect(&self, weak: T) -> usize {
+    /// The rank deficiency: the number of pivots that are at most `tolerance` times the largest.
+    pub fn defect(&self, tolerance: T) -> usize {
         let pivots = self.pivots();
-        let least = pivots.largest() * weak;
+        let least = pivots.largest() * tolerance;
         pivots.iter().filter(|pivot| pivot.abs() <= least).count()
     }
 
-    /// The number of pivots after the largest ratio between consecutive pivots.
-    pub fn after_gap(&self) -> usize {
+    /// The number of pivots after the largest drop from one pivot to the next: the likely rank deficiency at a singular
+    /// position nearby.
+    pub fn count_after_largest_drop(&self) -> usize {
         let pivots = self.pivots();
         let mut widest = (T::one(), 1);
         for next in 1..U::COUNT {
@@ -165,25 +169,26 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         (0..U::COUNT).filter(|row| self.order.open_rows().contains(row))
     }
 
-    /// The vector with a 1 at a free column that the rows of [J A] with a pivot take to zero.
-    pub fn null(&self, free: usize) -> Vector<T, U, V> {
-        self.above(Vector::unit(free), |row| -self.entry(row, free))
+    /// The vector x that is 1 at this free column and 0 at the others, with [J A] x = 0 in the rows with a pivot.
+    pub fn null_vector(&self, free: usize) -> Vector<T, U, V> {
+        self.back_substituted(Vector::unit(free), |row| -self.entry(row, free))
     }
 
     /// Solves [J A] x = `right` in the rows with a pivot, with x zero in the free columns.
     pub fn solve(&self, right: &Column<T, U>) -> Vector<T, U, V> {
-        let reduced = self.reduced(right);
-        self.above(Vector::zero(), |row| reduced[row])
+        let reduced = self.forward_substituted(right);
+        self.back_substituted(Vector::zero(), |row| reduced[row])
     }
 
-    /// L^-1 `right` in the open rows; zero in the others.
-    pub fn left(&self, right: &Column<T, U>) -> Column<T, U> {
-        let reduced = self.reduced(right);
+    /// The products of the left null vectors and `right`, L^-1 `right`, in the open rows; zero in the others.
+    pub fn left_null_product(&self, right: &Column<T, U>) -> Column<T, U> {
+        let reduced = self.forward_substituted(right);
         self.in_open_rows(|row| reduced[row])
     }
 
-    /// The rounding error of [`left`](Self::left), for errors of unknown sign.
-    pub fn left_of_noise(&self, noise: &Column<T, U>) -> Column<T, U> {
+    /// The largest error of [`left_null_product`](Self::left_null_product) if the components of its argument have
+    /// errors up to `noise`, of any sign.
+    pub fn left_null_error(&self, noise: &Column<T, U>) -> Column<T, U> {
         self.in_open_rows(|row| {
             // The row of the inverse of L.
             let mut inverse = Column::<T, U>::unit(row);
@@ -196,7 +201,8 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         })
     }
 
-    /// The derivatives of [`left`](Self::left) of Psi along the null vector of a free column.
+    /// The derivatives of [`left_null_product`](Self::left_null_product) of Psi along the null vector of a free column:
+    /// the reduced entries of that column in the open rows.
     pub fn slope(&self, free: usize) -> Column<T, U> {
         self.in_open_rows(|row| self.entry(row, free))
     }
@@ -218,11 +224,11 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         self.entry(self.order.rows[step], self.order.columns[step])
     }
 
-    /// Eliminates with the largest entry that is open as the next pivot.
-    fn pivot_among(&mut self, is_open: &impl Fn(usize) -> bool) {
+    /// Eliminates with the largest entry in the open rows and the allowed free columns as the next pivot.
+    fn eliminate_largest(&mut self, is_allowed: &impl Fn(usize) -> bool) {
         let mut best = None;
         for row in self.open_rows() {
-            for column in self.free().filter(|&column| is_open(column)) {
+            for column in self.free().filter(|&column| is_allowed(column)) {
                 let size = self.entry(row, column).abs();
                 if best.is_none_or(|(largest, _)| size > largest) {
                     best = Some((size, (row, column)));
@@ -254,7 +260,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     }
 
     /// L^-1 `right`, by rows of [J A].
-    fn reduced(&self, right: &Column<T, U>) -> Column<T, U> {
+    fn forward_substituted(&self, right: &Column<T, U>) -> Column<T, U> {
         let mut reduced = *right;
         for step in 0..self.order.pivots {
             let value = reduced[self.order.rows[step]];
@@ -266,7 +272,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     }
 
     /// Back substitution: the coordinates of the pivots from the values of their rows; zero at a pivot that is zero.
-    fn above(&self, mut vector: Vector<T, U, V>, right: impl Fn(usize) -> T) -> Vector<T, U, V> {
+    fn back_substituted(&self, mut vector: Vector<T, U, V>, right: impl Fn(usize) -> T) -> Vector<T, U, V> {
         for step in (0..self.order.pivots).rev() {
             let (row, pivot) = (self.order.rows[step], self.pivot(step));
             let later = self.order.dependent().iter().skip(step + 1);
@@ -280,7 +286,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
 impl<T: Real, U: Dim> Elimination<T, U, D<1>> {
     /// The unit tangent of the curve Psi = 0, in either direction.
     pub fn tangent(&self) -> Vector<T, U, D<1>> {
-        self.null(self.first_free()).normalized()
+        self.null_vector(self.first_free()).normalized()
     }
 
     /// det [J A; `tangent`']. It keeps its sign along the curve, and changes it where another curve is crossed (E. L.
@@ -295,7 +301,7 @@ impl<T: Real, U: Dim> Elimination<T, U, D<1>> {
         let column = |row: usize| columns.as_slice().get(row).copied().unwrap_or(free);
         let odd = (0..=U::COUNT).flat_map(|row| (0..row).map(move |above| (above, row)));
         let is_odd = odd.filter(|&(above, row)| column(above) > column(row)).count() % 2 == 1;
-        let volume = self.pivots().iter().fold(tangent.dot(&self.null(free)), |volume, &pivot| volume * pivot);
+        let volume = self.pivots().iter().fold(tangent.dot(&self.null_vector(free)), |volume, &pivot| volume * pivot);
         if is_odd { -volume } else { volume }
     }
 

@@ -18,10 +18,10 @@ mod vector;
 
 pub use blocks::Blocks;
 pub use cholesky::Cholesky;
-pub use contract::{Closing, contract, correction};
+pub use contract::{Iteration, contract, correction};
 pub use elimination::{Elimination, Order};
 pub use root::root;
-pub use scales::{Jacobian, Scales, largest_entries, positive};
+pub use scales::{Jacobian, Scales, largest_entries, scale_or_one};
 pub use vector::Vector;
 
 use crate::Mechanism;

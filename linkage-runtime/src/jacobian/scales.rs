@@ -5,7 +5,8 @@ use crate::scalar::{larger, largest};
 use crate::{Column, Dim, Matrix, Mechanism, Real};
 
 /// Divisors that make coordinates, residuals and the entries of [J A] nondimensional, so that no test depends on a
-/// unit: 1 for an angle, the lengths of its loops for a length.
+/// unit. The divisor of an angle is 1, that of a length the largest derivative of its loop equation by an angle, which
+/// is about the longest link.
 ///
 /// They are computed from the largest values that the entries of [J A] can have at the lengths of the mechanism, not
 /// from the entries at one position, and hold for the whole of a motion.
@@ -36,7 +37,7 @@ impl<T: Real, U: Dim, V: Dim> Scales<T, U, V> {
         let residuals = Column::from_fn(|row| {
             let of_unknowns = of_angles(&by_unknowns.row(row), M::UNKNOWN_ANGLES);
             let of_angles = larger(of_unknowns, of_angles(&by_inputs.row(row), M::INPUT_ANGLES));
-            positive(if of_angles.is_zero() { terms[row] } else { of_angles })
+            scale_or_one(if of_angles.is_zero() { terms[row] } else { of_angles })
         });
         let coordinates = Vector {
             unknowns: of_coordinates(&by_unknowns, &residuals, M::UNKNOWN_ANGLES),
@@ -78,7 +79,7 @@ pub fn largest_entries<T: Real, R: Dim, C: Dim>(matrix: &Matrix<T, R, C>, rows: 
 }
 
 /// A scale as a divisor: 1 if the scale is zero.
-pub fn positive<T: Real>(size: T) -> T {
+pub fn scale_or_one<T: Real>(size: T) -> T {
     if size.is_zero() { T::one() } else { size }
 }
 
@@ -92,7 +93,7 @@ fn of_coordinates<T: Real, U: Dim, C: Dim>(
     angles: &[bool],
 ) -> Column<T, C> {
     let entries = largest_entries(sizes, residuals);
-    Column::from_fn(|place| if angles[place] { T::one() } else { positive(entries[place]).recip() })
+    Column::from_fn(|place| if angles[place] { T::one() } else { scale_or_one(entries[place]).recip() })
 }
 
 fn relative_to<T: Real, U: Dim, C: Dim>(

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use super::ulp::weak;
+use super::ulp::nearly_zero;
 use crate::scalar::{larger, largest};
 use crate::{Column, Dim, Real};
 
@@ -96,13 +96,13 @@ impl<T: Real, U: Dim, V: Dim> Vector<T, U, V> {
         }
     }
 
-    /// Returns the direction or its opposite: that in which the first input that moves has the sign it has in `other`,
-    /// or if the inputs rest, the first unknown that moves in both.
+    /// Returns this vector or its opposite, so that the first input that moves in both has the same sign as in `other`;
+    /// if none does, the first unknown that moves in both.
     #[must_use]
     pub fn like(&self, other: &Self) -> Self {
         let inputs = self.inputs.iter().zip(&other.inputs);
         let products = inputs.chain(self.unknowns.iter().zip(&other.unknowns)).map(|(one, two)| *one * *two);
-        let mut decisive = products.filter(|product| product.abs() > weak());
+        let mut decisive = products.filter(|product| product.abs() > nearly_zero());
         if decisive.next().is_some_and(|product| product < T::zero()) { -*self } else { *self }
     }
 
