@@ -1,10 +1,11 @@
 //! Bounded contact forces: a complementarity problem (LCP) solved by an active-set method.
 //!
-//! w = A f + b with w = 0 where f is between its bounds, w >= 0 at a lower and w <= 0 at an upper bound. These are the
-//! conditions for the minimum of f A f / 2 + b f; w is unique, f need not be. Forces are released from their bounds one
-//! after the other, the one with the greatest decrease first; the free forces are solved for together, and the first
-//! that meets a bound is fixed there (C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter
-//! 23, here with two bounds). Each iteration decreases the minimised function, so that no active set repeats.
+//! The problem is w = A f + b with w = 0 where f is between its bounds, w >= 0 at a lower and w <= 0 at an upper bound;
+//! f are the forces, w the accelerations s''. These are the conditions for the minimum of f . A f / 2 + b . f; w is
+//! unique, f need not be. At first all forces are at a bound. They are released one after the other, the one with the
+//! greatest decrease of the function first; the released forces are solved for together, and the first that meets a
+//! bound is fixed there (C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter 23, here with
+//! two bounds). Each iteration decreases the function, so that no active set repeats.
 
 use super::held::{Factors, held_tolerance};
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
@@ -24,6 +25,7 @@ pub(super) struct Solution<T: Real, C: Dim> {
     pub slack: Column<T, C>,
 }
 
+/// The state of the active-set method.
 struct Search<'a, T: Real, C: Dim> {
     matrix: &'a Matrix<T, C, C>,
     bounds: &'a Column<Option<Bounds<T>>, C>,
@@ -87,7 +89,7 @@ impl<T: Real, C: Dim> Search<'_, T, C> {
         if sum.abs() <= held_tolerance::<T>() * size * real(0.125) { T::zero() } else { sum }
     }
 
-    /// Returns the contact whose force decreases the function most.
+    /// Returns the fixed contact whose release decreases the function most; None at the minimum.
     fn next(&self, slack: &Column<T, C>, stuck: &Column<bool, C>) -> Option<usize> {
         let mut best: Option<(usize, T)> = None;
         for place in 0..C::COUNT {
@@ -115,7 +117,7 @@ impl<T: Real, C: Dim> Search<'_, T, C> {
         loop {
             let factors = Factors::in_order(self.matrix, &self.free, self.count);
             let mut direction = Column::zeros();
-            // If the new row depends on the others, all move along the null space of A.
+            // If the new row depends on the others, the forces move along the null space of A up to a bound.
             let is_endless = factors.rank < self.count;
             if is_endless {
                 let combination = factors.combination(self.count - 1);
@@ -128,17 +130,17 @@ impl<T: Real, C: Dim> Search<'_, T, C> {
                 direction = factors.solve(|row| -self.gradient(row));
             }
             let mut blocked: Option<(usize, T)> = None;
-            for (place, &way) in direction.iter().enumerate().take(self.count) {
+            for (place, &change) in direction.iter().enumerate().take(self.count) {
                 let Some(Bounds { lower, upper, .. }) = self.bounds[self.free[place]] else { continue };
                 let force = self.forces[self.free[place]];
-                let room = if way > T::zero() {
+                let room = if change > T::zero() {
                     upper - force
-                } else if way < T::zero() {
+                } else if change < T::zero() {
                     lower - force
                 } else {
                     continue;
                 };
-                let part = (room / way).max(T::zero());
+                let part = (room / change).max(T::zero());
                 if (is_endless || part < T::one()) && blocked.is_none_or(|(_, least)| part < least) {
                     blocked = Some((place, part));
                 }
@@ -152,8 +154,8 @@ impl<T: Real, C: Dim> Search<'_, T, C> {
                 _ if is_endless => return Err(next),
                 _ => T::one(),
             };
-            for (&contact, &way) in self.free.iter().zip(&direction).take(self.count) {
-                self.forces[contact] += way * part;
+            for (&contact, &change) in self.free.iter().zip(&direction).take(self.count) {
+                self.forces[contact] += change * part;
             }
             let Some((place, _)) = blocked else { return Ok(()) };
             self.pin(place, direction[place] > T::zero());
@@ -166,9 +168,9 @@ impl<T: Real, C: Dim> Search<'_, T, C> {
     /// Returns true if the function is constant, within rounding error, along a null-space direction of the free
     /// forces.
     fn is_level(&self, direction: &Column<T, C>) -> bool {
-        let terms = self.free.iter().zip(direction).take(self.count).map(|(&contact, &way)| {
+        let terms = self.free.iter().zip(direction).take(self.count).map(|(&contact, &change)| {
             let bias = self.bounds[contact].map_or((T::zero(), T::zero()), |bounds| bounds.bias);
-            (bias.0 * way, bias.1 * way.abs())
+            (bias.0 * change, bias.1 * change.abs())
         });
         let (slope, size) = terms.fold((T::zero(), T::zero()), |(a, b), (slope, size)| (a + slope, b + size));
         slope.abs() <= held_tolerance::<T>() * size

@@ -26,6 +26,7 @@ pub(crate) fn changes<T: Real, V: Dim, C: Dim>(
     (after, of_after): (&Contacts<T, C>, &ReducedEquations<T, V, C>),
 ) -> Column<Option<Change>, C> {
     Column::from_fn(|place| match (before.modes[place], after.modes[place]) {
+        // A hit with a rebound does not change the mode, only the sign of the rate.
         (Mode::Open, Mode::Open) => {
             let contact = &of_before.contacts[place];
             let ContactLaw::Stop { lower, upper, .. } = contact.law else { return None };

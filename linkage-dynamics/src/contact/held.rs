@@ -1,9 +1,10 @@
-//! The forces of held contacts, redundant or not.
+//! The forces of held contacts: frictions that stick and stops on which s rests.
 //!
-//! A f = -b keeps s'' = 0 of the held contacts, where A = S M^-1 S' and b is s'' without their forces. With redundant
-//! contacts (for example, every joint of a one-degree-of-freedom linkage sticks) A is singular: LDL' with diagonal
-//! pivoting takes the row with the largest remaining pivot, relative to its diagonal entry, until only rounding error
-//! remains. The rows taken carry the forces; every other row is a linear combination of them.
+//! The forces f with A f = -b keep s'' = 0 of the held contacts, where A = S M^-1 S' and b is s'' without their forces.
+//! With redundant contacts, as where every joint of a linkage with one input sticks, A is singular. The factorisation
+//! L D L' with diagonal pivoting takes the row with the largest pivot divided by its diagonal entry of A, until the
+//! pivots are rounding errors. The contacts of these rows are independent and carry the forces; every other row is a
+//! linear combination of them.
 
 use super::reduced::ReducedEquations;
 use super::{ContactLaw, Mode};
@@ -11,13 +12,13 @@ use crate::MotionError;
 use crate::inertia::Inertia;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
-/// The tolerance of 1024 ulps: a pivot counts as zero below it, relative to its diagonal entry, and a sum relative to
-/// the magnitudes of its terms.
+/// 1024 ulps: a pivot counts as zero if it is no larger than this times its diagonal entry of A, a sum if it is no
+/// larger than this times the sum of the magnitudes of its terms.
 pub(super) fn held_tolerance<T: Real>() -> T {
     real::<T>(1024.0) * T::default_epsilon()
 }
 
-/// The response of the mechanism to forces along its contacts.
+/// The accelerations due to forces along some of the contacts.
 pub(super) struct Response<T: Real, V: Dim, C: Dim> {
     /// M^-1 Q, the forces of slipping contacts included.
     pub acceleration: Column<T, V>,
@@ -30,14 +31,15 @@ pub(super) struct Response<T: Real, V: Dim, C: Dim> {
 }
 
 impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
-    /// Computes the response with these forces along the contacts; matrix rows for the contacts in `asked`.
+    /// Computes the response with these forces along the contacts. Only the columns and rows of the contacts for which
+    /// `is_requested` is true are computed; the others are zero.
     ///
     /// # Errors
     /// Those of [`Inertia::new`].
     pub(super) fn new(
         equations: &ReducedEquations<T, V, C>,
         forces: &Column<T, C>,
-        asked: impl Fn(usize) -> bool,
+        is_requested: impl Fn(usize) -> bool,
     ) -> Result<Self, MotionError> {
         let ReducedEquations { scene, coordinates, mass, contacts, .. } = equations;
         let inertia = Inertia::new(scene, coordinates, mass)?;
@@ -49,11 +51,12 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
         let mut columns = Matrix::<T, V, C>::zeros();
         let mut matrix = Matrix::<T, C, C>::zeros();
         let mut bias = Column::repeat((T::zero(), T::zero()));
-        for (place, contact) in contacts.iter().enumerate().filter(|(place, _)| asked(*place)) {
+        for (place, contact) in contacts.iter().enumerate().filter(|(place, _)| is_requested(*place)) {
             columns.set_column(place, inertia.solve(&contact.row));
             let terms = contact.row.component_mul(&acceleration);
             bias[place] = (contact.bias + terms.sum(), contact.bias.abs() + terms.abs().sum());
-            for (other, before) in contacts.iter().enumerate().take(place + 1).filter(|(other, _)| asked(*other)) {
+            for (other, before) in contacts.iter().enumerate().take(place + 1).filter(|(other, _)| is_requested(*other))
+            {
                 let entry = before.row.dot(&columns.column(place));
                 (matrix[(place, other)], matrix[(other, place)]) = (entry, entry);
             }
@@ -62,10 +65,11 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
     }
 }
 
-/// The L D L' factors of a symmetric matrix, restricted to some of its rows.
+/// The L D L' factors of some rows and columns of a symmetric matrix.
 pub(super) struct Factors<T: Real, C: Dim> {
     /// The rows in pivot order; those from `rank` on depend on the ones before.
     pub order: Column<usize, C>,
+    /// The number of rows factored.
     pub count: usize,
     pub rank: usize,
     lower: Matrix<T, C, C>,
@@ -86,33 +90,34 @@ impl<T: Real, C: Dim> Factors<T, C> {
     fn new(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize, exchange: bool) -> Self {
         let mut order = *order;
         let (mut lower, mut pivots) = (Matrix::zeros(), Column::zeros());
-        let mut left: Column<T, C> = Column::from_fn(|row| matrix[(row, row)]);
+        // The diagonal after the elimination of the rows taken.
+        let mut remaining: Column<T, C> = Column::from_fn(|row| matrix[(row, row)]);
         let mut rank = 0;
         while rank < count {
             // A row of zeros counts as dependent.
-            let share = |row: usize| {
+            let relative_pivot = |row: usize| {
                 let entry = matrix[(row, row)];
-                if entry > T::zero() { left[row] / entry } else { T::zero() }
+                if entry > T::zero() { remaining[row] / entry } else { T::zero() }
             };
             let mut best = rank;
             for place in rank + 1..if exchange { count } else { rank } {
-                if share(order[place]) > share(order[best]) {
+                if relative_pivot(order[place]) > relative_pivot(order[best]) {
                     best = place;
                 }
             }
-            if share(order[best]) <= held_tolerance() {
+            if relative_pivot(order[best]) <= held_tolerance() {
                 break;
             }
             order.as_mut_slice().swap(rank, best);
             let row = order[rank];
-            pivots[rank] = left[row];
+            pivots[rank] = remaining[row];
             for &other in &order.as_slice()[rank + 1..count] {
                 let mut sum = matrix[(other, row)];
                 for before in 0..rank {
                     sum -= lower[(other, before)] * pivots[before] * lower[(row, before)];
                 }
                 lower[(other, rank)] = sum / pivots[rank];
-                left[other] -= lower[(other, rank)] * sum;
+                remaining[other] -= lower[(other, rank)] * sum;
             }
             rank += 1;
         }
@@ -195,7 +200,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         for (&row, &force) in self.factors.order.iter().zip(&self.forces).take(self.factors.rank) {
             acceleration += self.response.columns.column(row) * force;
         }
-        self.keep(equations, &mut acceleration, |row| equations.contacts[row].bias);
+        self.enforce(equations, &mut acceleration, |row| equations.contacts[row].bias);
         acceleration
     }
 
@@ -207,13 +212,13 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         for (&row, &impulse) in self.factors.order.iter().zip(&impulses).take(self.factors.rank) {
             rates += self.response.columns.column(row) * impulse;
         }
-        self.keep(equations, &mut rates, |row| equations.contacts[row].drift);
+        self.enforce(equations, &mut rates, |row| equations.contacts[row].drift);
         rates
     }
 
-    /// Makes S x + `rest` = 0 exact for the held contacts by solving for one coordinate of each: the rate of a resting
-    /// block is then exactly 0.
-    fn keep(&self, equations: &ReducedEquations<T, V, C>, x: &mut Column<T, V>, rest: impl Fn(usize) -> T) {
+    /// Corrects x so that S x + `rest` = 0 holds exactly for the held contacts, not only to rounding error: it solves
+    /// for one coordinate of each. The rate of a resting block is then exactly 0.
+    fn enforce(&self, equations: &ReducedEquations<T, V, C>, x: &mut Column<T, V>, rest: impl Fn(usize) -> T) {
         let rank = self.factors.rank;
         let mut rows = Column::<_, C>::repeat(Column::<T, V>::zeros());
         let mut pivots = Column::<_, C>::repeat(0);

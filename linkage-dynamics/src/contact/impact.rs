@@ -1,8 +1,8 @@
 //! Impacts by Newton's law of restitution, s'+ = -e s'-.
 //!
-//! v'+ = v'- + M^-1 S' p with p >= 0, S v'+ + e S v'- >= 0 and, for each stop, one of the two zero. Stops that are
-//! closed at that time take part with e = 0. **Impulses of friction are neglected**: a sticking contact may begin to
-//! slip at an impact.
+//! v'+ = v'- + M^-1 S' p, where for each stop the impulse p >= 0, S v'+ + e S v'- >= 0, and one of the two is zero; S
+//! points away from the stop. Stops that are closed at that time take part with e = 0. **Impulses of friction are
+//! neglected**: a sticking contact may begin to slip at an impact.
 
 use super::bounded::{Bounds, bounded};
 use super::held::Response;
@@ -13,7 +13,7 @@ use linkage_runtime::{Column, Dim, Matrix, Real, real};
 /// A stop that takes part in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Struck<T> {
-    /// 1 at the lower, -1 at the upper stop.
+    /// The direction of s away from the stop: 1 at the lower, -1 at the upper stop.
     pub inward: T,
     /// The coefficient of restitution.
     pub restitution: T,
@@ -42,8 +42,8 @@ pub(super) fn impact<T: Real, V: Dim, C: Dim>(
     let bounds = Column::from_fn(|place| {
         let Struck { inward, restitution } = struck[place]?;
         let (rate, size) = equations.contacts[place].rate(&equations.rates);
-        let share = T::one() + restitution;
-        Some(Bounds { lower: T::zero(), upper: real(f64::INFINITY), bias: (rate * inward * share, size * share) })
+        let factor = T::one() + restitution;
+        Some(Bounds { lower: T::zero(), upper: real(f64::INFINITY), bias: (rate * inward * factor, size * factor) })
     });
     let solution = bounded(&matrix, &bounds).map_err(|place| MotionError::NoContactForces {
         scene: equations.scene,

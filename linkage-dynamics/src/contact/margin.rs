@@ -1,11 +1,12 @@
-//! The margin of held contacts before they slip or open.
+//! The margin of held contacts: how far they are from slipping or opening.
 //!
-//! A motion z of the held contacts, s' = c z, begins if the load does more work on it than friction dissipates: if the
-//! margin h z + sum limit |c z| is negative, where h is a set of forces that would hold them. By the kinematic theorem
-//! of limit analysis the contacts hold if and only if no motion has a negative margin, and by linearity it suffices to
-//! test the motions in which all but one of the independent contacts are at rest (W. Prager, *An Introduction to
-//! Plasticity*, 1959). Without redundancy these are the contacts one by one; K sticking joints of a linkage with one
-//! input hold while |Q| <= sum |S| limit.
+//! Let z be the rates of the independent held contacts in a possible motion, s' = c z those of all, and h the forces of
+//! the independent ones that would hold. The motion begins if the load does more work on it than friction dissipates:
+//! if its margin h z + sum limit |c z| is negative. By the kinematic theorem of limit analysis the contacts hold if and
+//! only if no motion has a negative margin; by linearity it suffices to test the motions in which r - 1 contacts are at
+//! rest, where r is the number of independent ones (W. Prager, *An Introduction to Plasticity*, 1959). Without
+//! redundancy only one contact moves in each of them; K sticking joints of a linkage with one input hold while
+//! |Q| <= sum |S| limit.
 
 use super::held::{Held, held_tolerance};
 use super::reduced::ReducedEquations;
@@ -13,8 +14,9 @@ use super::{ContactLaw, Mode};
 use linkage_runtime::{Column, Dim, Real};
 
 impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
-    /// Returns for each contact the least margin of the motions in which it moves: it slips or opens where the margin
-    /// falls through zero. The tolerance of the force is added, so that a contact loaded exactly to its limit holds.
+    /// Returns for each contact the least margin of the motions in which it moves, divided by its |s'|, so that it is a
+    /// force: the contact slips or opens where it falls through zero. The tolerance of the force is added, so that a
+    /// contact loaded exactly to its limit holds.
     pub(super) fn margins(&self, equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Column<T, C> {
         let (rank, count) = (self.factors.rank, self.factors.count);
         let mut margins = Column::repeat(T::one());
@@ -30,35 +32,36 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
                 if sum.abs() <= held_tolerance::<T>() * size { T::zero() } else { sum }
             })
         };
-        let mut weigh = |z: &Column<T, C>| {
+        // Takes a motion into account, unless it moves s into a stop.
+        let mut include = |z: &Column<T, C>| {
             let moved = motion(z);
-            let opens = |place: usize| match modes[self.factors.order[place]] {
+            let is_allowed = |place: usize| match modes[self.factors.order[place]] {
                 Mode::AtLower => moved[place] >= T::zero(),
                 Mode::AtUpper => moved[place] <= T::zero(),
                 _ => true,
             };
-            if !(0..count).all(opens) {
+            if !(0..count).all(is_allowed) {
                 return;
             }
-            let mut left = self.forces.iter().zip(z).take(rank).fold(T::zero(), |sum, (&h, &z)| sum + h * z);
+            let mut margin = self.forces.iter().zip(z).take(rank).fold(T::zero(), |sum, (&h, &z)| sum + h * z);
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count) {
                 let limit = match equations.contacts[contact].law {
                     ContactLaw::Friction { limit } => limit,
                     ContactLaw::Stop { .. } => T::zero(),
                 };
-                left += (limit + self.force_tolerance(contact)) * moved.abs();
+                margin += (limit + self.force_tolerance(contact)) * moved.abs();
             }
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count).filter(|(_, s)| !s.is_zero()) {
-                let share = left / moved.abs();
-                if !found[contact] || share < margins[contact] {
-                    margins[contact] = share;
+                let force = margin / moved.abs();
+                if !found[contact] || force < margins[contact] {
+                    margins[contact] = force;
                     found[contact] = true;
                 }
             }
         };
         let mut both = |z: &Column<T, C>| {
-            weigh(z);
-            weigh(&-*z);
+            include(z);
+            include(&-*z);
         };
         if rank == count || rank == 1 {
             for place in 0..rank {
@@ -68,21 +71,21 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             }
         } else if rank > 1 {
             each_choice::<C>(count, rank - 1, |still| {
-                if let Some(z) = across(&combinations, still, rank) {
+                if let Some(z) = motion_with_rest(&combinations, still, rank) {
                     both(&z);
                 }
             });
         }
         for &contact in &self.factors.order.as_slice()[rank..count] {
             let (bias, size) = self.response.bias[contact];
-            let (mut left, mut size) = (bias, size);
+            let (mut acceleration, mut size) = (bias, size);
             for (&row, &force) in self.factors.order.iter().zip(&self.forces).take(rank) {
                 let term = self.response.matrix[(contact, row)] * force;
-                (left, size) = (left + term, size + term.abs());
+                (acceleration, size) = (acceleration + term, size + term.abs());
             }
-            // The independent contacts do not hold this one: a prescribed motion moves it.
-            if left.abs() > held_tolerance::<T>() * size {
-                margins[contact] = -left.abs();
+            // s'' is not zero although the independent contacts are held: a prescribed motion moves this one.
+            if acceleration.abs() > held_tolerance::<T>() * size {
+                margins[contact] = -acceleration.abs();
             }
         }
         margins
@@ -108,8 +111,8 @@ fn each_choice<C: Dim>(count: usize, many: usize, mut visit: impl FnMut(&[usize]
     }
 }
 
-/// Returns the motion in which these contacts are at rest, if it is unique up to a factor.
-fn across<T: Real, C: Dim>(
+/// Returns the motion in which the contacts `still` are at rest, if it is unique up to a factor.
+fn motion_with_rest<T: Real, C: Dim>(
     combinations: &Column<Column<T, C>, C>,
     still: &[usize],
     rank: usize,

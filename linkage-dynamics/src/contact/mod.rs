@@ -1,17 +1,17 @@
 //! Dry friction and stops: contacts that stick or slip, are open or closed.
 //!
-//! Each contact acts along a scalar s(q) with a force f; its work is f ds. With M v'' = Q + S' f and s'' = S v'' +
-//! `s_0` in any independent coordinates ([`ReducedEquations`]):
+//! Each contact acts along a scalar s(q) with a force f; its work is f ds. In any independent coordinates v
+//! ([`ReducedEquations`]) M v'' = Q + S' f, where S = ds/dv and s'' = S v'' + `s_0`:
 //!
 //! - friction slips with f = -sign(s') limit, or sticks: s'' = 0 with |f| <= limit;
 //! - a stop is open with f = 0, or s rests on it: s'' = 0 with f directed away from the stop;
-//! - at an impact with a stop s'+ = -e s'-, by an impulse along the row of S, which stops that are closed may share.
-//!   **Impulses of friction at an impact are neglected.**
+//! - at an impact with a stop s'+ = -e s'-; stops that are closed at that time transmit impulses too, so that none is
+//!   penetrated. **Impulses of friction at an impact are neglected.**
 //!
 //! [`Contacts`] stores the [`Mode`] of each. At an event the modes of all contacts with s' = 0 follow from one
 //! complementarity problem: its bounded forces minimise a convex function, so that v'' is unique, however many joints
-//! stick at once; the forces are not where contacts are redundant. A contact is held up to 1024 ulps beyond its limit,
-//! and slips at its limit, so that a block pushed exactly with its friction limit stays.
+//! stick at once. The forces are not unique where contacts are redundant. A held contact is released only where its
+//! force exceeds the limit by 1024 ulps, so that a block pushed exactly with its friction limit stays.
 
 mod bounded;
 mod change;
@@ -45,7 +45,7 @@ pub struct ContactCoordinate<T: Real, U: Dim, V: Dim> {
     pub bias: T,
 }
 
-/// A friction or a stop at one time.
+/// A friction or a stop, evaluated at one state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact<T: Real, U: Dim, V: Dim> {
     /// The name used in errors: `friction on theta3`.

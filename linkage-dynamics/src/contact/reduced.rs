@@ -5,8 +5,8 @@ use crate::scene::{Rates, StateColumn, coordinate_name};
 use crate::{Equations, MotionError, Scene};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput, Real};
 
-/// M v'' = Q + S' f with the contacts' s' = S v' + `drift` and s'' = S v'' + `bias`, where v are `V` independent
-/// coordinates: the inputs of a scene, or others.
+/// M v'' = Q + S' f, where v are `V` independent coordinates, the inputs of a scene or others, and f the forces of the
+/// contacts, whose scalars s have s' = S v' + `drift` and s'' = S v'' + `bias`.
 ///
 /// No force accelerates a coordinate whose motion is prescribed: see [`prescribe`](Self::prescribe).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,8 +43,8 @@ pub struct ReducedContact<T: Real, V: Dim> {
 }
 
 impl<T: Real, V: Dim> ReducedContact<T, V> {
-    /// Reduces a contact by (u', v') = N z' and (u'', v'') = N z'' + bias, where z are the independent coordinates and
-    /// N is given by its rows of u and of v.
+    /// Reduces a contact to independent coordinates z, in which (u', v') = N z' and (u'', v'') = N z'' + bias; N and the
+    /// bias are given as their rows of u and of v.
     #[must_use]
     pub fn new<U: Dim>(
         contact: &Contact<T, U, V>,

@@ -9,12 +9,12 @@ use super::{ContactLaw, Mode};
 use crate::MotionError;
 use linkage_runtime::{Column, Dim, Real, real};
 
-/// A rebound shorter than this many ulps of the time is treated as rest.
+/// A rebound that takes less than this many ulps of the time is treated as rest.
 const SHORTEST_FLIGHT_ULPS: f64 = 64.0;
 
 impl<T: Real, C: Dim> Contacts<T, C> {
     /// Applies impacts and finds the new modes at a state where an event function has just fallen through zero. Returns
-    /// the rates v' after the event. `evaluate` computes the equations at given rates.
+    /// the rates v' after the event. `evaluate` computes the equations of this state with other rates v'.
     ///
     /// # Errors
     /// [`MotionError::NoContactForces`] if no contact forces satisfy a prescribed motion, and those of `evaluate`.
@@ -39,7 +39,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok(equations.rates)
     }
 
-    /// Returns the mode in which a contact would be held, if its rate is zero.
+    /// Returns the mode in which a contact would be held, if s' is zero or has just changed its sign; None if it moves.
     fn at_rest<V: Dim>(&self, place: usize, equations: &ReducedEquations<T, V, C>) -> Option<Mode> {
         let contact = &equations.contacts[place];
         let (rate, size) = contact.rate(&equations.rates);
@@ -55,7 +55,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         }
     }
 
-    /// Returns the stops that take part in an impact; None without an impact.
+    /// Returns the stops that take part in an impact, those on which s rests included; None if s hits no stop.
     fn struck<V: Dim>(
         &self,
         equations: &ReducedEquations<T, V, C>,
@@ -101,19 +101,21 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         // A rebound counts as rest if it is shorter than the rounding error of the time or lower than that of the gap.
         let free = Response::new(&after, &Column::zeros(), |place| struck[place].is_some())?;
         let shortest = real::<T>(SHORTEST_FLIGHT_ULPS) * T::default_epsilon() * t.abs();
-        let mut again = false;
+        let mut has_ended = false;
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
+            // The rebound rate, and the acceleration back towards the stop: a flight takes 2 rate / back and rises by
+            // rate^2 / (2 back).
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
-            let lost = self.resolution[place] / real(ZERO_ULPS);
-            let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lost * back;
+            let lowest = self.resolution[place] / real(ZERO_ULPS);
+            let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lowest * back;
             if !restitution.is_zero() && back > T::zero() && is_over {
                 *restitution = T::zero();
-                again = true;
+                has_ended = true;
             }
         }
         let mut pushed = Column::zeros();
-        if again || struck.iter().flatten().any(|of| of.restitution.is_zero()) {
+        if has_ended || struck.iter().flatten().any(|of| of.restitution.is_zero()) {
             let After { rates, impulses } = impact(equations, &struck)?;
             after = evaluate(&rates)?;
             pushed = impulses;
@@ -154,8 +156,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             if slips(place) { slipping(self.modes[place], &equations.contacts[place].law) } else { T::zero() }
         });
         let response = Response::new(equations, &forces, |place| !slips(place))?;
-        let supposed = Self { modes: Column::from_fn(|place| at_rest[place].unwrap_or(Mode::Open)), ..*self };
-        let solution = bounded(&response.matrix, &supposed.bounds(&response, equations)).map_err(|place| {
+        let held = Self { modes: Column::from_fn(|place| at_rest[place].unwrap_or(Mode::Open)), ..*self };
+        let solution = bounded(&response.matrix, &held.bounds(&response, equations)).map_err(|place| {
             MotionError::NoContactForces { scene: equations.scene, contact: equations.contacts[place].name }
         })?;
         for (place, side) in at_rest.iter().enumerate() {
@@ -170,19 +172,19 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             // The series of bounces has ended, either resting on the stop or leaving it from rest.
             self.hardest[place] = T::zero();
         }
-        // A contact released at its limit is held again if its s'' is zero within rounding error.
+        // A contact released at its limit is held again if it does not accelerate away, to rounding error.
         let acceleration = self.acceleration(equations)?;
         for (place, contact) in equations.contacts.iter().enumerate() {
             let Some(side) = at_rest[place] else { continue };
             let terms = contact.row.component_mul(&acceleration);
             let (sum, size) = (terms.sum() + contact.bias, terms.abs().sum() + contact.bias.abs());
-            let goes = match self.modes[place] {
+            let departure = match self.modes[place] {
                 Mode::SlipForward => sum,
                 Mode::SlipBackward => -sum,
                 Mode::Open => sum * side.inward(),
                 _ => continue,
             };
-            if goes <= held_tolerance::<T>() * size {
+            if departure <= held_tolerance::<T>() * size {
                 self.modes[place] = side;
             }
         }

@@ -27,7 +27,7 @@ pub struct Contacts<T: Real, C: Dim> {
     pub modes: Column<Mode, C>,
     /// The greatest impact rate of each stop since s last rested on it.
     pub(super) hardest: Column<T, C>,
-    /// The error of each s, where it exceeds the rounding error of its value.
+    /// The error of each s where it exceeds the rounding error of its value, else zero.
     pub(super) resolution: Column<T, C>,
 }
 
@@ -48,7 +48,7 @@ impl Mode {
         matches!(self, Self::Stick | Self::AtLower | Self::AtUpper)
     }
 
-    /// Returns 1 at a lower and -1 at an upper stop.
+    /// The direction of s away from the stop: 1 at a lower, -1 at an upper stop.
     pub(super) fn inward<T: Real>(self) -> T {
         if self == Self::AtUpper { -T::one() } else { T::one() }
     }
@@ -60,16 +60,17 @@ pub(super) fn nearer<T: Real, V: Dim>(contact: &ReducedContact<T, V>, lower: T, 
     if below <= above { (Mode::AtLower, below) } else { (Mode::AtUpper, above) }
 }
 
-/// The tolerance of the gap between two values.
+/// The rounding error of the gap between s and a bound.
 fn gap_tolerance<T: Real>(value: T, bound: T) -> T {
     sum_tolerance(value.abs() + bound.abs())
 }
 
-/// The rounding error of a sum whose terms have these magnitudes in total.
+/// The rounding error of a sum whose terms have the magnitudes `size` in total.
 pub(crate) fn sum_tolerance<T: Real>(size: T) -> T {
     real::<T>(ZERO_ULPS) * T::default_epsilon() * size
 }
 
+/// True if a sum is zero to rounding error, where `size` is the sum of the magnitudes of its terms.
 pub(super) fn is_negligible<T: Real>((sum, size): (T, T)) -> bool {
     sum.abs() <= sum_tolerance(size)
 }

@@ -46,12 +46,13 @@ impl<T: Real, N: Dim> Tolerance<T, N> {
         self.relative * (to_f64(self.scale[component]) + size)
     }
 
-    /// The root mean square of a change at `y` divided by the allowed errors.
-    pub(super) fn share(&self, change: &Column<T, N>, y: &Column<T, N>) -> f64 {
+    /// The root mean square of the components of a change at `y`, each divided by its allowed error.
+    pub(super) fn relative_change(&self, change: &Column<T, N>, y: &Column<T, N>) -> f64 {
         self.norm(change, |i| to_f64(y[i]).abs()) / ComplexField::sqrt(N::COUNT as f64)
     }
 
-    /// sqrt(sum (`v_i` / allowed)^2), safe from overflow of the squares.
+    /// sqrt(sum (`v_i` / allowed)^2), where the allowed error is that of a component of magnitude `size(i)`; safe from
+    /// overflow of the squares.
     fn norm(&self, v: &Column<T, N>, size: impl Fn(usize) -> f64) -> f64 {
         let part = |i: usize| to_f64(v[i]) / self.allowed(i, size(i));
         let sum = (0..N::COUNT).fold(0.0, |sum, i| sum + part(i) * part(i));
@@ -100,13 +101,15 @@ pub(super) fn error<T: Real, N: Dim>(
     if first == f64::INFINITY || second == f64::INFINITY {
         return f64::INFINITY;
     }
-    // |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N, rearranged so that squares of small errors do not underflow.
-    let share = second / first;
-    h.abs() * first / ComplexField::sqrt(N::COUNT as f64 * (1.0 + 0.01 * share * share))
+    // With the error estimates E5 = first and E3 = second: |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N, rearranged
+    // so that squares of small errors do not underflow.
+    let ratio = second / first;
+    h.abs() * first / ComplexField::sqrt(N::COUNT as f64 * (1.0 + 0.01 * ratio * ratio))
 }
 
-/// The first trial step: h = 0.01 |y| / |f|, then h^p max(|f|, |y''|) = 0.01 with y'' from an Euler step of that
-/// length; in units of the time |y| / |f|. If the rate or the state is zero: 1e-6 `span`, or less if the state moves by
+/// The length of the first trial step by the norms of the allowed errors: h = 0.01 |y| / |f|, then h from
+/// h^p max(|f|, |y''|) = 0.01, where p is the order and y'' comes from an Euler step of the first length. Time is in
+/// units of |y| / |f|. If the rate or the state is zero, the first length is 1e-6 `span`, or less if the state moves by
 /// its scale sooner.
 #[inline]
 pub(super) fn first_length<T: Real, N: Dim>(
@@ -117,30 +120,29 @@ pub(super) fn first_length<T: Real, N: Dim>(
     euler: impl FnOnce(f64) -> Result<Column<T, N>, MotionError>,
 ) -> f64 {
     let size = |i: usize| to_f64(y[i]).abs();
-    let (moving, there) = (tolerance.norm(slope, size), tolerance.norm(y, size));
-    let known = moving * span > 1e-5 && there > 1e-5;
-    // The time in which the state moves by its scale.
-    let across = (tolerance.relative * moving).recip();
-    let time = if known {
-        there / moving
-    } else if 1e-4 * span > across {
-        across
+    let (speed, distance) = (tolerance.norm(slope, size), tolerance.norm(y, size));
+    let is_known = speed * span > 1e-5 && distance > 1e-5;
+    let time_to_move_by_scale = (tolerance.relative * speed).recip();
+    let time = if is_known {
+        distance / speed
+    } else if 1e-4 * span > time_to_move_by_scale {
+        time_to_move_by_scale
     } else {
         span
     };
-    let guess = if known || time < span { 0.01 * time } else { 1e-6 * span }.min(span);
+    let guess = if is_known || time < span { 0.01 * time } else { 1e-6 * span }.min(span);
     // If the rate fails at the end of the Euler step, the guess is used.
     let Ok(ahead) = euler(guess) else { return guess };
-    let bend = tolerance.norm(&(ahead - *slope), size) / guess;
-    let steepest = (bend * time * time).max(moving * time);
+    let curvature = tolerance.norm(&(ahead - *slope), size) / guess;
+    let steepest = (curvature * time * time).max(speed * time);
     let (most, root) = (0.01, 1.0 / f64::from(order));
     let length = if steepest <= 1e-15 {
         (1e-6 * time).max(1e-3 * guess)
     } else if steepest < f64::INFINITY {
         time * ComplexField::powf(most / steepest, root)
     } else {
-        let [bend, moving, time] = [bend, moving, time].map(ComplexField::ln);
-        ComplexField::exp(time + root * (ComplexField::ln(most) - (bend + 2.0 * time).max(moving + time)))
+        let [curvature, speed, time] = [curvature, speed, time].map(ComplexField::ln);
+        ComplexField::exp(time + root * (ComplexField::ln(most) - (curvature + 2.0 * time).max(speed + time)))
     };
     // After an overflow the length is 0 or NaN: start from the guess, which rejected steps shorten.
     let length = if length > 0.0 { length } else { guess };

@@ -13,17 +13,17 @@ impl<S: System, M: Method> Integration<S, M> {
     /// evaluation of the rate, then on the dense output if there may be one.
     pub(super) fn search(&mut self, from: f64) -> Result<Found<S>, MotionError> {
         let resolution = self.resolution();
-        let sides = self.sides;
+        let signs = self.signs;
         if self.interpolant.is_none() {
             let cubic = self.cubic();
-            let found = self.sides.search(&mut self.system, (&cubic, true), (from, self.parts), resolution)?;
+            let found = self.signs.search(&mut self.system, (&cubic, true), (from, self.parts), resolution)?;
             if !matches!(found, Found::Perhaps) {
                 return Ok(found);
             }
         }
-        self.sides = sides;
+        self.signs = signs;
         let interpolant = self.interpolant()?;
-        self.sides.search(&mut self.system, (&interpolant, false), (from, self.parts), resolution)
+        self.signs.search(&mut self.system, (&interpolant, false), (from, self.parts), resolution)
     }
 
     /// The rounding error of the time, as a fraction of the last step.
@@ -37,11 +37,11 @@ impl<S: System, M: Method> Integration<S, M> {
         let (t, state) = (self.t, self.state);
         let resolution = 4.0 * self.resolution() * to_f64(self.to.0 - self.from.0).abs();
         if to_f64(t - self.instant.t).abs() > resolution {
-            self.instant = Instant { t, anew: false };
-            self.sides.anew();
+            self.instant = Instant { t, has_restarted: false };
+            self.signs.reset_counts();
         }
-        let (event, again) = self.sides.deliver();
-        if again && self.instant.anew {
+        let (event, again) = self.signs.take_pending();
+        if again && self.instant.has_restarted {
             return Err(MotionError::EventsWithoutEnd { t: to_f64(t), event });
         }
         match self.system.at_event(event, t, &state)? {
@@ -61,8 +61,8 @@ impl<S: System, M: Method> Integration<S, M> {
     pub(crate) fn restart(&mut self, state: StateOf<S>) -> Result<(), MotionError> {
         finite("the state after an event", self.t, &state)?;
         self.state = state;
-        self.continues = false;
-        self.instant.anew = true;
+        self.has_rate = false;
+        self.instant.has_restarted = true;
         if self.place != Place::Over {
             self.place = Place::Boundary;
         }

@@ -36,7 +36,8 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         self.coefficients.iter().take(self.used).flatten().all(T::is_finite)
     }
 
-    /// The cubic Hermite interpolant, of order 3: it requires no evaluation.
+    /// The cubic Hermite interpolant of the states and slopes at both ends, of order 3: it requires no evaluation of the
+    /// rate.
     #[inline]
     pub(super) fn cubic(start: T, length: T, states: [&Column<T, N>; 2], slopes: [&Column<T, N>; 2]) -> Self {
         let difference = *states[1] - *states[0];
@@ -49,7 +50,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         Self { start, length, coefficients, used: 4 }
     }
 
-    /// Completes the cubic by the higher coefficients of the method.
+    /// Adds the higher coefficients of the method to the cubic.
     pub(super) fn complete(mut self, tableau: &Tableau, slopes: &Slopes<T, N>) -> Self {
         for (coefficient, weights) in self.coefficients[self.used..].iter_mut().zip(tableau.dense) {
             *coefficient = tableau::combination(slopes, weights) * self.length;
@@ -58,13 +59,15 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         self
     }
 
-    /// The polynomial with the value `state` at the start and these slopes y' at the given fractions of the step.
+    /// The polynomial with the value `state` at the start and these slopes y' at the fractions `parts` of the step; None
+    /// if the fractions do not determine it.
     pub(crate) fn of_slopes<const P: usize>(
         (start, state): (T, Column<T, N>),
         length: T,
         parts: &[f64; P],
         slopes: &[Column<T, N>; P],
     ) -> Option<Self> {
+        // The derivative of each basis function, a column, at each fraction, a row.
         let mut by_coefficient = SMatrix::<f64, P, P>::zeros();
         for (row, &s) in parts.iter().enumerate() {
             // Value and slope of the k-th basis function, from k = 1.
@@ -87,7 +90,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
     }
 
     /// Restricts the polynomial, of degree 8 at most, to the part of its step before `end`; None if `end` is not within
-    /// it.
+    /// the step. Eight slopes and the state at the start determine it.
     pub(crate) fn up_to(&self, end: T) -> Option<Self> {
         let length = end - self.start;
         if length.abs() >= self.length.abs() {
@@ -98,7 +101,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         Self::of_slopes((self.start, self.coefficients[0]), length, &parts, &slopes)
     }
 
-    /// The last coefficient: an estimate of the error of the polynomial.
+    /// The last coefficient, from which the error of the polynomial is estimated.
     pub(crate) fn last(&self) -> Column<T, N> {
         self.coefficients[self.used - 1]
     }

@@ -32,8 +32,8 @@
 //! **Detection of events.** Event functions and [`Guard`]s are sampled at equal [parts](Integration::event_parts) of
 //! each step, four by default.
 //! - A change of sign between two samples is found, and located to the rounding error of the time.
-//! - A function that approaches zero and has one extremum in the step is followed to the extremum, so that a short
-//!   passage there and back is found too. For a guard with a known rate the sign of the rate shows the extremum; for
+//! - If a function approaches zero and has one extremum in the step, the extremum is located, so that a brief passage
+//!   through zero and back is found too. For a guard with a known rate the sign of the rate shows the extremum; for
 //!   event functions, and guards without a rate, the samples and difference quotients at the ends of the step do: they
 //!   miss it only where the samples around the extremum are equal within rounding error. The accuracy is that of the
 //!   motion: a passage shallower than its error may or may not be found. Of 10 000 random functions with one minimum in

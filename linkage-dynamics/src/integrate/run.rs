@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::control::{Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
-use super::event::{Found, Sides};
+use super::event::{EventSigns, Found};
 use super::system::{IntoSystem, StateOf, System};
 use super::tableau::{self, Method, SLOPES, Slopes};
 use super::{Dop853, Outputs, step};
@@ -12,11 +12,13 @@ use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, Dim, InputError, Real};
 
-/// The largest correction of a state, as a fraction of the tolerance, that needs no new evaluation of the rate.
+/// The largest correction of a state by projection, divided by the tolerance, after which the rate computed before it
+/// is still used.
 const NEGLIGIBLE_CORRECTION: f64 = 0.01;
 
-/// The most times in a row that a step is shortened to a sixteenth for its guards: 16^-5 = 1e-6 of the step by
-/// tolerance. With 4 a jump of a guard is met by steps 16 times as long, with 6 it costs one more step.
+/// The most times in a row that a step is shortened to a sixteenth because its guards change too much: to 16^-5 = 1e-6
+/// of the step that the tolerance allows. With 4 a guard that jumps is located with steps 16 times as long, with 6 it
+/// costs one more step.
 const MAX_SHORTENED: u32 = 5;
 
 /// The cost of an integration.
@@ -44,13 +46,15 @@ pub struct Step<T: Real, N: Dim> {
 /// The [`Step`] of a system.
 pub(super) type StepOf<S> = Step<<S as System>::Scalar, <S as System>::N>;
 
-/// The last event time; `anew` if the motion restarted there.
+/// The last event time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Instant<T> {
     pub(super) t: T,
-    pub(super) anew: bool,
+    /// True if the motion restarted there.
+    pub(super) has_restarted: bool,
 }
 
+/// The place reached by an integration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Place {
     /// At the start, at the end of a step, or at a restart.
@@ -83,13 +87,13 @@ pub struct Integration<S: System, M = Dop853> {
     pub(super) to: (S::Scalar, StateOf<S>),
     pub(super) slopes: Slopes<S::Scalar, S::N>,
     pub(super) interpolant: Option<Interpolant<S::Scalar, S::N>>,
-    /// True if the last slope is the rate at the current state.
-    pub(super) continues: bool,
+    /// True if the last slope is the rate at the current state, so that the next step reuses it.
+    pub(super) has_rate: bool,
     pub(super) controller: Controller,
     pub(super) counts: Counts,
     pub(super) stiff: u32,
     pub(super) not_stiff: u32,
-    pub(super) sides: Sides<S::Events, S::Guards>,
+    pub(super) signs: EventSigns<S::Events, S::Guards>,
     pub(super) instant: Instant<S::Scalar>,
     /// The number of times in a row that the step was shortened for its guards.
     pub(super) shortened: u32,
@@ -111,7 +115,7 @@ impl<S: System, M: Method> Integration<S, M> {
             within("the time", to_f64(t), f64::MIN, f64::MAX)?;
         }
         finite("the initial state", start, &y)?;
-        let sides = Sides::new(system.crossings());
+        let signs = EventSigns::new(system.crossings());
         Ok(Self {
             method: PhantomData,
             system,
@@ -129,13 +133,13 @@ impl<S: System, M: Method> Integration<S, M> {
             to: (start, y),
             slopes: [Column::zeros(); SLOPES],
             interpolant: Some(Interpolant::constant(start, y)),
-            continues: false,
+            has_rate: false,
             controller: Controller::new(),
             counts: Counts::default(),
             stiff: 0,
             not_stiff: 0,
-            sides,
-            instant: Instant { t: start, anew: false },
+            signs,
+            instant: Instant { t: start, has_restarted: false },
             shortened: 0,
         })
     }
@@ -219,14 +223,14 @@ impl<S: System, M: Method> Integration<S, M> {
     #[must_use]
     pub fn is_over(&self) -> bool {
         match self.place {
-            Place::Boundary => self.t == self.end && !self.sides.waits(),
+            Place::Boundary => self.t == self.end && !self.signs.has_pending(),
             Place::Within(_) => false,
             Place::Over => true,
         }
     }
 
-    /// The dense output of the last step, beyond an event that cut it off too. It is computed at the first call, at
-    /// most once a step.
+    /// The dense output of the last step, up to its end even if an event ended it earlier. It is computed at the first
+    /// call, at most once a step.
     ///
     /// # Errors
     /// Those of the rate if the method evaluates it for dense output, and [`MotionError::NotFinite`].
@@ -287,7 +291,7 @@ impl<S: System, M: Method> Integration<S, M> {
     }
 
     fn proceed(&mut self) -> Result<StepOf<S>, MotionError> {
-        if self.sides.waits() {
+        if self.signs.has_pending() {
             return self.deliver();
         }
         loop {
@@ -307,7 +311,7 @@ impl<S: System, M: Method> Integration<S, M> {
                     self.place = Place::Within(hit.at);
                     return self.deliver();
                 }
-                Found::Unclear if is_new && self.shortened < MAX_SHORTENED => {
+                Found::TooCoarse if is_new && self.shortened < MAX_SHORTENED => {
                     self.shortened += 1;
                     self.go_back(self.from.0, self.from.1);
                     self.counts.accepted -= 1;
@@ -315,8 +319,8 @@ impl<S: System, M: Method> Integration<S, M> {
                     self.limit_next(length / 16.0);
                 }
                 _ => {
-                    // At a jump the guards stay unclear: do not shorten the following steps again.
-                    if !matches!(found, Found::Unclear) {
+                    // Where a guard jumps, no step is short enough: do not shorten the following steps again.
+                    if !matches!(found, Found::TooCoarse) {
                         self.shortened = 0;
                     }
                     (self.t, self.state) = self.to;
@@ -344,7 +348,7 @@ impl<S: System, M: Method> Integration<S, M> {
 
     /// Returns true if a step begins here.
     pub(crate) fn is_at_boundary(&self) -> bool {
-        self.place == Place::Boundary && !self.sides.waits()
+        self.place == Place::Boundary && !self.signs.has_pending()
     }
 
     pub(crate) fn system_mut(&mut self) -> &mut S {
@@ -374,13 +378,14 @@ impl<S: System, M: Method> Integration<S, M> {
     /// Replaces the state reached: by a projected one, or by one in other coordinates.
     pub(crate) fn exchange(&mut self, state: StateOf<S>) {
         self.state = state;
-        self.continues = false;
+        self.has_rate = false;
     }
 
     /// Replaces the state reached by its projection onto the constraints. If the correction is negligible relative to
     /// the tolerance, which is usual, the last slope is reused.
     pub(crate) fn correct(&mut self, state: StateOf<S>) {
-        self.continues = self.continues && self.tolerance.share(&(state - self.state), &state) <= NEGLIGIBLE_CORRECTION;
+        self.has_rate =
+            self.has_rate && self.tolerance.relative_change(&(state - self.state), &state) <= NEGLIGIBLE_CORRECTION;
         self.state = state;
     }
 
@@ -390,7 +395,7 @@ impl<S: System, M: Method> Integration<S, M> {
         self.interpolant = Some(Interpolant::constant(t, state));
         self.t = t;
         self.place = Place::Boundary;
-        self.sides.forget();
+        self.signs.drop_pending();
         self.exchange(state);
     }
 
@@ -401,7 +406,7 @@ impl<S: System, M: Method> Integration<S, M> {
         self.to = (end, step.at(end));
         self.interpolant = Some(step);
         self.place = Place::Within(0.0);
-        self.continues = false;
+        self.has_rate = false;
     }
 
     /// The interval with available states: from the start of the last step to the time reached.

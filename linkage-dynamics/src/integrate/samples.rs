@@ -1,15 +1,16 @@
-//! Samples of guards at equal distances in a step: a smoothness test.
+//! Samples of guards at equal distances in a step, and the test that they are close enough together.
 //!
-//! The error of a step does not depend on how fast a guard changes: while everything sticks, nothing moves. The
-//! sampling is refined until every four consecutive values are close to a parabola.
+//! The step length is no measure: it follows from the error of the state, and while everything sticks the state does
+//! not change, however fast the margins of the frictions do. The sampling is refined until every four consecutive
+//! values are close to a parabola.
 
 use linkage_runtime::{Column, Dim};
 
 /// The largest deviation of four values from a parabola, relative to the largest of them.
 const ON_A_PARABOLA: f64 = 0.05;
 
-/// The last four values of each guard, newest first; None for a guard with a known rate, which is as accurate as the
-/// state.
+/// The last four values of each guard, newest first; None for a guard with a known rate: like the gap of an open stop,
+/// it changes no faster than the state.
 pub(super) struct Samples<C: Dim> {
     values: [Column<Option<f64>, C>; 4],
     count: usize,
@@ -32,7 +33,7 @@ impl<C: Dim> Samples<C> {
     }
 
     /// Returns true if some guard is too far from a parabola.
-    pub(super) fn are_unclear(&self) -> bool {
+    pub(super) fn are_too_coarse(&self) -> bool {
         let [a, b, c, d] = &self.values;
         self.are_enough()
             && (0..C::COUNT).any(|i| {

@@ -15,24 +15,24 @@ impl<S: System, M: Method> Integration<S, M> {
     /// Takes a step.
     pub(super) fn step(&mut self) -> Result<(), MotionError> {
         let rule = const { &M::TABLEAU.control };
-        let mut anew = !self.continues;
+        let mut is_new = !self.has_rate;
         if let Some(state) = self.system.before_step(self.t, &self.state)? {
             finite("the state before a step", self.t, &state)?;
             self.state = state;
-            anew = true;
+            is_new = true;
         }
         let (t, y) = (self.t, self.state);
-        self.slopes[0] = if anew { self.slope(t, &y)? } else { self.slopes[M::TABLEAU.end] };
+        self.slopes[0] = if is_new { self.slope(t, &y)? } else { self.slopes[M::TABLEAU.end] };
         let span = to_f64(self.end - t);
         let direction = span.signum();
         if self.controller.length.is_none() {
             self.controller.length = Some(self.first_length(span));
         }
         let epsilon = to_f64(S::Scalar::default_epsilon());
-        if S::Events::COUNT + S::Guards::COUNT > 0 && anew {
+        if S::Events::COUNT + S::Guards::COUNT > 0 && is_new {
             let little = real::<S::Scalar>(ComplexField::sqrt(epsilon) * direction * self.length());
             let after = y + self.slopes[0] * little;
-            self.sides.begin(&mut self.system, (t, &y), (t + little, &after))?;
+            self.signs.begin(&mut self.system, (t, &y), (t + little, &after))?;
         }
         let mut failure = None;
         loop {
@@ -54,7 +54,7 @@ impl<S: System, M: Method> Integration<S, M> {
                         self.from = (t, y);
                         self.to = (end, next);
                         self.interpolant = None;
-                        self.continues = true;
+                        self.has_rate = true;
                         self.counts.accepted += 1;
                         return self.test_stiffness();
                     }

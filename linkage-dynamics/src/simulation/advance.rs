@@ -44,8 +44,8 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 }
             }
             let contacts = motion.contacts;
-            let closed = motion.closed(step.t, &step.state)?;
-            let (kept, holds) = motion.reviewed(&contacts, step.t, &closed)?;
+            let projected = motion.projected(step.t, &step.state)?;
+            let (kept, holds) = motion.reviewed(&contacts, step.t, &projected)?;
             let mut state =
                 State { event: step.event.filter(|&event| event < W::Events::COUNT), ..motion.state(step.t, &kept)? };
             let result = match step.event {
@@ -56,8 +56,8 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                     }
                     Ok(())
                 }
-                // Exactly the state at which the guard was zero.
-                _ => self.settle(&mut state, &closed),
+                // Contacts settle from the projected state, where the guard is zero.
+                _ => self.settle(&mut state, &projected),
             };
             // With several contact events at one time, the first settles all contacts.
             if step.event.is_some() && state.event.is_none() && result.is_ok() && state.changes().next().is_none() {
@@ -72,7 +72,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
     }
 
-    /// Repeats the step in other coordinates than the inputs.
+    /// Repeats the last step in other coordinates than the inputs.
     fn go_back(&mut self) -> Result<(), MotionError> {
         let (t, y) = self.from;
         self.integration.go_back(t, y);
@@ -83,14 +83,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Applies the user's action at an event.
-    fn happens(&mut self, event: usize, state: &mut State<S>, closed: &StateColumn<S>) -> Result<(), MotionError> {
+    fn happens(&mut self, event: usize, state: &mut State<S>, projected: &StateColumn<S>) -> Result<(), MotionError> {
         let motion = self.integration.system_mut();
         match motion.watch.at_event(event, state)? {
             Then::GoOn => {}
             Then::Stop => self.integration.stop(),
             Then::Restart(input_rates) => {
                 let y = motion.with_input_rates(&state.q, &input_rates.into())?;
-                let (after, changes) = motion.resumed(state.t, closed, &y)?;
+                let (after, changes) = motion.resumed(state.t, projected, &y)?;
                 self.integration.restart(after)?;
                 self.note(state, changes);
             }
@@ -99,8 +99,8 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Applies impacts and mode changes of the contacts.
-    fn settle(&mut self, state: &mut State<S>, closed: &StateColumn<S>) -> Result<(), MotionError> {
-        let (after, changes) = self.integration.system_mut().settled(state.t, closed)?;
+    fn settle(&mut self, state: &mut State<S>, projected: &StateColumn<S>) -> Result<(), MotionError> {
+        let (after, changes) = self.integration.system_mut().settled(state.t, projected)?;
         self.integration.restart(after)?;
         self.note(state, changes);
         Ok(())

@@ -1,9 +1,10 @@
 //! Passing a change point, where [J A] loses rank and no choice of coordinates is regular.
 //!
-//! A motion straight through a change point is smooth; only [J A] is singular there. The step is collocation at eight
-//! Gauss nodes (order 16; Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993),
-//! theorem II.7.9), placed so that the change point lies between the fourth and the fifth, the widest gap. The first
-//! four are solved alone, and their polynomial predicts the rest.
+//! A motion straight through a change point is smooth; only [J A] is singular there. So it is passed in one step, which
+//! does not evaluate the equations at the change point: collocation at eight Gauss nodes (order 16; Hairer, Norsett and
+//! Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993), theorem II.7.9). The length of the step is such
+//! that the change point lies in its middle, between the fourth and the fifth node, the widest gap. The first four are
+//! solved alone, and their polynomial is the first guess at all eight.
 //!
 //! The step is accepted if the polynomial satisfies the constraints at the nodes, so that the branch beyond is the one
 //! whose tangent continues, and at the change point to rounding error, so that the branches cross and do not only come
@@ -32,37 +33,40 @@ const NODES: [f64; 8] = [
     0.980_144_928_248_768_1,
 ];
 
-/// The limit on fixed-point iterations of the collocation. The convergence ratio is the step divided by the time scale
-/// of the motion.
+/// The limit on fixed-point iterations of the collocation. Each reduces the error by about the step divided by the time
+/// scale of the motion.
 const MAX_ITERATIONS: usize = 40;
 
-/// The iteration has converged if the change of the end is below this many sqrt(epsilon) and stops shrinking: near a
-/// change point rounding error grows as 1 / distance^2.
+/// The iteration has converged if the change of the state at the end, divided by the largest component, is below this
+/// many sqrt(epsilon) and stops shrinking. It never reaches epsilon: near a change point rounding error grows as
+/// 1 / distance^2.
 const CONVERGED_SQRT_EPSILONS: f64 = 0.01;
 
 /// The largest distance of the change point from the middle, as a fraction of the step. At twice this value all
 /// simulation tests pass; at half of it the one of a stop near a change point fails.
 const MAX_OFF_MIDDLE: f64 = 0.03;
 
-/// The residual tolerance at the change point, in ulps of the residual scales. At a quarter or four times this value
-/// all simulation tests pass.
+/// The largest residual at the change point, in ulps of the residual scales. At a quarter or four times this value all
+/// simulation tests pass.
 const CROSSING_ULPS: f64 = 256.0;
 
-/// The largest projection distance at the nodes, divided by the length of the step. At a tenth or ten times this value
-/// all simulation tests pass.
+/// The largest distance of the polynomial from the constraints at the nodes, divided by the length of the step. At a
+/// tenth or ten times this value all simulation tests pass.
 const MAX_PROJECTION: f64 = 1e-3;
 
-/// The longest step, in radians or relative to the scales of lengths. At 1.25 times this value all simulation tests
-/// pass; at 0.75 times three fail, crossed cranks among them.
+/// The longest step over a change point. Lengths of steps here are the largest change of a coordinate: in radians, or
+/// divided by the scale of its length. At 1.25 times this value all simulation tests pass; at 0.75 times three fail,
+/// crossed cranks among them.
 const LONGEST_STEP: f64 = 1.2;
 
-/// The target step length, in radians: the relative rounding error grows as 1 / length^2.
+/// If the change point is too far for the longest step, the simulation approaches it until this step remains: not
+/// nearer, since the relative rounding error grows as 1 / length^2.
 const TARGET_STEP: f64 = 0.9;
 
-/// Twice the distance ahead in which a change point is searched, in radians.
+/// The longest step for which a change point is searched; it lies in the middle of the step.
 const SEARCH_RANGE: f64 = 3.0;
 
-/// Steps below this length, in radians, are not shortened for the accuracy of dense output.
+/// Steps below this length are not shortened for the accuracy of dense output.
 const SHORTEST_STEP: f64 = 0.04;
 
 /// The result of the search for a change point ahead.
@@ -76,13 +80,13 @@ pub(super) enum Ahead<T: Real, N: Dim> {
 }
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// Computes the step over the change point ahead, if one is near; `way` is 1 or -1, the direction of time,
-    /// `tolerance` that of the steps.
+    /// Computes the step over the change point ahead, if one is near; `direction` is 1 or -1, that of time, `tolerance`
+    /// the relative tolerance of a step.
     pub(super) fn change_point_ahead(
         &self,
         independent: &Choice<S>,
         (t, y): (S::Scalar, &StateColumn<S>),
-        way: S::Scalar,
+        direction: S::Scalar,
         tolerance: S::Scalar,
     ) -> Result<Ahead<S::Scalar, S::State>, MotionError> {
         let (q, rates) = Self::unpack(y);
@@ -96,14 +100,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let pivots = &independent.pivots;
         let smaller = |least, at| if pivots[at].abs() < pivots[least].abs() { at } else { least };
         let smallest = (1..S::U::COUNT).fold(0, smaller);
-        // The time until the smallest pivot is zero, by linear extrapolation.
-        let little = way * S::Scalar::default_epsilon().sqrt() / speed;
+        // Twice the time until the smallest pivot is zero, by linear extrapolation.
+        let little = direction * S::Scalar::default_epsilon().sqrt() / speed;
         let later = Self::moved(&q, &(velocity * little));
         let change = self.factors(independent, &later).pivots()[smallest] - independent.pivots[smallest];
         let mut length = -independent.pivots[smallest] * little / change * real(2.0);
         let slope = self.rate_by(independent, &factors, (t, y))?;
         for _ in 0..3 {
-            let turn = length * way * speed;
+            let turn = length * direction * speed;
             if !(turn > S::Scalar::zero() && turn <= real(SEARCH_RANGE)) {
                 return Ok(Ahead::Clear);
             }
@@ -121,12 +125,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 continue;
             }
             let last = step.last();
-            let (of_q, of_rates) = Self::unpack(&last);
-            let size = self.scaled_norm(&Self::column(&of_q));
-            let of_rates = of_rates.component_div(&independent.of(&self.scales.coordinates)).largest();
-            // The estimated error of dense output is 1e-5 times its last term.
-            let inexact = larger(size, of_rates / speed) * real(1e-5);
-            let is_exact = inexact <= tolerance.max(real(1e-9));
+            let (q_term, rates_term) = Self::unpack(&last);
+            let q_term = self.scaled_norm(&Self::column(&q_term));
+            let rates_term = rates_term.component_div(&independent.of(&self.scales.coordinates)).largest();
+            // The error of dense output is estimated as 1e-5 times its last term.
+            let error = larger(q_term, rates_term / speed) * real(1e-5);
+            let is_exact = error <= tolerance.max(real(1e-9));
             if !is_exact && turn > real(SHORTEST_STEP) {
                 return Ok(nearer);
             }
@@ -138,7 +142,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok(Ahead::Clear)
     }
 
-    /// Solves the collocation equations; returns the polynomial and the largest projection distance at its nodes.
+    /// Solves the collocation equations; returns the polynomial and its largest distance from the constraints at the
+    /// nodes.
     fn collocation(
         &self,
         independent: &Choice<S>,
@@ -152,6 +157,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.iterated(independent, (t, y), length, &NODES, guess)
     }
 
+    /// Solves the collocation equations at these nodes by fixed-point iteration from a guess.
     fn iterated<const P: usize>(
         &self,
         independent: &Choice<S>,
@@ -167,7 +173,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             for (slope, &node) in slopes.iter_mut().zip(nodes) {
                 let there = step.at_fraction(real(node));
                 let (guess, rates) = Self::unpack(&there);
-                let q = self.closed_by(independent, &guess).ok()?;
+                let q = self.projected_in(independent, &guess).ok()?;
                 gap = larger(gap, self.scaled_norm(&(Self::column(&q) - Self::column(&guess))));
                 let (at, factors) = (t + length * real(node), self.factors(independent, &q));
                 *slope = self.rate_by(independent, &factors, (at, &Self::pack(&q, &rates))).ok()?;
@@ -189,8 +195,9 @@ impl<S: Scene, W> Motion<'_, S, W> {
         None
     }
 
-    /// M, Q and the contacts within the step, where [J A] is nearly singular: they are smooth along the motion, so they
-    /// are interpolated from the nodes, at the given time and rates.
+    /// M, Q and the contacts at a time within the step over a change point, where [J A] is nearly singular: they are
+    /// smooth along the motion, so they are evaluated at the positions of the nodes, with the given time and rates, and
+    /// interpolated.
     pub(super) fn equations_over(
         &self,
         independent: &Choice<S>,
@@ -211,7 +218,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             let weight =
                 others.fold(S::Scalar::one(), |weight, &other| weight * (at - real(other)) / real(node - other));
             let (guess, _) = Self::unpack(&step.at_fraction(real(node)));
-            let q = self.closed_by(independent, &guess)?;
+            let q = self.projected_in(independent, &guess)?;
             let factors = self.factors(independent, &q);
             let (there, _) = self.equations_by(independent, &factors, (t, &Self::pack(&q, &rates)))?;
             equations.mass += there.mass * weight;
@@ -236,7 +243,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         zero.filter(|_| changes)
     }
 
-    /// The largest relative residual at the change point, outside the range of the regular pivots.
+    /// The largest residual at the change point that no change of the coordinates removes to first order: the product
+    /// of the left null vectors and the residual, divided by its scale.
     fn unresolved_residual(&self, independent: &Choice<S>, step: &Polynomial<S>, middle: S::Scalar) -> S::Scalar {
         let mechanism = self.scene.mechanism();
         let pose = mechanism.pose_at(&Self::unpack(&step.at_fraction(middle)).0);

@@ -33,7 +33,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok(Self::pack(&S::Mechanism::coordinates(unknowns, inputs), &accelerations))
     }
 
-    /// M_r, Q_r and the contacts in a choice of independent coordinates, and q'.
+    /// M, Q and the contacts reduced to a choice of independent coordinates z, and q'.
     pub(super) fn equations_by(
         &self,
         independent: &Choice<S>,
@@ -51,7 +51,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((equations, rates))
     }
 
-    /// Does the same before the prescribed motions are applied.
+    /// The equations of [`equations_by`](Self::equations_by) before the prescribed motions are applied.
     pub(super) fn unprescribed_by(
         &self,
         independent: &Choice<S>,
@@ -100,8 +100,8 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
         let factors = self.factors(independent, &q);
         // An error near a singularity of the choice: the integrator then tries a shorter step.
         let least = independent.regularity() * real(LEAST_PIVOT_RATIO);
-        let own_way = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
-        let pivots = factors.pivots().zip_map(&independent.pivots, own_way);
+        let signed = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
+        let pivots = factors.pivots().zip_map(&independent.pivots, signed);
         if !pivots.iter().all(|&pivot| pivot >= least) {
             return Err(self.singular_error(&q));
         }

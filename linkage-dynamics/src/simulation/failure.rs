@@ -19,7 +19,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The error if no choice of coordinates is regular: a prescribed input is at a dead point, or two motions cross.
     pub(super) fn no_coordinates_error(&self, t: S::Scalar, q: &Coordinates<S>) -> MotionError {
         let mechanism = self.scene.mechanism();
-        let is_driven = self.held(t).iter().any(|&held| held);
+        let is_driven = self.prescribed_inputs(t).iter().any(|&held| held);
         let freely = Independent::choose(mechanism, &mechanism.pose_at(q), &self.scales, &Column::repeat(false));
         let is_regular = freely.regularity() > nearly_zero();
         if is_driven && is_regular { self.singular_error(q) } else { self.change_point_error(q) }

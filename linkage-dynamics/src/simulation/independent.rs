@@ -1,7 +1,7 @@
 //! Independent coordinates other than the inputs.
 //!
-//! Elimination with complete pivoting of [J A], held inputs excluded, selects the U best-conditioned columns as
-//! dependent coordinates; the other V are independent.
+//! Elimination of [J A] with complete pivoting selects U columns as dependent coordinates, those with the largest
+//! pivots; the other V are independent. Prescribed inputs are held independent.
 
 use linkage_runtime::__shared::smallest;
 use linkage_runtime::jacobian::{Elimination, Order, Scales, Vector};
@@ -25,14 +25,14 @@ pub(super) struct Factors<T: Real, U: Dim, V: Dim> {
 }
 
 impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
-    /// Returns the best-conditioned choice in which the `held` inputs stay independent.
+    /// Returns the best-conditioned choice in which the `prescribed` inputs stay independent.
     pub(super) fn choose<M: Mechanism<Scalar = T, U = U, V = V>>(
         mechanism: &M,
         pose: &M::Pose,
         scales: &Scales<T, U, V>,
-        held: &Column<bool, V>,
+        prescribed: &Column<bool, V>,
     ) -> Self {
-        let elimination = Elimination::holding(held, scales.jacobian(mechanism, pose));
+        let elimination = Elimination::holding(prescribed, scales.jacobian(mechanism, pose));
         let mut left = elimination.free();
         let free = Column::from_fn(|_| left.next().unwrap_or(U::COUNT));
         Self { order: *elimination.order(), free, pivots: elimination.pivots() }
@@ -54,7 +54,8 @@ impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
         self.free.map(|column| vector.get(column))
     }
 
-    /// The smallest pivot: 0 where the constraints do not determine the dependent coordinates.
+    /// The smallest pivot of the nondimensional [J A]: 0 where the constraints do not determine the dependent
+    /// coordinates.
     pub(super) fn regularity(&self) -> T {
         smallest(self.pivots)
     }

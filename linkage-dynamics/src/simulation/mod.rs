@@ -8,19 +8,19 @@
 //!    method projects q onto the constraints with the inputs fixed: one or two iterations to rounding error, without a
 //!    change of branch or turn, also for groups without closed form.
 //! 2. *Dead points of the input*, where J is singular: near one the simulation uses other independent coordinates, the
-//!    columns without pivot after elimination of [J A] with complete pivoting, and returns to the inputs behind it. No
-//!    step passes a singularity of its own coordinates.
+//!    columns without pivot after elimination of [J A] with complete pivoting, and returns to the inputs beyond it. A
+//!    step that passes a singularity of its own coordinates is repeated in others.
 //! 3. *Change points*, where [J A] itself loses rank (the links of a parallelogram in line) and no choice of
 //!    coordinates is regular: one collocation step passes it along the branch whose tangent continues. The step is
 //!    accepted if it satisfies the constraints at its nodes, and at the change point to rounding error. Where two
-//!    branches only come near each other, the motion follows its own branch.
+//!    branches only come near each other, it is rejected, and shorter steps follow the branch of the motion.
 //!
 //! Contacts change where their guards fall through zero ([detection of events](crate::integrate)): the rate of the gap
 //! of a stop is known, so that even a brief touch within a step is found. Frictions and stops are simulated forward in
 //! time only: [`MotionError::Irreversible`](crate::MotionError::Irreversible).
 //!
-//! The branch changes only in this way: a motion that cannot be followed ends with a
-//! [`MotionError`](crate::MotionError), and earlier states remain valid.
+//! The assembly branch changes only at these dead points and change points. A motion that cannot be followed ends with
+//! a [`MotionError`](crate::MotionError), and earlier states remain valid.
 //!
 //! Prescribed inputs follow their laws. The same calls give the same bits. Nothing is allocated.
 

@@ -39,12 +39,12 @@ pub(super) enum Parametrisation<T: Real, U: Dim, V: Dim, N: Dim> {
     Over(Independent<T, U, V>, Interpolant<T, N>),
 }
 
-/// Within a step a pivot may fall to this fraction of the smallest pivot at its start. At half or twice this value all
-/// simulation tests pass.
+/// A step is rejected if a pivot falls below this fraction of the smallest pivot at its start. At half or twice this
+/// value all simulation tests pass.
 pub(super) const LEAST_PIVOT_RATIO: f64 = 0.2;
 
-/// The limit on Newton iterations of the projection after a step: mostly one is needed; near a change point, where each
-/// at first only halves the error, a dozen.
+/// The limit on Newton iterations of the projection onto the constraints after a step: mostly one is needed; near a
+/// change point, where each at first only halves the error, a dozen.
 const MAX_CORRECTIONS: usize = 16;
 
 /// After a Newton step shorter than this many sqrt(epsilon) the error is below one ulp, by quadratic convergence.
@@ -87,7 +87,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     }
 
     /// True for each prescribed input.
-    pub(super) fn held(&self, t: S::Scalar) -> Column<bool, S::V> {
+    pub(super) fn prescribed_inputs(&self, t: S::Scalar) -> Column<bool, S::V> {
         self.scene.prescribed(t).map(|law| law.is_some())
     }
 
@@ -168,7 +168,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     }
 
     /// Projects y onto the constraints, with prescribed inputs set to their laws.
-    pub(super) fn closed(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+    pub(super) fn projected(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let (mut q, mut rates) = Self::unpack(y);
         let laws = self.scene.prescribed(t);
         let mut inputs = S::Mechanism::inputs(&q);
@@ -190,40 +190,44 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
             q = S::Mechanism::with_inputs(&q, inputs);
         }
         let q = match &self.parametrisation {
-            Parametrisation::Inputs => self.closed_in_inputs(&q)?,
-            Parametrisation::Others(independent) => self.closed_by(independent, &q)?,
+            Parametrisation::Inputs => self.projected_in_inputs(&q)?,
+            Parametrisation::Others(independent) => self.projected_in(independent, &q)?,
             Parametrisation::Over(independent, _) if self.regular(independent, &q).is_none() => q,
-            Parametrisation::Over(independent, _) => self.closed_by(independent, &q)?,
+            Parametrisation::Over(independent, _) => self.projected_in(independent, &q)?,
         };
         Ok(Self::pack(&q, &rates))
     }
 
     /// Projects `q` with the same inputs. Mostly one Newton step suffices.
-    fn closed_in_inputs(&self, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionError> {
+    fn projected_in_inputs(&self, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionError> {
         let mechanism = self.scene.mechanism();
         let enough = S::Scalar::default_epsilon().sqrt() * real(LAST_CORRECTION_SQRT_EPSILONS);
-        let closed = self.closed_near(q, enough, |pose| {
+        let projected = self.newton_near(q, enough, |pose| {
             Ok(Some(Change::<S> { unknowns: correction(mechanism, pose)?, inputs: Column::zeros() }))
         })?;
         // No convergence nearby: the damped search returns a position or the error.
-        closed.map_or_else(|| Ok(newton(mechanism, q)?.coordinates), Ok)
+        projected.map_or_else(|| Ok(newton(mechanism, q)?.coordinates), Ok)
     }
 
     /// Projects `q` with the same independent coordinates. It iterates until the steps stop shrinking, because a change
     /// point amplifies rounding errors.
-    pub(super) fn closed_by(&self, independent: &Choice<S>, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionError> {
+    pub(super) fn projected_in(
+        &self,
+        independent: &Choice<S>,
+        q: &Coordinates<S>,
+    ) -> Result<Coordinates<S>, MotionError> {
         let mechanism = self.scene.mechanism();
-        let closed = self.closed_near(q, S::Scalar::zero(), |pose| {
+        let projected = self.newton_near(q, S::Scalar::zero(), |pose| {
             let factors = independent.factors(mechanism, pose, &self.scales);
             let is_singular = factors.pivots().iter().any(|pivot| pivot.is_zero());
             Ok((!is_singular).then(|| factors.solve(&mechanism.residual(pose))))
         })?;
-        closed.ok_or_else(|| self.change_point_error(q))
+        projected.ok_or_else(|| self.change_point_error(q))
     }
 
     /// Iterates these Newton steps from `q` until one is no longer than `enough`, or until they are rounding error and
     /// stop shrinking.
-    fn closed_near(
+    fn newton_near(
         &self,
         q: &Coordinates<S>,
         enough: S::Scalar,

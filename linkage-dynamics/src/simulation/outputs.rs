@@ -31,9 +31,9 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
         let y = self.integration.state_within(t)?;
         let motion = self.integration.system();
-        let closed = motion.closed(t, &y)?;
-        let (closed, _) = motion.reviewed(&self.contacts, t, &closed)?;
-        let mut state = motion.state(t, &closed)?;
+        let projected = motion.projected(t, &y)?;
+        let (projected, _) = motion.reviewed(&self.contacts, t, &projected)?;
+        let mut state = motion.state(t, &projected)?;
         for (touch, mode) in state.contacts.iter_mut().zip(self.contacts.modes) {
             touch.mode = mode;
         }

@@ -1,5 +1,8 @@
-//! Choice of independent coordinates before each step: the inputs, others where these are singular, or a step over a
-//! change point.
+//! Choice of independent coordinates before each step: the inputs, or others where J is nearly singular. A change
+//! point, where no choice is regular, is passed in one step.
+//!
+//! The regularity of the inputs is the least of those of the groups, |det| of its block of J divided by the largest
+//! value it can take; that of other coordinates is their smallest pivot of [J A].
 
 use super::change_point::Ahead;
 use super::independent::Independent;
@@ -13,35 +16,37 @@ use linkage_runtime::__shared::{same_signs, to_f64};
 use linkage_runtime::jacobian::Blocks;
 use linkage_runtime::{Column, Mechanism, PerInput, real};
 
-/// Below this regularity of the inputs other coordinates are used: two links are then within 6 degrees of a line. At
-/// twice this value all simulation tests pass; at half of it the one of an engine driven by its piston fails.
+/// Below this regularity of the inputs other coordinates are used: two links of a dyad are then within 6 degrees of a
+/// line. At twice this value all simulation tests pass; at half of it that of an engine driven by its piston fails.
 const LEAVE_INPUTS_BELOW: f64 = 0.1;
 
-/// Above this regularity of the inputs they are used again.
+/// Above this regularity of the inputs they are used again. It is larger than [`LEAVE_INPUTS_BELOW`], so that the
+/// choice does not alternate.
 const RETURN_TO_INPUTS_ABOVE: f64 = 0.2;
 
-/// Below this regularity the determinants of the groups are extrapolated to find a singularity ahead.
+/// Below this regularity of the inputs the determinants of the groups are extrapolated to find a singularity ahead.
 const WATCH_BELOW: f64 = 0.8;
 
-/// The distance ahead in which a singularity is searched, in radians or relative to the scales of lengths. At half of
-/// it all simulation tests pass.
+/// The distance ahead in which a singularity is searched, as the largest change of a coordinate: in radians, or divided
+/// by the scale of its length. At half of it all simulation tests pass.
 const LOOK_AHEAD: f64 = 0.7;
 
-/// Coordinates are changed if another choice has this many times the regularity. At half this value all simulation
-/// tests pass; at twice one fails, of cranks that only come near a change point.
+/// Coordinates other than the inputs are changed if another choice has this many times their regularity. At half this
+/// value all simulation tests pass; at twice one fails, of cranks that only come near a change point.
 const IMPROVEMENT: f64 = 3.0;
 
-/// The number of steps to stay in other coordinates after a step in the inputs passed a singularity, unless it is
-/// reached sooner.
+/// The number of steps to stay in other coordinates where the next step in the inputs might pass a singularity, unless
+/// it is passed sooner.
 pub(super) const WARNED_STEPS: u32 = 16;
 
-/// Below this regularity the tangent is only rounding error.
+/// Below this regularity of the other coordinates the tangent of the motion is only rounding error.
 const LEAST_REGULARITY: f64 = 1e-7;
 
-/// A step that would end below this regularity, from at least four times as much, is halved. The regularity is about
-/// the angle to the change point in radians, and a step over it from so near loses too many digits, more with more
-/// singular groups. Of 450 simulations of 10, 20 and 40 windows at tolerances from 1e-12 to 1e-4 none stops, also at
-/// half or twice this value; at a quarter 5 stop, and without the rule 48.
+/// A step is halved if the regularity of the best coordinates is below this value at its end and at least four times as
+/// large at its start. This regularity is about the angle to the change point in radians, and a step over the change
+/// point from so near loses too many digits, more with more singular groups. Of 450 simulations of 10, 20 and 40
+/// windows (parallelograms in a row) at tolerances from 1e-12 to 1e-4 none stops, also at half or twice this value; at
+/// a quarter 5 stop, and without the rule 48.
 const LEAST_CLEARANCE: f64 = 0.15;
 
 /// The behaviour of a simulation at a singularity of the inputs.
@@ -82,24 +87,29 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 self.leave_inputs()
             }
             Parametrisation::Inputs => {
-                let rest = self.rest(t - before, &determinants);
+                let time_left = self.time_to_singularity(t - before, &determinants);
                 self.signs = determinants;
                 let is_watched = regularity < real(WATCH_BELOW) && self.at_singularity == AtSingularity::Pass;
-                if let Some(rest) = rest.filter(|_| is_watched) { self.watch(rest) } else { Ok(()) }
+                if let Some(time) = time_left.filter(|_| is_watched) {
+                    self.prepare_for_singularity(time)
+                } else {
+                    Ok(())
+                }
             }
             _ if regularity > real(RETURN_TO_INPUTS_ABOVE) && self.is_past(&determinants) => {
                 let Change::<S> { inputs, .. } = motion.velocity(t, &y)?;
                 self.warned = 0;
                 self.signs = determinants;
-                self.take(Parametrisation::Inputs, &inputs);
+                self.exchange(Parametrisation::Inputs, &inputs);
                 Ok(())
             }
             Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => self.stay(independent),
         }
     }
 
-    /// The time until the determinant of a group is zero, by linear extrapolation of the last step.
-    fn rest(&self, last: S::Scalar, determinants: &Signs<S>) -> Option<f64> {
+    /// The time until the determinant of a group is zero, by linear extrapolation of the last step, of the duration
+    /// `last`.
+    fn time_to_singularity(&self, last: S::Scalar, determinants: &Signs<S>) -> Option<f64> {
         let groups = self.signs.iter().zip(determinants);
         let falling = groups.filter(|(before, now)| now.abs() < before.abs());
         falling
@@ -107,43 +117,45 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             .reduce(|a, b| if a < b { a } else { b })
     }
 
-    /// Handles a singularity of the inputs ahead. A change point is passed from a distance: the longer the step over
-    /// it, the smaller its rounding error.
-    fn watch(&mut self, rest: f64) -> Result<(), MotionError> {
+    /// Prepares for a singularity of the inputs expected after `time`. A change point is passed from a distance: the
+    /// longer the step over it, the smaller its rounding error.
+    fn prepare_for_singularity(&mut self, time: f64) -> Result<(), MotionError> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
         let velocity = motion.velocity(t, &y)?;
-        let is_near = rest * to_f64(motion.scaled_norm(&velocity)) < LOOK_AHEAD;
-        let is_next = self.integration.next_length().is_some_and(|next| rest < 2.0 * next);
+        let is_near = time * to_f64(motion.scaled_norm(&velocity)) < LOOK_AHEAD;
+        let is_next = self.integration.next_length().is_some_and(|next| time < 2.0 * next);
         if !(is_near || is_next) {
             return Ok(());
         }
         let (q, _) = S::parts(&y);
-        let independent = Independent::choose(mechanism, &mechanism.pose_at(&q), &motion.scales, &motion.held(t));
+        let independent =
+            Independent::choose(mechanism, &mechanism.pose_at(&q), &motion.scales, &motion.prescribed_inputs(t));
         let rates = independent.of(&velocity);
         let ahead = motion.change_point_ahead(
             &independent,
             (t, &Motion::<S, W>::pack(&q, &rates)),
-            self.way(),
+            self.direction(),
             self.relative(),
         )?;
         match ahead {
             Ahead::ChangePoint(step) => {
-                self.take(Parametrisation::Others(independent), &rates);
+                self.exchange(Parametrisation::Others(independent), &rates);
                 self.pass(independent, step);
             }
             Ahead::Near(length) => self.integration.limit_next(to_f64(length)),
             Ahead::Clear if is_next => {
                 self.warned = WARNED_STEPS;
-                self.take(Parametrisation::Others(independent), &rates);
+                self.exchange(Parametrisation::Others(independent), &rates);
             }
             Ahead::Clear => {}
         }
         Ok(())
     }
 
-    fn way(&self) -> S::Scalar {
+    /// 1 or -1, the direction of time.
+    fn direction(&self) -> S::Scalar {
         if self.integration.end() < self.integration.t() { -S::Scalar::one() } else { S::Scalar::one() }
     }
 
@@ -151,6 +163,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         real(self.relative)
     }
 
+    /// Takes the step over a change point.
     fn pass(&mut self, independent: Choice<S>, step: Polynomial<S>) {
         self.integration.system_mut().parametrisation = Parametrisation::Over(independent, step);
         self.integration.pass(step.up_to(self.integration.end()).unwrap_or(step));
@@ -162,18 +175,19 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         self.warned == 0 || !same_signs(self.signs.as_slice(), signs.as_slice())
     }
 
+    /// Changes to other coordinates, those with the largest pivots.
     pub(super) fn leave_inputs(&mut self) -> Result<(), MotionError> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
         let pose = mechanism.pose_at(&S::parts(&y).0);
-        let independent = Independent::choose(mechanism, &pose, &motion.scales, &motion.held(t));
+        let independent = Independent::choose(mechanism, &pose, &motion.scales, &motion.prescribed_inputs(t));
         let rates = independent.of(&motion.velocity(t, &y)?);
-        self.take(Parametrisation::Others(independent), &rates);
+        self.exchange(Parametrisation::Others(independent), &rates);
         self.look_ahead(independent)
     }
 
-    /// Returns true if a step from a distance ends just before a possible change point.
+    /// Returns true if a step ends just before a possible change point but starts far from it.
     pub(super) fn ends_too_near(&self, start: &StateColumn<S>, end: &StateColumn<S>) -> bool {
         if self.at_singularity == AtSingularity::Stop {
             return false;
@@ -184,7 +198,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             Independent::choose(mechanism, &mechanism.pose_at(&S::parts(y).0), &motion.scales, &Column::repeat(false))
                 .regularity()
         };
-        // At a change point some group is singular for its inputs too: if none is near it, skip the rest.
+        // At a change point some group is singular in the inputs too: if none is near that, skip the costlier test.
         let (by_inputs, _) = Blocks::of(mechanism, &mechanism.pose_at(&S::parts(end).0)).least_regular();
         if by_inputs > real(2.0 * LEAST_CLEARANCE) {
             return false;
@@ -203,11 +217,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let pose = mechanism.pose_at(&q);
         let factors = independent.factors(mechanism, &pose, &motion.scales);
         independent.pivots = factors.pivots();
-        // At a singularity of the choice its rates do not determine the other rates.
+        // Where the current choice is singular, its rates do not determine the others, not even those of a better one.
         if independent.regularity().is_zero() {
             return Err(motion.no_coordinates_error(t, &q));
         }
-        let best = Independent::choose(mechanism, &pose, &motion.scales, &motion.held(t));
+        let best = Independent::choose(mechanism, &pose, &motion.scales, &motion.prescribed_inputs(t));
         if best.regularity() > independent.regularity() * real(IMPROVEMENT) {
             (rates, independent) = (best.of(&factors.rates(&rates)), best);
             self.passages.exchanges += 1;
@@ -220,7 +234,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     fn look_ahead(&mut self, independent: Choice<S>) -> Result<(), MotionError> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
-        match motion.change_point_ahead(&independent, (t, &y), self.way(), self.relative())? {
+        match motion.change_point_ahead(&independent, (t, &y), self.direction(), self.relative())? {
             Ahead::ChangePoint(step) => self.pass(independent, step),
             _ if independent.regularity() < real(LEAST_REGULARITY) => {
                 return Err(motion.no_coordinates_error(t, &S::parts(&y).0));
@@ -231,7 +245,8 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         Ok(())
     }
 
-    fn take(&mut self, parametrisation: ParametrisationOf<S>, rates: &PerInput<S::Mechanism>) {
+    /// Changes to a parametrisation with these rates of its independent coordinates, and counts the change.
+    fn exchange(&mut self, parametrisation: ParametrisationOf<S>, rates: &PerInput<S::Mechanism>) {
         self.passages.exchanges += 1;
         self.set(parametrisation, rates)
     }
@@ -241,7 +256,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         self.integration.system_mut().parametrisation = parametrisation;
         let y = Motion::<S, W>::pack(&q, rates);
         let scale = scale_of(self.integration.system(), self.frequency);
-        // Valid as before: the tolerance is unchanged, and the new scales are positive too.
+        // It cannot fail: the tolerance is unchanged, and the new scales are positive too.
         if let Ok(tolerance) = Tolerance::new(self.relative, scale) {
             self.integration.set_tolerance(tolerance);
         }
@@ -249,7 +264,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 }
 
-/// The scales of the components of y.
+/// The scales of the components of y: those of the coordinates, and for rates these times `frequency`.
 pub(super) fn scale_of<S: Scene, W>(motion: &Motion<'_, S, W>, frequency: S::Scalar) -> StateColumn<S> {
     let scales = &motion.scales.coordinates;
     let scale = S::Mechanism::coordinates(scales.unknowns, scales.inputs);

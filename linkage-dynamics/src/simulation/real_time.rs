@@ -33,7 +33,7 @@ impl<S: Scene<Contacts = D<0>>> System for Projected<'_, S> {
     }
 
     fn before_step(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionError> {
-        self.0.closed(t, y).map(Some)
+        self.0.projected(t, y).map(Some)
     }
 }
 
@@ -66,7 +66,7 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
     /// satisfied, [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J is singular.
     pub fn state(&self) -> Result<State<S>, MotionError> {
         let (t, motion) = (self.t(), &self.steps.system().0);
-        motion.state(t, &motion.closed(t, self.steps.state())?)
+        motion.state(t, &motion.projected(t, self.steps.state())?)
     }
 
     /// Takes a step.

@@ -201,7 +201,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// Those of the equations of motion, and [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) very near to one.
     pub fn loads(&self) -> Result<Loads<S>, MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
-        let y = motion.closed(t, self.integration.state())?;
+        let y = motion.projected(t, self.integration.state())?;
         let (contacts, drives) = motion.loads(t, &y)?;
         let drive_power = drives.dot(&motion.velocity(t, &y)?.inputs);
         if !contacts.iter().chain(drives.iter()).chain([&drive_power]).all(S::Scalar::is_finite) {

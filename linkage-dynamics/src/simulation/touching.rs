@@ -34,7 +34,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         }
     }
 
-    /// Contact values and rates only, without their derivatives with respect to the coordinates.
+    /// The contacts with s and s' only, without derivatives by the coordinates: no equations of motion are needed.
     pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let velocity = self.velocity(t, y)?;
@@ -58,9 +58,9 @@ impl<S: Scene, W> Motion<'_, S, W> {
         t: S::Scalar,
         y: &StateColumn<S>,
     ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionError> {
-        // Without projection if that fails: a step in the inputs may have left the reachable range and will be
-        // repeated.
-        let y = self.closed(t, y).unwrap_or(*y);
+        // If the projection fails, y itself is used: a step in the inputs may have left the range in which the
+        // mechanism can be assembled, and will be repeated.
+        let y = self.projected(t, y).unwrap_or(*y);
         let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
         let equations = if is_free { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
         self.contacts.guards(&equations)
@@ -95,7 +95,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// Applies a contact event at this state; returns y after it and the change of each contact.
     pub(super) fn settled(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
-        self.decided(t, y, y, false)
+        self.changed(t, y, y, false)
     }
 
     /// Updates the modes after the user has changed the rates from `before` to `y`.
@@ -105,15 +105,16 @@ impl<S: Scene, W> Motion<'_, S, W> {
         before: &StateColumn<S>,
         y: &StateColumn<S>,
     ) -> Result<Changed<S>, MotionError> {
-        self.decided(t, before, y, true)
+        self.changed(t, before, y, true)
     }
 
-    fn decided(
+    /// Settles the contacts at y; `has_new_rates` if the rates differ from those before.
+    fn changed(
         &mut self,
         t: S::Scalar,
         before: &StateColumn<S>,
         y: &StateColumn<S>,
-        anew: bool,
+        has_new_rates: bool,
     ) -> Result<Changed<S>, MotionError> {
         if S::Contacts::COUNT == 0 {
             return Ok((*y, Column::repeat(None)));
@@ -122,7 +123,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let mut contacts = self.contacts;
         let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
-        let rates = if anew { contacts.resume(t, &rates, at)? } else { contacts.settle(t, &rates, at)? };
+        let rates = if has_new_rates { contacts.resume(t, &rates, at)? } else { contacts.settle(t, &rates, at)? };
         let after = Self::pack(&q, &rates);
         let done = changes((&self.contacts, &self.equations(t, before)?), (&contacts, &self.equations(t, &after)?));
         self.contacts = contacts;
@@ -165,14 +166,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
             }
         };
         let motion = self.contacts.motion(&self.equations(t, y)?)?;
-        let mut left = free.mass * motion.acceleration - free.forces;
+        let mut residual = free.mass * motion.acceleration - free.forces;
         for (contact, &force) in free.contacts.iter().zip(&motion.forces) {
-            left -= contact.row * force;
+            residual -= contact.row * force;
         }
         let places: Column<Option<usize>, S::V> = places;
-        let held = self.held(t);
+        let prescribed = self.prescribed_inputs(t);
         let drives = Column::from_fn(|input| match places[input] {
-            Some(place) if held[input] => left[place],
+            Some(place) if prescribed[input] => residual[place],
             _ => S::Scalar::zero(),
         });
         Ok((motion.forces, drives))
