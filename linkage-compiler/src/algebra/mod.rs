@@ -1,8 +1,8 @@
 //! Simplification: identities that make formulas shorter or more accurate.
 //!
-//! The modules `rational`, `trigonometric`, `modulus` and `determinant` offer other forms of an expression, and
-//! [`cost()`] chooses among them; the tests prove that all forms are equal. The graph records the conditions that a
-//! rule assumes, such as a divisor that is not zero.
+//! The modules `rational`, `trigonometric`, `modulus` and `determinant` compute other forms of an expression, of which
+//! the one of least [`cost()`] is used; the tests prove that all forms are equal. The graph records the conditions that
+//! an identity assumes, such as a divisor that is not zero.
 
 pub mod cost;
 mod determinant;
@@ -20,15 +20,16 @@ pub use determinant::{adjugate, cramer, determinant};
 use rational::Polynomial;
 pub use rational::{factor, gather};
 
-/// The largest number of rounds of rules for one node. Each round makes it cheaper; at most three have been observed.
+/// The largest number of times that all identities are tried on one node. Each time makes it cheaper or is the last; at
+/// most three have been observed.
 const MOST_ROUNDS: usize = 8;
 
-/// The largest number of nodes of an expression that is simplified: the work grows with its square, and longer formulas
-/// are not printed.
+/// The largest number of nodes of an expression that is simplified: the work grows with the square of this number, and
+/// longer formulas are not printed.
 const LARGEST: usize = 400;
 
-/// Returns the cheapest form of each root that the identities find, where the sines and cosines of the angles in
-/// `given` cost nothing. Very long expressions are not changed.
+/// Returns the cheapest form of each root that the identities find. The sines and cosines of the angles in `given` cost
+/// nothing: they are computed anyway. Expressions of more than [`LARGEST`] nodes are not changed.
 pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -> Vec<NodeId> {
     let mut better: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     let nodes = graph.reachable(roots);
@@ -38,10 +39,10 @@ pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -
     for id in nodes {
         let rebuilt = graph.rebuilt(id, &better);
         let mut forms = Forms { given, best: rebuilt, cost: cost(graph, rebuilt, given), conditions: BTreeSet::new() };
-        // The result of one rule may allow another.
+        // The result of one identity may allow another.
         for _ in 0..MOST_ROUNDS {
             let before = forms.best;
-            forms.of(graph, before);
+            forms.offer_all(graph, before);
             if forms.best == before || graph.budget().is_spent() {
                 break;
             }
@@ -71,12 +72,13 @@ impl Forms<'_> {
         }
     }
 
-    fn of(&mut self, graph: &mut Graph, id: NodeId) {
+    /// Tries the forms of a node that the identities give.
+    fn offer_all(&mut self, graph: &mut Graph, id: NodeId) {
         match graph.node(id).clone() {
-            Node::Sum { terms, .. } if terms.len() <= rational::MOST_TERMS => self.of_sum(graph, id),
+            Node::Sum { terms, .. } if terms.len() <= rational::MOST_TERMS => self.offer_forms_of_sum(graph, id),
             Node::Product { coefficient, factors } => {
                 self.offer(graph, |graph| modulus::form(graph, id));
-                self.of_product(graph, id, coefficient, &factors);
+                self.offer_forms_of_product(graph, id, coefficient, &factors);
             }
             Node::Call(_, arguments) => {
                 self.offer(graph, |graph| modulus::form(graph, id));
@@ -88,13 +90,14 @@ impl Forms<'_> {
         }
     }
 
-    fn of_sum(&mut self, graph: &mut Graph, id: NodeId) {
+    fn offer_forms_of_sum(&mut self, graph: &mut Graph, id: NodeId) {
         self.offer(graph, |graph| Some(rational::factor(graph, id)));
-        self.combined(graph, |graph| Some(rational::terms(graph, id)));
-        self.combined(graph, |graph| rational::expanded(graph, id));
+        self.offer_polynomial(graph, |graph| Some(rational::terms(graph, id)));
+        self.offer_polynomial(graph, |graph| rational::expanded(graph, id));
     }
 
-    fn combined(&mut self, graph: &mut Graph, polynomial: impl FnOnce(&mut Graph) -> Option<Polynomial>) {
+    /// Tries a polynomial, its trigonometric terms combined and its common factors factored out.
+    fn offer_polynomial(&mut self, graph: &mut Graph, polynomial: impl FnOnce(&mut Graph) -> Option<Polynomial>) {
         self.offer(graph, |graph| {
             let polynomial = polynomial(graph)?;
             let combined = trigonometric::combine(graph, polynomial);
@@ -103,13 +106,19 @@ impl Forms<'_> {
         });
     }
 
-    fn of_product(&mut self, graph: &mut Graph, id: NodeId, coefficient: Number, factors: &[(NodeId, i32)]) {
-        self.combined(graph, |graph| rational::expanded(graph, id).filter(|polynomial| polynomial.len() > 1));
+    fn offer_forms_of_product(
+        &mut self,
+        graph: &mut Graph,
+        id: NodeId,
+        coefficient: Number,
+        factors: &[(NodeId, i32)],
+    ) {
+        self.offer_polynomial(graph, |graph| rational::expanded(graph, id).filter(|polynomial| polynomial.len() > 1));
         let sums = |sign: i32| factors.iter().filter(move |(_, n)| n.signum() == sign);
         for &(above, _) in sums(1) {
             for &(below, _) in sums(-1) {
-                let both = [above, below].iter().all(|&base| matches!(graph.node(base), Node::Sum { .. }));
-                if both {
+                let are_sums = [above, below].iter().all(|&base| matches!(graph.node(base), Node::Sum { .. }));
+                if are_sums {
                     self.offer(graph, |graph| {
                         let quotient = rational::quotient(graph, above, below)?;
                         graph.assume(BTreeSet::from([Condition::NonZero(below)]));

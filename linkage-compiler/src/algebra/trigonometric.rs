@@ -7,24 +7,28 @@
 //! - k sin^2 a + m cos^2 a = k + (m - k) cos^2 a, which for k = m is cos^2 + sin^2 = 1
 //!
 //! From left to right there are fewer sines, and cancellation is avoided: the difference of products loses all digits
-//! if two links are nearly parallel, the sine of the difference does not. Where the sines on the left are known, the
-//! identities are applied from right to left.
+//! if two links are nearly parallel, the sine of the difference does not. Where the sines on the left are computed
+//! anyway, the identities are applied from right to left.
 
 use std::collections::BTreeMap;
 
 use super::rational::{Monomial, Polynomial};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 
-/// A term as f(a) g(b) times a rest; f and g are sine or cosine, and the node a is not newer than b.
+/// A term as f(a) g(b) times other factors, where f and g are sine or cosine. The node a is not newer than b, so that a
+/// term has one such form for each choice of f and g.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Pair {
+    /// a and b.
     angles: [NodeId; 2],
+    /// The other factors, with their exponents.
     rest: Vec<(NodeId, i32)>,
+    /// True for f and g that are sines.
     sine: [bool; 2],
 }
 
 impl Pair {
-    /// The pair that an identity combines with this one: sine and cosine exchanged.
+    /// The pair that an identity combines with this one: sines for cosines and cosines for sines.
     fn partner(&self) -> Self {
         Self { sine: self.sine.map(|sine| !sine), ..self.clone() }
     }
@@ -72,7 +76,7 @@ fn combine_once(graph: &mut Graph, polynomial: &Polynomial) -> Option<Polynomial
     Some(replaced(polynomial, [first, second], [(k, rest), (m.plus(k.negate()), squared)]))
 }
 
-/// The sum of two terms with coefficients k and m, of which `left` is the first.
+/// The sum of k times `left` and m times its partner as one term, for k = m and k = -m.
 fn join(graph: &mut Graph, left: &Pair, k: Number, m: Number) -> (Number, Monomial) {
     let [a, b] = left.angles;
     let same = k == m;
@@ -97,13 +101,14 @@ fn join(graph: &mut Graph, left: &Pair, k: Number, m: Number) -> (Number, Monomi
     }
 }
 
+/// The polynomial without the terms at the indices `gone`, and with new ones that are not zero.
 fn replaced<const N: usize>(polynomial: &Polynomial, gone: [usize; 2], new: [(Number, Monomial); N]) -> Polynomial {
     let kept = polynomial.iter().enumerate().filter(|(index, _)| !gone.contains(index)).map(|(_, term)| term.clone());
     let new = new.into_iter().filter(|(coefficient, _)| !coefficient.is_zero());
     kept.chain(new).collect()
 }
 
-/// All ways to write a term as a product of two sines or cosines and a rest.
+/// All ways to write a term as a product of two sines or cosines and other factors.
 fn pairs(graph: &Graph, monomial: &Monomial) -> Vec<Pair> {
     let mut circular = Vec::new();
     for (&base, &exponent) in monomial {

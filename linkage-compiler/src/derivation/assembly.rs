@@ -1,9 +1,10 @@
 //! Position in closed form, group by group (Chace's cases), without sines of solved angles.
 //!
-//! The solution of an angle is its direction (cos, sin). The two solutions of a group differ in the sign
-//! of a square root, the half chord. It equals the determinant of the group's block of J up to sign, and is
-//! accurate because it is not computed from rounded sines. With plane vectors, a . b their scalar and a x b their
-//! vector product:
+//! The solution of an angle is its direction (cos, sin). The two solutions of a group differ in the sign of a square
+//! root, the half chord of a circle: on it lies a joint of the group. It equals the determinant of the group's block of
+//! J up to sign, and is accurate because it is not computed from rounded sines. With plane vectors, a . b their scalar
+//! and a x b their vector product, V and W the links, D the vector between the outer joints, E the direction of a
+//! guide:
 //!
 //! - RRR: V + W = D, |V| = p, |W| = q. D x V = k, (2 k)^2 = ((p + q)^2 - D^2) (D^2 - (p - q)^2),
 //!   V . D = (D^2 + p^2 - q^2) / 2, V x W = -k
@@ -18,7 +19,7 @@ use rustc_hash::FxHashMap;
 
 use super::data::{Block, Derivation};
 use super::scale;
-use super::step::{ChordOf, Step};
+use super::step::{ChordGeometry, Step};
 use crate::algebra::{cramer, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, ColumnId, Id};
@@ -33,7 +34,7 @@ pub struct Assembly {
     pub steps: Vec<Step>,
     /// The determinants of the blocks that have a formula.
     pub determinants: BTreeMap<BlockId, NodeId>,
-    /// The blocks that have two solutions.
+    /// The blocks that have two solutions, in the order of solution.
     pub chords: Vec<Chord>,
     /// The block of each angle of an RRR dyad.
     pub of_dyads: BTreeMap<SymbolId, BlockId>,
@@ -41,15 +42,16 @@ pub struct Assembly {
     pub bounds: Vec<(BlockId, Vec<NodeId>)>,
     /// The coordinates without closed form, and the symbols of their guesses.
     pub guesses: Vec<(ColumnId, SymbolId)>,
+    /// The cosine and sine of each solved angle.
     directions: BTreeMap<SymbolId, Vector>,
 }
 
-/// A block with two solutions.
+/// A block with two solutions, which differ in the sign of its half chord.
 #[derive(Debug, Clone, Copy)]
 pub struct Chord {
     pub block: BlockId,
     pub choice: Choice,
-    /// True if the determinant of the block and the root have opposite signs.
+    /// True if the determinant of the block and the half chord have opposite signs.
     pub is_opposite: bool,
 }
 
@@ -111,7 +113,8 @@ impl Assembly {
         graph.replace(roots, &by)
     }
 
-    /// The direction of an integer combination of solved angles plus a rest.
+    /// The direction of an angle that is an integer combination of solved angles plus other terms; None if it contains
+    /// no solved angle, or one with another factor.
     fn direction(&self, graph: &mut Graph, angle: NodeId) -> Option<Vector> {
         let (constant, terms) = match graph.node(angle).clone() {
             Node::Sum { constant, terms } => (constant, terms),
@@ -312,8 +315,8 @@ impl Solver<'_> {
         self.assembly.steps.push(Step::Turn { symbol: angle, principal });
     }
 
-    /// The square root of a product of two non-negative factors, with the sign of the branch.
-    fn chord(&mut self, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId>) -> NodeId {
+    /// The square root of a product of two non-negative factors, with the sign of the branch; see [`Step::Chord`].
+    fn chord(&mut self, factors: [NodeId; 2], size: NodeId, of: ChordGeometry<NodeId>) -> NodeId {
         self.assembly.bounds.push((self.block, factors.to_vec()));
         let symbol = self.graph.symbol(format!("chord_{}", self.block.number()));
         self.assembly.steps.push(Step::Chord { block: self.block, symbol, factors, size, of });
@@ -347,11 +350,11 @@ impl Solver<'_> {
         self.scale(&rest)
     }
 
-    /// The geometry of a chord with a reach and an offset of these scales.
-    fn reach(&mut self, size: NodeId, [of_reach, of_offset]: [NodeId; 2]) -> ChordOf<NodeId> {
+    /// The geometry of a chord of a circle of radius `radius`, by the scales of the radius and of the offset.
+    fn reach(&mut self, radius: NodeId, scales: [NodeId; 2]) -> ChordGeometry<NodeId> {
         let is_sum = |id: NodeId| matches!(self.graph.node(id), Node::Sum { .. });
-        let may_cancel = self.graph.reachable(&[size]).into_iter().any(is_sum);
-        ChordOf::Reach { scales: [of_reach, of_offset], may_cancel }
+        let may_cancel = self.graph.reachable(&[radius]).into_iter().any(is_sum);
+        ChordGeometry::Circle { scales, may_cancel }
     }
 
     /// Adds a check that a determinant is not zero, unless it is a constant.
@@ -451,7 +454,7 @@ impl Solver<'_> {
         let factors = [g.subtract(sum, distance_squared), g.subtract(distance_squared, difference)];
         let (p2, q2) = (square_of(g, p), square_of(g, q));
         let scale = self.scale_without(&[a, b]);
-        let triangle = ChordOf::Triangle { links: [p, q], line: d, distance_squared, scale };
+        let triangle = ChordGeometry::Triangle { links: [p, q], line: d, distance_squared, scale };
         let twice = self.chord(factors, sum, triangle);
         let g = &mut *self.graph;
         let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
@@ -536,7 +539,7 @@ impl Solver<'_> {
         let (of_line, of_arm, of_rest) = (self.scale(&e), self.scale(&p), self.scale_without(&[phi, s]));
         let scales = [of_rest, of_arm].map(|scale| self.graph.multiply(scale, of_line));
         // The squared distance is a named sum, so that it may vanish by cancellation.
-        let along = self.chord(factors, reach, ChordOf::Reach { scales, may_cancel: true });
+        let along = self.chord(factors, reach, ChordGeometry::Circle { scales, may_cancel: true });
         // The reach is a square root; the bound uses its square.
         let g = &mut *self.graph;
         let (whole, part) = (g.multiply(distance_squared, square), g.power(across, 2));

@@ -37,4 +37,4 @@ pub use formulas::{Formulas, Inverse, QuantityFormulas};
 pub use limits::Bound;
 pub use linear::{Form, Row, Solutions, System, solve_closed};
 pub use scene::{Contact, ContactFormula, Equilibrium, Prescribed, Reactions, Scene};
-pub use step::{ChordOf, Step, needed, needed_names};
+pub use step::{ChordGeometry, Step, needed, needed_names};

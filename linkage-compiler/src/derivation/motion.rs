@@ -1,10 +1,10 @@
 //! Equations of motion reduced to the independent coordinates by the velocity ratios.
 //!
-//! With u' = W v' a scalar s has the rate s' = `s_j` v'j, `s_j` = l_u W_j + l_v, and the acceleration
-//! s'' = `s_j` v''j + `s_0`, where `s_0` is s'' at v'' = 0. Virtual work gives M v'' = Q with
-//! M = sum m (`G_j` . `G_k`) + j `w_j` `w_k` and Q = sum F `s_j` - m `G_j` . (`G_0` - g) - j `w_j` `w_0`.
-//! For one input M v'' + (dM/dv) v'^2 / 2 is Eksergian's equation (P. Eksergian, "Dynamical analysis of
-//! machines", Journal of the Franklin Institute, 1930/31).
+//! With u' = W v' a scalar s of q has the rate s' = `s_j` v'j, `s_j` = ds/du W_j + ds/dvj, and the acceleration
+//! s'' = `s_j` v''j + `s_0`, where the bias `s_0` is s'' at v'' = 0. With the centres G and angular velocities w of the
+//! bodies, virtual work gives M v'' = Q with M = sum m (`G_j` . `G_k`) + j `w_j` `w_k` and
+//! Q = sum F `s_j` - m `G_j` . (`G_0` - g) - j `w_j` `w_0`. For one input M v'' + (dM/dv) v'^2 / 2 = F `s_1` is
+//! Eksergian's equation (P. Eksergian, "Dynamical analysis of machines", Journal of the Franklin Institute, 1930/31).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,20 +18,25 @@ use crate::graph::{Function, Node, NodeId, Number, SymbolId};
 use crate::ids::{BodyId, ColumnId, InputId, RowId, SceneId, Table, UnknownId};
 use crate::model::{self, Account, Driver, Mechanism, SceneRequest};
 
-/// A mass or an inertia, the scalars that move with it, and the gravitational field.
+/// The mass of a body with the coordinates x and y of its centre, or its moment of inertia with its angle.
 pub(super) struct MovingPart {
+    /// "mass" or "inertia", for error messages.
     pub property: &'static str,
+    /// The mass or the moment of inertia.
     pub factor: NodeId,
+    /// The coordinates of the centre, or the angle.
     pub scalars: Vec<NodeId>,
+    /// The gravitational acceleration along each scalar.
     pub fields: Vec<NodeId>,
     /// True if it has inertia, false if it has weight only.
     pub is_inert: bool,
 }
 
-/// The derivatives of a scalar.
-struct Along {
-    /// `s_j`.
+/// The motion of a scalar s.
+struct ScalarMotion {
+    /// The velocity ratio `s_j` for each input.
     ratios: Table<InputId, NodeId>,
+    /// s'.
     rate: NodeId,
 }
 
@@ -47,7 +52,7 @@ impl Derivation {
     }
 
     fn derive_scene(&mut self, mechanism: &Mechanism, place: SceneId, scene: &model::Scene) -> Scene {
-        let bias = self.bias_names();
+        let bias = self.bias_symbols();
         let motion = self.motion_symbols(&bias);
         let zero = self.graph.zero();
         let mut mass_matrix = self.inputs.filled(self.inputs.filled(Vec::new()));
@@ -60,7 +65,7 @@ impl Derivation {
             let mut added = self.inputs.filled(Vec::new());
             for MovingPart { property, factor, scalars, fields, is_inert } in parts {
                 masses.push((format!("the {property} of {}", body.name.text), factor));
-                let moved: Vec<Along> = scalars.iter().map(|&scalar| self.along(scalar, &motion)).collect();
+                let moved: Vec<ScalarMotion> = scalars.iter().map(|&scalar| self.motion_of(scalar, &motion)).collect();
                 let mut biases = vec![zero; moved.len()];
                 if is_inert {
                     for (bias_of, along) in biases.iter_mut().zip(&moved) {
@@ -117,7 +122,7 @@ impl Derivation {
         }
         let (mut applied, mut dissipated) = (Vec::new(), Vec::new());
         for law in &scene.laws {
-            let along = self.along(law.along, &motion);
+            let along = self.motion_of(law.along, &motion);
             let mut added = Table::default();
             for (forces, &ratio) in forces.iter_mut().zip(&along.ratios) {
                 added.push(self.graph.multiply(law.law, ratio));
@@ -193,7 +198,8 @@ impl Derivation {
         parts
     }
 
-    fn bias_names(&mut self) -> Table<UnknownId, SymbolId> {
+    /// The symbols of u'' at v'' = 0.
+    fn bias_symbols(&mut self) -> Table<UnknownId, SymbolId> {
         let names = self.unknowns.iter().map(|&unknown| format!("{}_bias", self.coordinates[unknown].name));
         names.map(|name| self.graph.symbol(name)).collect()
     }
@@ -214,7 +220,8 @@ impl Derivation {
         }
     }
 
-    /// Simplifies an expression, where the sines and cosines of the loop equations cost nothing.
+    /// Simplifies an expression. The sines and cosines of the loop equations cost nothing, because they are computed
+    /// for these.
     pub(super) fn simplest(&mut self, node: NodeId) -> NodeId {
         let given: BTreeSet<NodeId> = angles(&self.graph, &self.residual);
         simplify(&mut self.graph, &[node], &given)[0]
@@ -233,8 +240,8 @@ impl Derivation {
         symbols.into_iter().map(|symbol| self.graph.variable(symbol)).collect()
     }
 
-    /// `s_j` is the rate at v'j = 1 with the other input rates zero.
-    fn along(&mut self, scalar: NodeId, motion: &BTreeSet<NodeId>) -> Along {
+    /// The motion of a scalar; `s_j` is its rate at v'j = 1 with the other input rates zero.
+    fn motion_of(&mut self, scalar: NodeId, motion: &BTreeSet<NodeId>) -> ScalarMotion {
         let mut ratios = Table::default();
         for (input, names) in self.ratios.clone().enumerated() {
             let graph = &mut self.graph;
@@ -248,7 +255,7 @@ impl Derivation {
         }
         let seeds = along_rates(&mut self.graph, &self.coordinates);
         let rate = self.graph.differentiate(&[scalar], &seeds)[0];
-        Along { ratios, rate }
+        ScalarMotion { ratios, rate }
     }
 
     /// `s_0` of a scalar, from its rate.

@@ -18,11 +18,12 @@ pub enum Step {
     Factor { block: BlockId, matrix: Vec<Vec<NodeId>>, row_scales: Vec<NodeId> },
     /// Solves the factorised system of a block and names the solution.
     Solve { block: BlockId, targets: Vec<SymbolId>, right: Vec<NodeId> },
-    /// Names the square root of a product of two factors, with the sign of the branch; fails if a factor is
-    /// negative relative to its terms.
-    Chord { block: BlockId, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordOf<NodeId> },
+    /// Names the square root of a product of two factors, with the sign of the branch; fails if a factor is negative by
+    /// more than the rounding error of its terms. `size` is n of the factors n - h and n + h, or (p + q)^2 of a
+    /// triangle.
+    Chord { block: BlockId, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordGeometry<NodeId> },
     /// Fails if the determinant of linear unknowns is zero; `numerators` are their numerators by Cramer's rule,
-    /// `scales` the sums of the magnitudes of the terms of these.
+    /// `scales` the sums of the magnitudes of the terms of each numerator.
     Solvable { block: BlockId, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
     /// Names the unknowns of a block, found by Newton's method from `start`. `system` holds its residuals, their scales
     /// and its Jacobian by rows, in terms of the unknowns and of `known`.
@@ -33,33 +34,34 @@ pub enum Step {
 
 /// The geometry of a half chord.
 #[derive(Debug, Clone, Copy)]
-pub enum ChordOf<V> {
+pub enum ChordGeometry<V> {
     /// An RRR dyad: the lengths of its links, the vector between its outer joints, the squared distance, and the scale
     /// of the vector.
     Triangle { links: [V; 2], line: [V; 2], distance_squared: V, scale: V },
-    /// A reach and an offset, by their scales; `may_cancel` if the reach may vanish by cancellation.
-    Reach { scales: [V; 2], may_cancel: bool },
+    /// The chord of a circle of radius n at the distance h from its centre: the scales of n and of h; `may_cancel` if n
+    /// is a sum that may cancel to rounding error.
+    Circle { scales: [V; 2], may_cancel: bool },
 }
 
-impl<V: Copy> ChordOf<V> {
+impl<V: Copy> ChordGeometry<V> {
     fn values(&self) -> Vec<V> {
         match *self {
             Self::Triangle { links: [p, q], line: [x, y], distance_squared, scale } => {
                 vec![p, q, x, y, distance_squared, scale]
             }
-            Self::Reach { scales, .. } => scales.to_vec(),
+            Self::Circle { scales, .. } => scales.to_vec(),
         }
     }
 
-    pub(crate) fn map<W>(self, mut f: impl FnMut(V) -> W) -> ChordOf<W> {
+    pub(crate) fn map<W>(self, mut f: impl FnMut(V) -> W) -> ChordGeometry<W> {
         match self {
-            Self::Triangle { links, line, distance_squared, scale } => ChordOf::Triangle {
+            Self::Triangle { links, line, distance_squared, scale } => ChordGeometry::Triangle {
                 links: links.map(&mut f),
                 line: line.map(&mut f),
                 distance_squared: f(distance_squared),
                 scale: f(scale),
             },
-            Self::Reach { scales, may_cancel } => ChordOf::Reach { scales: scales.map(f), may_cancel },
+            Self::Circle { scales, may_cancel } => ChordGeometry::Circle { scales: scales.map(f), may_cancel },
         }
     }
 }

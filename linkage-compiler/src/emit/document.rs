@@ -45,8 +45,8 @@ pub(super) fn constant(
         formulas.inverses.enumerated().map(|(number, inverse)| document.block(number, inverse.as_ref())).collect();
     let determinant = option(formulas.determinant.map(|node| document.equation(Name::Determinant(None), node)));
     let ratios = document.derivatives(&unknowns, &by_inputs, &formulas.ratios);
-    let asked = derivation.ratio_derivatives.is_some();
-    let second = option(asked.then(|| document.derivatives(&unknowns, &by_pairs, &formulas.ratio_derivatives)));
+    let is_requested = derivation.ratio_derivatives.is_some();
+    let second = option(is_requested.then(|| document.derivatives(&unknowns, &by_pairs, &formulas.ratio_derivatives)));
     let gamma = document.numbered("gamma", &derivation.gamma);
     let jerk = option(derivation.eta.as_ref().map(|eta| document.numbered("eta", eta)));
     let sensitivity = option(derivation.sensitivity.as_ref().map(|first| {
@@ -62,7 +62,7 @@ pub(super) fn constant(
     let conditions = formulas.conditions.iter().map(|&condition| formula(&document.printer.condition(condition)));
     let conditions = list(conditions);
     let [parameters, inputs, unknowns] = [&*parameters, &*inputs, &*unknowns].map(symbols);
-    let kernels = works(kernels);
+    let kernels = kernel_list(kernels);
 
     let (name, text) = (&driver.name, string(&driver.name.to_string()));
     quote! {
@@ -141,7 +141,7 @@ pub(super) fn of_scene(
     }
     let potential = !graph.is_zero(derived.potential);
     let potential = option(potential.then(|| document.equation(Name::Plain("V"), derived.potential)));
-    let (parameters, kernels) = (symbols(&own), works(kernels));
+    let (parameters, kernels) = (symbols(&own), kernel_list(kernels));
     let [text, of] = [&scene.name, &driver.name].map(|name| string(&name.to_string()));
     let name = &scene.name;
     quote! {
@@ -240,7 +240,7 @@ fn symbols(names: &[&str]) -> TokenStream {
 }
 
 /// `&[Kernel]` with the operations of each function.
-fn works(kernels: &[(String, Operations)]) -> TokenStream {
+fn kernel_list(kernels: &[(String, Operations)]) -> TokenStream {
     list(kernels.iter().map(|(function, operations)| {
         let Operations { functions, divisions, multiplications, additions } = *operations;
         let [functions, divisions, multiplications, additions] =

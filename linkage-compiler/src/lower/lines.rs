@@ -6,7 +6,7 @@ use super::names::Names;
 use super::schedule::{Circular, Line, Schedule};
 use super::stretches;
 use super::value::{Signed, Value, ValueId};
-use crate::derivation::{ChordOf, Derivation};
+use crate::derivation::{ChordGeometry, Derivation};
 use crate::graph::{ExternalId, Function, SymbolId};
 use crate::ids::{BlockId, Id};
 use crate::program::{Expression, Kernel, Pattern, Statement, Type, call_of};
@@ -186,7 +186,13 @@ impl<'a, 'n> Writer<'a, 'n> {
         self.names.get(self.schedule, value).filter(|_| is_known).map(str::to_owned)
     }
 
-    fn chord(&mut self, (block, symbol): (BlockId, SymbolId), factors: [Signed; 2], size: Signed, of: ChordOf<Signed>) {
+    fn chord(
+        &mut self,
+        (block, symbol): (BlockId, SymbolId),
+        factors: [Signed; 2],
+        size: Signed,
+        of: ChordGeometry<Signed>,
+    ) {
         let factors = Expression::List(factors.map(|value| self.signed(value)).to_vec());
         let size = self.signed(size);
         let of = of.map(|value| self.signed(value));
@@ -201,7 +207,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         };
         let list = |values: [Expression; 2]| Expression::List(values.to_vec());
         let (pattern, call) = match of {
-            ChordOf::Triangle { links, line, distance_squared, scale } => {
+            ChordGeometry::Triangle { links, line, distance_squared, scale } => {
                 let members = [
                     ("links", list(links)),
                     ("line", list(line)),
@@ -214,7 +220,7 @@ impl<'a, 'n> Writer<'a, 'n> {
                 let triangle = Expression::structure(Type::Runtime("Triangle", Vec::new()), members);
                 (Pattern::Tuple(vec![name, well_conditioned]), self.group_call("elbow_chord", block, [triangle, side]))
             }
-            ChordOf::Reach { scales, may_cancel } => {
+            ChordGeometry::Circle { scales, may_cancel } => {
                 let chord = if may_cancel { "reach_chord" } else { "chord" };
                 (name, self.group_call(chord, block, [factors, size, list(scales), side]))
             }

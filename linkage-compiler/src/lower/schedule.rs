@@ -1,7 +1,7 @@
 //! Straight-line code: lines that compute values in order.
 
 use super::value::{Signed, Value, ValueId};
-use crate::derivation::ChordOf;
+use crate::derivation::ChordGeometry;
 use crate::graph::{ExternalId, SymbolId};
 use crate::ids::BlockId;
 
@@ -51,7 +51,7 @@ pub enum Line {
         symbol: SymbolId,
         factors: [Signed; 2],
         size: Signed,
-        of: ChordOf<Signed>,
+        of: ChordGeometry<Signed>,
     },
     Solvable {
         block: BlockId,

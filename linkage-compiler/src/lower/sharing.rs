@@ -5,7 +5,7 @@
 //! polynomial expressions by algebraic factorization and common subexpression elimination", IEEE TCAD 25, 2006. The
 //! pairs are in a heap by frequency; a pair that has become less frequent is put back. Among equally frequent pairs the
 //! components of links, l cos theta and l sin theta, come first. This saves half a percent of all multiplications
-//! against products of lengths first, and functions that call each other compute the same products.
+//! compared with products of two lengths first, and functions that call each other then compute the same products.
 //!
 //! It terminates: no operand occurs twice in a list, so that each replacement of a pair makes a list shorter, and new
 //! pairs come only from lists that have become shorter.
@@ -51,9 +51,11 @@ enum Kind {
 
 /// The operands of a sum or product.
 struct List {
+    /// The sum or product.
     value: ValueId,
     parts: Vec<Signed>,
-    is_new: bool,
+    /// True if a pair of the operands has been replaced.
+    is_changed: bool,
 }
 
 /// Rewrites the sums and products that `roots` depend on until no two of them have a pair of operands in common.
@@ -75,7 +77,7 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget) 
                 }
                 _ => return None,
             };
-            Some(List { value: ValueId(index), parts, is_new: false })
+            Some(List { value: ValueId(index), parts, is_changed: false })
         });
         Sharing::new(kind, lists.collect(), values, budget).run(values);
     }
@@ -90,14 +92,14 @@ struct Sharing<'a> {
     frequent: Vec<bool>,
     /// The lists that contain a pair, by index.
     holders: FxHashMap<Pair, Vec<usize>>,
-    /// The pairs in more than one list, with their frequency when they were added, and true for a component of a link.
-    /// The oldest of equally frequent pairs comes first, so that the result is deterministic.
+    /// The pairs in more than one list, with their frequency when they were added, and true for the component of a
+    /// link. Among equals the oldest pair comes first, so that the result is deterministic.
     candidates: BinaryHeap<(usize, bool, Reverse<Pair>)>,
-    /// The kind of each value as a factor of a component of a link.
+    /// The kind of each value as a factor, to recognise components of links.
     factors: Vec<Factor>,
 }
 
-/// The kind of a factor in a component of a link.
+/// The kind of a factor: a component of a link is the product of a symbol and a sine or cosine.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Factor {
     Symbol,
@@ -131,7 +133,7 @@ impl<'a> Sharing<'a> {
     fn run(mut self, values: &mut Vec<Value>) {
         for place in 0..self.lists.len() {
             for pair in self.pairs(place) {
-                self.hold(pair, place);
+                self.record(pair, place);
             }
         }
         while let Some((count, is_component, Reverse(pair))) = self.candidates.pop()
@@ -139,13 +141,13 @@ impl<'a> Sharing<'a> {
         {
             let now = self.holders.get(&pair).map_or(0, Vec::len);
             if now == count {
-                let of = self.holders.remove(&pair).unwrap_or_default();
-                self.merge(pair, &of, values);
+                let holders = self.holders.remove(&pair).unwrap_or_default();
+                self.merge(pair, &holders, values);
             } else if now > 1 {
                 self.candidates.push((now, is_component, Reverse(pair)));
             }
         }
-        for List { value, parts, .. } in self.lists.into_iter().filter(|list| list.is_new) {
+        for List { value, parts, .. } in self.lists.into_iter().filter(|list| list.is_changed) {
             values[value.0] = match self.kind {
                 Kind::Sums => Value::Sum(parts),
                 Kind::Products => Value::Product(parts.into_iter().map(|part| part.value).collect()),
@@ -154,11 +156,11 @@ impl<'a> Sharing<'a> {
     }
 
     /// Replaces a pair by one sum or product in all lists that contain it.
-    fn merge(&mut self, pair: Pair, of: &[usize], values: &mut Vec<Value>) {
-        let whole = of.iter().map(|&place| &self.lists[place]).find(|list| list.parts.len() == 2);
-        // The value of the pair, and the sign of its older operand in it.
-        let (shared, sign) = match whole {
-            Some(whole) => (whole.value, sign_of(&whole.parts, pair.first)),
+    fn merge(&mut self, pair: Pair, holders: &[usize], values: &mut Vec<Value>) {
+        let whole = holders.iter().map(|&place| &self.lists[place]).find(|list| list.parts.len() == 2);
+        // The value of the pair, and true if its older operand is negative in it.
+        let (shared, is_first_negative) = match whole {
+            Some(whole) => (whole.value, is_negative(&whole.parts, pair.first)),
             None => {
                 let second = Signed { negative: pair.opposed, value: pair.second };
                 values.push(match self.kind {
@@ -168,17 +170,17 @@ impl<'a> Sharing<'a> {
                 (ValueId(values.len() - 1), false)
             }
         };
-        for &place in of {
+        for &place in holders {
             let List { value, parts, .. } = &self.lists[place];
             // A list must not contain the shared value twice.
             if *value != shared && parts.iter().all(|part| part.value != shared) {
-                self.replace(place, pair, shared, sign);
+                self.replace(place, pair, shared, is_first_negative);
             }
         }
     }
 
     /// Replaces a pair in one list by the shared value.
-    fn replace(&mut self, place: usize, pair: Pair, shared: ValueId, sign: bool) {
+    fn replace(&mut self, place: usize, pair: Pair, shared: ValueId, is_first_negative: bool) {
         // In a short list only pairs with the replaced operands change.
         let is_long = self.lists[place].parts.len() > LONGEST_PAIRED;
         for other in self.pairs(place) {
@@ -188,23 +190,24 @@ impl<'a> Sharing<'a> {
                 holders.retain(|&holder| holder != place);
             }
         }
-        let List { parts, is_new, .. } = &mut self.lists[place];
-        let negative = sign_of(parts, pair.first) != sign;
+        let List { parts, is_changed, .. } = &mut self.lists[place];
+        let negative = is_negative(parts, pair.first) != is_first_negative;
         parts.retain(|part| !pair.holds(part.value));
         // The shared value comes first; in a sum, negative terms come last.
         parts.insert(0, Signed { negative, value: shared });
         if negative {
             parts.sort_by_key(|part| part.negative);
         }
-        *is_new = true;
+        *is_changed = true;
         for other in self.pairs(place) {
             if is_long || other.holds(shared) {
-                self.hold(other, place);
+                self.record(other, place);
             }
         }
     }
 
-    fn hold(&mut self, pair: Pair, place: usize) {
+    /// Records that a list contains a pair.
+    fn record(&mut self, pair: Pair, place: usize) {
         let holders = self.holders.entry(pair).or_default();
         holders.push(place);
         let count = holders.len();
@@ -240,6 +243,7 @@ impl<'a> Sharing<'a> {
     }
 }
 
-fn sign_of(parts: &[Signed], value: ValueId) -> bool {
+/// True if the value is an operand with a negative sign.
+fn is_negative(parts: &[Signed], value: ValueId) -> bool {
     parts.iter().any(|part| part.value == value && part.negative)
 }

@@ -17,18 +17,18 @@ use crate::program::{Expression, Pattern, Statement};
 const MOST_STATEMENTS: usize = 1024;
 
 /// The nominal number of statements of a stretch. With half of it there are twice as many blocks, which return more
-/// values in total; with twice of it the scopes are twice as deep.
+/// values in total; with twice as many the scopes are twice as deep.
 const STRETCH: usize = 256;
 
-/// The end of a stretch is chosen up to this number of statements before or after the nominal one, where the fewest
-/// values are alive.
+/// A stretch ends up to this number of statements before or after its nominal end: where the fewest values are live,
+/// that is computed before and used after.
 const LEEWAY: usize = STRETCH / 4;
 
 /// The largest number of names that a statement in a stretch binds. One with more, such as an unpacking of arguments,
 /// is placed between stretches, since nearly all of its names are used later.
 const MOST_NAMES: usize = 16;
 
-/// Divides statements into stretches if there are too many; `later` are the names used after them.
+/// Divides statements into stretches if there are more than [`MOST_STATEMENTS`]; `later` are the names used after them.
 pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterator<Item = &'e str>) -> Vec<Statement> {
     if statements.len() <= MOST_STATEMENTS {
         return statements;
@@ -37,7 +37,7 @@ pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterat
     statements = read_late(statements);
     while statements.len() > MOST_STATEMENTS {
         let before = statements.len();
-        statements = once(statements, &later);
+        statements = divided_once(statements, &later);
         // Statements between stretches are not divided further.
         if statements.len() == before {
             break;
@@ -80,27 +80,27 @@ fn is_read(value: &Expression) -> bool {
     }
 }
 
-/// Divides statements into stretches once.
-fn once(statements: Vec<Statement>, later: &FxHashSet<String>) -> Vec<Statement> {
-    let lives = Lives::of(&statements, later);
+/// Divides statements into stretches once; long sequences of stretches may be divided again.
+fn divided_once(statements: Vec<Statement>, later: &FxHashSet<String>) -> Vec<Statement> {
+    let liveness = Liveness::of(&statements, later);
     let mut divided = Vec::new();
     let mut statements = statements.into_iter();
     let mut place = 0;
-    while place < lives.given.len() {
-        let end = lives.end(place);
+    while place < liveness.bound.len() {
+        let end = liveness.end(place);
         let inside = statements.by_ref().take(end - place);
         // A few statements between separate ones need no block.
         if end - place < STRETCH - LEEWAY {
             divided.extend(inside);
         } else {
-            divided.push(stretch(inside.collect(), lives.crossing(place..end)));
+            divided.push(stretch(inside.collect(), liveness.crossing(place..end)));
         }
         place = end;
     }
     divided
 }
 
-/// A block that returns these names.
+/// A statement that binds these names to the values that a block of statements returns.
 fn stretch(inside: Vec<Statement>, names: Vec<String>) -> Statement {
     let block = |value| Expression::Block(inside, Box::new(value));
     match names.as_slice() {
@@ -113,19 +113,19 @@ fn stretch(inside: Vec<Statement>, names: Vec<String>) -> Statement {
     }
 }
 
-/// The names that statements bind, and their last uses.
-struct Lives {
+/// The liveness of names: where statements bind them, and where they are used last.
+struct Liveness {
     /// For each statement, the names that it binds.
-    given: Vec<Vec<String>>,
+    bound: Vec<Vec<String>>,
     /// For each statement, the names of which it is the last use.
-    ended: Vec<Vec<String>>,
+    used_last: Vec<Vec<String>>,
     /// The last statement that uses each name; `usize::MAX` for names used after all of them.
     last: FxHashMap<String, usize>,
     /// True for statements that are placed between stretches.
-    is_apart: Vec<bool>,
+    is_separate: Vec<bool>,
 }
 
-impl Lives {
+impl Liveness {
     fn of(statements: &[Statement], later: &FxHashSet<String>) -> Self {
         let mut last: FxHashMap<String, usize> = FxHashMap::default();
         for (place, statement) in statements.iter().enumerate() {
@@ -134,28 +134,29 @@ impl Lives {
             });
         }
         last.extend(later.iter().map(|name| (name.clone(), usize::MAX)));
-        let mut ended = vec![Vec::new(); statements.len()];
+        let mut used_last = vec![Vec::new(); statements.len()];
         for (name, &place) in &last {
-            if let Some(ended) = ended.get_mut(place) {
-                ended.push(name.clone());
+            if let Some(used_last) = used_last.get_mut(place) {
+                used_last.push(name.clone());
             }
         }
-        let given: Vec<Vec<String>> = statements.iter().map(given).collect();
-        let is_apart = given.iter().map(|names| names.len() > MOST_NAMES).collect();
-        Self { given, ended, last, is_apart }
+        let bound: Vec<Vec<String>> = statements.iter().map(bound_names).collect();
+        let is_separate = bound.iter().map(|names| names.len() > MOST_NAMES).collect();
+        Self { bound, used_last, last, is_separate }
     }
 
     /// The end of the stretch that begins at `start`.
     fn end(&self, start: usize) -> usize {
-        let length = self.is_apart[start..].iter().take(STRETCH + LEEWAY).take_while(|is_apart| !**is_apart).count();
+        let length =
+            self.is_separate[start..].iter().take(STRETCH + LEEWAY).take_while(|is_separate| !**is_separate).count();
         if length < STRETCH + LEEWAY {
             return start + length.max(1);
         }
         let mut alive: FxHashSet<&str> = FxHashSet::default();
         let mut best = (usize::MAX, start + STRETCH);
         for place in start..start + length {
-            alive.extend(self.given[place].iter().filter(|name| self.is_used_after(name, place)).map(String::as_str));
-            for name in &self.ended[place] {
+            alive.extend(self.bound[place].iter().filter(|name| self.is_used_after(name, place)).map(String::as_str));
+            for name in &self.used_last[place] {
                 alive.remove(name.as_str());
             }
             if place + 1 >= start + STRETCH - LEEWAY {
@@ -172,13 +173,13 @@ impl Lives {
     /// The names of a stretch that are used after it.
     fn crossing(&self, stretch: std::ops::Range<usize>) -> Vec<String> {
         let end = stretch.end;
-        let names = self.given[stretch].iter().flatten();
+        let names = self.bound[stretch].iter().flatten();
         names.filter(|name| self.is_used_after(name, end - 1)).cloned().collect()
     }
 }
 
 /// The names that a statement binds.
-fn given(statement: &Statement) -> Vec<String> {
+fn bound_names(statement: &Statement) -> Vec<String> {
     let mut names = Vec::new();
     if let Statement::Let(pattern, _) = statement {
         pattern.each_name(&mut |name| names.push(name.to_owned()));

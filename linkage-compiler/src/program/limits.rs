@@ -11,7 +11,7 @@ use crate::model::Kind;
 impl Plan<'_, '_> {
     /// `limits`, or one function for each of several inputs.
     pub(super) fn limits(&mut self) {
-        // The bounds are expressed by the symbols of a separate assembly.
+        // A second assembly, because the functions that must not be negative are expressed by its symbols.
         self.assembly = self.derivation.assembly();
         for place in self.derivation.inputs.ids() {
             self.limits_of(place);
@@ -19,14 +19,14 @@ impl Plan<'_, '_> {
     }
 
     fn limits_of(&mut self, place: InputId) {
-        let Arguments { inputs, branch, guess, position: here, .. } = self.signatures.arguments.clone();
+        let Arguments { inputs, branch, guess, position: position_name, .. } = self.signatures.arguments.clone();
         let coordinate = &self.signatures.mechanism.coordinates[self.signatures.driver.inputs[place]];
         let (name, kind) = (coordinate.name.clone(), coordinate.kind);
         let (bounds, is_searched) = self.derivation.bounds(&self.assembly, place);
         let one = self.derivation.graph.one();
         let nodes = bounds.iter().flat_map(|bound| bound.coefficients.into_iter().chain([bound.rate.unwrap_or(one)]));
         let nodes = unnamed(nodes);
-        // The pattern borrows the inputs, which the position uses again.
+        // The pattern borrows the inputs, which the position uses assemble.
         let source = Source { from: Expression::name(&inputs), ..self.inputs(Order::Value) };
         let kernel = self.kernel(vec![source], Vec::new(), nodes);
 
@@ -44,7 +44,7 @@ impl Plan<'_, '_> {
             Expression::runtime(kind, arguments)
         });
         let bounds = Expression::List(bounds.collect());
-        let position = || Expression::name(&here);
+        let position = || Expression::name(&position_name);
         let search = match kind {
             _ if !is_searched => Expression::Constant("Search::ClosedFormOnly"),
             Kind::Angle => Expression::Constant("Search::Turn"),
@@ -54,24 +54,24 @@ impl Plan<'_, '_> {
                 Expression::runtime("Search::Length", [Expression::Product(vec![four, scales])])
             }
         };
-        let on = Expression::name(&branch);
+        let branch_argument = Expression::name(&branch);
         let moved = Expression::Struct(
             Type::Bare(self.signatures.types.coordinates.clone()),
             vec![(name.field.clone(), Expression::name(&name.field))],
             Some(Box::new(position().method("coordinates", []))),
         );
-        // The position nearest to the previous one, in the same turn.
-        let near = Expression::call("assemble_near", [moved.borrowed(), on.clone()]);
+        // `assemble_near` starts at the previous position, whose turns it keeps.
+        let near = Expression::call("assemble_near", [moved.borrowed(), branch_argument.clone()]);
         let inputs_type = Type::Bare(self.signatures.types.inputs.clone());
-        let is_near = !self.position.is_closed || !self.position.turns.is_empty();
-        let (last, again) = if is_near {
-            (Pattern::Name(here.clone()), near)
+        let needs_guess = !self.position.is_closed || !self.position.turns.is_empty();
+        let (last, assemble) = if needs_guess {
+            (Pattern::Name(position_name.clone()), near)
         } else {
             // `..inputs` is needed only for several inputs.
             let others = (self.signatures.inputs() > 1).then(|| Box::new(Expression::name(&inputs)));
             let moved = vec![(name.field.clone(), Expression::name(&name.field))];
             let moved = Expression::Struct(inputs_type.clone(), moved, others);
-            (Pattern::Ignored, Expression::call("assemble", [moved, on.clone()]))
+            (Pattern::Ignored, Expression::call("assemble", [moved, branch_argument.clone()]))
         };
         let function = |arguments: Vec<Pattern>, value: Expression| Expression::Closure {
             arguments,
@@ -79,22 +79,22 @@ impl Plan<'_, '_> {
             value: Box::new(value),
             moves: false,
         };
-        let again = function(vec![last, Pattern::Name(name.field.clone())], again);
+        let assemble = function(vec![last, Pattern::Name(name.field.clone())], assemble);
         let determinants =
-            function(vec![Pattern::Name(here.clone())], Expression::call("block_determinants", [position()]));
-        let (start, first) = if self.position.is_closed {
+            function(vec![Pattern::Name(position_name.clone())], Expression::call("block_determinants", [position()]));
+        let (start, start_position) = if self.position.is_closed {
             let start = Expression::name(&inputs).method("into", []);
-            (start, Expression::call("assemble", [Expression::name(&inputs), on]))
+            (start, Expression::call("assemble", [Expression::name(&inputs), branch_argument]))
         } else {
             let start = Expression::associated(inputs_type, "from", [Expression::name(&guess)]);
-            (start, Expression::call("assemble_near", [Expression::name(&guess), on]))
+            (start, Expression::call("assemble_near", [Expression::name(&guess), branch_argument]))
         };
         let value = Expression::name(&inputs).field(&name.field);
-        let arguments = [Expression::mechanism(), value, position(), bounds, search, again, determinants];
+        let arguments = [Expression::mechanism(), value, position(), bounds, search, assemble, determinants];
         let mut body = Body::result(Expression::runtime("limits", arguments));
         body.before = vec![
             Statement::Let(Pattern::Name(inputs), start),
-            Statement::Let(Pattern::Name(here.clone()), first.tried()),
+            Statement::Let(Pattern::Name(position_name.clone()), start_position.tried()),
         ];
         body.kernel = Some(kernel);
         let others = if self.signatures.inputs() == 1 { "" } else { ", with the other inputs fixed" };

@@ -1,8 +1,9 @@
 //! Classification of a block as an Assur group.
 //!
-//! A loop equation of two rows is a complex equation x + i y = 0. The way an unknown enters identifies its joint:
-//! - an angle phi rotates the terms V that contain it: dV/dphi = i V
-//! - a length s moves its terms along a line: D = dV/ds does not depend on s
+//! A loop equation of two rows is a complex equation x + i y = 0. Let V be the sum of its terms that contain an unknown.
+//! The unknown is
+//! - an angle phi of a revolute joint if it rotates V: dV/dphi = i V
+//! - a length s of a sliding joint if it moves V along a line: the direction D = dV/ds does not depend on s
 //!
 //! With two unknowns these are the four cases of M. A. Chace, "Vector analysis of linkages", Journal of
 //! Engineering for Industry 85, 1963: two angles, an angle and a length, an angle and a length along a line that it
@@ -62,7 +63,7 @@ impl Group {
 
 fn scalar(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Group {
     let slope = graph.partial(&[row], unknown)[0];
-    if !holds(graph, slope, unknown) {
+    if !depends_on(graph, slope, unknown) {
         return Group::Linear;
     }
     // d^2 V / dphi^2 = -V
@@ -76,14 +77,14 @@ fn pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Group
     if two_links(graph, rows, a, b) || two_links(graph, rows, b, a) {
         return Group::Rrr;
     }
-    let [angle_a, angle_b] = [a, b].map(|unknown| turns(graph, rows, unknown));
+    let [angle_a, angle_b] = [a, b].map(|unknown| is_angle(graph, rows, unknown));
     let [line_a, line_b] = [a, b].map(|unknown| direction(graph, rows, unknown));
     match (angle_a, angle_b, line_a, line_b) {
         (true, _, _, Some(line)) => slider(graph, line, a),
         (_, true, Some(line), _) => slider(graph, line, b),
         (_, _, Some(first), Some(second))
-            if first.iter().all(|&part| !holds(graph, part, b))
-                && second.iter().all(|&part| !holds(graph, part, a)) =>
+            if first.iter().all(|&part| !depends_on(graph, part, b))
+                && second.iter().all(|&part| !depends_on(graph, part, a)) =>
         {
             Group::Sliders
         }
@@ -91,12 +92,12 @@ fn pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Group
     }
 }
 
-/// True for two links with the angles a + k b and b: the terms with `a` rotate with a + k b, the other terms with `b`
-/// rotate with b. k is not zero if `a` is measured relative to the other link.
+/// True for two links with the angles a + k b and b: the terms that contain `a` rotate with a + k b, the other terms
+/// that contain `b` rotate with b. k is not zero if `a` is measured from the other link.
 fn two_links(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> bool {
     let link_a = rows.map(|row| terms_with(graph, row, a));
     let others = [0, 1].map(|row| graph.subtract(rows[row], link_a[row]));
-    if !turns(graph, rows, a) || !turns(graph, others, b) {
+    if !is_angle(graph, rows, a) || !is_angle(graph, others, b) {
         return false;
     }
     let [x, y] = link_a;
@@ -104,39 +105,40 @@ fn two_links(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> 
     (-2..=2).any(|k| derivatives == [graph.scale(Number::integer(-k), y), graph.scale(Number::integer(k), x)])
 }
 
-/// RRP if the line of a slider does not depend on the angle, RPR if it turns with it.
+/// The group of an angle and a length along a line: RRP if the line does not depend on the angle, RPR if it turns with
+/// the angle.
 fn slider(graph: &mut Graph, line: [NodeId; 2], angle: SymbolId) -> Group {
-    if line.iter().all(|&part| !holds(graph, part, angle)) {
+    if line.iter().all(|&part| !depends_on(graph, part, angle)) {
         Group::Rrp
-    } else if turns(graph, line, angle) && line.iter().all(|&part| terms_with(graph, part, angle) == part) {
+    } else if is_angle(graph, line, angle) && line.iter().all(|&part| terms_with(graph, part, angle) == part) {
         Group::Rpr
     } else {
         Group::Pair
     }
 }
 
-/// True if dV/dphi = i V for the terms V of two rows with the unknown phi.
-fn turns(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> bool {
+/// True if an unknown is an angle: dV/dphi = i V for the terms V of two rows that contain it.
+fn is_angle(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> bool {
     let [x, y] = rows.map(|row| terms_with(graph, row, unknown));
     let derivatives = graph.partial(&[x, y], unknown);
     let minus_y = graph.negate(y);
     !(graph.is_zero(x) && graph.is_zero(y)) && derivatives == [minus_y, x]
 }
 
-/// D = dV/ds, if it does not depend on s.
+/// The direction D = dV/ds of the line of a length; None if it depends on s.
 fn direction(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> Option<[NodeId; 2]> {
     let derivatives = graph.partial(&rows, unknown);
-    let still = derivatives.iter().all(|&part| !holds(graph, part, unknown));
-    still.then(|| [derivatives[0], derivatives[1]])
+    let is_constant = derivatives.iter().all(|&part| !depends_on(graph, part, unknown));
+    is_constant.then(|| [derivatives[0], derivatives[1]])
 }
 
-fn holds(graph: &Graph, node: NodeId, symbol: SymbolId) -> bool {
+fn depends_on(graph: &Graph, node: NodeId, symbol: SymbolId) -> bool {
     graph.symbols_of(&[node]).contains(&symbol)
 }
 
 /// The terms of a sum that depend on a symbol.
 fn terms_with(graph: &mut Graph, row: NodeId, symbol: SymbolId) -> NodeId {
-    let terms: Vec<_> = terms(graph, row).into_iter().filter(|&(_, term)| holds(graph, term, symbol)).collect();
+    let terms: Vec<_> = terms(graph, row).into_iter().filter(|&(_, term)| depends_on(graph, term, symbol)).collect();
     graph.sum(&terms)
 }
 

@@ -1,4 +1,5 @@
-//! A maximum matching of equations and unknowns.
+//! A maximum matching of equations and unknowns: each unknown gets an equation that contains it, and no equation is
+//! used twice. Without one for all unknowns the Jacobian is singular at every position.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -45,10 +46,10 @@ impl Matching {
         Err(StructurallySingular { undetermined, too_few, competing, contested })
     }
 
-    /// An unmatched equation and the equations that it competes with, and their unknowns.
+    /// An unmatched equation, the equations that it competes with for unknowns, and these unknowns.
     fn surplus(&self, incidence: &Table<RowId, Vec<UnknownId>>) -> (Vec<RowId>, Vec<UnknownId>) {
-        let left_over = self.unknown.ids().find(|&equation| self.unknown[equation].is_none());
-        let mut equations: Vec<RowId> = left_over.into_iter().collect();
+        let unmatched = self.unknown.ids().find(|&equation| self.unknown[equation].is_none());
+        let mut equations: Vec<RowId> = unmatched.into_iter().collect();
         let mut unknowns = BTreeSet::new();
         let mut next = 0;
         while next < equations.len() {
@@ -71,8 +72,9 @@ impl Matching {
         self.equation[unknown]
     }
 
-    /// Finds an equation for `start` along an alternating path, by breadth-first search; the error holds the unknowns
-    /// and equations that the search reached.
+    /// Finds an equation for `start`, if needed by giving other unknowns other equations (an alternating path), by
+    /// breadth-first search. The error holds the unknowns and equations that the search reached: more unknowns than
+    /// equations.
     fn augment(
         &mut self,
         start: UnknownId,
