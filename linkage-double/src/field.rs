@@ -27,7 +27,7 @@ impl One for DoubleDouble {
 impl Num for DoubleDouble {
     type FromStrRadixErr = <f64 as Num>::FromStrRadixErr;
 
-    /// Parses a double.
+    /// Parses a double: digits beyond its precision are lost.
     fn from_str_radix(text: &str, radix: u32) -> Result<Self, Self::FromStrRadixErr> {
         f64::from_str_radix(text, radix).map(Self::from)
     }
@@ -57,7 +57,7 @@ impl Signed for DoubleDouble {
 
 impl FromPrimitive for DoubleDouble {
     fn from_i64(n: i64) -> Option<Self> {
-        // Each half is exactly a double.
+        // Each half of the bits is exactly a double.
         Some(Self::sum((n >> 32) as f64 * 4_294_967_296.0, (n & 0xffff_ffff) as f64))
     }
 

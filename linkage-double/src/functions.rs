@@ -1,4 +1,4 @@
-//! The elementary functions, accurate to all digits but the last few.
+//! The elementary functions, each with a relative error of at most 2 ulp (2^-103).
 
 use core::f64::consts::{FRAC_2_PI, LN_2};
 
@@ -29,7 +29,7 @@ const INVERSE_FACTORIALS: [DoubleDouble; 28] = {
     inverse
 };
 
-/// 2^51: beyond it a double does not hold the number of quarter turns exactly.
+/// 2^51: beyond it the number of quarter turns, which is computed in doubles, may be off by one.
 const LARGEST_ANGLE: f64 = 2_251_799_813_685_248.0;
 
 const fn constant(high: f64, low: f64) -> DoubleDouble {
@@ -45,6 +45,7 @@ fn powers_of_two(exponent: i32) -> [f64; 2] {
     })
 }
 
+/// x times 2^exponent.
 fn scaled(x: DoubleDouble, exponent: i32) -> DoubleDouble {
     let [a, b] = powers_of_two(exponent);
     constant(x.high * a * b, x.low * a * b)
@@ -56,8 +57,8 @@ fn integer(x: f64) -> Option<i32> {
     (f64::from(integer) == x).then_some(integer)
 }
 
-/// The sum of x^n/n! from n = `first` in steps of `step`, with alternating signs if `sign` is -1, divided by x^first;
-/// `power` is x^step.
+/// The sum of x^n/n! for n from `first` to `last` in steps of `step`, with alternating signs if `sign` is -1, divided by
+/// x^first; `power` is x^step.
 fn series(power: DoubleDouble, first: usize, step: usize, last: usize, sign: f64) -> DoubleDouble {
     let terms = INVERSE_FACTORIALS[first..=last].iter().step_by(step).rev();
     terms.fold(ZERO, |sum, &term| term + sum * power * DoubleDouble::from(sign))
@@ -80,13 +81,14 @@ pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     }
 }
 
-/// The angle in doubles, corrected by the tangent of the remaining rotation.
+/// The angle computed in doubles, corrected by the tangent of the rotation from its direction to (x, y): the correction
+/// is so small that angle and tangent are equal.
 pub(super) fn atan2(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble {
     let angle = DoubleDouble::from(RealField::atan2(y.high, x.high));
     if (y.high == 0.0 && x.high >= 0.0) || !angle.high.is_finite() {
         return angle;
     }
-    // Squares of the parts must stay in range.
+    // x and y are scaled to about 1, so that no product overflows or underflows.
     let exponent = integer(-ComplexField::floor(ComplexField::log2(y.high.abs().max(x.high.abs())))).unwrap_or(0);
     let (y, x) = (scaled(y, exponent), scaled(x, exponent));
     let (sine, cosine) = sin_cos(angle);
@@ -102,13 +104,15 @@ pub(super) fn acos(x: DoubleDouble) -> DoubleDouble {
     atan2(((ONE - x) * (ONE + x)).root(), x)
 }
 
-/// e^x - 1 for |x| <= 0.35: the series at x / 16, then four doublings of the argument.
+/// e^x - 1 for |x| <= 0.35, a little more than ln(2) / 2: the series at x / 16, then four doublings of the argument by
+/// e^2x - 1 = m (m + 2), m = e^x - 1.
 fn small_exp_m1(x: DoubleDouble) -> DoubleDouble {
     let part = scaled(x, -4);
     (0..4).fold(part * series(part, 1, 1, 18, 1.0), |m, _| m * (m + 2.0.into()))
 }
 
 pub(super) fn exp(x: DoubleDouble) -> DoubleDouble {
+    // Beyond these limits the result overflows or underflows.
     if x.high.is_nan() || x.high > 709.8 {
         return (x.high + f64::INFINITY).into();
     }
@@ -124,14 +128,15 @@ pub(super) fn exp_m1(x: DoubleDouble) -> DoubleDouble {
     if x.high.abs() <= 0.35 { small_exp_m1(x) } else { exp(x) - ONE }
 }
 
-/// The logarithm in doubles, corrected by q - q^2/2 for ln(1 + q).
-fn logarithm(near: f64, quotient: impl FnOnce(DoubleDouble) -> DoubleDouble) -> DoubleDouble {
+/// The logarithm of x from its value `near` computed in doubles: near + ln(1 + q) = near + q - q^2/2, where
+/// q = x / e^near - 1 is computed by `remainder`.
+fn logarithm(near: f64, remainder: impl FnOnce(DoubleDouble) -> DoubleDouble) -> DoubleDouble {
     if !near.is_finite() {
         return near.into();
     }
     let near = DoubleDouble::from(near);
-    let rest = quotient(near);
-    near + (rest - rest * rest * 0.5.into())
+    let q = remainder(near);
+    near + (q - q * q * 0.5.into())
 }
 
 pub(super) fn ln_1p(x: DoubleDouble) -> DoubleDouble {
@@ -142,6 +147,7 @@ pub(super) fn ln_1p(x: DoubleDouble) -> DoubleDouble {
 }
 
 pub(super) fn ln(x: DoubleDouble) -> DoubleDouble {
+    // Near 1 the subtraction of 1 is exact.
     if (0.7..1.4).contains(&x.high) {
         return ln_1p(x - ONE);
     }
@@ -171,6 +177,7 @@ pub(super) fn powf(x: DoubleDouble, exponent: DoubleDouble) -> DoubleDouble {
     }
 }
 
+/// The cube root: one step of Newton's method from that of the nearest double.
 pub(super) fn cbrt(x: DoubleDouble) -> DoubleDouble {
     let root = ComplexField::cbrt(x.high);
     if root == 0.0 || !root.is_finite() {
@@ -192,10 +199,12 @@ pub(super) fn hypot(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble {
 
 pub(super) fn sinh(x: DoubleDouble) -> DoubleDouble {
     let m = exp_m1(x);
+    // Far below zero m + 1 = e^x loses its digits.
     if m.high.is_finite() && m.high > -0.9 { scaled(m + m / (m + ONE), -1) } else { scaled(exp(x) - exp(-x), -1) }
 }
 
 pub(super) fn tanh(x: DoubleDouble) -> DoubleDouble {
+    // Beyond 40 it differs from 1 by less than 2^-114.
     if x.high.abs() > 40.0 {
         return x.high.signum().into();
     }

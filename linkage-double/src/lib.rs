@@ -24,9 +24,9 @@ use nalgebra::ComplexField;
 /// A real number as the sum of two doubles, accurate to 31 digits. It is a scalar of nalgebra, so that every mechanism
 /// can compute with it: `FourBar<DoubleDouble>`.
 ///
-/// Its range is that of `f64` up to 2^-27 times the largest; digits are lost below 1e-290. A result beyond the range is
-/// infinite or NaN, never wrong. Constants in the text of a mechanism, such as the 0.1 of `0.1 * l2`, are rounded to
-/// doubles.
+/// Numbers up to 2^-27 times the largest `f64` can be multiplied; below 1e-290 digits are lost, because the low part
+/// underflows. A result beyond the range is infinite or NaN, never wrong. Constants in the text of a mechanism, such as
+/// the 0.1 of `0.1 * l2`, are rounded to doubles.
 ///
 /// ```
 /// use linkage_double::DoubleDouble;
@@ -37,7 +37,9 @@ use nalgebra::ComplexField;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DoubleDouble {
+    /// The double nearest to the number.
     high: f64,
+    /// The rest, at most half an ulp of `high`.
     low: f64,
 }
 
@@ -73,7 +75,7 @@ impl DoubleDouble {
         self.low
     }
 
-    /// The sum of two doubles of which the first is the larger, exactly.
+    /// The sum of two doubles of which the first is the larger in magnitude, exactly.
     const fn ordered(a: f64, b: f64) -> Self {
         let high = a + b;
         Self { high, low: b - (high - a) }
@@ -90,6 +92,7 @@ impl DoubleDouble {
         Self::ordered(product.high, product.low + (self.high * other.low + self.low * other.high))
     }
 
+    /// The quotient by long division, in three doubles.
     const fn over(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self.plus(other.times(Self { high: -first, low: -0.0 }));
@@ -109,7 +112,7 @@ impl DoubleDouble {
     }
 }
 
-/// Splits a double into its upper 26 bits and the rest: products of such halves are exact.
+/// Splits a double into its upper 26 bits and the rest, by a product with 2^27 + 1: products of such halves are exact.
 const fn halves(a: f64) -> (f64, f64) {
     let scaled = 134_217_729.0 * a;
     let high = scaled - (scaled - a);

@@ -1,4 +1,4 @@
-//! Every function against 60-digit arithmetic, to all digits but the last few; and what nalgebra builds on them.
+//! Every function against 60-digit arithmetic, to 2 ulp; and what nalgebra builds on them.
 
 use std::collections::BTreeMap;
 

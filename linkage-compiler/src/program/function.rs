@@ -155,7 +155,7 @@ impl Shape {
         Self::List(symbols.iter().copied().map(Self::Symbol).collect())
     }
 
-    /// The columns of a matrix with so many rows.
+    /// The columns of a matrix with this number of rows.
     pub fn columns(rows: usize, symbols: &[SymbolId]) -> Self {
         Self::List(symbols.chunks(rows).map(Self::list).collect())
     }

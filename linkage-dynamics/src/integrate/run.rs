@@ -171,14 +171,14 @@ impl<S: System, M: Method> Integration<S, M> {
         self
     }
 
-    /// Tests for stiffness every so many accepted steps; 0 never does. The default is 1000.
+    /// Tests for stiffness after every `every` accepted steps; with 0 never. The default is 1000.
     #[must_use]
     pub fn stiffness_test(mut self, every: usize) -> Self {
         self.stiffness_every = every;
         self
     }
 
-    /// Samples the event functions at so many equal parts of each step; the default is 4, the least 1. A passage
+    /// Samples the event functions at the ends of `parts` equal parts of each step; the default is 4, the least 1. A passage
     /// through zero and back between two samples is found if the function has one extremum in the step; with several it
     /// may need more parts ([detection of events](super)). This evaluates the functions, but no rate without a possible
     /// event.

@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use super::outline::{Law, Pen};
+use super::outline::{GeneralEquation, Pen};
 use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel};
 
 /// A matrix with more rows or columns than this is written as a list of its entries.
@@ -41,8 +41,8 @@ impl Pen for Latex<'_> {
         writeln!(self.out, "{}", escape(words))
     }
 
-    fn law(&mut self, law: &Law) -> fmt::Result {
-        writeln!(self.out, "\\[ {} \\]", law.latex)
+    fn general_equation(&mut self, general: &GeneralEquation) -> fmt::Result {
+        writeln!(self.out, "\\[ {} \\]", general.latex)
     }
 
     fn display(&mut self, formula: &Formula) -> fmt::Result {

@@ -6,49 +6,49 @@ use linkage_runtime::derivation::{
     Block, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, SceneDerivation,
 };
 
-/// A matrix equation in all notations.
-pub(crate) struct Law {
+/// An equation of matrices that holds for every mechanism, in all notations.
+pub(crate) struct GeneralEquation {
     pub(crate) text: &'static str,
     pub(crate) latex: &'static str,
     pub(crate) mathml: &'static str,
 }
 
 /// Ψ(u, v) = 0.
-pub(crate) const CONSTRAINTS: Law = Law {
+pub(crate) const CONSTRAINTS: GeneralEquation = GeneralEquation {
     text: "Ψ(u, v) = 0",
     latex: "\\Psi(u, v) = 0",
     mathml: "<mrow><mi>Ψ</mi><mo>(</mo><mi>u</mi><mo>,</mo><mi>v</mi><mo>)</mo><mo>=</mo><mn>0</mn></mrow>",
 };
 /// J = ∂Ψ/∂u.
-pub(crate) const JACOBIAN_UNKNOWNS: Law = Law {
+pub(crate) const JACOBIAN_UNKNOWNS: GeneralEquation = GeneralEquation {
     text: "J = ∂Ψ/∂u",
     latex: "J = \\frac{\\partial \\Psi}{\\partial u}",
     mathml: "<mrow><mi>J</mi><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>u</mi></mrow>\
              </mfrac></mrow>",
 };
 /// A = ∂Ψ/∂v.
-pub(crate) const JACOBIAN_INPUTS: Law = Law {
+pub(crate) const JACOBIAN_INPUTS: GeneralEquation = GeneralEquation {
     text: "A = ∂Ψ/∂v",
     latex: "A = \\frac{\\partial \\Psi}{\\partial v}",
     mathml: "<mrow><mi>A</mi><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>v</mi></mrow>\
              </mfrac></mrow>",
 };
 /// J·∂u/∂v = −A.
-pub(crate) const RATIOS: Law = Law {
+pub(crate) const RATIOS: GeneralEquation = GeneralEquation {
     text: "J·∂u/∂v = −A",
     latex: "J \\frac{\\partial u}{\\partial v} = -A",
     mathml: "<mrow><mi>J</mi><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow><mo>∂</mo><mi>v</mi></mrow></mfrac>\
              <mo>=</mo><mrow><mo>−</mo><mi>A</mi></mrow></mrow>",
 };
 /// u̇ = ∂u/∂v·v̇.
-pub(crate) const VELOCITY: Law = Law {
+pub(crate) const VELOCITY: GeneralEquation = GeneralEquation {
     text: "u̇ = (∂u/∂v)·v̇",
     latex: "\\dot{u} = \\frac{\\partial u}{\\partial v} \\dot{v}",
     mathml: "<mrow><mover><mi>u</mi><mo>˙</mo></mover><mo>=</mo><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow>\
              <mo>∂</mo><mi>v</mi></mrow></mfrac><mover><mi>v</mi><mo>˙</mo></mover></mrow>",
 };
 /// J·∂²u/∂vⱼ∂vₖ = −γ(wⱼ, wₖ).
-pub(crate) const RATIO_DERIVATIVES: Law = Law {
+pub(crate) const RATIO_DERIVATIVES: GeneralEquation = GeneralEquation {
     text: "J·∂²u/∂vⱼ∂vₖ = −γ(wⱼ, wₖ)",
     latex: "J \\frac{\\partial^2 u}{\\partial v_j \\partial v_k} = -\\gamma(w_j, w_k)",
     mathml: "<mrow><mi>J</mi><mfrac><mrow><msup><mo>∂</mo><mn>2</mn></msup><mi>u</mi></mrow><mrow><mo>∂</mo><msub><mi>v\
@@ -57,21 +57,21 @@ pub(crate) const RATIO_DERIVATIVES: Law = Law {
              </mrow></mrow>",
 };
 /// J·u⃛ = −(A·v⃛ + η).
-pub(crate) const JERK: Law = Law {
+pub(crate) const JERK: GeneralEquation = GeneralEquation {
     text: "J·u⃛ = −(A·v⃛ + η)",
     latex: "J \\dddot{u} = -(A \\dddot{v} + \\eta)",
     mathml: "<mrow><mi>J</mi><mover><mi>u</mi><mo>⃛</mo></mover><mo>=</mo><mrow><mo>−</mo><mrow><mo>(</mo><mi>A</mi>\
              <mover><mi>v</mi><mo>⃛</mo></mover><mo>+</mo><mi>η</mi><mo>)</mo></mrow></mrow></mrow>",
 };
 /// J·∂u/∂p = −Ψ_p.
-pub(crate) const SENSITIVITY: Law = Law {
+pub(crate) const SENSITIVITY: GeneralEquation = GeneralEquation {
     text: "J·∂u/∂p = −Ψ_p",
     latex: "J \\frac{\\partial u}{\\partial p} = -\\Psi_p",
     mathml: "<mrow><mi>J</mi><mfrac><mrow><mo>∂</mo><mi>u</mi></mrow><mrow><mo>∂</mo><mi>p</mi></mrow></mfrac>\
              <mo>=</mo><mrow><mo>−</mo><msub><mi>Ψ</mi><mi>p</mi></msub></mrow></mrow>",
 };
 /// J·ü = −(A·v̈ + γ).
-pub(crate) const ACCELERATION: Law = Law {
+pub(crate) const ACCELERATION: GeneralEquation = GeneralEquation {
     text: "J·ü = −(A·v̈ + γ)",
     latex: "J \\ddot{u} = -(A \\ddot{v} + \\gamma)",
     mathml: "<mrow><mi>J</mi><mover><mi>u</mi><mo>¨</mo></mover><mo>=</mo><mrow><mo>−</mo><mrow><mo>(</mo><mi>A</mi>\
@@ -79,7 +79,7 @@ pub(crate) const ACCELERATION: Law = Law {
 };
 
 /// M·v̈ = Q.
-pub(crate) const MOTION: Law = Law {
+pub(crate) const MOTION: GeneralEquation = GeneralEquation {
     text: "M·v̈ = Q",
     latex: "M \\ddot{v} = Q",
     mathml: "<mrow><mi>M</mi><mover><mi>v</mi><mo>¨</mo></mover><mo>=</mo><mi>Q</mi></mrow>",
@@ -134,7 +134,7 @@ pub(super) trait Pen {
     /// A line such as "Given: l₁, l₂".
     fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result;
     fn lead(&mut self, words: &str) -> fmt::Result;
-    fn law(&mut self, law: &Law) -> fmt::Result;
+    fn general_equation(&mut self, general: &GeneralEquation) -> fmt::Result;
     fn display(&mut self, formula: &Formula) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result;
     fn matrix(&mut self, matrix: &FormulaMatrix) -> fmt::Result;
@@ -159,15 +159,15 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
 
     pen.heading(words::CONSTRAINTS)?;
     pen.lead(words::LEAD_CONSTRAINTS)?;
-    pen.law(&CONSTRAINTS)?;
+    pen.general_equation(&CONSTRAINTS)?;
     equations(pen, &mut number, derivation.residual)?;
 
     pen.heading(words::JACOBIAN)?;
     pen.lead(words::LEAD_JACOBIAN)?;
-    for (law, matrix) in
+    for (general, matrix) in
         [(JACOBIAN_UNKNOWNS, derivation.jacobian_unknowns), (JACOBIAN_INPUTS, derivation.jacobian_inputs)]
     {
-        pen.law(&law)?;
+        pen.general_equation(&general)?;
         pen.matrix(&matrix)?;
     }
 
@@ -192,14 +192,14 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
 
     pen.heading(words::RATIOS)?;
     pen.lead(words::LEAD_RATIOS)?;
-    pen.law(&RATIOS)?;
+    pen.general_equation(&RATIOS)?;
     pen.lead(words::LEAD_VELOCITY)?;
-    pen.law(&VELOCITY)?;
+    pen.general_equation(&VELOCITY)?;
     equations(pen, &mut number, derivation.ratios)?;
 
     pen.heading(words::ACCELERATION)?;
     pen.lead(words::LEAD_ACCELERATION)?;
-    pen.law(&ACCELERATION)?;
+    pen.general_equation(&ACCELERATION)?;
     if !derivation.gamma.is_empty() {
         pen.lead(words::LEAD_GAMMA)?;
     }
@@ -208,20 +208,20 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     if let Some(formulas) = derivation.ratio_derivatives {
         pen.heading(words::RATIO_DERIVATIVES)?;
         pen.lead(words::LEAD_RATIO_DERIVATIVES)?;
-        pen.law(&RATIO_DERIVATIVES)?;
+        pen.general_equation(&RATIO_DERIVATIVES)?;
         equations(pen, &mut number, formulas)?;
     }
     if let Some(eta) = derivation.jerk {
         pen.heading(words::JERK)?;
         pen.lead(words::LEAD_JERK)?;
-        pen.law(&JERK)?;
+        pen.general_equation(&JERK)?;
         pen.lead(words::LEAD_ETA)?;
         equations(pen, &mut number, eta)?;
     }
     if let Some(sensitivity) = derivation.sensitivity {
         pen.heading(words::SENSITIVITY)?;
         pen.lead(words::LEAD_SENSITIVITY)?;
-        pen.law(&SENSITIVITY)?;
+        pen.general_equation(&SENSITIVITY)?;
         pen.lead(words::LEAD_PARAMETERS)?;
         pen.matrix(&sensitivity.jacobian)?;
         equations(pen, &mut number, sensitivity.formulas)?;
@@ -252,7 +252,7 @@ pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Re
     }
     pen.heading(words::MOTION)?;
     pen.lead(words::LEAD_MOTION)?;
-    pen.law(&MOTION)?;
+    pen.general_equation(&MOTION)?;
     if !scene.mass_matrix.is_empty() {
         pen.lead(words::LEAD_MASS_MATRIX)?;
         equations(pen, &mut number, scene.mass_matrix)?;

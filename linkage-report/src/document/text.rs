@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use super::outline::{Law, Pen};
+use super::outline::{GeneralEquation, Pen};
 use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel};
 
 pub(super) struct Text<'a> {
@@ -46,8 +46,8 @@ impl Pen for Text<'_> {
         writeln!(self.out, "  {words}")
     }
 
-    fn law(&mut self, law: &Law) -> fmt::Result {
-        writeln!(self.out, "        {}", law.text)
+    fn general_equation(&mut self, general: &GeneralEquation) -> fmt::Result {
+        writeln!(self.out, "        {}", general.text)
     }
 
     fn display(&mut self, formula: &Formula) -> fmt::Result {

@@ -4,7 +4,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::{DrawingError, smil};
 
-/// A part to draw, by the names of its points.
+/// A part to draw, by the names of its points; see the methods of [`Animation`].
 #[derive(Debug, Clone)]
 pub(super) enum Part {
     Ground(String),
@@ -31,14 +31,14 @@ impl Part {
         }
     }
 
-    /// The joints of the part.
-    pub(super) fn joins(&self) -> impl Iterator<Item = &String> {
-        let held = match self {
+    /// The points at which the part is connected to others: points that belong to several parts are drawn as joints.
+    pub(super) fn joints(&self) -> impl Iterator<Item = &String> {
+        let count = match self {
             Self::Trace(_) => 0,
             Self::Sleeve { .. } | Self::Wheel { .. } | Self::Plate { .. } => 1,
             _ => usize::MAX,
         };
-        self.points().into_iter().take(held)
+        self.points().into_iter().take(count)
     }
 }
 
@@ -72,7 +72,7 @@ fn owned(names: &[&str]) -> Vec<String> {
 }
 
 impl Animation {
-    /// Creates an empty animation that repeats its frames every so many seconds.
+    /// Creates an empty animation that repeats its frames after this number of seconds.
     pub fn new(title: impl Into<String>, seconds: f64) -> Self {
         Self { title: title.into(), seconds, frames: Vec::new(), parts: Vec::new() }
     }
@@ -82,8 +82,8 @@ impl Animation {
         self
     }
 
-    /// Adds a frame: the positions of the points, with the same names in each frame. Frames have equal time steps, in
-    /// which nothing turns by half a turn; for a smooth loop the last frame repeats the first.
+    /// Adds a frame: the positions of the points, with the same names in each frame. Frames are equally spaced in time;
+    /// between two of them no link may turn by half a turn or more. For a smooth loop the last frame repeats the first.
     pub fn frame<N, P>(&mut self, points: impl IntoIterator<Item = (N, P)>) -> &mut Self
     where
         N: Into<String>,
@@ -128,13 +128,14 @@ impl Animation {
         self.part(Part::Sleeve { pin: pin.to_owned(), arm: [from, to].map(str::to_owned) })
     }
 
-    /// Adds a wheel, or the pitch circle of a gear, that turns with the direction from its centre to a point.
+    /// Adds a wheel, or the pitch circle of a gear, that turns with the direction from its centre to the point
+    /// `towards`.
     pub fn wheel(&mut self, centre: &str, towards: &str, radius: f64) -> &mut Self {
         self.part(Part::Wheel { centre: centre.to_owned(), towards: towards.to_owned(), radius })
     }
 
-    /// Adds a plate of any outline, such as a cam: its corners relative to its centre, with x towards the point with
-    /// which it turns.
+    /// Adds a plate of any outline, such as a cam, that turns with the direction from its centre to the point `towards`.
+    /// The corners of the outline are relative to the centre, with x in this direction.
     pub fn plate(&mut self, centre: &str, towards: &str, outline: impl IntoIterator<Item = Vector2<f64>>) -> &mut Self {
         let outline = outline.into_iter().collect();
         self.part(Part::Plate { centre: centre.to_owned(), towards: towards.to_owned(), outline })

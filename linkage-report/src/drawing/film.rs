@@ -12,7 +12,8 @@ use super::frame::bounds;
 pub(super) const SIZE: Vector2<f64> = Vector2::new(480.0, 360.0);
 const MARGIN: f64 = 40.0;
 
-/// Tolerance in pixels: a point that moves less is at rest, and a link that changes less is rigid.
+/// Tolerance in pixels: a point that moves less is at rest, and a link whose points deviate less from a rigid motion is
+/// rigid.
 const UNSEEN: f64 = 0.02;
 
 fn finite(vector: &Vector2<f64>) -> bool {
@@ -63,7 +64,7 @@ impl Film {
         Ok(film)
     }
 
-    /// The points that must be in the picture.
+    /// The points that must be in the picture, in the lengths of the mechanism.
     fn shown(&self, animation: &Animation) -> Result<Vec<Vector2<f64>>, DrawingError> {
         let mut shown = Vec::new();
         for part in &animation.parts {
@@ -118,13 +119,13 @@ impl Film {
         self.frames.iter().map(|frame| frame[index]).collect()
     }
 
-    /// The motion of a body with its origin at a point and the direction from one point to another.
+    /// The motion of a body with its origin at a point, which turns with the direction from one point to another.
     pub(super) fn body(&self, origin: usize, [from, to]: [usize; 2]) -> Body {
         let mut angles: Vec<f64> = Vec::with_capacity(self.frames.len());
         for frame in &self.frames {
             let along = frame[to] - frame[from];
             let last = angles.last().copied().unwrap_or_default();
-            // The shorter rotation; the last angle if the direction is zero.
+            // The shorter of the two rotations from the last angle; the last angle itself if the points coincide.
             let turn = (along.y.atan2(along.x) - last + PI).rem_euclid(TAU) - PI;
             angles.push(if along.amax() < UNSEEN { last } else { last + turn });
         }
@@ -153,7 +154,7 @@ impl Film {
         Ok(body)
     }
 
-    /// The ends of the straight line on which a point moves.
+    /// The ends of the straight line on which a point moves; an error if it rests or leaves the line.
     pub(super) fn guide(&self, point: usize) -> Result<[Vector2<f64>; 2], DrawingError> {
         let track = self.track(point);
         let farthest = |from: Vector2<f64>| {

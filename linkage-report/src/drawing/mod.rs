@@ -113,7 +113,7 @@ impl fmt::Display for DrawingError {
 impl std::error::Error for DrawingError {}
 
 impl Drawing {
-    /// Creates an empty drawing. The default scale of vectors is 1.
+    /// Creates an empty drawing. By default a unit velocity or acceleration is drawn with the length 1.
     pub fn new(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),

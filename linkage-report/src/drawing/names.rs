@@ -8,15 +8,16 @@ use nalgebra::Vector2;
 const NEAR: f64 = 18.0;
 const FAR: f64 = 30.0;
 
-/// Room beyond this, in pixels, counts little, so that names stay near if they have enough.
+/// The distance of a name from other shapes beyond which more room counts only a hundredth, so that names stay near, in
+/// pixels.
 const ENOUGH: f64 = 16.0;
 
 /// Half the width of a letter, in pixels.
 const HALF_LETTER: f64 = 4.0;
 
-/// The obstacles for names at one time, in pixels.
+/// The obstacles for names in one frame, in pixels.
 #[derive(Default)]
-pub(super) struct Scene {
+pub(super) struct Obstacles {
     /// Bars and vectors.
     pub segments: Vec<[Vector2<f64>; 2]>,
     /// Points.
@@ -25,7 +26,7 @@ pub(super) struct Scene {
     names: Vec<Vector2<f64>>,
 }
 
-impl Scene {
+impl Obstacles {
     pub(super) fn new(segments: Vec<[Vector2<f64>; 2]>, points: Vec<Vector2<f64>>) -> Self {
         Self { segments, points, names: Vec::new() }
     }
@@ -48,13 +49,13 @@ pub(super) fn foot(at: Vector2<f64>) -> [[Vector2<f64>; 2]; 3] {
     [[at, left], [left, right], [right, at]]
 }
 
-/// Returns the offset, of sixteen directions, that is farthest from bars, vectors and other names on average over all
-/// scenes; `inside` tells whether a position is in the picture.
+/// Returns the offset of a name from its point, in one of sixteen directions, that is farthest from bars, vectors and
+/// other names on average over the frames; `inside` is true for positions in the picture.
 pub(super) fn offset(
     name: &str,
     inside: impl Fn(Vector2<f64>) -> bool,
-    scenes: &[Scene],
-    at: impl Fn(&Scene) -> Vector2<f64>,
+    frames: &[Obstacles],
+    at: impl Fn(&Obstacles) -> Vector2<f64>,
 ) -> Vector2<f64> {
     let extent = extent(name);
     let mut best = (f64::NEG_INFINITY, Vector2::zeros());
@@ -64,11 +65,11 @@ pub(super) fn offset(
         let (away, cost) = if step < 16 { (NEAR, 0.0) } else { (FAR, 4.0) };
         let candidate = direction * away + extent[2] * 0.5 * direction.x;
         let mut sum = 0.0;
-        for scene in scenes {
-            let at = at(scene);
+        for obstacles in frames {
+            let at = at(obstacles);
             let parts = extent.map(|part| at + candidate + part);
-            let lines = scene.segments.iter().flat_map(|ends| parts.map(|part| distance(part, *ends)));
-            let others = scene.points.iter().filter(|other| **other != at).chain(&scene.names);
+            let lines = obstacles.segments.iter().flat_map(|ends| parts.map(|part| distance(part, *ends)));
+            let others = obstacles.points.iter().filter(|other| **other != at).chain(&obstacles.names);
             let names = others.flat_map(|other| parts.map(|part| (part - other).norm()));
             let room = lines.chain(names).fold(f64::INFINITY, f64::min);
             sum += if parts.into_iter().all(&inside) { room.min(ENOUGH) + room * 0.01 - cost } else { -FAR };

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use nalgebra::Vector2;
 
-/// A number with at most so many decimals, without superfluous zeros.
+/// A number rounded to `decimals` decimals, without superfluous zeros: `.5` for 0.50.
 pub(super) fn short(value: f64, decimals: usize) -> String {
     let mut text = format!("{value:.decimals$}");
     if text.contains('.') {
@@ -19,17 +19,19 @@ pub(super) fn short(value: f64, decimals: usize) -> String {
     }
 }
 
-/// A writer of relative path steps; each starts at the rounded end of the last, so that rounding errors do not
-/// accumulate.
+/// A writer of path commands with relative coordinates. Each is relative to the rounded end of the last, so that
+/// rounding errors do not accumulate.
 #[derive(Default)]
 pub(super) struct Pen {
     path: String,
+    /// The end of the last command, as written.
     at: Vector2<f64>,
+    /// The last command, which need not be repeated.
     command: Option<char>,
 }
 
 impl Pen {
-    /// Writes a step, rounded to tenths of a pixel.
+    /// Writes a command to a point, rounded to tenths of a pixel, with other numbers before the point.
     fn step(&mut self, command: char, before: &[f64], to: Vector2<f64>) -> &mut Self {
         let to = to.map(|value| (value * 10.0).round() / 10.0);
         let (mut separate, steps) = (self.command == Some(command), to - self.at);
@@ -81,6 +83,7 @@ impl Pen {
         let (Some(first), Some(last)) = (points.first(), points.last()) else { return self };
         let closed = (first - last).amax() < 0.05;
         let steps = points.len() - 1;
+        // The points counted from 1, with a neighbour before the first and after the last.
         let at = |place: usize| match place {
             0 if closed && steps > 0 => points[steps - 1],
             0 => *first,
@@ -90,7 +93,7 @@ impl Pen {
         };
         self.move_to(*first);
         for place in 1..points.len() {
-            // From `place` to the next; the command `s` continues the tangent of the previous curve.
+            // A cubic curve from `place` to the next; the command `s` continues the tangent of the previous one.
             let [before, from, to, after] = [-1_isize, 0, 1, 2].map(|offset| at(place.wrapping_add_signed(offset)));
             let [leave, arrive] =
                 [from + (to - before) / 6.0, to - (after - from) / 6.0].map(|handle| handle - self.at);

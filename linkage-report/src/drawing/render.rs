@@ -6,7 +6,7 @@ use svg::node::element::{Circle, Description, Group, Line, Path, Polyline, Recta
 
 use super::axes::{label, ticks};
 use super::frame::{Frame, LEFT, TOP, WIDTH};
-use super::names::{Scene, foot, offset};
+use super::names::{Obstacles, foot, offset};
 use super::{Drawing, Mark, Quantity};
 
 const STYLE: &str = "
@@ -53,30 +53,31 @@ pub(super) fn svg(drawing: &Drawing) -> String {
         let points: Vec<String> = path.iter().map(|at| frame.pixel(*at)).map(|p| format!("{},{}", p.x, p.y)).collect();
         document = document.add(Polyline::new().set("class", "path").set("points", points.join(" ")));
     }
-    let mut scene = Scene::new(Vec::new(), Vec::new());
+    let mut obstacles = Obstacles::new(Vec::new(), Vec::new());
     for (from, to) in &drawing.bars {
         let ends = [from, to].map(|name| frame.pixel(drawing.at(name).unwrap_or_default()));
-        scene.segments.push(ends);
+        obstacles.segments.push(ends);
         document = document.add(line(ends, "bar"));
     }
     for arrow in &drawing.arrows {
         let ends = [frame.pixel(drawing.at(&arrow.from).unwrap_or_default()), frame.pixel(drawing.tip(arrow))];
-        scene.segments.push(ends);
+        obstacles.segments.push(ends);
         document = document.add(vector(ends, arrow.quantity));
     }
     for place in &drawing.places {
         let at = frame.pixel(place.at);
         if place.mark == Mark::Ground {
             // The triangle is an obstacle for names like a bar.
-            scene.segments.extend(foot(at));
+            obstacles.segments.extend(foot(at));
         }
         document = document.add(mark(at, place.mark));
     }
-    scene.points = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
+    obstacles.points = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
     for (index, place) in drawing.places.iter().enumerate() {
-        let offset_of_name = offset(&place.name, |_| true, std::slice::from_ref(&scene), |scene| scene.points[index]);
-        let at = scene.points[index] + offset_of_name;
-        scene.place_name(&place.name, at);
+        let offset_of_name =
+            offset(&place.name, |_| true, std::slice::from_ref(&obstacles), |obstacles| obstacles.points[index]);
+        let at = obstacles.points[index] + offset_of_name;
+        obstacles.place_name(&place.name, at);
         document = document.add(text(&place.name, "name", at + Vector2::new(0.0, 5.0), "middle"));
     }
     let mut x = LEFT;

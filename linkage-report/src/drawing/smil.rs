@@ -8,7 +8,7 @@ use svg::node::element::{AnimateTransform, Description, Group, Path, Rectangle, 
 use super::DrawingError;
 use super::animation::{Animation, Part};
 use super::film::{Body, Film, SIZE};
-use super::names::{Scene, foot, offset};
+use super::names::{Obstacles, foot, offset};
 use super::pen::{Pen, short};
 use super::shapes::{BLOCK, block, ground, hatching, link, spring, turning, wheel};
 
@@ -19,12 +19,13 @@ const STYLE: &str = include_str!("animation.css");
 /// The colours of links, used in turn.
 const COLOURS: [&str; 4] = ["a", "b", "c", "d"];
 
-/// The number of frames that the placement of names considers.
+/// The number of frames in which names must be clear of other shapes.
 const SAMPLES: usize = 12;
 
 /// A shape and its motion.
 struct Item {
     body: Body,
+    /// The shape around its origin, at the angle of the first frame.
     drawn: Group,
     /// The lengths of a spring, which is drawn along x; empty for other shapes.
     lengths: Vec<f64>,
@@ -33,8 +34,10 @@ struct Item {
 /// The picture under construction.
 struct Stage<'a> {
     film: &'a Film,
+    /// Shapes at rest, behind all others.
     back: Group,
     items: Vec<Item>,
+    /// The number of coloured links so far.
     links: usize,
     /// Points along the arrows: obstacles for names.
     arrows: Vec<[Vector2<f64>; 2]>,
@@ -196,7 +199,7 @@ impl Stage<'_> {
         let film = self.film;
         let (mut met, mut traced) = (vec![0; film.names().len()], vec![false; film.names().len()]);
         for part in &animation.parts {
-            for name in part.joins() {
+            for name in part.joints() {
                 met[film.index(name)?] += 1;
             }
             if let Part::Trace(point) = part {
@@ -204,7 +207,7 @@ impl Stage<'_> {
             }
         }
         let named: Vec<usize> = (0..met.len()).filter(|point| met[*point] > 1 || traced[*point]).collect();
-        let offsets = self.name_offsets(&named, self.scenes(animation, &named)?);
+        let offsets = self.name_offsets(&named, self.obstacles(animation, &named)?);
         for (&point, at) in named.iter().zip(offsets) {
             let class = if traced[point] { "dot" } else { "joint" };
             let drawn = Group::new()
@@ -216,48 +219,48 @@ impl Stage<'_> {
     }
 
     /// The positions of names relative to their points. Long names are placed first: they are the hardest.
-    fn name_offsets(&self, named: &[usize], mut scenes: Vec<Scene>) -> Vec<Vector2<f64>> {
+    fn name_offsets(&self, named: &[usize], mut obstacles: Vec<Obstacles>) -> Vec<Vector2<f64>> {
         let inside = |at: Vector2<f64>| at >= Vector2::repeat(6.0) && at <= SIZE - Vector2::repeat(6.0);
         let name = |place: usize| self.film.names()[named[place]].as_str();
         let mut order: Vec<usize> = (0..named.len()).collect();
         order.sort_by_key(|place| std::cmp::Reverse(name(*place).len()));
         let mut offsets = vec![Vector2::zeros(); named.len()];
         for place in order {
-            offsets[place] = offset(name(place), inside, &scenes, |scene| scene.points[place]);
-            for scene in &mut scenes {
-                scene.place_name(name(place), scene.points[place] + offsets[place]);
+            offsets[place] = offset(name(place), inside, &obstacles, |frame| frame.points[place]);
+            for frame in &mut obstacles {
+                frame.place_name(name(place), frame.points[place] + offsets[place]);
             }
         }
         offsets
     }
 
     /// The obstacles for names, in some of the frames.
-    fn scenes(&self, animation: &Animation, named: &[usize]) -> Result<Vec<Scene>, DrawingError> {
+    fn obstacles(&self, animation: &Animation, named: &[usize]) -> Result<Vec<Obstacles>, DrawingError> {
         let frames = self.film.frames();
-        let mut scenes = Vec::new();
+        let mut obstacles = Vec::new();
         for frame in frames.iter().step_by(frames.len().div_ceil(SAMPLES)) {
             let points = named.iter().map(|point| frame[*point]).collect();
-            let mut scene = Scene::new(self.arrows.clone(), points);
+            let mut shapes = Obstacles::new(self.arrows.clone(), points);
             for part in &animation.parts {
                 let points: Vec<Vector2<f64>> =
-                    part.joins().map(|name| Ok(frame[self.film.index(name)?])).collect::<Result<_, DrawingError>>()?;
+                    part.joints().map(|name| Ok(frame[self.film.index(name)?])).collect::<Result<_, DrawingError>>()?;
                 match part {
-                    Part::Ground(_) => scene.segments.extend(points.iter().flat_map(|at| foot(*at))),
+                    Part::Ground(_) => shapes.segments.extend(points.iter().flat_map(|at| foot(*at))),
                     Part::Link { .. } => {
                         let next = points.iter().cycle().skip(1);
-                        scene.segments.extend(points.iter().zip(next).map(|(from, to)| [*from, *to]));
+                        shapes.segments.extend(points.iter().zip(next).map(|(from, to)| [*from, *to]));
                     }
-                    _ => scene.segments.extend(points.windows(2).map(|ends| [ends[0], ends[1]])),
+                    _ => shapes.segments.extend(points.windows(2).map(|ends| [ends[0], ends[1]])),
                 }
             }
-            scenes.push(scene);
+            obstacles.push(shapes);
         }
-        Ok(scenes)
+        Ok(obstacles)
     }
 }
 
 impl Item {
-    /// The item in its first position, or animated through all frames in so many seconds.
+    /// The item in its first position, or animated through all frames in this number of seconds.
     fn group(&self, seconds: Option<f64>) -> Group {
         let first = self.body.places[0];
         let mut drawn = self.drawn.clone();

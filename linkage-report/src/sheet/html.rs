@@ -1,6 +1,6 @@
 //! Helpers for HTML.
 
-use crate::document::outline::Law;
+use crate::document::outline::GeneralEquation;
 use linkage_runtime::derivation::{Formula, FormulaMatrix};
 
 /// Escapes text for an element or for an attribute in double quotes.
@@ -36,9 +36,9 @@ pub(super) fn display(mathml: &str, latex: &str) -> String {
 /// A matrix with more rows or columns than this is written as a list of its entries.
 const LARGEST_MATRIX: usize = 6;
 
-/// The MathML and LaTeX of `name = matrix`, or of each entry of a large matrix. A `law` such as J = ∂Ψ/∂u defines the
+/// The MathML and LaTeX of `name = matrix`, or of each entry of a large matrix. A `general` such as J = ∂Ψ/∂u defines the
 /// matrix.
-pub(super) fn matrix(matrix: &FormulaMatrix, law: Option<&Law>) -> Vec<(String, String)> {
+pub(super) fn matrix(matrix: &FormulaMatrix, general: Option<&GeneralEquation>) -> Vec<(String, String)> {
     let FormulaMatrix { name, factor, rows, columns, .. } = matrix;
     let (before, before_latex) =
         factor.map_or_else(Default::default, |factor| (factor.mathml.to_owned(), factor.latex.to_owned()));
@@ -49,8 +49,8 @@ pub(super) fn matrix(matrix: &FormulaMatrix, law: Option<&Law>) -> Vec<(String, 
             let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.mathml, value.mathml);
             (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.latex, value.latex))
         });
-        let law = law.map(|law| (law.mathml.to_owned(), law.latex.to_owned()));
-        return law.into_iter().chain(entries).collect();
+        let general = general.map(|general| (general.mathml.to_owned(), general.latex.to_owned()));
+        return general.into_iter().chain(entries).collect();
     }
     let (mut mathml, mut latex) = (String::new(), String::new());
     for row in 0..*rows {
@@ -66,8 +66,8 @@ pub(super) fn matrix(matrix: &FormulaMatrix, law: Option<&Law>) -> Vec<(String, 
         latex.push_str(&format!(" {} \\\\", entries.join(" & ")));
     }
     // J = ∂Ψ/∂u = (…) is one chain of equations.
-    let (name, name_latex) = match law {
-        Some(law) => (law.mathml.to_owned(), law.latex.to_owned()),
+    let (name, name_latex) = match general {
+        Some(general) => (general.mathml.to_owned(), general.latex.to_owned()),
         None => (name.mathml.to_owned(), name.latex.to_owned()),
     };
     // Fractions are large if there is room.

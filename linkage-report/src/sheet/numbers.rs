@@ -4,10 +4,10 @@ use linkage_runtime::derivation::{Derivation, Equation, Quantity, Symbol};
 
 use super::html::escape;
 
-/// The significant digits of a number.
+/// The significant digits with which a number is printed.
 const DIGITS: i32 = 7;
 
-/// A name as a formula if it is known, else as text.
+/// The name of a column: as a formula if it is that of a symbol, of an equation's left side or of a rate, else as text.
 pub(super) fn name(derivation: &Derivation, name: &str) -> String {
     match formula(derivation, name) {
         Some(mathml) => format!("<math>{mathml}</math>"),
@@ -15,6 +15,8 @@ pub(super) fn name(derivation: &Derivation, name: &str) -> String {
     }
 }
 
+/// The MathML of the name of a symbol, of the left side of an equation, of `theta3/theta2` for the partial derivative of
+/// one symbol by another, or of `theta3_rate` or `theta3_acceleration`; None for other names.
 fn formula(derivation: &Derivation, name: &str) -> Option<String> {
     let symbol = |name: &str| {
         let mut symbols = derivation.parameters.iter().chain(derivation.inputs).chain(derivation.unknowns);
@@ -93,12 +95,13 @@ fn number(value: f64) -> String {
         let places = (DIGITS - 1 - exponent).max(0) as usize;
         format!("{sign}{}", trim(&format!("{:.places$}", value.abs())))
     } else {
-        let raised: String = exponent.to_string().chars().map(raise).collect();
-        format!("{sign}{}·10{raised}", trim(mantissa))
+        let power: String = exponent.to_string().chars().map(superscript).collect();
+        format!("{sign}{}·10{power}", trim(mantissa))
     }
 }
 
-fn raise(c: char) -> char {
+/// A digit or a minus as a superscript.
+fn superscript(c: char) -> char {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])
 }

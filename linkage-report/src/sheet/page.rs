@@ -1,6 +1,6 @@
 //! Writes the page, section by section.
 
-use crate::document::outline::{self, Law, words};
+use crate::document::outline::{self, GeneralEquation, words};
 use linkage_runtime::derivation::{
     Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, SceneDerivation, Symbol,
 };
@@ -66,8 +66,8 @@ impl Page {
     }
 
     /// An equation without a number.
-    fn law(&mut self, law: &Law) {
-        self.push(&format!("<div class=\"law\">{}</div>", display(law.mathml, law.latex)));
+    fn general_equation(&mut self, general: &GeneralEquation) {
+        self.push(&format!("<div class=\"law\">{}</div>", display(general.mathml, general.latex)));
     }
 
     fn equations(&mut self, equations: &[Equation]) {
@@ -87,8 +87,8 @@ impl Page {
         self.push("</div>");
     }
 
-    fn matrix(&mut self, which: &FormulaMatrix, law: Option<&Law>) {
-        let lines: String = matrix(which, law).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
+    fn matrix(&mut self, which: &FormulaMatrix, general: Option<&GeneralEquation>) {
+        let lines: String = matrix(which, general).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
         self.push(&format!("<div class=\"law\">{lines}</div>"));
     }
 
@@ -114,7 +114,7 @@ impl Page {
     fn constraints(&mut self, derivation: &Derivation) {
         self.section(words::CONSTRAINTS, |page| {
             page.lead(words::LEAD_CONSTRAINTS);
-            page.law(&outline::CONSTRAINTS);
+            page.general_equation(&outline::CONSTRAINTS);
             page.equations(derivation.residual);
         });
     }
@@ -163,9 +163,9 @@ impl Page {
     fn ratios(&mut self, derivation: &Derivation) {
         self.section(words::RATIOS, |page| {
             page.lead(words::LEAD_RATIOS);
-            page.law(&outline::RATIOS);
+            page.general_equation(&outline::RATIOS);
             page.lead(words::LEAD_VELOCITY);
-            page.law(&outline::VELOCITY);
+            page.general_equation(&outline::VELOCITY);
             page.equations(derivation.ratios);
         });
     }
@@ -173,7 +173,7 @@ impl Page {
     fn acceleration(&mut self, derivation: &Derivation) {
         self.section(words::ACCELERATION, |page| {
             page.lead(words::LEAD_ACCELERATION);
-            page.law(&outline::ACCELERATION);
+            page.general_equation(&outline::ACCELERATION);
             if !derivation.gamma.is_empty() {
                 page.lead(words::LEAD_GAMMA);
             }
@@ -186,14 +186,14 @@ impl Page {
         if let Some(formulas) = derivation.ratio_derivatives {
             self.section(words::RATIO_DERIVATIVES, |page| {
                 page.lead(words::LEAD_RATIO_DERIVATIVES);
-                page.law(&outline::RATIO_DERIVATIVES);
+                page.general_equation(&outline::RATIO_DERIVATIVES);
                 page.equations(formulas);
             });
         }
         if let Some(eta) = derivation.jerk {
             self.section(words::JERK, |page| {
                 page.lead(words::LEAD_JERK);
-                page.law(&outline::JERK);
+                page.general_equation(&outline::JERK);
                 page.lead(words::LEAD_ETA);
                 page.equations(eta);
             });
@@ -201,7 +201,7 @@ impl Page {
         if let Some(sensitivity) = derivation.sensitivity {
             self.section(words::SENSITIVITY, |page| {
                 page.lead(words::LEAD_SENSITIVITY);
-                page.law(&outline::SENSITIVITY);
+                page.general_equation(&outline::SENSITIVITY);
                 page.lead(words::LEAD_PARAMETERS);
                 page.matrix(&sensitivity.jacobian, None);
                 page.equations(sensitivity.formulas);
@@ -265,7 +265,7 @@ impl Page {
                 page.push(&format!("<p>{}: {given}</p>", words::GIVEN));
             }
             page.lead(words::LEAD_MOTION);
-            page.law(&outline::MOTION);
+            page.general_equation(&outline::MOTION);
             if !scene.mass_matrix.is_empty() {
                 page.lead(words::LEAD_MASS_MATRIX);
                 page.equations(scene.mass_matrix);

@@ -70,7 +70,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         Self::all_but(0, jacobian)
     }
 
-    /// Eliminates with all pivots but the last `open`: so many rows stay open.
+    /// Eliminates with all pivots but the last `open`, so that `open` rows have none.
     pub fn all_but(open: usize, jacobian: Jacobian<T, U, V>) -> Self {
         let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
         while elimination.order.pivots + open < U::COUNT {
