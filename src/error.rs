@@ -1,4 +1,4 @@
-//! The error type for functions that do several things.
+//! The error type for functions that return several kinds of errors.
 
 use core::fmt;
 
@@ -6,7 +6,7 @@ use core::fmt;
 use linkage_dynamics::MotionError;
 use linkage_runtime::{InputError, PathError, PositionError};
 
-/// Any error of this crate: `?` converts the other errors to it, in functions that do several things.
+/// Any error of this crate, for functions that return several kinds: `?` converts the other error types to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Error {

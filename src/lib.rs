@@ -28,7 +28,8 @@ pub use linkage_runtime::{
     derivation, limits, nalgebra, position, real, singularity,
 };
 
-/// A mechanism under forces: the rate function solves for the position, with the last position as the guess.
+/// An example without a `scene`, a crank and slider: the rate function solves for the position, with the last
+/// position as the guess. With a `scene` the macro emits the equations of motion.
 ///
 /// ```
 /// use linkage::integrate::{Tolerance, dop853};
@@ -48,13 +49,13 @@ pub use linkage_runtime::{
 /// let (inertia, mass) = (0.01, 0.5); // of the crank, kg m^2; of the piston, kg
 ///
 /// let mut q = slider_crank.solve(&SliderCrankCoordinates { phi: 1.0, beta: -0.3, s: 0.34 })?.coordinates;
-/// // (I + m s'^2) phi'' = -m s' s'', s' for unit speed and s'' without acceleration of the crank.
+/// // (I + m w^2) phi'' = -m w b, with the velocity ratio w = ds/dphi, and b = s'' without acceleration of the crank.
 /// let rate = |_t: f64, y: &SVector<f64, 2>| {
 ///     q.phi = y[0];
 ///     q = slider_crank.solve(&q)?.coordinates;
 ///     let ratio = slider_crank.motion(&q, 1.0, 0.0)?.points.piston.velocity.x;
-///     let drift = slider_crank.motion(&q, y[1], 0.0)?.points.piston.acceleration.x;
-///     Ok(vector![y[1], -mass * ratio * drift / (inertia + mass * ratio * ratio)])
+///     let bias = slider_crank.motion(&q, y[1], 0.0)?.points.piston.acceleration.x;
+///     Ok(vector![y[1], -mass * ratio * bias / (inertia + mass * ratio * ratio)])
 /// };
 /// let start = (0.0, vector![1.0, 20.0]); // s; rad, rad/s
 /// let mut motion = dop853(rate, start, 1.0, Tolerance::new(1e-10, [1.0, 20.0])?)?;

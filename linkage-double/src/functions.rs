@@ -57,8 +57,8 @@ fn integer(x: f64) -> Option<i32> {
     (f64::from(integer) == x).then_some(integer)
 }
 
-/// The sum of x^n/n! for n from `first` to `last` in steps of `step`, with alternating signs if `sign` is -1, divided by
-/// x^first; `power` is x^step.
+/// The sum of x^n/n! for n from `first` to `last` in steps of `step`, with alternating signs if `sign` is -1, divided
+/// by x^first; `power` is x^step.
 fn series(power: DoubleDouble, first: usize, step: usize, last: usize, sign: f64) -> DoubleDouble {
     let terms = INVERSE_FACTORIALS[first..=last].iter().step_by(step).rev();
     terms.fold(ZERO, |sum, &term| term + sum * power * DoubleDouble::from(sign))

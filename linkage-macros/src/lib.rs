@@ -120,7 +120,7 @@ use proc_macro::TokenStream;
 /// let arm = Arm::default();
 /// let q = arm.solve(&ArmCoordinates { phi1: 1.0, phi2: -0.2, z2: 2.0 })?.coordinates;
 /// let pose = arm.pose_at(&q);
-/// // Equation 1.1 of the lecture notes: J is singular where z2 + z3 cos(delta) = 0.
+/// // J is singular where z2 + z3 cos(delta) = 0: equation 1.1 of the lecture notes that the README cites.
 /// assert!((arm.determinant(&pose) + q.z2 + 0.25).abs() < 1e-15);
 /// # Ok::<(), linkage::Error>(())
 /// ```
@@ -179,19 +179,20 @@ use proc_macro::TokenStream;
 ///
 /// The function at the path takes one `T` for each argument and returns a tuple with one `T` for each name after `->`:
 /// its value and its first, second, ... derivative with respect to the first argument. Each name is a function in
-/// expressions. The other arguments are held constant: expressions there must not depend on coordinates. A loop
-/// equation, point or output needs two derivatives more than the highest that it names; an error says if the function
-/// returns fewer.
+/// expressions. The other arguments are held constant: expressions there must not depend on coordinates. Velocities and
+/// accelerations take two derivatives more than the highest that a loop equation, point or output names; an error says
+/// if the function returns fewer.
 ///
-/// The function is called once for each distinct argument list, for all derivatives together, and a pose stores the
-/// values. Return NaN where the function is undefined: this becomes the error `NotFinite`. The first argument may
-/// depend on an unknown; the position is then found by `solve`, and `assemble` is not emitted.
+/// The function is called once for each distinct argument list, for all derivatives together, and a pose (a position
+/// prepared for further functions, see below) stores the values. Return NaN where the function is undefined: this
+/// becomes the error `NotFinite`. The first argument may depend on an unknown; the unknown is then found by Newton's
+/// method, and `assemble_near` replaces `assemble`.
 ///
 /// # Choice of the driving coordinate
 ///
-/// The singular configurations of a mechanism depend on the coordinate that drives it. A mechanism may leave the
-/// choice open: each `drive` defines a type with the same parameters. All share the type of the coordinates, so that
-/// a position found with one driver can be used with the others.
+/// The singular configurations of a mechanism depend on the coordinate that drives it. A mechanism may leave the choice
+/// of input open: each `drive` defines a type with the same parameters, a driver. All drivers share the type of the
+/// coordinates, so that a position found with one can be used with the others.
 ///
 /// ```
 /// linkage::linkage! {
@@ -213,13 +214,13 @@ use proc_macro::TokenStream;
 ///
 /// # Higher derivatives and sensitivities
 ///
-/// A `derive` statement adds functions for every driver. They solve linear systems in J with the same formulas or
-/// the same factorisation as `velocity`:
+/// A `derive` statement adds functions for every driver; q, u, v, Psi, J, A and W are defined
+/// [below](#what-is-emitted-for-mechanism-fourbar). Linear systems in J are solved as in `velocity`:
 ///
 /// | keyword | functions |
 /// |---|---|
-/// | `limits` | `limits(v, branch)`, or `limits_of_NAME` for each of several inputs: the interval of the input about a position in which the mechanism can be assembled. Limits of groups that depend on the inputs alone, directly or through linear equations, are exact; those of other groups are bracketed by search. Isolated inputs at which a group is undetermined do not end the interval |
-/// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), for any number of inputs; `point_jerks`, `output_jerks` |
+/// | `limits` | `limits(v, branch)`, or `limits_of_NAME` for each of several inputs: the interval of the input about a position in which the mechanism can be assembled. Limits of groups that depend on the inputs alone, directly or through linear equations, are in closed form; those of other groups are bracketed by search. Isolated inputs at which a group has infinitely many positions do not end the interval |
+/// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), where eta are the terms without third derivatives, for any number of inputs; `point_jerks`, `output_jerks` |
 /// | `velocity_ratio_derivatives` | `velocity_ratio_derivatives(&pose)`: d2u/dv dv, for each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
 /// | `sensitivity` | `sensitivity(&pose)`: du/dp = -J^-1 `Psi_p` at fixed inputs, one column for each parameter; `point_sensitivities`, `output_sensitivities`: the total derivatives dl/dp = `l_p` + `l_u` du/dp |
 ///
@@ -318,7 +319,7 @@ use proc_macro::TokenStream;
 /// |---|---|
 /// | `inertia;` | the inertia of all bodies; `inertia crank, rod;` that of the bodies named. Without it the scene is static |
 /// | `gravity (0, -g);` | the weight of all bodies; `gravity (0, -g) on rod;` that of the bodies named |
-/// | `spring k, s0 between P and Q;` | a linear spring: stiffness and free length, which may be omitted |
+/// | `spring k, s0 between P and Q;` | a linear spring: stiffness, and free length, which is zero if omitted |
 /// | `spring k, phi0 on phi;` | a spring on any scalar: coordinate, output or expression |
 /// | `damper c between P and Q;`, `damper c on phi;` | the force -c s' along the distance or scalar s; c may be a LAW |
 /// | `torque LAW on phi;` | a torque on an angle, or a force on a length: its work is LAW times the change of `phi` |
@@ -337,24 +338,24 @@ use proc_macro::TokenStream;
 /// | item of a scene | meaning |
 /// |---|---|
 /// | `mechanism`, `new`, `Default`, `map`, conversion from the mechanism and an array | the kinematics, and the parameters of the effects |
-/// | `mass_matrix(&q)` | M = sum m `W_G`' `W_G` + j w' w, reduced to the inputs; with `inertia` |
+/// | `mass_matrix(&q)` | M = sum m `W_G`' `W_G` + j `W_phi`' `W_phi`, with the velocity ratios of the centres and angles of the bodies; with `inertia` |
 /// | `forces(t, &q, v')` | the generalised forces Q, including the quadratic velocity terms: M v'' = Q |
 /// | `acceleration(t, &q, v')`, `rates(t, &q, v')` | v''; the pair (q', v''); with `inertia` |
 /// | `drives(t)`, `drive_forces(t, &q, v')` | value, rate and acceleration of each prescribed input; the forces that drive them, M v'' - Q |
 /// | `DERIVATION` | the equations of motion as data: M, the contribution of each body and effect to Q, the potential energy; `sheet` prints them |
-/// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; applied power (forces, torques, drives) and dissipated power |
+/// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; applied power (of forces, torques and drives) and dissipated power (of dampers and frictions) |
 /// | `reactions(t, &q, v')` | the Lagrange multipliers: for a `loop`, the force of its left side on its right side where it is cut |
 /// | `equilibrium(t, &guess)` | the position of static equilibrium near the guess, by Newton's method, with prescribed inputs at their values; `balance(t, &q)`: the forces at rest and their derivatives, whose signs decide stability |
-/// | `check()` | an error that names the parameter if a mass, an inertia or a friction is negative, the range of a stop is empty, or a restitution is not between 0 and 1 |
+/// | `check()` | returns an error that names the parameter if a mass, an inertia or a friction is negative, the range of a stop is empty, or a restitution is not between 0 and 1 |
 /// | `unreduced(t, &q, &q')` | with `inertia`: M and F of `M q'' + Psi_q' lambda = F` in all coordinates, without frictions and stops |
 /// | the trait `Scene` | with `inertia`: the state (q, v') for an integrator, its derivative, its projection onto the constraints; `contacts`: each friction and stop with its scalar and its limits; `equations`: M, Q, W, and u'' at v'' = 0, without frictions and stops |
 ///
 /// ## Simulation
 ///
 /// `simulation::simulate` integrates a scene with `inertia`, also one with frictions and stops, and returns states with
-/// all coordinates and rates by name. At dead points of the input it continues in other independent coordinates;
-/// through change points it goes straight on. Where it cannot continue it returns an error; earlier states remain
-/// valid.
+/// all coordinates and rates by name. At dead points of the input it continues in other independent coordinates; at
+/// change points, where motions cross, on the one whose tangent continues. Where it cannot continue it returns an
+/// error; earlier states remain valid.
 ///
 /// ```
 /// linkage::linkage! {
@@ -513,16 +514,17 @@ use proc_macro::TokenStream;
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
-/// - A sticking contact transmits a force up to its limit. Several contacts on one input stick while |Q| does not
-///   exceed the sum of |ds/dv| limit. Static and kinetic limit are equal unless the limit is a LAW that depends on
-///   `rate(s)`.
+/// - A sticking contact transmits a force up to its limit. Several contacts of a mechanism with one input v stick while
+///   |Q| does not exceed the sum of limit |ds/dv| over them. Static and kinetic limit are equal unless the limit is a
+///   LAW that depends on `rate(s)`.
 /// - At an impact s'+ = -e s'-, and no other stop in contact is penetrated. Impulses of friction are neglected.
 /// - Bouncing ends when the rebound rate is less than sqrt(epsilon) times the largest impact rate of the series, or the
 ///   rebound is not higher than one ulp of s.
-/// - A stop is detected even if it is touched only briefly within a step, provided that its gap has one minimum in the
-///   step. Changes of stick and slip, and your own events, are found if their function has one extremum in a step. With
-///   more, some are missed: for random sums of sines 0.1 % with two extrema in a step, 1 % with three, 5 % with four,
-///   25 % with five. See the module `integrate`; `largest_step` reduces these rates.
+/// - The touch of a stop is found even if it is brief within a step of the integration, provided that the gap has one
+///   minimum in the step. Changes between stick and slip, and your own events, are found if the function whose zero
+///   they are has one extremum in a step. With more, some are missed: for random sums of sines 0.1 % with two extrema
+///   in a step, 1 % with three, 5 % with four, 25 % with five. See the module `integrate`; `largest_step` reduces these
+///   rates.
 /// - A body at rest on a stop without load stays there, and so do two bodies after an impact without rebound.
 /// - A simulation of frictions or stops backwards in time returns `MotionError::Irreversible`.
 /// - `power` counts limit |s'| of each friction as dissipated. In scenes with contacts it omits the power of drives,
@@ -541,12 +543,12 @@ use proc_macro::TokenStream;
 /// | `FourBar<T = f64>` | the parameters; `new` (up to seven parameters), `Default` for `f64`, `map` to another scalar, conversions from and to arrays |
 /// | `FourBarCoordinates<T>`, `FourBarRates<T>`, `FourBarAccelerations<T>` | q, q' and q'' by name, with `derive jerk` also `FourBarJerks<T>`, q'''; u before v; conversions from and to `SVector` |
 /// | `FourBarInputs<T>` | v by name, also used for v' and v''; a single input converts from a number, and all from q, q' or q'' |
-/// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | the points and outputs by name |
+/// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | a quantity `Q`, such as a velocity, for each point or output by name |
 /// | `motion(&q, v', v'')` | everything in one call, common subexpressions computed once: `FourBarMotion<T>` with `position`, `rates`, `accelerations`, `points` and `outputs` |
 /// | `assemble(v, branch)` | position in closed form, group by group, on the given branch; emitted if every block has a closed form |
 /// | `assemble_near(&guess, branch)` | if some blocks have no closed form: replaces `assemble`, with Newton's method from the guess for these blocks. If turns of angles matter (see below): in addition to `assemble`, with each angle in the turn nearest to the guess |
 /// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values; branches on which a group is undetermined are omitted |
-/// | `FourBarBranch`, `branch_of(&pose)` | the assembly mode: one of two solutions for each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` sets all turns to 0, `all()` lists the branches with turns 0 |
+/// | `FourBarBranch`, `branch_of(&pose)` | the branch, that is the assembly mode: one of two solutions for each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` sets all turns to 0, `all()` lists the branches with turns 0 |
 /// | `solve(&guess)` | position by Newton's method on the branch of the guess, with its iterations and residual |
 /// | `solve_any_branch(&guess)` | position by Newton's method on any branch, with a flag that is true on the branch of the guess |
 /// | `FourBarPose<T>`, `pose_at(&q)` | a position prepared for the functions below, which then compute no sines: directions of angles, determinants, inputs and angles as numbers where needed, values of user functions; `coordinates()` converts it back |
@@ -615,19 +617,20 @@ use proc_macro::TokenStream;
 /// - Links that do not reach each other: `assemble` returns `PositionError::Unbuildable` with the gap. It does so too
 ///   for guides that are parallel and apart, and for a linear unknown whose coefficient vanishes.
 /// - Links stretched or folded in line at a limit: `assemble` returns the position, whose determinant is zero; both
-///   branches meet there. A gap of less than one epsilon times the terms of the loop equation counts as zero, since
-///   rounding errors are of this size.
+///   branches meet there. A gap of at most one epsilon times the sum of the magnitudes of the terms of the loop
+///   equation counts as zero, since rounding errors are of this size.
 /// - A dyad whose outer joints coincide: with links of equal length its position is arbitrary, and `assemble` returns
 ///   `PositionError::Undetermined`; with links of different lengths it is unbuildable. Joints coincide if their
-///   distance is less than eight epsilons times the terms of their coordinates. Also undetermined are a slotted arm
-///   whose pin is in its pivot, guides on one line, a link of zero length, and `0 * u = 0`.
+///   distance is at most eight epsilons times the sum of the magnitudes of the terms of their coordinates. Also
+///   undetermined are a slotted arm whose pin is in its pivot, guides on one line, a link of zero length, and
+///   `0 * u = 0`.
 ///
-/// A later group can be undetermined where an earlier one is at its limit: in Peaucellier's cell the rhombus folds
+/// A group can be undetermined where a group solved before it is at its limit: in Peaucellier's cell the rhombus folds
 /// there. `limits` returns that input all the same, as `Exact`, and ignores inputs inside the range at which a group is
 /// undetermined, such as a folded kite. `branches` omits branches on which a group is undetermined or unbuildable. An
 /// `Exact` limit is accurate to two ulp; a `Bracketed` limit lies between its two inputs or within three ulp of them;
-/// both times the condition number of the limit with respect to relative changes of the lengths. All limits are finite
-/// numbers.
+/// both times the condition number of the limit v, 1 + the sum of |(l / v) dv/dl| over the lengths l. All limits are
+/// finite numbers.
 ///
 /// # Compile errors
 ///
@@ -637,7 +640,7 @@ use proc_macro::TokenStream;
 /// singular at every position, vectors where scalars belong and scalars where vectors belong, a name used as an angle
 /// and as a length, a user function that returns too few derivatives, unknown or repeated keywords after `derive`,
 /// bodies of negative mass or in no scene, scenes in which no inertia moves with an input, division by zero,
-/// constants outside the range of `f64`, and attributes without effect. There are limits of size: 64 levels of
+/// constants outside the range of `f64`, and attributes without effect. The size is limited: to 64 levels of
 /// parentheses, 100 000 tokens, 25 000 expressions, and 40 000 with their derivatives, including one for
 /// each entry of `sensitivity` (a chain of four-bars takes 70 for each loop). All mechanisms of an invocation share one
 /// budget of work, which is counted, not timed: 345 legs of Jansen's walking machine, as many as 100 000 tokens define,

@@ -1,7 +1,7 @@
 //! Classification of a block as an Assur group.
 //!
-//! A loop equation of two rows is a complex equation x + i y = 0. Let V be the sum of its terms that contain an unknown.
-//! The unknown is
+//! A loop equation of two rows is a complex equation x + i y = 0. Let V be the sum of its terms that contain an
+//! unknown. The unknown is
 //! - an angle phi of a revolute joint if it rotates V: dV/dphi = i V
 //! - a length s of a sliding joint if it moves V along a line: the direction D = dV/ds does not depend on s
 //!

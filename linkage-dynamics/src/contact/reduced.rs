@@ -43,8 +43,8 @@ pub struct ReducedContact<T: Real, V: Dim> {
 }
 
 impl<T: Real, V: Dim> ReducedContact<T, V> {
-    /// Reduces a contact to independent coordinates z, in which (u', v') = N z' and (u'', v'') = N z'' + bias; N and the
-    /// bias are given as their rows of u and of v.
+    /// Reduces a contact to independent coordinates z, in which (u', v') = N z' and (u'', v'') = N z'' + bias; N and
+    /// the bias are given as their rows of u and of v.
     #[must_use]
     pub fn new<U: Dim>(
         contact: &Contact<T, U, V>,

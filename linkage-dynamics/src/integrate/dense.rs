@@ -36,8 +36,8 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         self.coefficients.iter().take(self.used).flatten().all(T::is_finite)
     }
 
-    /// The cubic Hermite interpolant of the states and slopes at both ends, of order 3: it requires no evaluation of the
-    /// rate.
+    /// The cubic Hermite interpolant of the states and slopes at both ends, of order 3: it requires no evaluation of
+    /// the rate.
     #[inline]
     pub(super) fn cubic(start: T, length: T, states: [&Column<T, N>; 2], slopes: [&Column<T, N>; 2]) -> Self {
         let difference = *states[1] - *states[0];
@@ -59,8 +59,8 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         self
     }
 
-    /// The polynomial with the value `state` at the start and these slopes y' at the fractions `parts` of the step; None
-    /// if the fractions do not determine it.
+    /// The polynomial with the value `state` at the start and these slopes y' at the fractions `parts` of the step;
+    /// None if the fractions do not determine it.
     pub(crate) fn of_slopes<const P: usize>(
         (start, state): (T, Column<T, N>),
         length: T,

@@ -347,8 +347,8 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         }
     }
 
-    /// Finds the first events of the step after the fraction `from`, sampling at the ends of `parts` equal parts. Guards
-    /// that are not close to a parabola between samples are sampled more often.
+    /// Finds the first events of the step after the fraction `from`, sampling at the ends of `parts` equal parts.
+    /// Guards that are not close to a parabola between samples are sampled more often.
     ///
     /// If a function approaches zero at one sample and leaves it at the next, its extremum between them is located, so
     /// that two passages through zero are not missed. The cubic, which interpolates only states and rates at the ends
@@ -607,7 +607,8 @@ fn first_not_positive(
             let room = radius - 0.5 * (b - a);
             if (truncated - middle).abs() <= room { truncated } else { middle - side * room }
         } else {
-            // At the start of a motion a rounding error of the value may contradict the sign that it has a little later.
+            // At the start of a motion a rounding error of the value may contradict the sign that it has a little
+            // later.
             middle
         };
         // Keep at least `half` away from both ends.

@@ -41,7 +41,8 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
     /// Starts from a time, a position and the rates of the inputs, with steps of this length.
     ///
     /// # Errors
-    /// Those of [`Scene::start`], and [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length is zero or not finite.
+    /// Those of [`Scene::start`], and [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length
+    /// is zero or not finite.
     pub fn new(
         scene: &'a S,
         (t, q, input_rates): (S::Scalar, Coordinates<S>, impl Into<Inputs<S>>),

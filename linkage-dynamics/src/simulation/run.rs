@@ -198,7 +198,8 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// The forces of frictions, stops and drives at the state reached; at an event, those after it.
     ///
     /// # Errors
-    /// Those of the equations of motion, and [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) very near to one.
+    /// Those of the equations of motion, and [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) very
+    /// near to one.
     pub fn loads(&self) -> Result<Loads<S>, MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.projected(t, self.integration.state())?;

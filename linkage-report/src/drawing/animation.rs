@@ -134,8 +134,8 @@ impl Animation {
         self.part(Part::Wheel { centre: centre.to_owned(), towards: towards.to_owned(), radius })
     }
 
-    /// Adds a plate of any outline, such as a cam, that turns with the direction from its centre to the point `towards`.
-    /// The corners of the outline are relative to the centre, with x in this direction.
+    /// Adds a plate of any outline, such as a cam, that turns with the direction from its centre to the point
+    /// `towards`. The corners of the outline are relative to the centre, with x in this direction.
     pub fn plate(&mut self, centre: &str, towards: &str, outline: impl IntoIterator<Item = Vector2<f64>>) -> &mut Self {
         let outline = outline.into_iter().collect();
         self.part(Part::Plate { centre: centre.to_owned(), towards: towards.to_owned(), outline })

@@ -36,8 +36,8 @@ pub(super) fn display(mathml: &str, latex: &str) -> String {
 /// A matrix with more rows or columns than this is written as a list of its entries.
 const LARGEST_MATRIX: usize = 6;
 
-/// The MathML and LaTeX of `name = matrix`, or of each entry of a large matrix. A `general` such as J = ∂Ψ/∂u defines the
-/// matrix.
+/// The MathML and LaTeX of `name = matrix`, or of each entry of a large matrix. A `general` such as J = ∂Ψ/∂u defines
+/// the matrix.
 pub(super) fn matrix(matrix: &FormulaMatrix, general: Option<&GeneralEquation>) -> Vec<(String, String)> {
     let FormulaMatrix { name, factor, rows, columns, .. } = matrix;
     let (before, before_latex) =

@@ -15,8 +15,8 @@ pub(super) fn name(derivation: &Derivation, name: &str) -> String {
     }
 }
 
-/// The MathML of the name of a symbol, of the left side of an equation, of `theta3/theta2` for the partial derivative of
-/// one symbol by another, or of `theta3_rate` or `theta3_acceleration`; None for other names.
+/// The MathML of the name of a symbol, of the left side of an equation, of `theta3/theta2` for the partial derivative
+/// of one symbol by another, or of `theta3_rate` or `theta3_acceleration`; None for other names.
 fn formula(derivation: &Derivation, name: &str) -> Option<String> {
     let symbol = |name: &str| {
         let mut symbols = derivation.parameters.iter().chain(derivation.inputs).chain(derivation.unknowns);

@@ -186,8 +186,8 @@ where
     ///
     /// # Errors
     /// [`PathError::DeadPoint`] if the input reverses before: the path is then at the dead point;
-    /// [`PathError::TooManySteps`] after [`most_steps`](Options::most_steps), [`InputError::OutOfRange`] if the input is
-    /// outside its range, and those of [`advance`](Self::advance).
+    /// [`PathError::TooManySteps`] after [`most_steps`](Options::most_steps), [`InputError::OutOfRange`] if the input
+    /// is outside its range, and those of [`advance`](Self::advance).
     pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError> {
         if !input.is_finite() {
             return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the input" }.into());

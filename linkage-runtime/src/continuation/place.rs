@@ -163,8 +163,8 @@ where
         groups
     }
 
-    /// Adds the groups whose determinants have fallen by the factor [`nearly_zero`] since another place. Where all terms
-    /// of an equation vanish at the crossing, the regularity of its block is 0/0.
+    /// Adds the groups whose determinants have fallen by the factor [`nearly_zero`] since another place. Where all
+    /// terms of an equation vanish at the crossing, the regularity of its block is 0/0.
     pub(super) fn add_vanished_groups(&self, crossing: &mut Crossing<M>, from: &Place<M>) {
         let determinants = self.determinants(&crossing.q);
         let pairs = determinants.iter().zip(&from.determinants);

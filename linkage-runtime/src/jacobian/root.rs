@@ -3,9 +3,9 @@
 use crate::{Real, real};
 
 /// Finds the point between `low` and `high` at which a value changes its sign, to within the distance `enough`: of the
-/// points evaluated, the one with the value nearest to zero. It uses the ITP method (I. F. D. Oliveira and R. H. C. Takahashi, "An Enhancement
-/// of the Bisection Method Average Performance Preserving Minmax Optimality", ACM Trans. Math. Softw. 47, 2020), which
-/// takes at most one evaluation more than bisection. `None` if `value` returns `None`.
+/// points evaluated, the one with the value nearest to zero. It uses the ITP method (I. F. D. Oliveira and R. H. C.
+/// Takahashi, "An Enhancement of the Bisection Method Average Performance Preserving Minmax Optimality", ACM Trans.
+/// Math. Softw. 47, 2020), which takes at most one evaluation more than bisection. `None` if `value` returns `None`.
 ///
 /// # Errors
 /// Those of `value`.

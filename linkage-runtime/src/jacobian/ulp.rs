@@ -8,8 +8,8 @@ pub fn ulps<T: Real>(number: f64) -> T {
 }
 
 /// A residual, a determinant or a singular value counts as zero up to this many ulps of the sum of the magnitudes of
-/// its terms: two stored angles are off by half an ulp of pi each, and their difference by two ulps. At 1, links in line
-/// at some angle do not count as singular; at 16, a dead centre loses digits.
+/// its terms: two stored angles are off by half an ulp of pi each, and their difference by two ulps. At 1, links in
+/// line at some angle do not count as singular; at 16, a dead centre loses digits.
 pub const ZERO_ULPS: f64 = 4.0;
 
 /// Coordinates, steps and second derivatives count as equal up to this many ulps of their scale: the error of a dozen
