@@ -25,8 +25,9 @@ pub struct Kinematics<P, R, T, const U: usize, const V: usize> {
 ///
 /// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then the rates
 /// of the inputs. Its derivative (W v', v'') requires no position solution, follows angles beyond a turn, and stays on
-/// its branch: W has no finite value at a dead point. [`Scene::project`] removes the drift of the constraints, after
-/// each step or now and then. For an integrator of plain functions, pass
+/// its branch, because W is infinite at a dead point. [`Scene::project`] removes the residual of the constraints that
+/// the errors of the steps accumulate: call it after each step or after several. For an integrator of plain functions,
+/// pass
 ///
 /// ```text
 /// |t, y: &_| scene.derivative(t, y)
@@ -57,8 +58,8 @@ pub trait Scene {
     /// Checks that the parameters are physically valid.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] if a mass, an inertia or a friction is negative, with its name, or if the restitution of
-    /// a stop is not between 0 and 1; [`InputError::EmptyRange`] with the name of a stop.
+    /// [`InputError::OutOfRange`] if a mass, an inertia or a friction is negative, with its name, or if the restitution
+    /// of a stop is not between 0 and 1; [`InputError::EmptyRange`] with the name of a stop.
     fn check(&self) -> Result<(), MotionError>;
     /// y' = (W v', v''), without frictions and stops.
     ///
@@ -211,7 +212,7 @@ pub struct Energy<T> {
 pub struct Power<T> {
     /// The power of forces, torques and drives.
     pub applied: T,
-    /// The power of dampers.
+    /// The power of dampers and frictions.
     pub dissipated: T,
 }
 

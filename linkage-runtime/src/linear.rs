@@ -6,8 +6,8 @@ use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::scalar::{largest, smallest, to_f64};
 use crate::{PositionError, Real, real};
 
-/// Returns an error if the determinant of a group of unknowns is zero relative to `scale`, the largest value that its
-/// formula could take; the sign of `scale` does not matter.
+/// Returns an error if the determinant of a group of unknowns is zero to rounding error, relative to `scale`, the
+/// largest value that it can take; the sign of `scale` does not matter.
 ///
 /// # Errors
 /// [`PositionError::Singular`], or [`PositionError::NotFinite`] if either is not a finite number.

@@ -79,9 +79,9 @@ pub trait Mechanism {
     fn jacobian_unknowns(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
     /// A, the derivative of Psi by v.
     fn jacobian_inputs(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
-    /// The largest magnitude that each entry of J could have at these lengths.
+    /// The largest magnitude that each entry of J can have at any angles, with the lengths of this pose.
     fn jacobian_unknowns_scales(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
-    /// The largest magnitude that each entry of A could have at these lengths.
+    /// The largest magnitude that each entry of A can have at any angles, with the lengths of this pose.
     fn jacobian_inputs_scales(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
     /// det J.
     fn determinant(&self, pose: &Self::Pose) -> Self::Scalar;
@@ -141,8 +141,8 @@ pub trait Assembly: Mechanism {
     /// gears, those nearest to the guess are used instead of those of the branch.
     ///
     /// # Errors
-    /// Those of [`assemble`](Self::assemble), and [`InputError::OutOfRange`](crate::InputError::OutOfRange) if a guess is
-    /// more turns away than a branch can count.
+    /// Those of [`assemble`](Self::assemble), and [`InputError::OutOfRange`](crate::InputError::OutOfRange) if a guess
+    /// is more turns away than a branch can count.
     fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError> {
         self.assemble(Self::inputs(guess).into(), branch)
     }

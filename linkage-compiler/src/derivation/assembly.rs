@@ -1,10 +1,10 @@
 //! Position in closed form, group by group (Chace's cases), without sines of solved angles.
 //!
-//! The solution of an angle is its direction (cos, sin). The two solutions of a group differ in the sign of a square
-//! root, the half chord of a circle: on it lies a joint of the group. It equals the determinant of the group's block of
-//! J up to sign, and is accurate because it is not computed from rounded sines. With plane vectors, a . b their scalar
-//! and a x b their vector product, V and W the links, D the vector between the outer joints, E the direction of a
-//! guide:
+//! The solution of an angle is its direction (cos, sin). The two solutions of a group are the intersections of a circle
+//! with a line or another circle: they differ in the sign of a square root, the half chord. It equals the determinant
+//! of the group's block of J up to sign, and is accurate because it is not computed from rounded sines. With plane
+//! vectors, a . b their scalar and a x b their vector product, V and W the links, D the vector between the outer
+//! joints, E the direction of a guide:
 //!
 //! - RRR: V + W = D, |V| = p, |W| = q. D x V = k, (2 k)^2 = ((p + q)^2 - D^2) (D^2 - (p - q)^2),
 //!   V . D = (D^2 + p^2 - q^2) / 2, V x W = -k

@@ -12,7 +12,7 @@ use linkage_runtime::__shared::to_f64;
 /// [`Integration::at`].
 ///
 /// It ends after the last time, where an event stops the integration, or with an error; earlier states remain valid. A
-/// time outside the rest of the interval is an [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange).
+/// time outside the interval that remains is an [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange).
 #[derive(Debug)]
 pub struct Outputs<'a, S: System, M, I> {
     integration: &'a mut Integration<S, M>,

@@ -1,7 +1,7 @@
 //! The main loop of a simulation: steps and events.
 
 use super::motion::Parametrisation;
-use super::parametrisation::{AtSingularity, WARNED_STEPS};
+use super::parametrisation::{AtSingularity, STEPS_BEFORE_RETURN};
 use super::run::Simulation;
 use super::state::{State, Touch};
 use super::watch::{Then, Watch};
@@ -76,7 +76,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     fn go_back(&mut self) -> Result<(), MotionError> {
         let (t, y) = self.from;
         self.integration.go_back(t, y);
-        self.warned = WARNED_STEPS;
+        self.steps_before_return = STEPS_BEFORE_RETURN;
         self.leave_inputs()?;
         self.is_prepared = true;
         Ok(())

@@ -9,7 +9,7 @@ use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::{Column, Mechanism, PathError, PositionError};
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// The change-point error with the most singular group: the least determinant relative to its scale.
+    /// The change-point error with the group of least regularity.
     pub(super) fn change_point_error(&self, q: &Coordinates<S>) -> MotionError {
         let mechanism = self.scene.mechanism();
         let (_, group) = Blocks::of(mechanism, &mechanism.pose_at(q)).least_regular();

@@ -44,7 +44,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
 /// An iterator over the states of a simulation at given times. Made by [`Simulation::at`].
 ///
 /// It ends after the last time, where an event stops the simulation, or with an error; earlier states remain valid. A
-/// time outside the rest of the interval is an [`InputError::OutOfRange`].
+/// time outside the interval that remains is an [`InputError::OutOfRange`].
 pub struct States<'s, 'a, S: Scene, M, W: Watch<S>, I> {
     pub(super) simulation: &'s mut Simulation<'a, S, M, W>,
     pub(super) times: I,

@@ -37,7 +37,7 @@ const IMPROVEMENT: f64 = 3.0;
 
 /// The number of steps to stay in other coordinates where the next step in the inputs might pass a singularity, unless
 /// it is passed sooner.
-pub(super) const WARNED_STEPS: u32 = 16;
+pub(super) const STEPS_BEFORE_RETURN: u32 = 16;
 
 /// Below this regularity of the other coordinates the tangent of the motion is only rounding error.
 const LEAST_REGULARITY: f64 = 1e-7;
@@ -98,7 +98,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             }
             _ if regularity > real(RETURN_TO_INPUTS_ABOVE) && self.is_past(&determinants) => {
                 let Change::<S> { inputs, .. } = motion.velocity(t, &y)?;
-                self.warned = 0;
+                self.steps_before_return = 0;
                 self.signs = determinants;
                 self.exchange(Parametrisation::Inputs, &inputs);
                 Ok(())
@@ -146,7 +146,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             }
             Ahead::Near(length) => self.integration.limit_next(to_f64(length)),
             Ahead::Clear if is_next => {
-                self.warned = WARNED_STEPS;
+                self.steps_before_return = STEPS_BEFORE_RETURN;
                 self.exchange(Parametrisation::Others(independent), &rates);
             }
             Ahead::Clear => {}
@@ -172,7 +172,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
 
     /// Returns true if the simulation may return to the inputs: the singularity is passed, or was not reached in time.
     fn is_past(&self, signs: &Signs<S>) -> bool {
-        self.warned == 0 || !same_signs(self.signs.as_slice(), signs.as_slice())
+        self.steps_before_return == 0 || !same_signs(self.signs.as_slice(), signs.as_slice())
     }
 
     /// Changes to other coordinates, those with the largest pivots.
@@ -209,7 +209,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
 
     /// Keeps the current coordinates, or changes to better ones.
     fn stay(&mut self, mut independent: Choice<S>) -> Result<(), MotionError> {
-        self.warned = self.warned.saturating_sub(1);
+        self.steps_before_return = self.steps_before_return.saturating_sub(1);
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();

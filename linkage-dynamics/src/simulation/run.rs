@@ -35,8 +35,9 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) from: (S::Scalar, StateColumn<S>),
     pub(super) signs: Signs<S>,
     pub(super) passages: Passages,
-    /// The remaining steps in other coordinates after a step in the inputs passed a singularity.
-    pub(super) warned: u32,
+    /// The remaining steps before the simulation may return to the inputs, if it does not pass the expected singularity
+    /// sooner.
+    pub(super) steps_before_return: u32,
     pub(super) is_over: bool,
     /// The error that ends the simulation after the current state.
     pub(super) failure: Option<MotionError>,
@@ -96,7 +97,7 @@ pub fn simulate<S: Scene>(
         from: (t, y),
         signs: mechanism.block_determinants(&mechanism.pose_at(&q)),
         passages: Passages::default(),
-        warned: 0,
+        steps_before_return: 0,
         is_over: false,
         failure: None,
         is_prepared: false,
@@ -107,7 +108,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// Changes the method: [`Dopri5`](crate::integrate::Dopri5) for pictures.
     ///
     /// # Errors
-    /// None that [`simulate`] has not returned already.
+    /// Those of [`simulate`]; after it has succeeded there are none.
     pub fn method<M2: Method>(self) -> Result<Simulation<'a, S, M2, W>, MotionError> {
         self.with(|motion| motion)
     }
@@ -116,7 +117,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// zero, and `action` handles an event. Call it before the first step.
     ///
     /// # Errors
-    /// None that [`simulate`] has not returned already.
+    /// Those of [`simulate`]; after it has succeeded there are none.
     pub fn events<F, A, const K: usize>(
         self,
         crossings: [Crossing; K],
@@ -144,7 +145,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
             from: self.from,
             signs: self.signs,
             passages: self.passages,
-            warned: self.warned,
+            steps_before_return: self.steps_before_return,
             is_over: self.is_over,
             failure: self.failure,
             is_prepared: self.is_prepared,

@@ -128,8 +128,8 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
             let step = part - tangent * (drift / along);
             let size = step.norm();
             if at.is_on_curve() {
-                // A last step reduces the residual further; it is not taken if it is longer than rounding error, which
-                // happens where the tangent is unreliable.
+                // A last step reduces the residual further; it is not taken if it is longer than rounding error, as it
+                // may be where [J A] is nearly singular.
                 let is_short = size <= self.rounding_error(q) * real(EQUAL_ULPS);
                 return Ok(Iteration::Converged((if is_short { self.moved(q, &step) } else { *q }, elimination)));
             }

@@ -15,9 +15,9 @@ pub enum PositionError {
         mechanism: &'static str,
         /// The unknowns of the group that is singular; the groups before it are regular.
         group: &'static str,
-        /// The regularity of the group: |det J| divided by the largest value that its formula could take at these
-        /// lengths, for more than two unknowns the smallest pivot of the equilibrated Jacobian. 1 is far from singular,
-        /// 0 is singular.
+        /// The regularity of the group, from 0 if it is singular to about 1: |det J| divided by the largest value that
+        /// it can take at these lengths, which for two links (RRR) is the sine of the angle between them; for more than
+        /// two unknowns the smallest pivot of the equilibrated Jacobian.
         regularity: f64,
     },
     /// A group cannot be assembled at this input: its links do not reach each other.

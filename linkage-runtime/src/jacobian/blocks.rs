@@ -9,7 +9,7 @@ use crate::{Column, Group, Matrix, Mechanism, PerUnknown};
 /// The diagonal blocks of J, one for each group.
 pub struct Blocks<M: Mechanism> {
     jacobian: Matrix<M::Scalar, M::U, M::U>,
-    /// The largest magnitude that each entry of J could have at these lengths.
+    /// The largest magnitude that each entry of J can have at any angles, with the lengths of this pose.
     scales: Matrix<M::Scalar, M::U, M::U>,
     /// The scales of the residuals: the sums of the magnitudes of their terms.
     residual_scales: PerUnknown<M>,

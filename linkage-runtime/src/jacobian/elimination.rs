@@ -22,7 +22,8 @@ pub struct Order<U: Dim> {
 
 /// The factorisation of [J A]: a unit lower triangle L times the reduced [J A], in the order of the pivots.
 ///
-/// An open row, which has no pivot, is reduced to nearly zero: that row of L^-1 is a left null vector of [J A].
+/// Where [J A] is singular, the rows left open, which have no pivot, are reduced to zero: these rows of L^-1 are the
+/// left null vectors of [J A].
 #[derive(Debug, Clone)]
 pub struct Elimination<T: Real, U: Dim, V: Dim> {
     /// The reduced [J A].
