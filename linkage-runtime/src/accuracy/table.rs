@@ -32,7 +32,8 @@ pub struct Table<M: Mechanism, const N: usize> {
 
 crate::__by_fields!([M: Mechanism, const N: usize] Table<M, N> { input, step, inverse_step, entries, advance, error });
 
-/// Positions solved for from one entry to the next while the table is built.
+/// The number of positions that are solved for between an entry and the next while the table is built, so that Newton's
+/// method starts near its solution.
 const PARTS: u32 = 8;
 
 /// The tolerance, in ulps of 1 plus the largest coordinate, for a turn of the input to change each unknown by a

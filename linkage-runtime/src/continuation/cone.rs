@@ -19,10 +19,11 @@ pub(super) const DIMENSIONS: usize = 8;
 /// The most spaces visited: eight forms that all are products lead to 2^8 smallest spaces.
 const MOST_SPACES: usize = 512;
 
-/// Passes of the equilibration; each at least halves the logarithm by which an entry differs from 1.
+/// Passes of the equilibration; each at least halves the logarithms of the largest entries, which are to become 1.
 const SCALINGS: usize = 5;
 
-/// A direction represents a space of tangents if at least this part of it lies in the space.
+/// If the forms vanish in a whole space, the projection of the followed direction on it is returned as a tangent,
+/// provided that its length is more than this fraction of that of the direction.
 const NEAR: f64 = 0.5;
 
 /// A quadratic form in the leading coordinates.
@@ -33,7 +34,9 @@ type Coordinates<T> = Column<T, D<DIMENSIONS>>;
 pub(super) struct Cone<T: Real> {
     lines: [Coordinates<T>; MOST_TANGENTS],
     count: usize,
+    /// True if no other zeros exist.
     is_complete: bool,
+    /// The number of spaces searched.
     spaces: usize,
 }
 
@@ -54,7 +57,8 @@ struct Squares<T: Real> {
 }
 
 impl<T: Real> Cone<T> {
-    /// Finds the common zeros of forms in the first `size` coordinates; `direction` is near to the wanted zero.
+    /// Finds the common zeros of forms in the first `size` coordinates. `direction` is that of the followed motion: of
+    /// a continuous family of zeros the one nearest to it is returned.
     pub(super) fn of(forms: &[Form<T>], size: usize, direction: &Coordinates<T>) -> Self {
         let mut cone = Self { lines: [Coordinates::zeros(); MOST_TANGENTS], count: 0, is_complete: true, spaces: 0 };
         let mut space = Space { basis: Form::identity(), size, forms: [Form::zeros(); DIMENSIONS], count: 0 };
@@ -89,7 +93,7 @@ impl<T: Real> Cone<T> {
             return;
         }
         if space.count == 0 {
-            self.take(&space, direction);
+            self.record(&space, direction);
             return;
         }
         let mut product = None;
@@ -115,8 +119,8 @@ impl<T: Real> Cone<T> {
         }
     }
 
-    /// Records a space in which all forms vanish.
-    fn take(&mut self, space: &Space<T>, direction: &Coordinates<T>) {
+    /// Records a space in which all forms vanish: a line, or the direction nearest to the followed motion.
+    fn record(&mut self, space: &Space<T>, direction: &Coordinates<T>) {
         if space.size == 1 {
             self.push(&space.basis.column(0));
             return;
