@@ -15,7 +15,7 @@ use linkage_gallery::cam_rocker::*;
 #[test]
 fn cams_reach_their_published_peaks() {
     let m = CamFollower::default();
-    let course = turn(&m, CamFollowerCoordinates { theta: 0.0, s: 0.0 }, |q| &mut q.theta);
+    let course = turn(&m, CamFollowerCoordinates { theta: 0.0, s: 0.0 });
     let velocity = course.range(|q| m.velocity(&m.pose_at(q), 1.0).unwrap().s);
     let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().accelerations.s);
     for (sign, velocity, acceleration) in [(-1.0, velocity[0], acceleration[0]), (1.0, velocity[1], acceleration[1])] {
@@ -25,7 +25,7 @@ fn cams_reach_their_published_peaks() {
     }
     let m = CamRocker::default();
     let start = CamRockerCoordinates { theta: 0.0, psi: degrees(75.0), phi: 0.2, beta: degrees(100.0) };
-    let course = turn(&m, start, |q| &mut q.theta);
+    let course = turn(&m, start);
     let velocity = course.range(|q| m.velocity(&m.pose_at(q), 1.0).unwrap().psi);
     let acceleration = course.range(|q| m.motion(q, 1.0, 0.0).unwrap().accelerations.psi);
     for (sign, velocity, acceleration) in [(-1.0, velocity[0], acceleration[0]), (1.0, velocity[1], acceleration[1])] {
@@ -39,9 +39,10 @@ fn cams_reach_their_published_peaks() {
 #[test]
 fn cam_follower() {
     let m = CamFollower::default();
-    let course = turn(&m, CamFollowerCoordinates { theta: 0.0, s: 0.0 }, |q| &mut q.theta);
-    closed_form!(m, course, theta);
-    rigid!(course, roller - contact = m.roller, pitch - profile = m.roller);
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
+    let course = turn(&m, CamFollowerCoordinates { theta: 0.0, s: 0.0 });
+    course.closed_form();
+    course.rigid(points, |p| [(p.roller, p.contact, m.roller), (p.pitch, p.profile, m.roller)]);
     let size = m.prime + m.roller + m.height;
     for q in &course.positions {
         let motion = m.motion(q, 1.0, 0.0).unwrap();
@@ -73,16 +74,17 @@ fn cam_follower() {
 #[test]
 fn cam_rocker() {
     let m = CamRocker::default();
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = CamRockerCoordinates { theta: 0.0, psi: degrees(75.0), phi: 0.2, beta: degrees(100.0) };
-    let course = turn(&m, start, |q| &mut q.theta);
-    closed_form!(m, course, theta);
-    rigid!(course, a - b = m.rod, b - c = m.rocker);
+    let course = turn(&m, start);
+    course.closed_form();
+    course.rigid(points, |p| [(p.a, p.b, m.rod), (p.b, p.c, m.rocker)]);
     let [least, largest] = course.range(|q| q.psi);
     exact(least, m.rest, PI);
     exact(largest, m.rest + m.swing, PI);
     let size = m.distance + m.lever;
     for q in &course.positions {
-        let points = m.points(&m.pose_at(q)).unwrap();
+        let points = points(q);
         let from_axis = points.roller + nalgebra::vector![m.distance, 0.0];
         exact(points.pitch.coords.norm(), from_axis.coords.norm(), size);
     }

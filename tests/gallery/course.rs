@@ -14,13 +14,14 @@ pub(super) fn degrees(angle: f64) -> f64 {
     angle.to_radians()
 }
 
-/// Where the input stands in a position.
-pub(super) type Input<M> = fn(&mut <M as Mechanism>::Coordinates) -> &mut f64;
+/// The input of a mechanism that has one.
+fn input<M: Mechanism<Scalar = f64, V = D<1>>>(q: &M::Coordinates) -> f64 {
+    M::inputs(q)[0]
+}
 
 /// A mechanism followed from a start, and its positions on the way.
 pub(super) struct Course<'a, M: Mechanism<Scalar = f64, V = D<1>>> {
     pub(super) mechanism: &'a M,
-    input: Input<M>,
     pub(super) positions: Vec<M::Coordinates>,
 }
 
@@ -30,12 +31,11 @@ pub(super) struct Course<'a, M: Mechanism<Scalar = f64, V = D<1>>> {
 pub(super) fn follow<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
     mechanism: &'a M,
     start: M::Coordinates,
-    input: Input<M>,
     span: f64,
 ) -> Course<'a, M> {
-    let mut course = Course { mechanism, input, positions: Vec::new() };
+    let mut course = Course { mechanism, positions: Vec::new() };
     let mut q = start;
-    let from = *input(&mut q);
+    let from = input::<M>(&q);
     for step in 0..=STEPS {
         let to = from + span * f64::from(step) / f64::from(STEPS);
         q = course.assemble(course.predict(q, to));
@@ -46,12 +46,8 @@ pub(super) fn follow<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
 
 /// A full turn, after which the mechanism stands as it stood at the start, never having left its branch.
 #[track_caller]
-pub(super) fn turn<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
-    mechanism: &'a M,
-    start: M::Coordinates,
-    input: Input<M>,
-) -> Course<'a, M> {
-    let course = follow(mechanism, start, input, TAU);
+pub(super) fn turn<'a, M: Mechanism<Scalar = f64, V = D<1>>>(mechanism: &'a M, start: M::Coordinates) -> Course<'a, M> {
+    let course = follow(mechanism, start, TAU);
     let first = mechanism.pose_at(&course.positions[0]);
     for q in &course.positions {
         assert!(mechanism.same_branch(&first, &mechanism.pose_at(q)), "{} changed its branch", M::NAME);
@@ -67,24 +63,22 @@ pub(super) fn turn<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
 impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
     /// Straight on from a position to another input: u + W (to - v).
     #[track_caller]
-    pub(super) fn predict(&self, mut q: M::Coordinates, to: f64) -> M::Coordinates {
-        let step = to - *(self.input)(&mut q);
-        let mut guess = q;
+    fn predict(&self, q: M::Coordinates, to: f64) -> M::Coordinates {
+        let step = to - input::<M>(&q);
+        let mut unknowns = M::unknowns(&q);
         if step != 0.0 {
             let pose = self.mechanism.pose_at(&q);
             let a = self.mechanism.jacobian_inputs(&pose).column(0);
-            let ratios = -self.mechanism.solve_jacobian(&pose, &a).expect("a regular position");
-            guess = M::with_unknowns(&q, M::unknowns(&q) + ratios * step);
+            unknowns += -self.mechanism.solve_jacobian(&pose, &a).expect("a regular position") * step;
         }
-        *(self.input)(&mut guess) = to;
-        guess
+        M::coordinates(unknowns, [to].into())
     }
 
     #[track_caller]
-    pub(super) fn assemble(&self, guess: M::Coordinates) -> M::Coordinates {
+    fn assemble(&self, guess: M::Coordinates) -> M::Coordinates {
         let solution = match position::newton(self.mechanism, &guess) {
             Ok(solution) => solution,
-            Err(error) => panic!("at {:.3}: {error}", *(self.input)(&mut { guess })),
+            Err(error) => panic!("at {:.3}: {error}", input::<M>(&guess)),
         };
         let pose = self.mechanism.pose_at(&solution.coordinates);
         let sizes = self.mechanism.residual_scales(&pose);
@@ -96,17 +90,17 @@ impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
 
     /// The position at an input on the way.
     #[track_caller]
-    pub(super) fn at(&self, input: f64) -> M::Coordinates {
-        let distance = |q: &M::Coordinates| (*(self.input)(&mut { *q }) - input).abs();
+    pub(super) fn at(&self, wanted: f64) -> M::Coordinates {
+        let distance = |q: &M::Coordinates| (input::<M>(q) - wanted).abs();
         let nearest = self.positions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("positions");
-        self.assemble(self.predict(*nearest, input))
+        self.assemble(self.predict(*nearest, wanted))
     }
 
     /// The inputs between which `value` changes its sign, each made a point by bisection.
     pub(super) fn roots(&self, value: impl Fn(&M::Coordinates) -> f64) -> Vec<f64> {
         let mut roots = Vec::new();
         for pair in self.positions.windows(2) {
-            let [mut low, mut high] = [0, 1].map(|index: usize| *(self.input)(&mut { pair[index] }));
+            let [mut low, mut high] = [0, 1].map(|index: usize| input::<M>(&pair[index]));
             let sign = value(&pair[0]).is_sign_positive();
             if sign == value(&pair[1]).is_sign_positive() {
                 continue;
@@ -131,7 +125,7 @@ impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
             let index = (0..self.positions.len())
                 .max_by(|&a, &b| height(&self.positions[a]).total_cmp(&height(&self.positions[b])))
                 .expect("positions");
-            let input = |index: usize| *(self.input)(&mut { self.positions[index] });
+            let input = |index: usize| input::<M>(&self.positions[index]);
             let mut low = input(index.saturating_sub(1));
             let mut high = input((index + 1).min(self.positions.len() - 1));
             for _ in 0..60 {

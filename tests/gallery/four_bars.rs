@@ -12,15 +12,16 @@ use linkage_gallery::wiper::*;
 #[test]
 fn four_bar_on_both_branches() {
     let m = FourBar::default();
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     for (theta3, theta4, side) in [(70.0, -50.0, 1.0), (-83.0, 38.0, -1.0)] {
         let start = FourBarCoordinates { theta2: degrees(20.0), theta3: degrees(theta3), theta4: degrees(theta4) };
-        let course = turn(&m, start, |q| &mut q.theta2);
-        closed_form!(m, course, theta2);
-        rigid!(course, b - c = m.l3, b - g3 = m.l3 / 2.0, c - g4 = m.l4 / 2.0);
+        let course = turn(&m, start);
+        course.closed_form();
+        course.rigid(points, |p| [(p.b, p.c, m.l3), (p.b, p.g3, m.l3 / 2.0), (p.c, p.g4, m.l4 / 2.0)]);
         // On one branch C is always above the line from B to D, on the other below it.
         assert!(course.positions.iter().all(|q| side * m.outputs(&m.pose_at(q)).unwrap().mu.sin() > 0.0));
         for q in &course.positions {
-            let points = m.points(&m.pose_at(q)).unwrap();
+            let points = points(q);
             exact((points.c - nalgebra::point![m.l1, 0.0]).norm(), m.l4, m.l1 + m.l2 + m.l3 + m.l4);
         }
     }
@@ -29,6 +30,7 @@ fn four_bar_on_both_branches() {
 #[test]
 fn wiper_sweeps() {
     let m = Wiper::default();
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = WiperCoordinates {
         theta: FRAC_PI_2,
         phi: degrees(3.8),
@@ -36,20 +38,21 @@ fn wiper_sweeps() {
         rod: degrees(10.0),
         second: degrees(93.8),
     };
-    let course = turn(&m, start, |q| &mut q.theta);
-    closed_form!(m, course, theta);
-    rigid!(
-        course,
-        motor - first = m.base,
-        motor - pin = m.crank,
-        pin - first_pin = m.link,
-        first - first_pin = m.arm,
-        first - second = m.span,
-        first_pin - second_pin = m.span,
-        second - second_pin = m.arm,
-        first - first_tip = m.blade,
-        second - second_tip = m.blade,
-    );
+    let course = turn(&m, start);
+    course.closed_form();
+    course.rigid(points, |p| {
+        [
+            (p.motor, p.first, m.base),
+            (p.motor, p.pin, m.crank),
+            (p.pin, p.first_pin, m.link),
+            (p.first, p.first_pin, m.arm),
+            (p.first, p.second, m.span),
+            (p.first_pin, p.second_pin, m.span),
+            (p.second, p.second_pin, m.arm),
+            (p.first, p.first_tip, m.blade),
+            (p.second, p.second_tip, m.blade),
+        ]
+    });
     let sweep = 2.0 * (m.crank / m.arm).asin();
     for of in [|q: &WiperCoordinates| q.first, |q: &WiperCoordinates| q.second] {
         let [least, largest] = course.range(of);

@@ -30,23 +30,25 @@ fn jansen_start() -> JansenCoordinates<f64> {
 #[test]
 fn jansen_walks() {
     let m = Jansen::default();
-    let course = turn(&m, jansen_start(), |q| &mut q.crank);
-    closed_form!(m, course, crank);
-    rigid!(
-        course,
-        o - pin = m.m,
-        pin - upper = m.j,
-        pivot - upper = m.b,
-        upper - back = m.e,
-        pivot - back = m.d,
-        pin - knee = m.k,
-        pivot - knee = m.c,
-        back - ankle = m.f,
-        knee - ankle = m.g,
-        ankle - foot = m.h,
-        knee - foot = m.i
-    );
-    let foot = point!(m, foot);
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
+    let course = turn(&m, jansen_start());
+    course.closed_form();
+    course.rigid(points, |p| {
+        [
+            (p.o, p.pin, m.m),
+            (p.pin, p.upper, m.j),
+            (p.pivot, p.upper, m.b),
+            (p.upper, p.back, m.e),
+            (p.pivot, p.back, m.d),
+            (p.pin, p.knee, m.k),
+            (p.pivot, p.knee, m.c),
+            (p.back, p.ankle, m.f),
+            (p.knee, p.ankle, m.g),
+            (p.ankle, p.foot, m.h),
+            (p.knee, p.foot, m.i),
+        ]
+    });
+    let foot = |q: &_| points(q).foot;
     let size = [m.a, m.b, m.c, m.d, m.e, m.f, m.g, m.h, m.i, m.j, m.k, m.l, m.m].iter().sum();
     for (angle, [x, y]) in [
         (0.0, [-43.160_110_524_104_72, -91.756_932_926_123_22]),
@@ -56,9 +58,9 @@ fn jansen_walks() {
         exact(found.x, x, size);
         exact(found.y, y, size);
     }
-    let [left, right] = course.range(point!(m, foot, x));
+    let [left, right] = course.range(|q| points(q).foot.x);
     exact(right - left, 67.908_421_691_508_24, size);
-    let [bottom, top] = course.range(point!(m, foot, y));
+    let [bottom, top] = course.range(|q| points(q).foot.y);
     exact(top - bottom, 22.457_173_584_316_21, size);
     // The foot is within 1 of the lowest point from one crossing, through 0, to the other.
     let [lifts, lands] = course.roots(|q| foot(q).y - (bottom + 1.0))[..] else { panic!("two crossings") };
@@ -73,6 +75,7 @@ fn jansen_walks() {
 #[test]
 fn klann_walks() {
     let m = Klann::default();
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = KlannCoordinates {
         theta: PI,
         arm: PI,
@@ -80,32 +83,33 @@ fn klann_walks() {
         leg: degrees(45.0),
         upper_angle: degrees(165.0),
     };
-    let course = turn(&m, start, |q| &mut q.theta);
-    closed_form!(m, course, theta);
+    let course = turn(&m, start);
+    course.closed_form();
     // The third side of a triangle, by the law of cosines.
     let third = |a: f64, b: f64, angle: f64| (a * a + b * b - 2.0 * a * b * angle.cos()).sqrt();
-    rigid!(
-        course,
-        o - pin = m.crank,
-        pin - elbow = m.pin_elbow,
-        elbow - knee = m.elbow_knee,
-        pin - knee = third(m.pin_elbow, m.elbow_knee, PI + m.elbow_bend),
-        lower - elbow = m.lower,
-        knee - hip = m.knee_hip,
-        knee - foot = m.knee_foot,
-        foot - hip = third(m.knee_hip, m.knee_foot, m.knee_bend),
-        upper - hip = m.upper
-    );
+    course.rigid(points, |p| {
+        [
+            (p.o, p.pin, m.crank),
+            (p.pin, p.elbow, m.pin_elbow),
+            (p.elbow, p.knee, m.elbow_knee),
+            (p.pin, p.knee, third(m.pin_elbow, m.elbow_knee, PI + m.elbow_bend)),
+            (p.lower, p.elbow, m.lower),
+            (p.knee, p.hip, m.knee_hip),
+            (p.knee, p.foot, m.knee_foot),
+            (p.foot, p.hip, third(m.knee_hip, m.knee_foot, m.knee_bend)),
+            (p.upper, p.hip, m.upper),
+        ]
+    });
     assert_abs_diff_eq!(third(m.pin_elbow, m.elbow_knee, PI + m.elbow_bend), 1.1051, epsilon = 5e-5);
     assert_abs_diff_eq!(third(m.knee_hip, m.knee_foot, m.knee_bend), 1.732, epsilon = 5e-4);
-    let points = m.points(&m.pose_at(&course.positions[0])).unwrap();
-    for (found, expected) in [(points.foot, [0.0, 0.0]), (points.knee, [0.232, 0.866]), (points.hip, [0.866, 1.5])] {
+    let first = points(&course.positions[0]);
+    for (found, expected) in [(first.foot, [0.0, 0.0]), (first.knee, [0.232, 0.866]), (first.hip, [0.866, 1.5])] {
         assert_abs_diff_eq!(found.x, expected[0], epsilon = 5e-4);
         assert_abs_diff_eq!(found.y, expected[1], epsilon = 5e-4);
     }
     let size = m.crank + m.lower + m.upper + m.pin_elbow + m.elbow_knee + m.knee_hip + m.knee_foot;
-    let [left, right] = course.range(point!(m, foot, x));
-    let [bottom, top] = course.range(point!(m, foot, y));
+    let [left, right] = course.range(|q| points(q).foot.x);
+    let [bottom, top] = course.range(|q| points(q).foot.y);
     exact(right - left, 1.008_627_899_360_890_7, size);
     exact(top - bottom, 0.527_549_050_784_531_3, size);
     assert_abs_diff_eq!((top - bottom) / (right - left), 0.523, epsilon = 5e-4);

@@ -1,10 +1,9 @@
 //! The gallery of classic mechanisms, each followed through its whole motion and held against what is known
 //! of it without any table: links that stay rigid, lines that are straight, strokes, ratios and sweeps.
 
-#[macro_use]
-mod exactness;
 mod cams;
 mod course;
+mod exactness;
 mod five_bars;
 mod four_bars;
 mod groups;

@@ -4,7 +4,7 @@ use approx::assert_abs_diff_eq;
 use std::f64::consts::TAU;
 
 use super::course::{STEPS, degrees, follow};
-use super::exactness::{ROUNDINGS, exact};
+use super::exactness::{EPSILONS, exact};
 
 use linkage_gallery::coupled_wheels::*;
 use linkage_gallery::pantograph::*;
@@ -37,15 +37,16 @@ fn pantograph_copies() {
 #[test]
 fn coupled_wheels_stay_parallel() {
     let m = CoupledWheels::default();
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let half = degrees(0.5);
     let start = CoupledWheelsCoordinates { theta: half, rod: 0.0, follower: half };
-    let course = follow(&m, start, |q| &mut q.theta, TAU);
-    closed_form!(m, course, theta);
-    rigid!(course, a - b = m.crank, a - d = m.base, b - c = m.base, c - d = m.crank);
+    let course = follow(&m, start, TAU);
+    course.closed_form();
+    course.rigid(points, |p| [(p.a, p.b, m.crank), (p.a, p.d, m.base), (p.b, p.c, m.base), (p.c, p.d, m.crank)]);
     for q in &course.positions {
         // The Jacobian is singular with the sine of the crank's angle.
         let sine = q.theta.sin().abs();
-        let error = ROUNDINGS * f64::EPSILON / sine;
+        let error = EPSILONS * f64::EPSILON / sine;
         assert_abs_diff_eq!(q.rod, 0.0, epsilon = error);
         assert_abs_diff_eq!(q.follower, q.theta, epsilon = TAU * error);
         let ratios = m.velocity_ratios(&m.pose_at(q)).unwrap();

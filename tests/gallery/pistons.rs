@@ -14,10 +14,11 @@ use linkage_gallery::v_twin::*;
 #[test]
 fn offset_slider_crank() {
     let m = OffsetSliderCrank::default();
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = OffsetSliderCrankCoordinates { theta2: degrees(60.0), theta3: degrees(153.0), d: 127.0 };
-    let course = turn(&m, start, |q| &mut q.theta2);
-    closed_form!(m, course, theta2);
-    rigid!(course, o - a = m.a, a - b = m.b);
+    let course = turn(&m, start);
+    course.closed_form();
+    course.rigid(points, |p| [(p.o, p.a, m.a), (p.a, p.b, m.b)]);
     // Crank and rod in line at both ends of the stroke.
     let [least, largest] = course.range(|q| q.d);
     exact(least, ((m.b - m.a).powi(2) - m.c * m.c).sqrt(), m.a + m.b);
@@ -28,8 +29,8 @@ fn offset_slider_crank() {
 #[test]
 fn scotch_yoke_is_a_cosine() {
     let m = ScotchYoke::default();
-    let course = turn(&m, ScotchYokeCoordinates { phi: 0.0, x: 0.5 }, |q| &mut q.phi);
-    closed_form!(m, course, phi);
+    let course = turn(&m, ScotchYokeCoordinates { phi: 0.0, x: 0.5 });
+    course.closed_form();
     for q in &course.positions {
         assert_abs_diff_eq!(q.x, m.r * q.phi.cos(), epsilon = f64::EPSILON * m.r);
         let motion = m.motion(q, 2.0, 0.0).unwrap();
@@ -41,10 +42,11 @@ fn scotch_yoke_is_a_cosine() {
 #[test]
 fn elliptic_trammel_draws_an_ellipse() {
     let m = EllipticTrammel::default();
-    let course = turn(&m, EllipticTrammelCoordinates { theta: 0.0, x: -2.0, y: 0.0 }, |q| &mut q.theta);
-    closed_form!(m, course, theta);
-    rigid!(course, a - b = m.rod, a - pen = m.reach, b - pen = m.reach - m.rod);
-    let pen = point!(m, pen);
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
+    let course = turn(&m, EllipticTrammelCoordinates { theta: 0.0, x: -2.0, y: 0.0 });
+    course.closed_form();
+    course.rigid(points, |p| [(p.a, p.b, m.rod), (p.a, p.pen, m.reach), (p.b, p.pen, m.reach - m.rod)]);
+    let pen = |q: &_| points(q).pen;
     for q in &course.positions {
         let at = pen(q);
         exact((at.x / (m.reach - m.rod)).powi(2) + (at.y / m.reach).powi(2), 1.0, 1.0);
@@ -55,6 +57,7 @@ fn elliptic_trammel_draws_an_ellipse() {
 #[test]
 fn v_twin_runs_in_phase() {
     let m = VTwin::default();
+    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = VTwinCoordinates {
         theta: FRAC_PI_2,
         phi_front: degrees(61.4),
@@ -62,9 +65,9 @@ fn v_twin_runs_in_phase() {
         phi_rear: degrees(118.6),
         s_rear: 225.0,
     };
-    let course = turn(&m, start, |q| &mut q.theta);
-    closed_form!(m, course, theta);
-    rigid!(course, o - pin = m.crank, pin - front = m.rod, pin - rear = m.rod);
+    let course = turn(&m, start);
+    course.closed_form();
+    course.rigid(points, |p| [(p.o, p.pin, m.crank), (p.pin, p.front, m.rod), (p.pin, p.rear, m.rod)]);
     let later = m.vee.to_degrees().round() as usize;
     for (front, rear) in course.positions.iter().zip(&course.positions[later..]) {
         exact(rear.s_rear, front.s_front, m.crank + m.rod);
