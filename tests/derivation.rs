@@ -9,7 +9,6 @@ use linkage_gallery::five_bar::*;
 use linkage_gallery::five_bar_scenes::*;
 use linkage_gallery::four_bar::*;
 use linkage_gallery::geared_five_bar::*;
-use linkage_gallery::introductory::*;
 use linkage_gallery::jansen::*;
 use linkage_gallery::norton_four_bar::*;
 use linkage_gallery::rpr::*;
@@ -18,34 +17,61 @@ use linkage_gallery::six_bar::*;
 use linkage_gallery::slider_crank::*;
 use linkage_gallery::slider_crank_scenes::*;
 
-macro_rules! snapshot {
-    ($name:ident, $value:expr) => {
-        #[test]
-        fn $name() {
-            insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
-                insta::assert_snapshot!(concat!("derivation_", stringify!($name)), $value);
-            });
-        }
+/// One section of a document, in text or in LaTeX.
+fn section(document: &str, title: &str) -> String {
+    let title_of = |line: &'_ str| {
+        let numbered = line.split_once(". ").filter(|(number, _)| number.parse::<usize>().is_ok());
+        let latex = || line.strip_prefix("\\subsection*{")?.strip_suffix('}');
+        numbered.map(|(_, title)| title).or_else(latex).map(str::to_owned)
     };
+    let mut lines = document.lines().skip_while(|line| title_of(line).as_deref() != Some(title));
+    let first = lines.next().unwrap_or_else(|| panic!("no section {title}"));
+    let rest = lines.take_while(|line| title_of(line).is_none());
+    std::iter::once(first).chain(rest).collect::<Vec<_>>().join("\n")
 }
 
-snapshot!(four_bar, FourBar::DERIVATION.to_text());
-snapshot!(introductory, Introductory::DERIVATION.to_text());
-snapshot!(engine, Engine::DERIVATION.to_text());
-snapshot!(compressor, Compressor::DERIVATION.to_text());
-snapshot!(rrr, Rrr::DERIVATION.to_text());
-snapshot!(rpr, Rpr::DERIVATION.to_text());
-snapshot!(six_bar, SixBar::DERIVATION.to_text());
-snapshot!(geared_five_bar, GearedFiveBar::DERIVATION.to_text());
-snapshot!(jansen, Jansen::DERIVATION.to_text());
-snapshot!(cam_rocker, CamRocker::DERIVATION.to_text());
-snapshot!(norton_four_bar, NortonFourBar::DERIVATION.to_text());
-snapshot!(norton_four_bar_in_latex, NortonFourBar::DERIVATION.to_latex());
-snapshot!(five_bar, FiveBar::DERIVATION.to_text());
-snapshot!(four_bar_in_latex, FourBar::DERIVATION.to_latex());
-snapshot!(scene_of_a_five_bar, Free::DERIVATION.to_text());
-snapshot!(scene_of_an_engine, Turning::DERIVATION.to_text());
-snapshot!(scene_of_an_engine_in_latex, Turning::DERIVATION.to_latex());
+/// Sections of a document.
+fn sections(document: &str, titles: &[&str]) -> String {
+    titles.iter().map(|title| section(document, title)).collect::<Vec<_>>().join("\n")
+}
+
+macro_rules! snapshots {
+    ($($name:ident: $value:expr;)*) => {$(
+        #[test]
+        fn $name() {
+            insta::with_settings!({ omit_expression => true }, {
+                insta::assert_snapshot!(stringify!($name), $value);
+            });
+        }
+    )*};
+}
+
+const HIGHER_ORDERS: &[&str] = &["Derivatives of the velocity ratios", "Jerk", "Sensitivity"];
+
+// Whole documents.
+snapshots! {
+    document_in_text: FourBar::DERIVATION.to_text();
+    document_in_latex: FourBar::DERIVATION.to_latex();
+    scene_in_text: Turning::DERIVATION.to_text();
+    scene_in_latex: Turning::DERIVATION.to_latex();
+    scene_of_two_inputs: Free::DERIVATION.to_text();
+}
+
+// Sections that differ from one mechanism to the next.
+snapshots! {
+    group_of_two_angles: section(&Rrr::DERIVATION.to_text(), "Order of solution");
+    group_of_an_angle_and_a_length: section(&Rpr::DERIVATION.to_text(), "Order of solution");
+    groups_of_one_unknown: section(&Compressor::DERIVATION.to_text(), "Order of solution");
+    groups_in_a_row: section(&SixBar::DERIVATION.to_text(), "Order of solution");
+    velocity_ratios_of_groups_in_a_row: section(&SixBar::DERIVATION.to_text(), "Velocity ratios");
+    velocity_ratios_of_two_inputs: section(&FiveBar::DERIVATION.to_text(), "Velocity ratios");
+    geared_angle: sections(&GearedFiveBar::DERIVATION.to_text(), &["Constraint equations", "Velocity ratios"]);
+    user_function: sections(&CamRocker::DERIVATION.to_text(), &["Constraint equations", "Velocity ratios", "Acceleration"]);
+    higher_orders_in_text: sections(&NortonFourBar::DERIVATION.to_text(), HIGHER_ORDERS);
+    higher_orders_in_latex: sections(&NortonFourBar::DERIVATION.to_latex(), HIGHER_ORDERS);
+    outputs_of_higher_order: section(&NortonFourBar::DERIVATION.to_text(), "Outputs");
+    conditions: section(&Rpr::DERIVATION.to_text(), "Conditions");
+}
 
 fn texts(equations: &[Equation]) -> Vec<String> {
     equations.iter().map(ToString::to_string).collect()
@@ -86,7 +112,7 @@ fn inverse_of_the_dyad_rrr() {
     assert_eq!(entries, ["−z₂·cos(φ₂)", "−z₂·sin(φ₂)", "−z₁·cos(φ₁)", "−z₁·sin(φ₁)"]);
 }
 
-/// What is not asked for is not there.
+/// Derivatives that are not requested are absent.
 #[test]
 fn only_on_request() {
     let (without, with) = (FourBar::DERIVATION, NortonFourBar::DERIVATION);

@@ -1,98 +1,142 @@
-//! The emitted Rust, pretty-printed, as snapshots: what a user finds who looks behind the macro.
-//!
-//! The types differ little from one mechanism to the next and are shown once; of the other mechanisms
-//! the functions that say most are shown.
+//! The emitted Rust, pretty-printed, as snapshots: each form of the printer once. The computations are in the snapshots of
+//! `tests/program.rs`.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use linkage_gallery::source;
 use proc_macro2::TokenStream;
+use quote::ToTokens;
+use syn::{Expr, ImplItem, Item, Stmt, Visibility};
 
-/// Expands a mechanism of `tests/mechanisms` and pretty-prints the items that `keep` accepts.
-fn expand(file: &str) -> syn::File {
+#[path = "source/work.rs"]
+mod work;
+
+use work::work;
+
+/// All items that are emitted for the tokens of a mechanism, those of inner blocks too.
+fn expand(tokens: TokenStream) -> Vec<Item> {
     let root: TokenStream = "::linkage".parse().unwrap();
-    let tokens = linkage_compiler::expand(source::tokens_of(file), &root);
-    syn::parse2(tokens).unwrap()
-}
-
-/// The functions of these names, in the order in which they were emitted.
-fn functions(file: &str, names: &[&str]) -> String {
-    let mut file = expand(file);
-    let mut kept = Vec::new();
-    let mut keep = |item: syn::Item| {
-        let syn::Item::Impl(mut item) = item else { return };
-        item.items.retain(
-            |item| matches!(item, syn::ImplItem::Fn(function) if names.iter().any(|name| function.sig.ident == name)),
-        );
-        if item.trait_.is_none() && !item.items.is_empty() {
-            kept.push(syn::Item::Impl(item));
-        }
-    };
-    for item in std::mem::take(&mut file.items) {
-        let syn::Item::Const(block) = item else {
-            keep(item);
-            continue;
-        };
-        let syn::Expr::Block(block) = *block.expr else { continue };
-        for statement in block.block.stmts {
-            if let syn::Stmt::Item(item) = statement {
-                keep(item);
+    let file: syn::File = syn::parse2(linkage_compiler::expand(tokens, &root)).unwrap();
+    let mut items = Vec::new();
+    for item in file.items {
+        match item {
+            Item::Const(block) => {
+                let Expr::Block(block) = *block.expr else { panic!("a block of items") };
+                items.extend(block.block.stmts.into_iter().filter_map(|statement| match statement {
+                    Stmt::Item(item) => Some(item),
+                    _ => None,
+                }));
             }
+            item => items.push(item),
         }
     }
-    file.items = kept;
-    prettyplease::unparse(&file)
+    items
 }
 
-macro_rules! snapshot {
-    ($name:ident, $value:expr) => {
+fn unparse(items: Vec<Item>) -> String {
+    prettyplease::unparse(&syn::File { items, ..syn::parse_str("").unwrap() })
+}
+
+/// The name of the type that a block implements something for.
+fn implementor(block: &syn::ItemImpl) -> String {
+    let syn::Type::Path(path) = &*block.self_ty else { return String::new() };
+    path.path.segments.last().unwrap().ident.to_string()
+}
+
+/// The structures of these names.
+fn structures(items: Vec<Item>, names: &[&str]) -> Vec<Item> {
+    let is_named = |item: &Item| matches!(item, Item::Struct(item) if names.iter().any(|name| item.ident == name));
+    items.into_iter().filter(is_named).collect()
+}
+
+/// The inherent functions of a type that have one of these names.
+fn inherent(items: Vec<Item>, of: &str, names: &[&str]) -> Vec<Item> {
+    let mut kept = Vec::new();
+    for item in items {
+        let Item::Impl(mut item) = item else { continue };
+        item.items.retain(|item| matches!(item, ImplItem::Fn(item) if names.iter().any(|name| item.sig.ident == name)));
+        if item.trait_.is_none() && implementor(&item) == of && !item.items.is_empty() {
+            kept.push(Item::Impl(item));
+        }
+    }
+    assert!(!kept.is_empty(), "{of} has no {names:?}");
+    kept
+}
+
+fn functions(file: &str, of: &str, names: &[&str]) -> Vec<Item> {
+    inherent(expand(source::tokens_of(file)), of, names)
+}
+
+/// The implementation of a trait.
+fn implementation(file: &str, of: &str, name: &str) -> Vec<Item> {
+    let is_it = |item: &Item| match item {
+        Item::Impl(item) => {
+            let of_trait = item.trait_.as_ref().and_then(|(path, _)| path.segments.last());
+            implementor(item) == of && of_trait.is_some_and(|last| last.ident == name)
+        }
+        _ => false,
+    };
+    expand(source::tokens_of(file)).into_iter().filter(is_it).collect()
+}
+
+/// The constant `DERIVATION` with some of its fields.
+fn derivation(file: &str, fields: &[&str]) -> Vec<Item> {
+    let constants = expand(source::tokens_of(file)).into_iter().filter_map(|item| {
+        let Item::Impl(mut item) = item else { return None };
+        let ImplItem::Const(constant) = item.items.first_mut()? else { return None };
+        let Expr::Block(block) = &mut constant.expr else { return None };
+        let Some(Stmt::Expr(Expr::Reference(reference), _)) = block.block.stmts.last_mut() else { return None };
+        let Expr::Struct(all) = &mut *reference.expr else { return None };
+        let kept = std::mem::take(&mut all.fields).into_iter();
+        all.fields = kept
+            .filter(|field| fields.iter().any(|name| field.member.to_token_stream().to_string() == *name))
+            .collect();
+        Some(Item::Impl(item))
+    });
+    constants.collect()
+}
+
+/// The error, the pose and two functions of a mechanism with a mistake.
+fn stub() -> Vec<Item> {
+    let text = "pub mechanism Mistaken { param a = 1; input v; unknown u; equation u = a * w; point P = (u, v); }";
+    let items = expand(text.parse().unwrap());
+    let errors = items.iter().filter(|item| matches!(item, Item::Macro(_))).cloned().collect();
+    let pose = structures(items.clone(), &["MistakenPose"]);
+    [errors, pose, inherent(items, "Mistaken", &["motion", "branches"])].concat()
+}
+
+macro_rules! snapshots {
+    ($($name:ident: $items:expr;)*) => {$(
         #[test]
         fn $name() {
-            insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
-                insta::assert_snapshot!(stringify!($name), $value);
+            insta::with_settings!({ omit_expression => true }, {
+                insta::assert_snapshot!(stringify!($name), unparse($items));
             });
         }
-    };
+    )*};
 }
 
-snapshot!(four_bar_types, {
-    let mut file = expand("four_bar");
-    file.items.retain(|item| matches!(item, syn::Item::Struct(_)));
-    prettyplease::unparse(&file)
-});
-snapshot!(
-    four_bar_closures,
-    functions(
-        "four_bar",
-        &["pose_at", "residual", "residual_scales", "jacobian_unknowns", "jacobian_inputs", "jacobian", "determinant"]
-    )
-);
-snapshot!(
-    four_bar_kinematics,
-    functions("four_bar", &["solve_jacobian", "velocity_ratios", "velocity", "gamma", "acceleration"])
-);
-snapshot!(four_bar_assemble, functions("four_bar", &["assemble", "assemble_in_turns", "assemble_near", "branch_of"]));
-snapshot!(
-    inverted_slider_crank,
-    functions("inverted_slider_crank", &["assemble", "assemble_in_turns", "assemble_near", "branch_of"])
-);
-snapshot!(
-    offset_slider_crank,
-    functions("offset_slider_crank", &["assemble", "assemble_in_turns", "assemble_near", "branch_of"])
-);
-snapshot!(v_twin, functions("v_twin", &["assemble", "assemble_in_turns"]));
-snapshot!(four_bar_motion, functions("four_bar", &["motion"]));
-snapshot!(components, functions("components", &["pose_at", "residual", "velocity_ratios"]));
-snapshot!(rpr, functions("rpr", &["pose_at", "jacobian_unknowns", "determinant", "velocity"]));
-snapshot!(five_bar, functions("five_bar", &["velocity_ratios", "velocity", "points", "outputs"]));
-snapshot!(scotch_yoke, functions("scotch_yoke", &["pose_at", "residual", "velocity_ratios", "motion"]));
-snapshot!(cam_follower, functions("cam_follower", &["pose_at", "outputs", "output_velocities"]));
-snapshot!(every_function, functions("every_function", &["outputs"]));
+snapshots! {
+    types: structures(
+        expand(source::tokens_of("four_bar")),
+        &["FourBar", "FourBarCoordinates", "FourBarPoints", "FourBarPose", "FourBarBranch", "FourBarMotion"],
+    );
+    kinematic_function: functions("four_bar", "FourBar", &["velocity_ratios"]);
+    closed_form: functions("four_bar", "FourBar", &["assemble_in_turns", "assemble"]);
+    user_function: functions("cam_rocker", "CamRocker", &["pose_at", "extern_turn"]);
+    every_operation: functions("every_function", "EveryFunction", &["outputs"]);
+    scene: functions("slider_crank_scenes", "Steady", &["drive_forces", "effects"]);
+    trait_implementation: implementation("scotch_yoke", "ScotchYoke", "Mechanism");
+    derivation_constant: derivation("scotch_yoke", &["mechanism", "inputs", "residual", "blocks", "ratios"]);
+    stub_on_error: stub();
+}
 
-/// The irreducible block of six unknowns is factorised once a function, whatever stands on its right.
+/// The irreducible block of six unknowns is factorised once in a function, for all right-hand sides.
 #[test]
 fn one_factorisation_serves_all_right_sides() {
-    // W and L; of the sixteen parameters each moves some closure.
+    // W and L; each of the sixteen parameters is in some loop equation.
     for (name, right_sides) in [("jerk", 1), ("velocity_ratio_derivatives", 2), ("sensitivity", 16)] {
-        let text = functions("double_butterfly", &[name]);
+        let text = unparse(functions("double_butterfly", "DoubleButterfly", &[name]));
         assert_eq!(text.matches("Factorization::new").count(), 1, "{name}");
         assert_eq!(text.matches(".solve(").count(), right_sides, "{name}");
     }
@@ -108,76 +152,63 @@ fn expansion_is_repeatable() {
     }
 }
 
-/// The functions of one scene of several.
-fn of_scene(file: &str, scene: &str, names: &[&str]) -> String {
-    let text = functions(file, names);
-    let mut file: syn::File = syn::parse_str(&text).unwrap();
-    let is_of =
-        |item: &syn::ItemImpl| matches!(&*item.self_ty, syn::Type::Path(path) if path.path.segments[0].ident == scene);
-    file.items.retain(|item| matches!(item, syn::Item::Impl(item) if is_of(item)));
-    prettyplease::unparse(&file)
+/// The tokens of `four_bar_scenes` with those statements that begin with none of these words.
+fn scenes_without(words: &[&str]) -> TokenStream {
+    let keep = |statement: &str| !words.iter().any(|word| statement.starts_with(word));
+    source::with_statements(source::tokens_of("four_bar_scenes"), keep)
 }
 
-snapshot!(
-    four_bar_idle,
-    of_scene(
-        "four_bar_scenes",
-        "Idle",
-        &[
-            "reduced_inertia",
-            "effects",
-            "reduced_forces",
-            "mass_matrix",
-            "forces",
-            "rates",
-            "energy",
-            "check",
-            "check_effects"
-        ]
-    )
-);
-snapshot!(
-    slider_crank_steady,
-    of_scene("slider_crank_scenes", "Steady", &["effects", "rates", "drive_forces", "power"])
-);
-
-/// The statements of `four_bar_scenes` that `keep` accepts, and its expansion without white space by items.
-fn part_of_scenes(keep: impl Fn(&str) -> bool) -> Vec<String> {
-    let kept = source::with_statements(source::tokens_of("four_bar_scenes"), keep);
-    let expansion = linkage_compiler::expand(kept, &"::linkage".parse().unwrap());
-    let file: syn::File = syn::parse2(expansion).unwrap();
-    let alone = |item: &syn::Item| prettyplease::unparse(&syn::File { items: vec![item.clone()], ..file.clone() });
-    file.items.iter().map(alone).collect()
-}
-
-/// Whatever else is declared, a scene is the same code, and so is the mechanism: what is not called for costs nothing.
-#[test]
-fn what_a_scene_does_not_name_is_not_there() {
-    let all = part_of_scenes(|_| true);
-    let forces = ["param m2", "param g", "param k", "body", "scene", "let"];
-    let bare = part_of_scenes(|statement| !forces.iter().any(|word| statement.starts_with(word)));
-    assert!(bare.len() > 12);
-    // The order of some terms depends on what was read first, the work does not.
-    let work = |item: &String| {
-        let lines = item.lines().filter(|line| line.contains("Operations: ") || line.contains("pub "));
-        let mut lines: Vec<&str> = lines.map(str::trim).collect();
-        // The springs on theta4 ask for its number, which the pose and the branch of the mechanism hold.
-        while let Some(place) = lines.iter().position(|line| line.contains("fn assemble")) {
-            let operations = lines[..place].last().is_some_and(|line| line.contains("Operations: "));
-            lines.drain(place - usize::from(operations)..=place);
+/// The public fields and signatures by type, without those for the number of turns of an angle.
+fn surface(tokens: TokenStream) -> BTreeMap<String, BTreeSet<String>> {
+    let turns = |name: &syn::Ident| name.to_string().starts_with("assemble_");
+    let is_public = |visibility: &Visibility| matches!(visibility, Visibility::Public(_));
+    let mut surface: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for item in expand(tokens) {
+        match item {
+            Item::Struct(item) => {
+                let fields = item.fields.iter().filter(|field| is_public(&field.vis));
+                let fields = fields
+                    .map(|field| (field.ident.as_ref().unwrap().to_string(), field.ty.to_token_stream().to_string()));
+                let fields = fields.filter(|(name, _)| !name.ends_with("_angle") && !name.ends_with("_turn"));
+                let fields = fields.map(|(name, of)| format!("{name}: {of}"));
+                surface.entry(item.ident.to_string()).or_default().extend(fields);
+            }
+            Item::Impl(item) if item.trait_.is_none() => {
+                let signatures = item.items.iter().filter_map(|item| match item {
+                    ImplItem::Fn(function) if is_public(&function.vis) && !turns(&function.sig.ident) => {
+                        Some(function.sig.to_token_stream().to_string())
+                    }
+                    _ => None,
+                });
+                surface.entry(implementor(&item)).or_default().extend(signatures);
+            }
+            _ => {}
         }
-        lines.retain(|line| !line.ends_with("_angle: T,") && !line.ends_with("_turn: i32,"));
-        lines.join("\n")
-    };
-    let works: Vec<String> = all.iter().map(work).collect();
-    for item in &bare {
-        assert!(works.contains(&work(item)), "{item}");
     }
-    let others = ["param k", "scene Loaded", "scene Driven", "scene Balanced", "let"];
-    let idle = part_of_scenes(|statement| !others.iter().any(|word| statement.starts_with(word)));
-    assert!(idle.iter().any(|item| item.contains("impl<T: __rt::Real> Idle<T>")));
-    for item in &idle {
-        assert!(works.contains(&work(item)), "{item}");
+    surface
+}
+
+/// A scene is the same code with other scenes or without, and so is the mechanism.
+#[test]
+fn scenes_add_nothing_to_others() {
+    let bare = scenes_without(&["param m2", "param g", "param k", "body", "scene", "let"]);
+    let idle = scenes_without(&["param k", "scene Loaded", "scene Driven", "scene Balanced", "let"]);
+    let all = source::tokens_of("four_bar_scenes");
+    let (all_work, all_surface) = (work(all.clone()), surface(all));
+    for (some, types) in [(bare, 9), (idle, 10)] {
+        let some_surface = surface(some.clone());
+        assert!(some_surface.len() >= types, "{:?}", some_surface.keys());
+        for (name, members) in &some_surface {
+            let difference: Vec<_> = members.symmetric_difference(&all_surface[name]).collect();
+            assert!(difference.is_empty(), "{name}: {difference:?}");
+        }
+        for (function, operations) in work(some) {
+            // The springs on theta4 ask for its number of turns.
+            if !function.1.starts_with("assemble") {
+                assert_eq!(Some(&operations), all_work.get(&function), "{function:?}");
+            }
+        }
     }
-    assert!(idle.iter().all(|item| !item.contains("kt") && !item.contains("omega")));
+    let text = unparse(expand(scenes_without(&["param k", "scene Loaded", "scene Driven", "scene Balanced", "let"])));
+    assert!(text.contains("impl<T: __rt::Real> Idle<T>") && !text.contains("kt") && !text.contains("omega"));
 }

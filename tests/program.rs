@@ -1,80 +1,117 @@
-//! Programs as text, one line a statement, as snapshots: what each function computes, checks and calls, before a printer
-//! makes a language of it.
+//! Programs as text, one line a statement: the computations, checks and calls of each kind of function, before a printer
+//! makes Rust of them. A snapshot shows one thing and is named after it.
 
 use linkage_gallery::source;
-/// The lowered program of the first mechanism of a file, as far as its functions have one of these names.
-fn program(file: &str, names: &[&str]) -> String {
+
+/// The lowered functions of one driver or scene of a file, as far as they have one of these names.
+fn program(file: &str, of: &str, names: &[&str]) -> String {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);
     let text: String = linkage_compiler::programs(&mechanism).concat();
-    let is_wanted = |part: &&str| {
-        let name = part.trim_start_matches("inlined ").trim_start_matches("cold ").split('(').next();
-        !part.contains('(') || names.iter().any(|wanted| name == Some(wanted))
-    };
-    text.split("\n\n").filter(is_wanted).collect::<Vec<_>>().join("\n\n")
+    let mut current = "";
+    let mut kept = vec![of];
+    for part in text.split("\n\n") {
+        let Some((signature, _)) = part.split_once('(') else {
+            current = part.trim();
+            continue;
+        };
+        let name = signature.trim_start_matches("inlined ").trim_start_matches("cold ");
+        if current == of && names.contains(&name) {
+            kept.push(part);
+        }
+    }
+    assert_eq!(kept.len(), 1 + names.len(), "{file}: {of} must have {names:?}");
+    kept.join("\n\n")
 }
 
-macro_rules! snapshot {
-    ($name:ident, $file:literal, $names:expr) => {
+macro_rules! snapshots {
+    ($($name:ident: $file:literal $of:literal [$($function:literal),+];)*) => {$(
         #[test]
         fn $name() {
             insta::with_settings!({ omit_expression => true }, {
-                insta::assert_snapshot!(stringify!($name), program($file, &$names));
+                insta::assert_snapshot!(stringify!($name), program($file, $of, &[$($function),+]));
             });
         }
-    };
+    )*};
 }
 
-snapshot!(
-    higher_orders,
-    "norton_four_bar",
-    [
-        "jerk",
-        "point_jerks",
-        "output_jerks",
-        "velocity_ratio_derivatives",
-        "point_ratio_derivatives",
-        "output_ratio_derivatives",
-        "sensitivity",
-        "point_sensitivities",
-        "output_sensitivities"
-    ]
-);
-snapshot!(ratio_derivatives, "five_bar", ["velocity_ratio_derivatives", "point_ratio_derivatives"]);
-snapshot!(six_unknowns_together, "double_butterfly", ["assemble_near", "jerk"]);
-snapshot!(four_bar, "four_bar", ["points", "point_velocities", "point_ratios", "output_ratios", "solve_jacobian"]);
-snapshot!(
-    introductory,
-    "introductory",
-    ["pose_at", "residual", "jacobian_unknowns", "determinant", "velocity_ratios", "gamma", "acceleration"]
-);
-snapshot!(slider_crank, "slider_crank", ["pose_at", "jacobian_unknowns", "determinant", "velocity_ratios", "velocity"]);
-snapshot!(dyad, "rrr", ["pose_at", "residual", "determinant", "velocity_ratios", "velocity"]);
-snapshot!(six_bar, "six_bar", ["pose_at", "residual", "determinant", "velocity_ratios", "acceleration"]);
-snapshot!(geared_five_bar, "geared_five_bar", ["pose_at", "residual", "velocity", "outputs"]);
-snapshot!(
-    cam_rocker,
-    "cam_rocker",
-    ["pose_at", "assemble_in_turns", "assemble_near", "residual", "velocity", "acceleration", "motion"]
-);
-snapshot!(jansen, "jansen", ["assemble", "velocity", "branch_of"]);
-snapshot!(
-    five_bar_scenes,
-    "five_bar_scenes",
-    [
-        "ratio_columns",
-        "coordinate_rates",
-        "kinematics_at",
-        "reduced_inertia",
-        "effects",
-        "reduced_forces",
-        "mass_matrix",
-        "forces",
-        "rates",
-        "drives",
-        "drive_forces",
-        "power",
-        "balance",
-        "blame"
-    ]
-);
-snapshot!(five_bar_contacts, "five_bar_contacts", ["contacts", "equations", "unreduced", "check"]);
+// Positions.
+snapshots! {
+    pose: "rrr" "Rrr" ["pose_at"];
+    pose_with_an_angle_as_a_number: "geared_five_bar" "GearedFiveBar" ["pose_at"];
+    pose_with_a_user_function: "cam_rocker" "CamRocker" ["pose_at"];
+    branch_with_turns: "jansen" "Jansen" ["branch_of"];
+    assembly_on_a_branch: "four_bar" "FourBar" ["assemble", "assemble_near", "branch_of"];
+    assembly_of_two_links: "four_bar" "FourBar" ["assemble_in_turns"];
+    assembly_of_an_angle_before_a_length: "offset_slider_crank" "OffsetSliderCrank" ["assemble_in_turns"];
+    assembly_of_a_turning_slide: "inverted_slider_crank" "InvertedSliderCrank" ["assemble_in_turns"];
+    assembly_of_two_groups: "v_twin" "VTwin" ["assemble"];
+    assembly_with_a_user_function: "cam_rocker" "CamRocker" ["assemble_in_turns"];
+    assembly_by_newton: "double_butterfly" "DoubleButterfly" ["assemble_near"];
+}
+
+// Constraints.
+snapshots! {
+    residual: "four_bar" "FourBar" ["residual", "residual_scales"];
+    jacobian_of_an_angle_and_a_length: "introductory" "Introductory" ["jacobian_unknowns", "determinant"];
+    gamma: "introductory" "Introductory" ["gamma"];
+    solve_jacobian: "four_bar" "FourBar" ["solve_jacobian"];
+    scalar_equation: "scotch_yoke" "ScotchYoke" ["pose_at", "residual", "velocity_ratios"];
+}
+
+// Velocities and accelerations.
+snapshots! {
+    velocity_ratios: "components" "Components" ["velocity_ratios"];
+    velocity_ratios_of_two_inputs: "five_bar" "FiveBar" ["velocity_ratios"];
+    velocity_by_the_slider: "slider_crank" "Engine" ["velocity"];
+    velocity_by_the_crank: "slider_crank" "Compressor" ["velocity"];
+    velocity_of_five_groups: "jansen" "Jansen" ["velocity"];
+    velocity_with_a_user_function: "cam_rocker" "CamRocker" ["velocity"];
+    acceleration: "introductory" "Introductory" ["acceleration"];
+    acceleration_of_two_groups: "six_bar" "SixBar" ["acceleration"];
+    motion: "four_bar" "FourBar" ["motion"];
+    motion_with_a_user_function: "cam_rocker" "CamRocker" ["motion"];
+}
+
+// Points and outputs.
+snapshots! {
+    points: "four_bar" "FourBar" ["points"];
+    point_velocities: "four_bar" "FourBar" ["point_velocities"];
+    point_ratios: "four_bar" "FourBar" ["point_ratios"];
+    output_ratios: "four_bar" "FourBar" ["output_ratios"];
+    outputs_with_a_user_function: "cam_follower" "CamFollower" ["outputs", "output_velocities"];
+}
+
+// Higher orders.
+snapshots! {
+    jerk: "norton_four_bar" "NortonFourBar" ["jerk"];
+    jerk_by_factorization: "double_butterfly" "DoubleButterfly" ["jerk"];
+    point_jerks: "norton_four_bar" "NortonFourBar" ["point_jerks"];
+    ratio_derivatives: "norton_four_bar" "NortonFourBar" ["velocity_ratio_derivatives"];
+    ratio_derivatives_of_two_inputs: "five_bar" "FiveBar" ["velocity_ratio_derivatives"];
+    point_ratio_derivatives: "norton_four_bar" "NortonFourBar" ["point_ratio_derivatives"];
+    sensitivity: "norton_four_bar" "NortonFourBar" ["sensitivity"];
+    point_sensitivities: "norton_four_bar" "NortonFourBar" ["point_sensitivities"];
+}
+
+// Scenes.
+snapshots! {
+    scene_kinematics: "five_bar_scenes" "Pair" ["ratio_columns", "coordinate_rates", "kinematics_at"];
+    scene_inertia: "five_bar_scenes" "Free" ["reduced_inertia"];
+    scene_effects: "five_bar_scenes" "Free" ["effects", "reduced_forces"];
+    scene_equations: "five_bar_scenes" "Free" ["rates", "mass_matrix", "forces"];
+    scene_energy: "four_bar_scenes" "Idle" ["energy"];
+    scene_power: "five_bar_scenes" "Free" ["power"];
+    scene_equilibrium: "five_bar_scenes" "Free" ["balance"];
+    scene_with_a_drive: "five_bar_scenes" "Half" ["rates", "drive_forces", "drives"];
+    scene_with_all_inputs_driven: "slider_crank_scenes" "Steady" ["rates", "drive_forces"];
+    scene_checks: "four_bar_scenes" "Idle" ["check", "check_effects"];
+}
+
+// Contacts.
+snapshots! {
+    contacts_with_friction: "five_bar_contacts" "Braked" ["contacts"];
+    contacts_with_stops: "five_bar_contacts" "Stopped" ["contacts"];
+    contact_equations: "five_bar_contacts" "Braked" ["equations"];
+    contact_checks: "five_bar_contacts" "Shaken" ["check"];
+    unreduced_equations: "five_bar_contacts" "Clamped" ["unreduced"];
+}

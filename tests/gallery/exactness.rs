@@ -34,7 +34,7 @@ impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
 
     /// Checks that `assemble_near`, group by group from the last position, finds each position with its loops closed.
     #[track_caller]
-    pub(super) fn from_the_last(
+    pub(super) fn assembles_from_the_last(
         &self,
         assemble_near: impl Fn(&M::Coordinates, &M::Pose) -> Result<M::Pose, PositionError>,
     ) {

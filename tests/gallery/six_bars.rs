@@ -113,7 +113,7 @@ fn stephenson_ii() {
         rho: degrees(54.0),
     };
     let course = turn(&m, start);
-    course.from_the_last(|guess, pose| m.assemble_near(guess, m.branch_of(pose)));
+    course.assembles_from_the_last(|guess, pose| m.assemble_near(guess, m.branch_of(pose)));
     let (ab, ce, de) = ((m.a - m.bx).hypot(m.by), m.ex.hypot(m.ey), (m.cd - m.ex).hypot(m.ey));
     course.rigid(points, |p| {
         [
@@ -171,7 +171,7 @@ fn double_butterfly() {
         strut: 1.591,
     };
     let course = turn(&m, start);
-    course.from_the_last(|guess, pose| m.assemble_near(guess, m.branch_of(pose)));
+    course.assembles_from_the_last(|guess, pose| m.assemble_near(guess, m.branch_of(pose)));
     let (ad, cd) = (m.dx.hypot(m.dy), (m.ac - m.dx).hypot(m.dy));
     let (eg, fg) = (m.gx.hypot(m.gy), (m.ef - m.gx).hypot(m.gy));
     let (bj, fj) = (m.jx.hypot(m.jy), (m.bf - m.jx).hypot(m.jy));
