@@ -1,5 +1,5 @@
-//! The roads to the position that the price list offers: each one's error against 45 digits, its branch, its refusals;
-//! asked for by type they are the direct call to the bit. And the list's own verdicts, on prices made up.
+//! Position methods selected by type: the error of each against 45 digits, its branch and its errors; by type they give
+//! the bits of the direct call. And the choice of the cheapest methods, from invented prices.
 
 use std::borrow::Borrow;
 use std::f64::consts::{PI, TAU};
@@ -113,13 +113,13 @@ fn table<F: Fixture<V = D<1>, Of<f64> = F>, const N: usize>() -> (Table<F, N>, [
     (table, errors::<F, f64, Table<F, N>>("benign", |_| table).unwrap())
 }
 
-/// Of the position, the velocity, the acceleration.
+/// Compares the errors of position, velocity and acceleration with their bounds.
 #[track_caller]
 fn within<const N: usize>(found: [f64; N], bounds: [f64; N]) {
     println!("{found:?}");
     for (found, bound) in found.into_iter().zip(bounds) {
         assert!(found <= bound, "{found:e} is more than {bound:e}");
-        // A bound that is far off says nothing.
+        // A bound that is far too large says nothing.
         assert!(found >= 0.05 * bound, "{found:e} is far less than {bound:e}");
     }
 }
@@ -141,7 +141,8 @@ fn closed_form_at_benign_poses() {
     within(errors::<Jansen, DoubleDouble, ClosedForm>("benign", leg::<f64>).unwrap(), [2e-31, 4e-31, 1e-30]);
 }
 
-/// What the input leaves of the angles near a dead point: a rounding over the sine, from any road in doubles.
+/// Near a dead point the angles are off by the rounding error of the input divided by the sine, by any method in
+/// doubles.
 #[test]
 fn closed_form_near_a_dead_point() {
     let four_bar = |sine: &str| errors::<FourBar, f64, ClosedForm>(sine, branch::<f64>);
@@ -149,9 +150,9 @@ fn closed_form_near_a_dead_point() {
     assert!(matches!(four_bar("1e-9"), Err(PositionError::Singular { group: "theta3, theta4", .. })));
     let exact = |sine: &str| errors::<FourBar, DoubleDouble, ClosedForm>(sine, branch::<f64>).unwrap();
     within(exact("1e-3"), [2e-29, 2e-26, 3e-23]);
-    // A rounding of the squares over the cube of the sine: 3.2e-15. `elbow_chord`'s factors are in double-double as right
-    // as those of plain squares and no more: of 100 000 triangles as flat, off by 0.080 and 0.088 of 2^-104 of the
-    // squares in the median, by 0.91 and 0.95 at worst.
+    // The rounding error of the squares divided by the cube of the sine: 3.2e-15. The factors of `elbow_chord` are in
+    // double-double no more accurate than those of plain squares: of 100 000 triangles as flat, the median error is
+    // 0.080 against 0.088 of 2^-104 of the squares, the largest 0.91 against 0.95.
     within(exact("1e-6"), [3e-27, 2e-21, 3.3e-15]);
     within(exact("1e-9"), [3e-25, 3e-16, 2e-7]);
     within(errors::<Jansen, f64, ClosedForm>("1e-3", leg::<f64>).unwrap(), [2e-12, 4e-9, 1e-5]);
@@ -161,8 +162,8 @@ fn closed_form_near_a_dead_point() {
     ));
 }
 
-/// Determinants are sines of differences: no digit is lost, however small they are. The butterfly's is a product of
-/// pivots, which loses what its size says.
+/// Determinants are sines of differences and lose no digit, however small they are. That of the butterfly is a product
+/// of pivots and loses as many digits as it is small.
 #[test]
 fn angles_given() {
     for sine in ["benign", "1e-3", "1e-6", "1e-9"] {
@@ -189,7 +190,7 @@ fn newton_by_steps() {
     within(exact.unwrap(), [1e-31, 1e-31, 2e-31]);
 }
 
-/// A crank that cannot turn, asked to: no answer is on the other branch.
+/// A crank that cannot turn is sent round: no answer is on the other branch.
 #[test]
 fn newton_keeps_its_branch() {
     let m = FourBar::new(80.0, 50.0, 40.0, 60.0);
@@ -206,7 +207,7 @@ fn newton_keeps_its_branch() {
     assert!(refused > 5, "{refused}");
 }
 
-/// A sixteenth of the error for twice as many entries, and what the table itself measured.
+/// Twice as many entries have a sixteenth of the error, and the error is the one that the table measured.
 #[test]
 fn tables() {
     let (coarse, errors) = table::<FourBar, 65>();
@@ -219,7 +220,7 @@ fn tables() {
     within(table::<DoubleButterfly, 65>().1, [1e-6, 1e-6, 2e-6]);
 }
 
-/// Turn after turn, forward and backward, an angle goes on by whole turns; lengths and rockers come back.
+/// Over many turns, forward and backward, an angle grows by whole turns; lengths and rockers return.
 #[test]
 fn tables_go_round() {
     let m = FourBar::new(20.0, 80.0, 50.0, 70.0);
@@ -240,7 +241,7 @@ fn tables_go_round() {
 fn tables_refuse() {
     let m = FourBar::new(80.0, 50.0, 40.0, 60.0);
     let start = m.assemble(0.9, FourBarBranch::new(linkage::Elbow::Left)).unwrap().coordinates();
-    // Its crank cannot turn; a part of the way it can.
+    // The crank cannot make a full turn, but a part of one.
     Table::<_, 33>::turn(&m, &start).unwrap_err();
     let table = Table::<_, 33>::between(&m, &start, 0.5).unwrap();
     assert!(Table::position(&m, &table, 0.7).is_ok() && Table::position(&m, &table, 0.5).is_ok());
@@ -250,7 +251,7 @@ fn tables_refuse() {
                 if (least - 0.5).abs() + (most - 0.9).abs() < 1e-12));
     }
     assert!(matches!(Table::position(&m, &table, f64::NAN), Err(PositionError::NotFinite { .. })));
-    // Gears that turn once while the crank turns twice are somewhere else after a turn.
+    // Gears that turn once while the crank turns twice are not in the same position after a turn of the crank.
     let geared = GearedFiveBar { ratio: -0.5, ..GearedFiveBar::default() };
     let guess = GearedFiveBarCoordinates { theta1: 0.9, theta2: 0.3, theta3: 1.2, theta4: -0.45 + geared.phase };
     let start = geared.solve(&guess).unwrap().coordinates;
@@ -258,7 +259,7 @@ fn tables_refuse() {
     assert!(matches!(around, Err(PositionError::Input(InputError::NotPeriodic { .. }))), "{around:?}");
 }
 
-/// Asked for by type, it is the direct call.
+/// A method selected by type is the direct call.
 #[test]
 fn by_type_is_the_direct_call() {
     let m = FourBar::default();
@@ -297,7 +298,7 @@ fn dominated_methods() {
     let exact = vec![price(1e-15, 50.0), price(1e-12, 50.0)];
     let silly = vec![price(1e-6, 60.0), price(1e-3, 60.0)];
     assert_eq!(dominated(&[fast.clone(), exact.clone(), silly.clone()]), [None, None, Some(0)]);
-    // Better at one point keeps it, and so does a result where the others have none.
+    // A method that is better at one point is not dominated, nor one that has a result where the others have none.
     let mut special = silly.clone();
     special[1] = price(1e-20, 60.0);
     assert_eq!(dominated(&[fast.clone(), exact.clone(), special]), [None; 3]);
@@ -306,7 +307,7 @@ fn dominated_methods() {
     assert_eq!(dominated(&[other, partial.clone()]), [None; 2]);
     partial[1] = None;
     assert_eq!(dominated(&[fast.clone(), partial]), [None, Some(0)]);
-    // What is alike dominates nothing.
+    // Equal methods do not dominate each other.
     let alike = fast.iter().map(|one| one.map(|Price { error, time }| Price { error: 2.0 * error, time: 1.05 * time }));
     let alike = alike.collect();
     assert_eq!(dominated(&[fast.clone(), alike]), [None; 2]);

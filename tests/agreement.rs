@@ -1,8 +1,8 @@
-//! Two independent ways to every number: the compiler's interpreter against the emitted code, and the emitted
-//! derivatives against dual numbers, at random poses of every mechanism of the gallery.
+//! Two independent ways to every number, at random poses of every mechanism of the gallery: the compiler's interpreter
+//! against the emitted code, and the emitted derivatives against dual numbers.
 //!
 //! ```text
-//! POSES=1000 cargo test --test agreement    so many poses of each mechanism
+//! POSES=1000 cargo test --test agreement    this many poses of each mechanism
 //! ```
 
 use linkage::{Dim, Matrix, Mechanism, Real};
@@ -89,8 +89,8 @@ fn emitted_is_interpreted<F: Fixture>() {
     }
 }
 
-/// What solves a linear system of the derivation, by its residual, which does not depend on how near to a singular
-/// pose the sample fell.
+/// Solutions of linear systems are compared by their residuals, which do not depend on how near the sample is to a
+/// singular pose.
 fn solutions_have_no_residual<F: Fixture>() {
     let oracle = Oracle::of::<F>();
     let d = &oracle.derivation;
@@ -141,7 +141,7 @@ fn solutions_have_no_residual<F: Fixture>() {
     assert!(regular > poses() / 2, "{}: {regular} regular poses", F::FILE);
 }
 
-/// `motion` gives the results of the functions that it stands for.
+/// `motion` gives the results of the functions that it combines.
 fn motion_is_its_parts<F: Fixture>() {
     let oracle = Oracle::of::<F>();
     let d = &oracle.derivation;
@@ -259,7 +259,7 @@ macro_rules! tests {
 
 all_mechanisms!(tests);
 
-/// The mechanism of all functions has them all.
+/// The mechanism `every_function` has all functions.
 #[test]
 fn every_operation_is_under_test() {
     let text = source::text_of("every_function");

@@ -1,4 +1,4 @@
-//! Animated pictures: what they show at every frame, and what they refuse.
+//! Animated pictures: each frame against the positions, and the errors for invalid input.
 
 #![cfg(feature = "drawing")]
 
@@ -13,13 +13,13 @@ use linkage_gallery::offset_slider_crank::*;
 
 const STEPS: u32 = 72;
 
-/// Numbers of the picture are written to a tenth of a pixel and angles to a hundredth of a degree; half of that, and
-/// the angle at the end of a link of 400 pixels.
+/// Half a tenth of a pixel, to which numbers of the picture are written, and half a hundredth of a degree, the digits
+/// of angles, at the end of a link of 400 pixels.
 const WRITTEN: f64 = 0.05 + 0.005 * 400.0 * std::f64::consts::PI / 180.0 + 0.05;
 
 type Frame = Vec<(&'static str, Point2<f64>)>;
 
-/// The four-bar through a full turn, with the unit of length so many times smaller.
+/// A full turn of the four-bar, its lengths divided by `unit`.
 fn four_bar(scale: f64) -> Vec<Frame> {
     let m = FourBar::<f64>::default().map(|length| length * scale);
     let frame = |step: u32| {
@@ -48,20 +48,20 @@ fn numbers(text: &str) -> Vec<f64> {
     text.split([' ', ',']).map(|number| number.parse().unwrap_or_else(|_| panic!("{number} in {text}"))).collect()
 }
 
-/// What stands in the brackets of `transform="kind(…)"`.
+/// The arguments of `transform="kind(…)"`.
 fn transform(node: Node, kind: &str) -> Vec<f64> {
     let text = node.attribute("transform").unwrap();
     numbers(text.strip_prefix(kind).and_then(|rest| rest.strip_prefix('(')?.strip_suffix(')')).unwrap())
 }
 
-/// The values of one kind of animation, directly in a group; at rest there are none.
+/// The values of one kind of animation of a group itself; none at rest.
 fn values(group: Node, kind: &str) -> Option<Vec<Vec<f64>>> {
     let animation = group
         .children()
         .find(|child| child.has_tag_name(tag("animateTransform")) && child.attribute("type") == Some(kind))?;
     assert_eq!(animation.attribute("dur"), Some("6s"));
     assert_eq!(animation.attribute("repeatCount"), Some("indefinite"));
-    // Turns come on top of the place.
+    // Turns are added to the place.
     assert_eq!(animation.attribute("additive"), (kind == "rotate").then_some("sum"));
     Some(animation.attribute("values").unwrap().split(';').map(numbers).collect())
 }
@@ -93,7 +93,7 @@ fn joint<'a>(document: &'a Document, name: &str) -> Node<'a, 'a> {
     layer(document, "moving").into_iter().find(named).unwrap_or_else(|| panic!("no joint {name}"))
 }
 
-/// From points to pixels, found from two pivots of the picture.
+/// The map from points to pixels, from two pivots of the picture.
 fn pixels(document: &Document, first: &Frame, [from, to]: [&str; 2]) -> impl Fn(Point2<f64>) -> Point2<f64> {
     let at = |name: &str| first.iter().find(|(other, _)| *other == name).unwrap().1;
     let pixel = |name: &str| Point2::from_slice(&transform(joint(document, name), "translate"));
@@ -122,7 +122,7 @@ fn joints_are_where_the_frames_say() {
     }
 }
 
-/// A link that is carried by its first point and turned as the picture says comes to lie on its other points.
+/// A link moved with its first point and turned by the angles of the picture has its other points where they belong.
 #[test]
 fn links_are_carried_rigidly() {
     let frames = four_bar(1.0);
@@ -137,12 +137,12 @@ fn links_are_carried_rigidly() {
             near(*place, pixel(frame[from].1));
             near(place + Rotation2::new(turn.to_radians()) * arm, pixel(frame[to].1));
         }
-        // Between frames nothing spins: angles go on by less than a few steps of the crank.
+        // Between frames nothing spins: an angle changes by less than a few steps of the crank.
         for pair in body.windows(2) {
             assert!((pair[1].1 - pair[0].1).abs() < 30.0, "{} to {}", pair[0].1, pair[1].1);
         }
     }
-    // One turn of the crank, against the clock: on the screen angles grow the other way.
+    // One turn of the crank, clockwise: on the screen angles grow in the other sense.
     assert_eq!(motion(moving[0], frames.len())[frames.len() - 1].1, -360.0);
 }
 
@@ -169,7 +169,7 @@ fn springs_reach_from_point_to_point() {
     }
 }
 
-/// A plate with a corner at the point with which it turns, and another to its left.
+/// A plate with one corner at the point that it turns with, and another to its left.
 #[test]
 fn plates_turn_with_their_points() {
     let (frames, m) = (four_bar(1.0), FourBar::<f64>::default());
@@ -211,16 +211,16 @@ fn sliders_stay_on_their_guides() {
     let pixel = pixels(&document, &frames[0], ["O", "Foot"]);
     let block = motion(layer(&document, "moving")[2], frames.len());
     for (frame, (place, turn)) in frames.iter().zip(&block) {
-        // The two pivots are so near that the scale found from them is coarse: distances along the guide are not.
+        // The scale from two pivots this near each other is coarse; distances along the guide are not.
         assert_eq!((place.y, *turn), (block[0].0.y, 0.0));
         assert!((place.y - pixel(frame[2].1).y).abs() <= WRITTEN);
     }
-    // A slider does not go round in a circle.
+    // A slider does not turn round.
     picture.slider("A");
     assert_eq!(picture.to_svg(), Err(DrawingError::NotStraight("A".to_owned())));
 }
 
-/// In other units the picture is the same, to the last character.
+/// In other units the picture is the same to the last character.
 #[test]
 fn scale_free() {
     let picture = picture_of_the_four_bar(1.0).to_svg();
@@ -240,7 +240,7 @@ fn the_picture_stands_alone_and_is_small() {
     assert_eq!(picture_of_the_four_bar(1.0).to_svg(), Ok(svg));
 }
 
-/// The copy for those who want less motion has all that moves, and nothing in it moves.
+/// The copy for readers who prefer reduced motion has all parts, and none of them moves.
 #[test]
 fn the_still_picture_is_the_first_frame() {
     let svg = picture_of_the_four_bar(1.0).to_svg().unwrap();

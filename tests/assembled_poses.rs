@@ -1,6 +1,6 @@
-//! A pose that is assembled and the pose at its coordinates are one: directions, determinants and all that follows.
+//! An assembled pose is the pose at its coordinates: directions, determinants and all that follows from them.
 //!
-//! `assemble` finds algebraically what `pose_at` finds from the angles, and J itself says what a determinant is.
+//! `assemble` finds by algebra what `pose_at` computes from the angles, and J itself gives the determinants.
 
 use linkage::{Assembly, D, Dim, Mechanism, linkage};
 use linkage_oracle::close;
@@ -13,7 +13,7 @@ use linkage_gallery::slider_named_first::*;
 use linkage_gallery::three_together::*;
 
 linkage! {
-    /// Each equation determines the unknown of its neighbour: two exchanges of columns, which cancel.
+    /// Each equation determines the unknown of the other: two exchanges of columns, which cancel.
     pub mechanism Crosswise {
         param k = 2;
         input v;
@@ -41,7 +41,7 @@ fn agrees_with_its_matrices<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, pose: &
     }
 }
 
-/// Assembled poses of all branches at random inputs, and what `more` compares of them besides.
+/// Assembled poses of all branches at random inputs; `more` compares further numbers of them.
 fn agrees<M>(
     m: &M,
     branches: impl Fn() -> Vec<M::Branch>,
@@ -133,7 +133,7 @@ fn exchanges_that_cancel() {
     );
 }
 
-/// A group of three unknowns is factorised: no formula of two is its determinant.
+/// A group of three unknowns is factorised: its determinant has no formula.
 #[test]
 fn three_unknowns_together() {
     let m = ThreeTogether::default();

@@ -1,4 +1,4 @@
-//! Position in closed form: what cannot be assembled, what must not matter, and what a branch is.
+//! Position in closed form: inputs without a position, data that must not matter, and the meaning of a branch.
 
 use linkage::{Elbow, PositionError, Slider, Slope};
 
@@ -14,7 +14,7 @@ fn branch(theta3_theta4: Elbow) -> FourBarBranch {
     FourBarBranch::new(theta3_theta4)
 }
 
-/// Both assemblies close, mirrored in the line between the outer joints; all that there are is two.
+/// Both assemblies of a dyad close, mirrored in the line between the outer joints, and there are no others.
 #[test]
 fn both_branches_of_a_four_bar() {
     let m = FourBar::default();
@@ -54,14 +54,14 @@ mod relative {
     }
 }
 
-/// What the words say of each kind of group, which no test of one position against another would notice.
+/// The names of the branches of each kind of group, which a comparison of positions would not check.
 #[test]
 fn branches_mean_what_they_say() {
     let elbows = [Elbow::Left, Elbow::Right];
     let sliders = [Slider::Far, Slider::Near];
     for degrees in (0..360).step_by(7) {
         let angle = f64::from(degrees).to_radians();
-        // RRR: C beside the line from B, where the link of theta3 starts, to D.
+        // RRR: C is left or right of the line from B, where the link of theta3 starts, to D.
         let m = FourBar::default();
         let left = elbows.map(|elbow| {
             let points = m.points(&m.assemble(angle, branch(elbow)).unwrap()).unwrap();
@@ -93,7 +93,7 @@ fn branches_mean_what_they_say() {
     }
 }
 
-/// Of the branches those that exist, and no others; what is not a number is said.
+/// `branches` gives the branches that exist and no others, and an error for a number that is not finite.
 #[test]
 fn branches_that_exist() {
     let m = SixBar::default();
@@ -112,7 +112,7 @@ fn branches_that_exist() {
     assert!(matches!(FourBar::default().branches(f64::NAN).next(), Some(Err(PositionError::NotFinite { .. }))));
 }
 
-/// A dyad, then Kepler's equation, which has no closed form, then what follows from it.
+/// A dyad, then Kepler's equation, which has no closed form, then an angle that follows from it.
 mod kepler {
     use linkage::linkage;
 
@@ -129,7 +129,7 @@ mod kepler {
     }
 }
 
-/// Group by group: what has a closed form takes the branch, what has none the guess.
+/// Groups with a closed form follow the branch, those without one the guess.
 #[test]
 fn a_group_without_closed_form() {
     use kepler::{Kepler, KeplerBranch, KeplerCoordinates};
@@ -138,7 +138,7 @@ fn a_group_without_closed_form() {
     for degrees in (0..360).step_by(3) {
         let theta2 = f64::from(degrees).to_radians();
         for theta3_theta4 in [Elbow::Left, Elbow::Right] {
-            // Nothing of the guess counts but psi and the turn of theta4, whose number is in the equation of psi.
+            // Of the guess only psi matters, and the turn of theta4, whose number is in the equation of psi.
             let guess = KeplerCoordinates { theta2, psi: 0.5, theta3: f64::NAN, theta4: 0.0, s: f64::NAN };
             let branch = KeplerBranch { theta3_theta4 };
             let pose = m.assemble_near(&guess, branch).unwrap();
@@ -155,7 +155,7 @@ fn a_group_without_closed_form() {
             assert!((psi - (1.0 - m.e * (whole.psi + whole.theta3).cos())).abs() <= 1e-14);
         }
     }
-    // Beyond a dead point of psi, and nowhere.
+    // Beyond a dead point of psi there is no position.
     let left = KeplerBranch { theta3_theta4: Elbow::Left };
     let steep = Kepler { e: 3.0, ..Kepler::default() };
     let at = |psi| KeplerCoordinates { theta2: 0.35, psi, theta3: 0.0, theta4: 0.0, s: 0.0 };
@@ -183,7 +183,7 @@ fn a_group_without_closed_form() {
     ));
 }
 
-/// Where the links are in line the two branches meet; each keeps its name.
+/// The two branches meet where the links are in line; each keeps its name.
 #[test]
 fn a_dead_point_keeps_its_branch() {
     let m = FourBar::new(80.0, 20.0, 33.0, 67.0);
@@ -194,7 +194,7 @@ fn a_dead_point_keeps_its_branch() {
     }
 }
 
-/// A link that stands on the guide at an angle of its own, with a part along the guide and a part across.
+/// A link at a constant angle to its guide, with one part along the guide and one across.
 #[test]
 fn a_guide_with_an_offset_link() {
     for delta in [-2.0, -0.7, 0.3, 1.0, 2.4] {
@@ -211,7 +211,7 @@ fn a_guide_with_an_offset_link() {
     }
 }
 
-/// A position depends on its input and branch alone: bit for bit the same whichever way it was reached.
+/// A position depends on its input and branch alone, to the last bit, and not on the calls before.
 #[test]
 fn steps_leave_no_trace() {
     let m = Jansen::default();
@@ -254,7 +254,7 @@ fn what_does_not_reach_is_named() {
         Err(PositionError::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap }) => assert!(gap > 1.0),
         other => panic!("{other:?}"),
     }
-    // Of two groups the second: its links are too short, the first assembles.
+    // The second of two groups: its links are too short, the first assembles.
     let m = SixBar { f: 0.1, g: 0.1, ..SixBar::default() };
     let branch = SixBarBranch::new(Elbow::Right, Elbow::Right);
     match m.assemble(1.0, branch) {
@@ -269,7 +269,7 @@ fn what_does_not_reach_is_named() {
     ));
 }
 
-/// Links that just touch: the chord is zero to rounding, whatever the rounding says.
+/// For links that just touch, the chord is zero even if its rounding error is negative.
 #[test]
 fn links_in_line_assemble() {
     for (l3, l4) in [(50.0, 50.0), (33.3, 66.7), (0.1, 99.9)] {
@@ -280,7 +280,7 @@ fn links_in_line_assemble() {
     }
 }
 
-/// The unit of length changes nothing but the exponents.
+/// Another unit of length changes exponents only.
 #[test]
 fn scale_free() {
     let m = FourBar::default();
@@ -303,14 +303,14 @@ fn nonsense_is_an_error_and_never_a_number() {
         FourBar::new(80.0, 20.0, 0.0, 70.0),
         FourBar::new(20.0, 20.0, 50.0, 50.0),
     ] {
-        // The last has its outer joints in one point at 0: every position of the links closes it.
+        // The outer joints of the last are one point at 0: every position of its links closes the loop.
         let found = m.assemble(0.0, branch);
         assert!(found.is_err(), "{m:?}: {found:?}");
     }
     assert!(FourBar::default().assemble(f64::NAN, branch).is_err());
 }
 
-/// A negative length is a link that points the other way, whatever the unit of length and however flat the triangle.
+/// A negative length is a link in the opposite direction, in any unit of length and however flat the triangle.
 #[test]
 fn a_negative_length_points_the_other_way() {
     for scale in [-200, -60, 0, 60, 200].map(|exponent| 2_f64.powi(exponent)) {

@@ -9,7 +9,7 @@ use linkage_gallery::offset_slider_crank::*;
 #[track_caller]
 fn printed(found: f64, expected: f64, decimals: i32) {
     let error = (found - expected).abs();
-    // Half a unit, and a little for the rounding of `found` itself.
+    // Half a unit, and a little for the rounding error of `found` itself.
     let allowed = 0.5 * 10.0_f64.powi(-decimals) + 4.0 * f64::EPSILON * expected.abs();
     assert!(error <= allowed, "{found:?} is not {expected:?}: off by {error:e}, {allowed:e} is allowed");
 }
@@ -38,7 +38,7 @@ fn four_bar_of_norton() {
     printed(motion.accelerations.theta4, 470.133_530_261_023, 12);
 }
 
-/// The same in his own layout, with its jerk at constant acceleration of the crank.
+/// The four-bar in Norton's own layout, with its jerk at constant acceleration of the crank.
 #[test]
 fn jerk_of_the_four_bar_of_norton() {
     let m = NortonFourBar::default();
@@ -73,7 +73,7 @@ fn slider_crank_of_norton() {
 }
 
 /// A teaching four-bar of the verification set of PMKS (Planar Mechanism Kinematic Simulator): A (0, 0),
-/// B (1.52, 0), C (4.23, 3.029), D (4.572, 0), 10.31 rpm. Of its seventeen digits those that are sure.
+/// B (1.52, 0), C (4.23, 3.029), D (4.572, 0), 10.31 rpm. Compared are the certain ones of its seventeen digits.
 #[test]
 fn four_bar_of_pmks() {
     let (x, y, d) = (4.23_f64, 3.029_f64, 4.572_f64);
@@ -83,7 +83,7 @@ fn four_bar_of_pmks() {
     let motion = m.motion(&solution.coordinates, 10.31 * std::f64::consts::TAU / 60.0, 0.0).unwrap();
     printed(motion.points.c.position.x, x, 15);
     printed(motion.points.c.position.y, y, 15);
-    // The doubles of either side are rounded by a few units of theirs.
+    // The published doubles and ours are each off by a few units in the last place.
     printed(motion.rates.theta4, -0.537_707_806_825_430, 15);
     printed(motion.accelerations.theta4, 0.778_081_940_185_146, 15);
     let c = motion.points.c;
@@ -141,7 +141,7 @@ fn andrews_closes_at_the_published_solution() {
     }
 }
 
-/// The same to more digits: the equations of motion reduced to `beta` and integrated in 42-digit arithmetic.
+/// Andrews' mechanism to more digits: the equations of motion reduced to `beta`, integrated in 42-digit arithmetic.
 #[test]
 fn andrews_in_motion() {
     let m = Andrews::default();
@@ -156,7 +156,7 @@ fn andrews_in_motion() {
     };
     let q = m.solve(&guess).unwrap().coordinates;
     let motion = m.motion(&q, 1_139.920_302_259_106_1, -24_631.763_122_874_634).unwrap();
-    // beta is rounded to 2e-15, and the rates of delta and epsilon are differences of some thirty times larger ones.
+    // beta has an error of 2e-15, and the rates of delta and epsilon are differences of some thirty times larger ones.
     const PART: f64 = 1e-12;
     relative(q.theta, -15.756_371_058_411_839, PART);
     relative(q.gamma, 0.040_822_240_119_645_8, PART);

@@ -1,4 +1,4 @@
-//! Mechanisms followed along their motion: what a path promises beside the hard cases.
+//! Mechanisms followed along their motion: the guarantees of a path, besides the hard cases.
 
 use approx::assert_abs_diff_eq;
 use std::f64::consts::{PI, TAU};
@@ -23,7 +23,7 @@ fn rocker() -> FourBar {
     FourBar::new(80.0, 70.0, 50.0, 20.0)
 }
 
-/// A whole turn comes back to the start, having passed two dead points where two joints and a third are in line.
+/// A whole turn comes back to the start, past two dead points where crank and coupler are in line.
 #[test]
 fn a_turn_driven_by_the_rocker() {
     let m = rocker();
@@ -71,7 +71,7 @@ fn rates_are_velocity_ratios() {
     }
 }
 
-/// An output's zero is found to rounding: where the transmission angle is right.
+/// The zero of an output is found to rounding error: the right transmission angle.
 #[test]
 fn zero_of_an_output() {
     let m = FourBar::default();
@@ -148,7 +148,7 @@ fn scale_free() {
     }
 }
 
-/// Without closed form: six unknowns together, once in steps as they come and once in fine ones.
+/// Six unknowns without a closed form, followed in steps of the default length and in short ones.
 #[test]
 fn coarse_and_fine_steps_agree() {
     let m = DoubleButterfly::default();
@@ -196,12 +196,12 @@ fn along_a_path_of_two_inputs() {
         let pose = m.pose_at(&along.position(&reached.position));
         let expected = assemble(s);
         assert_abs_diff_eq!((m.jacobian_unknowns(&pose) - m.jacobian_unknowns(&expected)).amax(), 0.0, epsilon = 1e-13);
-        // dq/ds beside the velocity that the inputs' rates give.
+        // dq/ds against the velocity for the inputs' rates.
         let rate = m.velocity(&pose, FiveBarInputs::from(inputs(s)[1])).unwrap();
         assert_abs_diff_eq!(reached.rates.rates.theta2 / reached.rates.parameter, rate.theta2, epsilon = 1e-12);
         assert_abs_diff_eq!(reached.rates.rates.theta3 / reached.rates.parameter, rate.theta3, epsilon = 1e-12);
     }
-    // gamma of the whole: d2/ds2 of Psi, by differences of its first derivative.
+    // gamma of all unknowns: d2/ds2 of Psi, by differences of its first derivative.
     let at = |s: f64| AlongCoordinates { parameter: s, ..start };
     let of_q = FiveBarRates { theta1: 0.0, theta2: 0.3, theta3: -0.7, theta4: 0.0 };
     let rates = AlongRates { rates: of_q, parameter: 1.3 };
@@ -217,7 +217,7 @@ fn along_a_path_of_two_inputs() {
     assert_abs_diff_eq!((difference - along.gamma(&moved(0.0), &rates)).largest(), 0.0, epsilon = 1e-9);
 }
 
-/// In single precision the same path, to its rounding.
+/// In single precision the path is the same, to rounding error.
 #[test]
 fn single_precision() {
     let wheels = CoupledWheels::<f64>::default().map(|length| length as f32);

@@ -1,8 +1,8 @@
 //! Change points at which several groups are singular at once: the end of the range of dyads that are flat together, of
-//! inversors, chains of parallelograms, a dyad flat where a parallelogram is.
+//! inversors, of chains of parallelograms, of a dyad and a parallelogram.
 //!
 //! The crossing is one event with all groups and all tangents. The tangents follow from closed forms of the motions;
-//! that a motion leaves along each is seen by following it.
+//! following each confirms that a motion exists along it.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Debug;
@@ -36,7 +36,7 @@ linkage! {
 }
 
 linkage! {
-    /// Three dyads of different links and one reach.
+    /// Three different dyads with the same reach.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism ThreeDyads {
         param l = 2, m = 1.5, k = 1.25, n = 2.25, r = 3, h = 0.5;
@@ -49,7 +49,7 @@ linkage! {
 }
 
 linkage! {
-    /// A dyad that drives a parallelogram: where it is flat the parallelogram is as well.
+    /// A dyad that drives a parallelogram: both are flat at the same position.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism DyadAndParallelogram {
         param l = 2, m = 1.5, r = 1, k = 3;
@@ -116,7 +116,7 @@ fn options(at_change_point: AtChangePoint) -> Options {
     Options { at_change_point, ..Options::default() }
 }
 
-/// A mechanism followed to its next event, which must be a crossing.
+/// Follows a mechanism to its next event, which must be a crossing.
 fn crossing<M: Mechanism<Scalar = f64, V = D<1>>>(
     m: &M,
     start: &M::Coordinates,
@@ -165,7 +165,8 @@ where
     }
 }
 
-/// A motion leaves along each tangent, both ways: a place on it lies that way, to the square of its distance.
+/// Along each tangent a motion leaves, both ways: a position on it lies in that direction, to the square of its
+/// distance.
 fn lead_on<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, at: &M::Coordinates, tangents: &Tangents<M::Rates>) -> usize
 where
     M::Coordinates: Debug,
@@ -208,7 +209,7 @@ fn two_dyads_flat_together() {
             are::<TwoDyads>(&tangents, &[along(1.0), along(-1.0)]);
             assert_eq!(lead_on(&m, &at, &tangents), 4);
 
-            // Straight on both elbows change; on the other motion one does.
+            // Straight on, both elbows change; on the other motion one does.
             let beyond = end + 0.1 * (end - 2.0).signum();
             for (policy, changed) in [(AtChangePoint::Keep, [true, true]), (AtChangePoint::Switch, [true, false])] {
                 let mut path = Path::with(&m, &q, direction, options(policy)).unwrap();
@@ -267,7 +268,7 @@ fn scale_free() {
     }
 }
 
-/// Where the second dyad reaches a little further, there is no crossing but a dead point of the first.
+/// If the second dyad reaches a little further, there is no crossing but a dead point of the first.
 #[test]
 fn what_only_comes_near_is_a_dead_point() {
     for longer in [1e-3, 1e-6, 1e-9, 1e-12] {
@@ -312,7 +313,7 @@ fn three_dyads_flat_together() {
         assert!(matches!(path.advance_to(3.6), Err(PathError::DeadPoint { .. })));
         let back = m.branch_of(&m.pose_at(&path.advance_to(3.0).unwrap().position));
         assert!(back.a_b != start.a_b && back.c_d != start.c_d && back.e_f != start.e_f, "{back:?}");
-        // There is not one other motion: the path says so instead of taking one.
+        // There is more than one other motion: the path returns an error instead of taking one.
         let mut path = Path::with(&m, &q, Direction::Increasing, options(AtChangePoint::Switch)).unwrap();
         assert!(matches!(path.advance_to(3.6), Err(PathError::ChangePoint { .. })));
         path.choose(&expected[1]).unwrap();
@@ -339,8 +340,8 @@ fn a_dyad_flat_where_a_parallelogram_is() {
     }
 }
 
-/// An inversor at its ends is one event of all its groups, at 2 crank cos(theta / 2) = long - short. The dyad of the tips
-/// has its outer joints in one place there and turns freely: a family of motions begins.
+/// At its ends an inversor has one event of all its groups, at 2 crank cos(theta / 2) = long - short. The outer joints
+/// of the dyad of the tips coincide there and it turns freely: a family of motions begins.
 #[test]
 fn ends_of_inversors() {
     for m in [Peaucellier::default(), Peaucellier::new(2.0, 5.0, 2.0), Peaucellier::new(1.6, 5.0, 2.0)] {
@@ -379,7 +380,7 @@ fn ends_of_inversors() {
 }
 
 /// N windows in line: the uprights before one rest, those from it on turn, N + 1 motions; laid to the other side, the
-/// uprights up to one turn. Some meet the others to second order only along themselves, and are told all the same.
+/// uprights up to one turn. Some cross the others at second order only along themselves, and are reported too.
 #[test]
 fn a_chain_of_parallelograms() {
     let m = TwoWindows::default();
@@ -408,7 +409,7 @@ fn a_chain_of_parallelograms() {
             assert!(apart::<TwoWindows>(&tangents[0], &expected[0]) < 1e-12);
         }
     }
-    // The motion goes straight on over ten of them, and says each once.
+    // The motion goes straight on over ten crossings and reports each once.
     let mut path = Path::new(&m, &up(1.0), Direction::Increasing).unwrap();
     let mut passed = 0;
     while path.position().phi0 < 1.0 + 5.0 * TAU {
@@ -424,7 +425,7 @@ fn a_chain_of_parallelograms() {
     assert_eq!(passed, 10);
 }
 
-/// More motions than are told: that which is followed, and that these are not all.
+/// If there are more motions than the report holds, it has the one that is followed and says that it is incomplete.
 #[test]
 fn ten_windows() {
     let m = TenWindows::default();
@@ -497,7 +498,7 @@ fn random_direction<const N: usize>(random: &mut SmallRng) -> SVector<f64, N> {
     }
 }
 
-/// Two forms that vanish on four directions drawn at random: the tangents are these. No combination of the two that is given
+/// Two forms that vanish on four directions drawn at random: the tangents are these. No given combination of the two
 /// is a product, so that the degenerate ones must be found.
 #[test]
 fn two_forms_through_four_directions() {
@@ -534,8 +535,8 @@ fn two_forms_through_four_directions() {
     println!("{count} crossings, tangents off by {worst:.1e}");
 }
 
-/// Three forms that vanish on eight directions, of which seven are drawn: no combination is a product, and of the tangents
-/// the one that is followed is told, and that there are more.
+/// Three forms that vanish on eight directions, seven of them drawn: no combination is a product. The report has the
+/// tangent that is followed, and says that there are more.
 #[test]
 fn three_forms_through_eight_directions() {
     let random = &mut SmallRng::seed_from_u64(6);

@@ -1,4 +1,4 @@
-//! The derivations as documents: what the Maple sheet and the lecture notes print, exactly.
+//! The derivations as documents, with the formulas of the Maple sheet and the lecture notes.
 
 use linkage::Document;
 use linkage::derivation::{Derivation, Equation, Formula};

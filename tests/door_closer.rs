@@ -1,4 +1,4 @@
-//! The example `door_closer`: it comes to rest on its stop, and its energy goes where the account says.
+//! The example `door_closer`: it comes to rest on its stop, and its energy account balances.
 
 use linkage::Mode;
 use linkage::contact::Change;
@@ -26,19 +26,19 @@ fn it_rests_on_its_stop() {
     assert!(after.len() > 8 && after[after.len() - 1].t == END);
     for state in after {
         assert_eq!((state.mode("stop on door"), state.rates.door), (Some(Mode::AtLower), 0.0));
-        // The event is found to the rounding of its time: the door is nearer than the last rate moves it in that.
+        // The event has the rounding error of its time: the door moves less than the last rate times that.
         assert!(state.q.door.abs() < 1e-20, "{:e}", state.q.door);
     }
 }
 
-/// What the spring gives oil and impacts take, each by its own account; and of that nothing ever comes back.
+/// The energy of the spring goes into oil and impacts, each with its own account, and none of it returns.
 #[test]
 fn energy_never_grows() {
     for restitution in [0.0, 0.2, 0.35, 0.6] {
         let run = run(Closing { restitution, ..Closing::default() });
         let [start, end] = [run.energies[0], run.energies[run.energies.len() - 1]];
         let given = start - end;
-        // From the angle of the spindle alone: it rests before and after.
+        // From the angle of the spindle alone: at rest before and after.
         let scene = &run.scene;
         let stored = |angle: f64| scene.k / 2.0 * (angle - scene.slack).powi(2);
         let [first, last] = [run.moments[0].q, run.moments[run.moments.len() - 1].q];

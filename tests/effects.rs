@@ -1,4 +1,5 @@
-//! Pay only for what is declared: the operations of scenes, and of those of the same mechanism with less beside them.
+//! The cost of a scene depends on its own declarations alone: its operations in mechanisms with more and with fewer
+//! scenes.
 
 use linkage_gallery::source;
 #[path = "source/work.rs"]
@@ -26,7 +27,7 @@ const SCENES: [&str; 13] = [
     "Everything",
 ];
 
-/// The scenes in which the number of an angle matters.
+/// The scenes that need the number of turns of an angle.
 const WITH_NUMBERS: [&str; 4] = ["Twisted", "Stopped", "Smooth", "Everything"];
 
 /// `four_bar_effects` with those of its scenes that `keep` accepts, and with the parameters that these need.
@@ -47,8 +48,8 @@ fn of<'a>(work: &'a Work, name: &'a str) -> impl Iterator<Item = (&'a str, Opera
         .map(|((_, function), operations)| (function.as_str(), *operations))
 }
 
-/// Each function of a scene and of its mechanism does the same operations whatever else is declared;
-/// but where a spring or a stop asks for the number of an angle, the mechanism finds it when it is assembled.
+/// Each function of a scene and of its mechanism does the same operations whatever else is declared; but if a spring or
+/// a stop needs the number of turns of an angle, assembly computes it.
 #[test]
 fn what_other_scenes_declare_costs_nothing() {
     let all = work(source::tokens_of("four_bar_effects"));
@@ -99,21 +100,21 @@ fn a_scene_holds_the_parameters_of_its_effects_and_no_others() {
         ("Driven", &["omega"]),
     ];
     for (scene, own) in own {
-        // That of a drive knows its motion without a mass, and needs them for what drives it.
+        // The motion of a drive needs no masses, but its driving force does.
         let expected: Vec<&str> = bare.iter().map(String::as_str).chain(own.iter().copied()).collect();
         assert_eq!(fields(&all, scene), expected, "{scene}");
     }
 }
 
-/// What an effect adds to a derivative, at most what it takes by hand.
+/// The operations that an effect adds to a derivative are at most those of the same law by hand.
 #[test]
 fn an_effect_costs_what_it_takes_by_hand() {
     let all = work(source::tokens_of("four_bar_effects"));
     let rates = |scene: &str| all[&(scene.to_owned(), "rates".to_owned())];
     let bare = rates("Bare");
     println!("Bare {bare:?}");
-    // As it is written: what W, the bias, M and Q have in common stands in each, and an optimising compiler computes it
-    // once (`tests/instructions.rs`). In one function it would be 2 divisions and 57 multiplications.
+    // As it is written: W, the bias, M and Q share terms, which an optimising compiler computes once
+    // (`tests/instructions.rs`). In one function it would be 2 divisions and 57 multiplications.
     assert!(bare.within(Operations { functions: 4, divisions: 3, multiplications: 79, additions: 30 }), "{bare:?}");
     let limits = [
         // m3 g inside the coupler's product, and m4 g a4 cos theta4 theta4'.
@@ -125,7 +126,7 @@ fn an_effect_costs_what_it_takes_by_hand() {
         // f t C'_y, and a product that W is made of as well.
         ("Pushed", [0, 0, 4, 2]),
         ("Turned", [1, 0, 1, 3]),
-        // The runtime is given theirs beside the derivative.
+        // The runtime receives the forces of contacts separately from the derivative.
         ("Rough", [0, 0, 0, 0]),
         ("Stopped", [0, 0, 0, 0]),
     ];
@@ -135,7 +136,7 @@ fn an_effect_costs_what_it_takes_by_hand() {
         let limit = bare.plus(Operations { functions, divisions, multiplications, additions });
         assert!(found.within(limit), "{scene} {found:?}");
     }
-    // A motion that is prescribed takes no masses, and its law with two derivatives.
+    // A prescribed motion needs no masses, but two derivatives of its law.
     let driven = rates("Driven");
     println!("Driven {driven:?}");
     assert!(driven.within(Operations { functions: 5, divisions: 1, multiplications: 19, additions: 3 }), "{driven:?}");

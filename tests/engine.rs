@@ -1,4 +1,4 @@
-//! The example `engine`: its accounts, the loads of its joints and its cycle, by roads of their own.
+//! The example `engine`: its energy accounts, its joint forces and its cycle, computed by other methods.
 
 use linkage_oracle::close;
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ fn run() -> Run {
     Run::new(Running::default(), 200.0, (5.0, 3.0 * CYCLE)).unwrap()
 }
 
-/// The power along the motion, the energy that it leaves, and pressure over volume and friction over way.
+/// Power integrated over the motion, against the energy, and pressure over volume and friction over distance.
 #[test]
 fn energy_is_accounted_for() {
     let run = run();
@@ -42,7 +42,7 @@ fn energy_is_accounted_for() {
     close("heat", end.dissipated, rings + brake, 1e-12 * end.applied);
 }
 
-/// The rings change their direction at every dead centre, and there only.
+/// The friction of the rings changes its direction at every dead centre, and only there.
 #[test]
 fn rings_slip_both_ways() {
     let run = run();
@@ -60,7 +60,8 @@ fn rings_slip_both_ways() {
     assert_eq!(turns, 11);
 }
 
-/// Newton and Euler body by body, by forces from joint to joint; the shaft's work by what it does to flywheel and brake.
+/// Newton and Euler body by body, by forces from joint to joint; the shaft's work by what it does to flywheel and
+/// brake.
 #[test]
 fn joints_carry_the_bodies() {
     let run = run();
@@ -77,7 +78,7 @@ fn joints_carry_the_bodies() {
         let gas = -(engine.outputs(&pose).unwrap().pressure - scene.ambient) * PI / 4.0 * engine.bore.powi(2);
         let along = gas + loads.drag - scene.m4 * scene.g + loads.piston_pin.x;
         close("piston", along, scene.m4 * acceleration.z, 1e-11 * size);
-        // The rod about its centre, under the force of the crank and the piston's, which is the other way round.
+        // The rod about its centre, under the forces of the crank and, reversed, of the piston.
         let moment = |about: Point2<f64>, at: Point2<f64>, force: Vector2<f64>| (at - about).perp(&force);
         let rod = moment(points.rod, points.pin, loads.crank_pin) - moment(points.rod, points.piston, loads.piston_pin);
         close("rod", rod, scene.j3 * acceleration.psi, 1e-11 * size * engine.l);
@@ -119,13 +120,13 @@ fn the_cycle_by_hand() {
         let [found, _] = indicated::work(&scene, [from, to].map(f64::to_radians)).unwrap();
         close("work", found, work, 1e-12 * work.abs());
     }
-    // As hot as it gets, by the ideal gas: `heat` times what compression alone would make of it there.
+    // The hottest state by the ideal gas: `heat` times the temperature of compression alone.
     let hot = at(110.0);
     let full = at(180.0).volume;
     let shrunk = full / hot.volume;
     let alone = engine.intake * engine.compression.powf(engine.kc - engine.ke) * shrunk.powf(engine.ke);
     close("heat", hot.pressure / alone, engine.heat, 1e-9);
-    // The valves: open, the cylinder has the pressure of its manifold.
+    // The valves: if one is open, the cylinder has the pressure of its manifold.
     for (degrees, pressure) in [(250.0, engine.exhaust), (450.0, engine.intake)] {
         close("manifold", at(degrees).pressure, pressure, 1e-15 * pressure);
     }

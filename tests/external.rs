@@ -1,5 +1,5 @@
-//! Functions of the user's: one call for all that is used at one argument, honest where they have no value, solved
-//! for their argument as well.
+//! User functions: one call for all derivatives at one argument, an error where they have no value, and equations that
+//! are solved for their argument.
 
 use std::cell::Cell;
 
@@ -100,7 +100,7 @@ fn no_value_is_an_error() {
     not_finite(cam.output_velocities(&pose, &rates).unwrap_err());
     not_finite(cam.output_accelerations(&pose, &rates, &accelerations).unwrap_err());
     not_finite(cam.output_ratios(&pose).unwrap_err());
-    // J has the function of an unknown beside the diagonal.
+    // J has the derivative of an unknown's function off the diagonal.
     let q = WedgeCoordinates { y: 2000.0, ..at_one() };
     not_finite(cam.solve_jacobian(&cam.pose_at(&q), &[1.0, 1.0].into()).unwrap_err());
     // J is the function itself.

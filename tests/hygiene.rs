@@ -1,10 +1,10 @@
-//! Where and how a mechanism may be written: any scope, any names, no prelude, a renamed crate.
+//! A mechanism may be written in any scope, with any names, without the prelude and through a renamed crate.
 
 #![deny(warnings)]
 
 extern crate linkage as kinematics;
 
-/// Without the prelude, and through another name of the crate.
+/// A mechanism without the prelude, through another name of the crate.
 #[no_implicit_prelude]
 mod bare {
     ::kinematics::linkage! {
@@ -23,7 +23,7 @@ mod bare {
     }
 }
 
-/// Functions of the user's that are called like those that emitted code calls, and like their own arguments.
+/// User functions with the names of functions that emitted code calls, and of their own arguments.
 #[no_implicit_prelude]
 mod functions {
     pub fn finite<T: ::kinematics::Real>(x: T) -> (T, T, T) {
@@ -73,7 +73,7 @@ mod two {
     }
 }
 
-/// Names that emitted code would like for itself.
+/// Names that emitted code uses for itself.
 mod greedy {
     linkage::linkage! {
         pub mechanism Greedy {
@@ -90,7 +90,7 @@ mod greedy {
     }
 }
 
-/// Scenes without the prelude, with names that their code would like for itself, and a law of the user's own.
+/// Scenes without the prelude, with names that their code uses for itself, and with a user function.
 #[no_implicit_prelude]
 mod scenes {
     pub fn gas<T: ::kinematics::Real>(x: T) -> (T, T) {
@@ -163,7 +163,7 @@ fn greedy_names_of_higher_order() {
     assert!((by_matrix[0] + q.x.sin()).abs() + (by_matrix[1] - q.x.cos()).abs() < 1e-15, "{by_matrix}");
     let curved = orders.output_ratio_derivatives(&pose).unwrap().x_ratio_derivative;
     assert_eq!(curved.as_slice(), [0.0, 1.0, 1.0, 0.0]);
-    // The other driver holds what the first one lets go.
+    // The other driver drives the coordinate that the first one leaves free.
     let other = orders::Other::from(orders::Orders::from(<[f64; 10]>::from(orders)));
     let pose = other.pose_at(&q);
     assert!(other.velocity_ratio_derivatives(&pose).is_ok() && other.sensitivity(&pose).is_ok());
@@ -300,7 +300,7 @@ mod configured {
     }
 }
 
-/// Nothing of the position enters these forces, and nothing else in the scenes is a number.
+/// A scene whose forces do not depend on the position, and that has no other number.
 mod still {
     linkage::linkage! {
         pub mechanism Plain {
@@ -368,7 +368,7 @@ mod turns {
     }
 }
 
-/// Mechanisms, scenes, parameters and coordinates that are called like names that emitted code uses.
+/// Mechanisms, scenes, parameters and coordinates with names that emitted code uses.
 #[no_implicit_prelude]
 mod taken {
     ::kinematics::linkage! {
@@ -399,7 +399,7 @@ mod taken {
             scene Scene { inertia; }
             scene SS { inertia; energy; }
         }
-        /// As a driver of another mechanism would be called by the compiler's own words.
+        /// A mechanism with the name of a type that emitted code uses.
         pub mechanism Result {
             param __rt = 1, Self_ = 3;
             input phi;

@@ -1,4 +1,4 @@
-//! A mechanism in motion under forces: its position is solved for within the rate, as a user would write it.
+//! A mechanism that moves under forces: a user's right-hand side solves for the position.
 
 use linkage::integrate::{Action, Counts, Crossing, Tolerance, dop853, watched};
 use linkage::nalgebra::vector;
@@ -17,9 +17,9 @@ linkage::linkage! {
 }
 
 const GRAVITY: f64 = 9.81;
-/// Of the crank about its joint, kg m^2.
+/// Inertia of the crank about its joint, kg m^2.
 const INERTIA: f64 = 0.05;
-/// In C, kg.
+/// Mass in C, kg.
 const MASS: f64 = 2.0;
 
 type Position = FourBarCoordinates<f64>;
@@ -87,7 +87,7 @@ fn a_rate_that_remembers_its_position_gives_the_same_bits_again() {
 
 #[test]
 fn a_lug_stops_the_rocker() {
-    // theta4 as it is at theta2 = 1.2, which it may reach before.
+    // theta4 at theta2 = 1.2, which it may reach before.
     let four_bar = FourBar::default();
     let theta4 = |theta2: f64| assembled(&four_bar, theta2).unwrap().theta4;
     let lug = theta4(1.2);

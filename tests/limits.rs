@@ -1,5 +1,5 @@
-//! How far an input can go: in closed form against the law of cosines, bracketed where groups stand on others,
-//! and against trying.
+//! The range of an input: in closed form against the law of cosines, bracketed where groups depend on other groups, and
+//! against trial positions.
 
 use std::f64::consts::{PI, TAU};
 
@@ -96,7 +96,7 @@ fn next(value: f64, up: bool) -> f64 {
     if up { value.next_up() } else { value.next_down() }
 }
 
-/// Where C can reach from B and D: cos(theta2) between those of the two stretched positions.
+/// The range in which C reaches from B and D: cos(theta2) between those of the two stretched positions.
 #[test]
 fn a_four_bar_in_closed_form() {
     let branch = FourBarBranch::new(Elbow::Left);
@@ -159,7 +159,7 @@ fn sliders_in_closed_form() {
     exact(found.upper, TAU - expected, "theta4, b");
 }
 
-/// Each bracket is two neighbours, of which one assembles and the other does not; up to there all do.
+/// Each bracket is two neighbours, one that assembles and one that does not; all inputs up to the first assemble.
 #[track_caller]
 fn bracketed(limit: Limit<f64>, group: &str, start: f64, assembles: impl Fn(f64) -> bool) {
     let Limit::Bracketed { assembled, unbuildable, group: other } = limit else { panic!("{limit:?}") };
@@ -192,7 +192,7 @@ fn groups_on_groups_are_bracketed() {
     }
 }
 
-/// A gap between two steps of the search, where links just fail to reach: a closer look finds it.
+/// A gap between two steps of the search, in which links just fail to reach: the closer search finds it.
 #[test]
 fn a_narrow_gap_is_seen() {
     let branch = SixBarBranch::new(Elbow::Left, Elbow::Left);
@@ -359,7 +359,7 @@ fn behind_wheels_and_racks_in_closed_form() {
 }
 
 /// A group that turns forty times as fast as the input stops it within a degree or two, and many times in a turn; the
-/// first is meant.
+/// limit is the first.
 #[test]
 fn a_fast_group_is_followed() {
     let m = Fast::default();
@@ -408,7 +408,7 @@ fn limits_of_a_slide() {
     }
 }
 
-/// A start at a limit, where rounding may put it beyond: the limit is there, and the other where it was.
+/// A start at a limit that rounding may have moved beyond it: the limit is there, and the other one unchanged.
 #[test]
 fn a_start_at_a_limit() {
     let m = FourBar::new(70.0, 60.0, 30.0, 50.0);
@@ -433,7 +433,7 @@ fn a_start_at_a_limit() {
     }
 }
 
-/// Links that reach each other at one input alone, flat: lengths in decimals, which round to either side.
+/// Links that reach each other at one input only, flat: decimal lengths, which round to either side.
 #[test]
 fn links_that_touch_at_one_input() {
     let mut count = 0;
@@ -459,7 +459,7 @@ fn links_that_touch_at_one_input() {
     assert_eq!(count, 1024);
 }
 
-/// As far as there are positions, a limit is the same number in any unit of length; and none is not finite.
+/// Wherever there are positions, a limit is the same number in any unit of length; and none is infinite or NaN.
 #[test]
 fn no_limit_is_not_finite() {
     let slide = Slide { p: 0.3, q: 0.2, offset: 0.1, aside: 0.05 };
@@ -523,7 +523,8 @@ fn no_limit_is_not_finite() {
         check(m.limits_of_theta(inputs, on_train), inputs.theta, &m);
         check(m.limits_of_y(inputs, on_train), inputs.y, &m);
     }
-    // Joints far from the origin and near each other: the squares of the coordinates overflow, that of the line does not.
+    // Joints far from the origin and near each other: the squares of the coordinates overflow, that of the line does
+    // not.
     let mut refused = 0;
     for exponent in 480..600 {
         let (far, near) = (2_f64.powi(exponent), 2_f64.powi(320));

@@ -1,9 +1,9 @@
-//! Limits against 48-digit arithmetic: the zero of what must not be negative, found there by Newton's method in dashu's
-//! floats. An error is measured in ulp times the condition number: what a relative change of each length does to the
-//! zero, and the zero itself.
+//! Limits against 48-digit arithmetic: the zero of the radicand, found by Newton's method in dashu's floats. An error
+//! is measured in ulp times the condition number: the change of the zero for a relative change of each length, and the
+//! zero itself.
 //!
-//! Closed forms are off by their cancellation where it is not corrected: by 5 to 10 such units in random mechanisms, by
-//! millions where links are nearly equal.
+//! The cancellation in a closed form costs 5 to 10 such units in random mechanisms, and millions where links are nearly
+//! equal, if it is not corrected.
 //!
 //! ```text
 //! LIMITS=20000 cargo test --release --all-features --test limits_to_forty_digits -- --nocapture
@@ -16,7 +16,7 @@ use rand::{Rng, SeedableRng};
 
 use linkage_oracle::precise::{Big, Scalar, big, direction};
 
-/// The promises, in ulp times condition number.
+/// Error bounds, in ulp times condition number.
 const EXACT: f64 = 2.0;
 const BRACKETED: f64 = 3.0;
 
@@ -64,7 +64,7 @@ linkage! {
     }
 }
 
-/// What must not be negative: (p + q)^2 - D^2 and D^2 - (p - q)^2.
+/// The factors of the radicand: (p + q)^2 - D^2 and D^2 - (p - q)^2.
 fn factors([x, y]: [Big; 2], p: &Big, q: &Big) -> [Big; 2] {
     let distance = &x * &x + &y * &y;
     let (sum, difference) = (p + q, p - q);
@@ -89,7 +89,7 @@ fn planet(p: &[Big], theta: &Big) -> [Big; 2] {
     factors([&p[0] - &p[1] * c - &p[4] * e, -(&p[1] * s + &p[4] * f)], &p[2], &p[3])
 }
 
-/// What must not be negative of some parameters at an input.
+/// The factors of the radicand for parameters and an input.
 type Factors = fn(&[Big], &Big) -> [Big; 2];
 
 /// The zero of the factor that is nearest to one, and its condition number times its value; none at a double zero.
@@ -107,7 +107,7 @@ fn zero(of: Factors, parameters: &[f64], near: f64) -> Option<(Big, f64)> {
         v -= &step;
         last = step.double().abs();
     }
-    // Beside a double zero there is no telling which zero is meant.
+    // Near a double zero the two zeros cannot be told apart.
     let distance = (&v - big(near)).double().abs();
     (last < 1e-30 && distance < 1e-6).then_some(())?;
     let slope = slope(&v).double();
@@ -139,12 +139,13 @@ impl Worst {
     }
 }
 
-/// Limits of each kind; the full size is asked for in the environment.
+/// Limits of each kind; the environment variable asks for the full number.
 fn times() -> usize {
     std::env::var("LIMITS").ok().and_then(|count| count.parse().ok()).unwrap_or(400)
 }
 
-/// Random mechanisms at random inputs: limits in closed form, at which each can be assembled, and both ends of brackets.
+/// Random mechanisms at random inputs: limits in closed form, at which each can be assembled, and both ends of
+/// brackets.
 macro_rules! sweep {
     ($M:ident, $Branch:ident, $of:expr, |$length:ident| $parameters:expr) => {{
         let random = &mut SmallRng::seed_from_u64(11);
@@ -184,7 +185,7 @@ fn of_four_bars() {
     assert!(exact <= EXACT, "{exact}");
 }
 
-/// Where the coefficients of the closed form cancel.
+/// Four-bars for which the coefficients of the closed form cancel.
 #[test]
 fn of_four_bars_with_links_that_are_nearly_equal() {
     let [exact, _] = sweep!(FourBar, FourBarBranch, four_bar, |length| {
@@ -211,7 +212,7 @@ fn behind_racks() {
     assert!(exact <= EXACT, "{exact}");
 }
 
-/// By search: the ends of a bracket are next to each other, and hold the zero but for what counts as touching.
+/// By search: the ends of a bracket are neighbours and contain the zero, but for links that touch to rounding error.
 #[test]
 fn of_rockers_on_planet_wheels() {
     let [_, bracketed] = sweep!(Planet, PlanetBranch, planet, |length| {

@@ -1,5 +1,5 @@
 //! The lecture notes (chapter 1, "Analisi cinematica di velocità per meccanismi articolati piani"): each
-//! formula in the book's letters, written by hand, beside what was emitted, at random poses.
+//! formula in the book's letters, written by hand, against the emitted code, at random poses.
 
 use linkage_oracle::all_close;
 use nalgebra::{Matrix2, Vector2, matrix, vector};
@@ -13,7 +13,7 @@ use linkage_gallery::rrr::*;
 use linkage_gallery::six_bar::*;
 use linkage_gallery::slider_crank::*;
 
-/// Rounding of a handful of operations, beside the largest entry.
+/// Rounding error of a handful of operations, relative to the largest entry.
 const TOLERANCE: f64 = 1e-13;
 
 const POSES: usize = 200;

@@ -9,10 +9,10 @@ use linkage::{PointMotion, position};
 
 use linkage_gallery::four_bar::*;
 
-/// A result agrees with exact arithmetic to this.
+/// Relative error of a result against exact arithmetic.
 const EXACT: f64 = 1e-13;
 
-/// The sheet agrees with exact arithmetic to this.
+/// Relative error of the sheet against exact arithmetic.
 const PRINTED: f64 = 1e-8;
 
 const THETA2: f64 = 0.349_065_850_398_865_9;

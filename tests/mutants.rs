@@ -1,8 +1,7 @@
 //! Mutants of all mechanisms and scenes under test: the macro never panics, stays within its budget of work and of
-//! memory, and what it accepts compiles without warnings.
+//! memory, and emits code without warnings for every mutant that it accepts.
 //!
-//! `MUTANTS` is how many are expanded, `MUTANTS_COMPILED` how many of the accepted ones are compiled, and
-//! `MUTANTS_SEED` chooses others.
+//! `MUTANTS` mutants are expanded, `MUTANTS_COMPILED` of the accepted ones are compiled; `MUTANTS_SEED` chooses others.
 
 #[path = "source/expanded.rs"]
 mod expanded;
@@ -21,7 +20,7 @@ use proc_macro2::TokenStream;
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
 
-/// The most memory that the process may have held, in kilobytes.
+/// The limit of the memory of the process, in kilobytes.
 const MOST_MEMORY: usize = 512 << 10;
 
 fn setting(name: &str, usual: usize) -> usize {
@@ -33,7 +32,7 @@ fn mutator() -> Mutator<SmallRng> {
     Mutator::new(SmallRng::seed_from_u64(setting("MUTANTS_SEED", 1) as u64), corpus(root))
 }
 
-/// The most memory that the process has held, in kilobytes, where the system tells.
+/// The largest memory of the process, in kilobytes, if the system reports it.
 fn memory() -> Option<usize> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -65,11 +64,11 @@ fn no_mutant_makes_the_macro_panic_or_run_away() {
         }
     }
     println!("{count} mutants, {accepted} accepted, at most {most} steps, {:?} kB", memory());
-    // A mutator whose mutants are all refused tests the messages alone.
+    // If all mutants were rejected, the test would check error messages only.
     assert!(5 * accepted > count, "{accepted} of {count}");
 }
 
-/// However early the work ends, what is left of it is a message.
+/// If the budget is spent, at any point, the expansion is an error message.
 #[test]
 fn a_budget_that_ends_anywhere_is_one_message() {
     let root: TokenStream = "::linkage".parse().unwrap();
@@ -136,7 +135,7 @@ fn accepted_mutants_compile() {
     let (mut mutator, path) = (mutator(), "::linkage".parse().unwrap());
     let mut written = 0;
     while written < count {
-        // So many fit into one compilation.
+        // The number of mutants in one compilation.
         const TOGETHER: usize = 100;
         let together = TOGETHER.min(count - written);
         let mut library = String::from("pub mod cam_laws;\n");

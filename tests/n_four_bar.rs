@@ -2,8 +2,8 @@
 //! windows at tolerances drawn at random: 2 N + 1 uniform bars fall from upright with 1 m/s and turn for 20 s. Twice a
 //! turn all bars are in line and N + 1 motions meet.
 //!
-//! No run may end on another motion than that of the uprights that stay parallel, and each that stops says why by a
-//! typed error. Energy is the same on all motions, so that only positions tell.
+//! No run may end on another motion than that of parallel uprights, and each that stops returns a typed error. The
+//! energy is the same on all motions, so that only positions distinguish them.
 //!
 //! ```text
 //! TOLERANCES=64 cargo test --release --test n_four_bar -- --nocapture
@@ -19,15 +19,16 @@ use rand::{Rng, SeedableRng};
 /// Tolerances are drawn from 1e-12 to 1e-4, evenly by their logarithm.
 const EXPONENTS: std::ops::Range<f64> = -12.0..-4.0;
 
-/// The seed of the tolerances: another than those by which the steps over change points were set.
+/// The seed of the tolerances, different from the one that the steps over change points were tuned with.
 const SEED: u64 = 40_961;
 
-/// Windows whose tolerances are drawn, without `TOLERANCES` as many as unoptimised code takes a second for.
+/// The number of tolerances: `TOLERANCES`, or as many as unoptimised code runs in a second.
 fn draws(usual: usize) -> usize {
     std::env::var("TOLERANCES").ok().and_then(|count| count.parse().ok()).unwrap_or(usual)
 }
 
-/// The angle from upright, and its rate, at a time: phi'' = k sin(phi) by Dormand and Prince's method to rounding.
+/// The angle from upright, and its rate, at a time: phi'' = k sin(phi) by Dormand and Prince's method, to rounding
+/// error.
 fn pendulum(windows: f64, t: f64) -> (f64, f64) {
     let k = 9.81 * (0.5 * (windows + 1.0) + windows) / ((windows + 1.0) / 3.0 + windows);
     let tolerance = Tolerance::new(1e-14, [1.0, 1.0]).unwrap();
@@ -50,12 +51,12 @@ fn the_pendulum_is_the_elliptic_integral() {
 struct Run {
     /// The largest angle of an upright from the first, and of a bar from level.
     spread: f64,
-    /// The first joint from where the law has it, in metres, at the end.
+    /// The distance of the first joint from its exact position at the end, in metres.
     off: f64,
     stop: Option<(f64, MotionError)>,
 }
 
-/// Runs at random tolerances, and what they came to.
+/// Runs at random tolerances, and checks their outcomes.
 fn judge(windows: f64, count: usize, run: impl Fn(f64, (f64, f64)) -> Run) {
     let random = &mut SmallRng::seed_from_u64(SEED + windows as u64);
     let exact = pendulum(windows, 20.0);
@@ -78,8 +79,8 @@ fn judge(windows: f64, count: usize, run: impl Fn(f64, (f64, f64)) -> Run) {
             worst_share = worst_share.max(off / tolerance);
         }
         worst_spread = worst_spread.max(spread);
-        // Another motion is off by angles. Next to a change point, where a run stops, rounding divided by the angle that is
-        // left to it remains: 1e-8.
+        // On another motion, angles differ. Next to a change point, where a run stops, the rounding error divided by
+        // the remaining angle is 1e-8.
         assert!(spread < 1e-5, "{windows} windows at {tolerance:e}: {spread:e}");
         assert!(off <= 2e5 * tolerance, "{windows} windows at {tolerance:e}: {off:e}");
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-/// What is mistaken, what is replaced in the README, by what, and what the message says.
+/// A mistake: its name, the text of the README that is replaced, the replacement, and the message.
 const MISTAKES: &[(&str, &str, &str, &str)] = &[
     // Names.
     ("misspelt_in_loop", "l3@theta3 + l4@", "l3@thta3 + l4@", "unknown name `thta3`"),
@@ -116,7 +116,7 @@ const MISTAKES: &[(&str, &str, &str, &str)] = &[
     ("mechanism_missing", "pub mechanism FourBar", "pub FourBar", "expected `mechanism NAME"),
     ("struct_for_mechanism", "pub mechanism FourBar", "pub struct FourBar", "expected `mechanism NAME"),
     ("colon_after_name", "FourBar {\n        param", "FourBar: {\n        param", "expected `{`"),
-    // Scenes, which need bodies and parameters of their own.
+    // Scenes, with the bodies and parameters that they need.
     (
         "unknown_effect",
         "point G3 = B + (l3/2)@theta3;",
@@ -156,7 +156,7 @@ fn with(text: &str, from: &str, to: &str) -> String {
     text.replacen(from, to, 1)
 }
 
-/// What rustc says of each file: level, whether it has a code, and text.
+/// The messages of rustc for each file: level, whether it has a code, and text.
 fn messages(folder: &Path) -> BTreeMap<String, Vec<String>> {
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let output = Command::new(cargo)
@@ -174,7 +174,7 @@ fn messages(folder: &Path) -> BTreeMap<String, Vec<String>> {
         let (Some(level), Some(text)) = (message["level"].as_str(), message["message"].as_str()) else { continue };
         let spans = message["spans"].as_array().unwrap();
         let file = spans.iter().find(|span| span["is_primary"] == true).map(|span| span["file_name"].as_str().unwrap());
-        // How many errors there are, rustc says of no file.
+        // The count of errors has no file.
         let Some(file) = file.and_then(|file| file.strip_prefix("src/")?.strip_suffix(".rs")) else { continue };
         let code = message["code"]["code"].as_str().map_or_else(String::new, |code| format!("[{code}]"));
         messages.entry(file.to_owned()).or_default().push(format!("{level}{code}: {text}"));
@@ -183,8 +183,8 @@ fn messages(folder: &Path) -> BTreeMap<String, Vec<String>> {
     messages
 }
 
-/// The programs are modules of one crate, so that one run of rustc checks them all; that it does not end at the
-/// messages of the macro, a mistake in `main` shows.
+/// The programs are modules of one crate, so that one run of rustc checks them all; a mistake in `main` shows that
+/// rustc goes on after the messages of the macro.
 #[test]
 fn one_mistake_is_one_message() {
     let root = env!("CARGO_MANIFEST_DIR");

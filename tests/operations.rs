@@ -1,4 +1,4 @@
-//! How much work the emitted kernels are: counts of operations, which no machine's mood changes.
+//! The work of the emitted functions as counts of operations, which are the same on every machine.
 
 use linkage_compiler::derivation::{Derivation, Form, Step};
 use linkage_compiler::ids::Table;
@@ -42,8 +42,8 @@ fn velocity_and_acceleration_in_products(file: &str) -> Operations {
     schedule(&d.graph, &steps, &results, &Given::default(), &[], false).operations()
 }
 
-/// Of the generators measured on the same four-bar CasADi emits 38 / 11 / 4, SymPy's `cse` 41 / 11 / 1,
-/// wrenfold 39 / 11 / 2 multiplications / additions / divisions.
+/// Multiplications / additions / divisions of other generators for the same four-bar: CasADi 38 / 11 / 4, SymPy's `cse`
+/// 41 / 11 / 1, wrenfold 39 / 11 / 2.
 #[test]
 fn four_bar_in_products() {
     let found = velocity_and_acceleration_in_products("four_bar");
@@ -52,7 +52,7 @@ fn four_bar_in_products() {
     assert!(found.within(limit), "{found:?}");
 }
 
-/// On the same leg CasADi emits 176 / 61 / 20, wrenfold 249 / 59 / 10.
+/// For the same leg CasADi emits 176 / 61 / 20, wrenfold 249 / 59 / 10.
 #[test]
 fn jansen_in_products() {
     let found = velocity_and_acceleration_in_products("jansen");
@@ -61,12 +61,12 @@ fn jansen_in_products() {
     assert!(found.within(limit), "{found:?}");
 }
 
-/// How often functions are called in position, velocity and acceleration together if nobody asks for an angle:
-/// sines with cosines, roots, anything else.
+/// Calls of functions in position, velocity and acceleration together if no angle is asked for: sines with cosines,
+/// roots, others.
 fn calls(file: &str) -> [usize; 3] {
     let source = source::tokens_of(file).to_string();
     let silent = source.split_inclusive(';').filter(|statement| !statement.contains("output ")).collect::<String>();
-    // The brace that closed the mechanism went with its last statement, if that was an output.
+    // The brace that closes the mechanism was removed with its last statement, if that was an output.
     let closing = if silent.trim_end().ends_with('}') { "" } else { "}" };
     let tokens = linkage_compiler::expand(format!("{silent}{closing}").parse().unwrap(), &"::linkage".parse().unwrap());
     let file: syn::File = syn::parse2(tokens).unwrap();
@@ -136,15 +136,15 @@ fn size(source: &str) -> [usize; 6] {
     [expansion.nodes, functions, divisions, multiplications, additions, expansion.tokens.to_string().len()]
 }
 
-/// What one call of a function of a derivation costs.
+/// The operations of one call of a function.
 fn cost(derivation: &linkage::derivation::Derivation, function: &str) -> Operations {
     let kernel = derivation.kernels.iter().find(|kernel| kernel.function == function).expect(function);
     let linkage::derivation::Operations { functions, divisions, multiplications, additions } = kernel.operations;
     Operations { functions, divisions, multiplications, additions }
 }
 
-/// At given directions, each alone. By hand a link takes of the jerk 10 multiplications: x and y, the square and
-/// the cube of its rate, 3 theta' theta'', and two for each row.
+/// Each derivative alone, at given directions. By hand the jerk takes 10 multiplications for each link: x and y, the
+/// square and the cube of its rate, 3 theta' theta'', and two for each row.
 #[test]
 fn higher_orders() {
     let limits = [
@@ -166,8 +166,8 @@ fn higher_orders() {
 #[test]
 fn higher_orders_of_a_chain() {
     let asking = |words: &str, loops| size(&families::chain(loops).replacen('{', &format!("{{ derive {words};"), 1));
-    // Up to seven loops a branch has a constructor, up to sixteen the list of all, and from ten on names have two digits.
-    // Up to seven loops `DERIVATION` writes sensitivities out. Four more loops after two more: 2 where that is
+    // Up to seven loops a branch has a constructor, up to sixteen the list of all, and from ten on names have two
+    // digits. Up to seven loops `DERIVATION` writes sensitivities out. Four more loops after two more: 2 where that is
     // linear, (16^2 - 12^2) / (12^2 - 10^2) = 2.55 where it is quadratic.
     for (words, most) in [("jerk, velocity_ratio_derivatives", 2.01), ("sensitivity", 2.56)] {
         let sizes = [10, 12, 16].map(|loops| asking(words, loops));

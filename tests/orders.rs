@@ -1,6 +1,6 @@
-//! Jerk, derivatives of the velocity ratios and sensitivities against numbers that carry their own derivatives, at random
-//! poses: with the solutions inserted, the differentiated constraints have no residual. And against finite differences
-//! with so many digits that cancellation costs none that counts.
+//! Jerk, derivatives of the velocity ratios and sensitivities against dual numbers at random poses: with the solutions
+//! inserted, the differentiated constraints have no residual. And against finite differences with so many digits that
+//! their cancellation does not matter.
 
 use linkage::Mechanism;
 use linkage_compiler::ids::Id;

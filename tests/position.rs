@@ -1,4 +1,4 @@
-//! Newton's honesty: what cannot be assembled is said to be so, with the residual, and never as NaN.
+//! Newton's method returns an error with the residual where there is no position, and never NaN.
 
 use linkage::PositionError;
 
@@ -61,7 +61,7 @@ fn every_guess_converges_or_says_why() {
             let guess = FourBarCoordinates { theta2: 0.35, theta3: angle(i), theta4: angle(j) };
             match four_bar.solve(&guess) {
                 Ok(solution) => {
-                    // An angle of several turns is no more exact than its own rounding error.
+                    // The error of an angle of several turns is at least its own rounding error.
                     let largest = solution.coordinates.theta3.abs().max(solution.coordinates.theta4.abs());
                     assert!(solution.residual <= 1e-15 || largest > 5.0 && solution.residual <= 1e-16 * largest);
                     let pose = four_bar.pose_at(&solution.coordinates);
@@ -116,14 +116,14 @@ fn angles_on_request() {
     let six_bar = SixBar::default();
     let q = SixBarCoordinates::<f64> { theta1: 1.0, theta2: 0.6, theta3: 7.4, theta4: 0.2, theta5: -2.0 };
     let back = six_bar.pose_at(&q).coordinates();
-    // Held as a number because an output uses it, so its turns are kept.
+    // An output uses this angle, so the pose keeps its number of turns.
     assert_eq!(back.theta3, q.theta3);
     for (found, expected) in [(back.theta1, q.theta1), (back.theta2, q.theta2), (back.theta4, q.theta4)] {
         assert!((found - expected).abs() < 1e-15);
     }
 }
 
-/// The same emitted code in single precision.
+/// The emitted code in single precision.
 #[test]
 fn single_precision() {
     let four_bar = FourBar::default().map(|length| length as f32);

@@ -1,4 +1,4 @@
-//! The macro never panics, never hangs and never floods: broken, huge and deep inputs.
+//! The macro never panics, never hangs and never exhausts memory: broken, huge and deep inputs.
 
 use linkage_compiler::Facade;
 use linkage_compiler::budget::Budget;
@@ -76,7 +76,7 @@ fn long_chains_are_only_long() {
     assert!(messages(&with_output(&vec!["sin(v)"; 3000].join(" - "))).is_empty());
 }
 
-/// Depth that no parenthesis shows: each name stands on the one before.
+/// Depth without parentheses: each name depends on the one before.
 #[test]
 fn deep_names_need_no_deep_stack() {
     for (depth, message) in [(200, ""), (8000, "the derivatives of `M` take"), (12_000, "the derivatives of `M` take")]
@@ -89,7 +89,7 @@ fn deep_names_need_no_deep_stack() {
     }
 }
 
-/// Third derivatives and a full du/dp are refused as well before anybody waits for them.
+/// Third derivatives and a full du/dp are rejected as well, before they take long.
 #[test]
 fn higher_orders_of_hopeless_inputs() {
     let asking = |source: String| source.replacen('{', "{ derive jerk, velocity_ratio_derivatives, sensitivity;", 1);
@@ -136,7 +136,7 @@ fn what_differs_in_signs_alone_is_shared_in_the_end() {
     assert_eq!(expansion_messages(&squares), [""; 0]);
 }
 
-/// Each name is made of the one before twice, so that paths through them double with each.
+/// Each name uses the one before twice, so that the number of paths doubles with each.
 #[test]
 fn shared_angles_are_looked_at_once() {
     let chain: String = (1..60).map(|link| format!("let a{link} = a{0} * a{0} + a{0};", link - 1)).collect();
@@ -150,7 +150,7 @@ fn shared_angles_are_looked_at_once() {
 
 #[test]
 fn tokens_left_over_in_an_attribute_are_told() {
-    // On a part of a mechanism a `derive` has no effect whatever is in it, which is told first.
+    // In a part of a mechanism a `derive` has no effect, which is the first message.
     for (attribute, of_a_part) in
         [("#[derive(Clone) nonsense]", "`#[derive]` has no effect here"), ("#[doc = \"x\" y]", "unexpected token")]
     {
@@ -214,7 +214,7 @@ fn constants_that_no_float_holds_are_refused() {
     }
 }
 
-/// As many legs as 100 000 tokens hold; the work of an invocation is the sum of that of its mechanisms.
+/// As many legs as 100 000 tokens hold; the work of an invocation is the sum over its mechanisms.
 #[test]
 fn a_hundred_thousand_tokens_of_honest_input_are_within_the_budget() {
     use linkage_compiler::budget::{Budget, MOST_STEPS};
@@ -236,7 +236,7 @@ fn a_hundred_thousand_tokens_of_honest_input_are_within_the_budget() {
     assert!(LEGS * one < MOST_STEPS, "{one} steps a leg");
 }
 
-/// Matrices of millions of entries, most of them zero, are refused before they are made.
+/// Matrices of millions of entries, most of them zero, are rejected before they are computed.
 #[test]
 fn as_many_inputs_as_unknowns() {
     let source = |count: usize| {

@@ -111,7 +111,7 @@ fn large_matrices_are_lists_of_entries() {
     assert!(html.contains("<mrow><mn>7</mn><mo>,</mo><mn>1</mn></mrow></msub><mo>=</mo><mn>1</mn>"));
 }
 
-/// The sections of scenes come behind those of the mechanism, and their equations are counted on.
+/// The sections of scenes follow those of the mechanism, and their equations continue its numbers.
 #[test]
 fn scenes_have_sections_of_their_own() {
     let mut sheet = Sheet::new(Crank::DERIVATION);

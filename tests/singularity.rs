@@ -138,8 +138,8 @@ fn dyad_with_a_slider() {
     assert_eq!((found.rank(), found.admissible().count()), (1, 3));
 }
 
-/// The second dyad of a six-bar stretched while the first is regular: its angles are free, those of the first are
-/// not, and the crank stands still.
+/// The second dyad of a six-bar is stretched while the first is regular: its angles are free, those of the first are
+/// not, and the crank cannot move.
 #[test]
 fn six_bar_with_its_second_dyad_stretched() {
     let m = SixBar::default();
@@ -163,7 +163,7 @@ fn six_bar_with_its_second_dyad_stretched() {
     assert_eq!(names(&found), [("theta4", "theta1"), ("theta5", "theta1")]);
 }
 
-/// A flat parallelogram is singular whatever drives it: every rank is what nalgebra finds of the Jacobian as it is.
+/// A flat parallelogram is singular for every driver: every rank is that of the plain Jacobian by nalgebra.
 #[test]
 fn flat_parallelogram() {
     let m = FourBar { l1: 2.0, l2: 1.0, l3: 2.0, l4: 1.0 };
@@ -212,7 +212,7 @@ fn brute_force<M: Mechanism<Scalar = f64>>(m: &M, pose: &M::Pose) -> bool {
         }
     }
     assert_eq!(names(&found), exchanges);
-    // A singular group makes the whole singular, and no other does.
+    // The whole is singular if and only if a group is.
     assert_eq!(found.groups().all(|group| group.is_regular), !found.is_singular());
     let product: f64 = found.groups().map(|group| group.determinant).product();
     assert!((product.abs() - found.determinant().abs()).abs() <= 1e-13 * product.abs());
@@ -224,7 +224,7 @@ fn against_brute_force() {
     let mut random = SmallRng::seed_from_u64(20_091_121);
     let mut singular = 0;
     for round in 0..300 {
-        // Every third position is one of right angles, where determinants vanish.
+        // Every third position has right angles only, where determinants vanish.
         let mut angle = || match round % 3 {
             0 => f64::from(random.random_range(0..4_u8)) * FRAC_PI_2,
             _ => random.random_range(-3.0..3.0),
@@ -249,7 +249,7 @@ fn against_brute_force() {
     assert!(singular > 300, "{singular} singular positions of 1500");
 }
 
-/// Nothing of the report but what has a unit changes with the unit of length.
+/// In another unit of length, only numbers with a unit change.
 #[test]
 fn scale_free() {
     let m = SixBar::default();
@@ -271,8 +271,8 @@ fn scale_free() {
     }
 }
 
-/// eps / sigma min explains how far Newton's positions are from those of the closed form, up to where it says that
-/// half the digits are gone; without it the same differences could be anything.
+/// eps / sigma min explains the distance of Newton's positions from those of the closed form, up to where it
+/// announces that half the digits are lost; without it the same differences could be anything.
 #[test]
 fn attainable_accuracy() {
     let m = FourBar { l1: 60.0, l2: 20.0, l3: 50.0, l4: 30.0 - 1e-9 };
@@ -299,11 +299,12 @@ fn attainable_accuracy() {
         worst.0, worst.1, worst.2
     );
     assert!(worst.0 <= 2.0 && worst.1 > 1e-13, "{worst:?}");
-    // A flat bound of some roundings would have been broken.
+    // A constant bound of a few ulp would have been exceeded.
     assert!(worst.2 > 100.0 * f64::EPSILON, "{worst:?}");
 }
 
-/// Links in one line are singular whatever the angle of the line: an angle and that plus pi are rounded, each.
+/// Links in one line are singular at every angle of the line, although an angle and that plus pi are rounded
+/// separately.
 #[test]
 fn links_in_line_are_singular_at_every_angle() {
     let m = FourBar::default();
@@ -316,13 +317,13 @@ fn links_in_line_are_singular_at_every_angle() {
             assert!(found.groups().all(|group| !group.is_regular), "{theta3}, {theta4}: {found}");
             assert_eq!(found.free().count(), 1);
         }
-        // A thousandth of a millionth of a degree is no rounding.
+        // A thousandth of a millionth of a degree is more than a rounding error.
         let pose = m.pose_at(&FourBarCoordinates { theta2: 0.3, theta3, theta4: theta3 + 1e-11 });
         assert!(!singularity::report(&m, &pose).unwrap().is_singular(), "{theta3}");
     }
 }
 
-/// What is no number is said; nothing hangs, and lengths of zero are singular rather than not a number.
+/// NaN and infinity give errors, nothing hangs, and with lengths of zero a pose is singular instead of NaN.
 #[test]
 fn bad_input() {
     let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -0.9 };

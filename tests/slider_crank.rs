@@ -1,6 +1,6 @@
-//! The rigid slider-crank of problem "crank" of the Test Set for IVP Solvers (F. Mazzia, C. Magherini, release 2.4, 2008),
-//! after B. Simeon, "Modelling a flexible slider crank mechanism by a mixed system of DAEs and PDEs", Math. Modelling
-//! Syst. 2 (1996): its dimensions and masses, at the crank's constant speed.
+//! The rigid slider-crank of problem "crank" of the Test Set for IVP Solvers (F. Mazzia, C. Magherini, release 2.4,
+//! 2008), after B. Simeon, "Modelling a flexible slider crank mechanism by a mixed system of DAEs and PDEs", Math.
+//! Modelling Syst. 2 (1996): its dimensions and masses, at the crank's constant speed.
 
 use linkage::nalgebra::{Vector2, vector};
 use linkage::{Slope, linkage};
@@ -29,8 +29,8 @@ linkage! {
     }
 }
 
-/// psi, x, psi', x', psi'', x'' every 15 degrees of the crank, and the determinant of the mechanism driven by its block:
-/// closed form, with 40 digits. The second half of the turn mirrors the first.
+/// psi, x, psi', x', psi'', x'' every 15 degrees of the crank, and the determinant of the mechanism driven by its
+/// block: closed form, with 40 digits. The second half of the turn mirrors the first.
 #[rustfmt::skip] // A row in two lines.
 const ROWS: [[f64; 7]; 13] = [
     [0.0, 0.45, -75.0, 0.0,
@@ -119,8 +119,8 @@ fn forces_through_a_turn() {
     }
 }
 
-/// The crank's angle where the block is short of its dead centre by so much: 40 digits. The block's place is known to a
-/// rounding, and that is all that is lost.
+/// The crank's angle at this distance of the block from its dead centre: 40 digits. The rounding error of the block's
+/// coordinate is the only loss.
 #[test]
 fn near_the_dead_centre() {
     let block = Block::from(SliderCrank::<f64> { r: 0.15, l: 0.3 });

@@ -1,7 +1,7 @@
 //! The turns of angles: wheels, racks, screws and belts behind groups whose angles turn without end.
 //!
-//! A group in closed form gives a direction, and a direction does not tell how often a wheel has turned. What drives
-//! another wheel must not jump where the arc tangent does.
+//! A group in closed form gives a direction, which does not contain the number of turns of a wheel. A wheel that it
+//! drives must not jump where the arc tangent does.
 
 use std::f64::consts::{PI, TAU};
 
@@ -50,7 +50,7 @@ linkage! {
         equation rolled = year + 7 * slot / 5;
         point Pointer = 10@out + 1@rolled;
     }
-    /// A point at half an angle, of which nothing else asks for the number.
+    /// A point at half an angle whose number nothing else needs.
     pub mechanism Halved {
         param pin = 9.6, ecc = 1.1;
         input month;
@@ -95,7 +95,7 @@ fn difference<M: Mechanism<Scalar = f64, V = D<1>>>(a: &M::Coordinates, b: &M::C
 }
 
 /// Follows a mechanism over ten turns either way and assembles each position again from its branch; the coordinates
-/// come from the pose as numbers.
+/// are the numbers of the pose.
 fn comes_back<M>(
     m: &M,
     start: &M::Coordinates,
@@ -142,7 +142,7 @@ fn a_pointer_does_not_jump_where_the_slot_goes_through_pi() {
     let after = m.assemble(3.15, on).unwrap().coordinates();
     assert!((after.out + PI - 1.567).abs() < 1e-3, "{after:?}");
     assert_eq!(after.month, 3.15);
-    // Near the last position, which turn it is need not be known.
+    // From the last position, the number of turns need not be known.
     let near = PinAndSlotCoordinates { month: 3.15, ..before };
     assert_eq!(m.assemble_near(&near, branch).unwrap().coordinates(), after);
     assert_eq!(m.branch_of(&m.pose_at(&m.solve(&near).unwrap().coordinates)), on);
@@ -200,7 +200,7 @@ fn geared_wheels_at_a_lever() {
     }
 }
 
-/// A rounding decides on which side of the cut an angle comes out: still the numbers come back.
+/// Even if a rounding error puts an angle on the other side of the cut, the coordinates are reproduced.
 #[test]
 fn at_the_cut_itself() {
     let m = PinAndSlot::default();
@@ -266,12 +266,12 @@ fn turns_that_cannot_be_counted() {
     assert!(matches!(error, PositionError::NotFinite { .. }), "{error}");
     let error = m.assemble_near(&PinAndSlotCoordinates { slot: 1e300, ..q }, far).unwrap_err();
     assert!(matches!(error, PositionError::Input(InputError::OutOfRange { .. })), "{error}");
-    // A pose in no turn that could be counted is still in a turn.
+    // A pose with an angle beyond the countable turns still has a turn.
     let pose = m.pose_at(&PinAndSlotCoordinates { slot: 1e300, ..q });
     assert!(m.assemble(0.4, m.branch_of(&pose)).is_ok());
 }
 
-/// A branch has no turn where the number of no angle is asked for.
+/// A branch has no turn if no angle's number is needed.
 #[test]
 fn what_has_no_turn() {
     let FourBarBranch { theta3_theta4: _, theta3_turn, theta4_turn } = FourBarBranch::new(Elbow::Left);
@@ -279,7 +279,7 @@ fn what_has_no_turn() {
     let BareBranch { phi_psi: _ } = BareBranch::all().next().unwrap();
 }
 
-/// The search for a limit goes through the cut of the slot's angle.
+/// The search for a limit continues over the cut of the slot's angle.
 #[test]
 fn limits_beyond_a_turn() {
     let m = Limited::default();

@@ -1,4 +1,4 @@
-//! Mistakes of users: what each message says and where it points. `TRYBUILD=overwrite` accepts new ones.
+//! Error messages: text and place of each. `TRYBUILD=overwrite` accepts new ones.
 
 #[test]
 fn mistakes() {

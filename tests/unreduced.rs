@@ -1,4 +1,4 @@
-//! Inertia and forces in all coordinates: what W makes of them are the mass matrix and the forces that are emitted.
+//! Inertia and forces in all coordinates: reduced by W they are the emitted mass matrix and forces.
 
 use linkage::nalgebra::SMatrix;
 use linkage::{Column, D, Matrix, Mechanism, MotionError, Scene};
@@ -10,7 +10,7 @@ use linkage_gallery::five_bar_scenes::*;
 use linkage_gallery::four_bar_scenes::*;
 use linkage_gallery::slider_crank_scenes::*;
 
-/// Poses a scene that can be assembled.
+/// Assembled random poses of a scene.
 const POSES: usize = 200;
 
 const TOLERANCE: f64 = 1e-11;

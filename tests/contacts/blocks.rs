@@ -28,7 +28,8 @@ fn a_sliding_block_stops() {
     close("work of friction", lost, 0.3 * 2.0 * 9.81 * (end.y[1] - 0.25), 1e-13);
 }
 
-/// A spring against dry friction: each half cycle the amplitude is 2 F / k less, until the spring holds no more.
+/// A spring against dry friction: in each half cycle the amplitude decreases by 2 F / k, until friction holds the
+/// block.
 #[test]
 fn an_oscillator_comes_to_rest() {
     let scene = Sprung::default();
@@ -47,7 +48,7 @@ fn an_oscillator_comes_to_rest() {
     assert_eq!(end.y[2], 0.0);
 }
 
-/// Pushed as hard as its friction holds, a block stays, without an event; pushed harder it goes.
+/// Pushed as hard as its friction holds, a block stays, without an event; pushed harder it moves.
 #[test]
 fn pushed_at_the_limit() {
     let limit = 0.3 * 2.0 * 9.81;
@@ -81,11 +82,11 @@ fn a_ball_bounces_and_rests() {
     let scene = Bouncing::default();
     let fall = (2.0 * 0.75 / 9.81_f64).sqrt();
     let end = run(&scene, scene.start(0.0, &block(0.25), &0.0.into()).unwrap(), 3.0);
-    // 0.4^20 is the first power below 2^-26, the square root of the rounding.
+    // 0.4^20 is the first power below 2^-26, the square root of epsilon.
     assert_eq!(end.events.len(), 20, "{:?}", end.events);
     let mut time = fall;
     for (bounce, (t, y, _, after)) in end.events.iter().enumerate() {
-        // The rounding of the place, passed at this rate.
+        // The rounding error of the coordinate, passed at this rate.
         let rate = 9.81 * fall * 0.4_f64.powi(i32::try_from(bounce).unwrap());
         close("time", *t, time, 1e-12 + 1e-15 / rate);
         close("place", y[1], -0.5, 1e-12);
@@ -95,7 +96,7 @@ fn a_ball_bounces_and_rests() {
     close("rest", end.events[19].0, 7.0 / 3.0 * fall, 1e-7);
     close("place", end.y[1], -0.5, 1e-12);
     assert_eq!(end.y[2], 0.0);
-    // Without restitution at once; with all of it for ever.
+    // Without restitution it rests at once; with restitution 1 it bounces for ever.
     let dull = Bouncing { e: 0.0, ..Bouncing::default() };
     let end = run(&dull, dull.start(0.0, &block(0.25), &0.0.into()).unwrap(), 3.0);
     assert_eq!((end.events.len(), end.modes[0], end.y[2]), (1, Mode::AtLower, 0.0));

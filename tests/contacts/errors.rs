@@ -1,4 +1,4 @@
-//! What is refused, by name.
+//! Errors of contacts, with the names of friction and stop.
 
 use linkage::integrate::{Tolerance, dop853};
 use linkage::{InputError, MotionError, PositionError, Scene};
@@ -29,14 +29,14 @@ fn errors_name_the_friction_or_the_stop() {
     let scene = bouncing(-1.0, 1.0, 0.5);
     assert_eq!(scene.start(0.0, &block(0.75), &0.0.into()), Err(beyond.into()));
     assert_eq!(beyond.to_string(), "Bouncing starts 5.0e-1 beyond the stop on height");
-    // Rounding is no reason to refuse.
+    // A rounding error of the start is accepted.
     assert!(scene.start(0.0, &block(0.5 + 1e-16), &0.0.into()).is_ok());
     let broken = Jointed { r2: f64::INFINITY, ..Jointed::default() };
     let guess = MachineCoordinates { phi: 0.8, psi: 2.9, z: 0.4 };
     let rates = MachineRates { phi: 0.8, psi: 2.9, z: 0.4 };
     let named = PositionError::NotFinite { mechanism: "Jointed", quantity: "friction on joint" };
     assert_eq!(broken.contacts(0.0, &guess, &rates).map(|_| ()), Err(named.into()));
-    // A law that turns negative on the way.
+    // A normal load that turns negative on the way.
     let curved = Curved { brake1: -1.0, ..Curved::default() };
     let rates = PairRates { theta1: 0.0, theta2: 0.4, theta3: 1.9, theta4: 0.0 };
     let found = curved.contacts(0.0, &pair(1.0, 1.0), &rates);

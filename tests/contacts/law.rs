@@ -1,4 +1,4 @@
-//! The equations of contacts against those of the mechanism, and their law for any of them.
+//! The equations of contacts against those of the mechanism, and the contact law for any of them.
 
 use linkage::contact::{Contacts, ReducedEquations};
 use linkage::nalgebra::vector;
@@ -7,8 +7,8 @@ use linkage::{Column, D, Matrix, Mode};
 use super::machines::*;
 use linkage_oracle::close;
 
-/// The scalar of a contact, its derivatives and its quadratic terms, beside the outputs of the mechanism; the
-/// equations in one kernel beside those put together.
+/// The scalar of a contact, its derivatives and its quadratic terms against the outputs of the mechanism; the equations
+/// in one function against separate ones.
 #[test]
 fn contacts_and_equations_as_the_mechanism_says() {
     use linkage::Equations;
@@ -67,7 +67,7 @@ fn contacts_and_equations_as_the_mechanism_says() {
     close("limit", limit, 9.0 * (1.0 + rates.theta3.powi(2)), 1e-13);
 }
 
-/// Any masses, forces and contacts: what is found satisfies the law, and it alone does.
+/// For any masses, forces and contacts the solution satisfies the contact law, and no other mode does.
 #[test]
 fn the_law_holds_for_random_contacts() {
     use linkage::ContactLaw;
@@ -121,7 +121,8 @@ fn the_law_holds_for_random_contacts() {
             assert!(fits, "{V} {mode:?} {second} {force} {limit}");
             seen[mode as usize] += 1;
         }
-        // The event functions of these modes see nothing; those of everything held see it unless nothing moves.
+        // The event functions of these modes are silent; those of the mode that holds everything are not, unless
+        // nothing moves.
         assert!(state.events(&equations).unwrap().iter().all(|&value| value >= 0.0));
         let mut all = state;
         all.modes = [Mode::Stick, Mode::Stick, Mode::Stick, Mode::AtLower, Mode::AtUpper].into();

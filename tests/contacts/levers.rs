@@ -1,4 +1,4 @@
-//! Frictions where the lever of a joint changes: by hand, together, and in dead centres.
+//! Frictions where the lever of a joint changes: by hand, several together, and in dead centres.
 
 use linkage::contact::ReducedEquations;
 use linkage::{Mode, Scene};
@@ -58,8 +58,8 @@ fn a_slider_with_friction_by_hand() {
     }
 }
 
-/// A linkage of one input holds while |Q| is not more than the sum of |S| limit over all its joints; with a torque that
-/// grows, all let go at that moment.
+/// A linkage of one input holds while |Q| is at most the sum of |S| limit over all its joints; with a growing torque,
+/// all slip at that moment.
 #[test]
 fn joints_hold_together() {
     let scene = Jointed::default();
@@ -71,7 +71,7 @@ fn joints_hold_together() {
     let (psi, z) = (ratios[0], ratios[1]);
     let limit = 0.2 * 90.0 * (0.01 + 0.012 * (1.0 - psi).abs() + 0.008 * psi.abs()) + 0.2 * 40.0 * z.abs();
     let end = run(&scene, start, limit / 3.0 + 0.1);
-    // At one moment, once for each joint; the first decides for all.
+    // All at one moment, one change for each joint; the first decides for all.
     assert_eq!(end.events.len(), 4, "{:?}", end.events);
     let (t, y, before, after) = end.events[0];
     assert!(end.events[1..].iter().all(|later| (later.0, later.2, later.3) == (t, after, after)), "{:?}", end.events);
@@ -92,8 +92,8 @@ fn joints_hold_together() {
     assert_eq!(motion.acceleration[0], 0.0);
 }
 
-/// At rest at a dead centre a slider has no lever, and what its friction will do shows only when it moves: energy is the
-/// work of the torque less that of the friction.
+/// At rest at a dead centre a slider has no lever, and the effect of its friction shows only in motion: the energy is
+/// the work of the torque less that of the friction.
 #[test]
 fn a_start_at_a_dead_centre() {
     for (centre, t0) in [(0.0, 3.0), (0.0, -3.0), (std::f64::consts::PI, 3.0), (std::f64::consts::PI, -3.0)] {

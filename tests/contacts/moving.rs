@@ -11,9 +11,9 @@ type Modes<S> = Column<Mode, <S as Scene>::Contacts>;
 pub(super) struct Moving<'a, S: Scene<Scalar = f64>> {
     pub(super) scene: &'a S,
     pub(super) contacts: Contacts<f64, S::Contacts>,
-    /// When something happened, with the modes before and after.
+    /// The time of a change, with the modes before and after.
     pub(super) history: Vec<(f64, Modes<S>, Modes<S>)>,
-    /// How often the end of a step had to be mended.
+    /// The number of ends of steps that had to be corrected.
     pub(super) mended: usize,
 }
 
@@ -80,7 +80,7 @@ impl<S: Scene<Scalar = f64>> System for Moving<'_, S> {
 /// The time, the state, the modes before and after.
 type Event<S> = (f64, State<S>, Modes<S>, Modes<S>);
 
-/// How a motion ended, and the events on the way.
+/// The end of a motion, and its events.
 pub(super) struct End<S: Scene<Scalar = f64>> {
     pub(super) y: State<S>,
     pub(super) modes: Modes<S>,

@@ -1,4 +1,4 @@
-//! A five-bar of two cranks: what sticks while the other slips, impacts, and the account of energy.
+//! A five-bar of two cranks: one sticks while the other slips, impacts, and the energy account.
 
 use linkage::integrate::{Tolerance, dop853};
 use linkage::nalgebra::vector;
@@ -9,7 +9,7 @@ use linkage_oracle::close;
 
 use super::moving::{Moving, run};
 
-/// One crank is held by its friction while the other slips: as if it were clamped.
+/// One crank is held by its friction while the other slips: the motion with a clamped crank.
 #[test]
 fn one_crank_sticks_while_the_other_slips() {
     let scene = Braked::default();
@@ -35,7 +35,7 @@ fn one_crank_sticks_while_the_other_slips() {
 }
 
 /// An impact of one crank, free and with the other resting on its stop: Newton's law, impulses that only push, and the
-/// energy that is lost.
+/// energy loss.
 #[test]
 fn impacts_of_a_five_bar() {
     let q = Pair::default().solve(&pair(1.2, 0.5)).unwrap().coordinates;
@@ -47,7 +47,7 @@ fn impacts_of_a_five_bar() {
         let (moving, y) = Moving::start(scene, 0.0, &start).unwrap();
         (<[Mode; 3]>::from(moving.contacts.modes), vector![y[4], y[5]])
     };
-    // Both leave: nothing happens. One hits: v'+ = v'- - M^-1 S' (1 + e) s' / (S M^-1 S').
+    // If both leave, nothing happens. If one hits: v'+ = v'- - M^-1 S' (1 + e) s' / (S M^-1 S').
     assert_eq!(after(&scene, [-1.0, 2.0]), ([Mode::Open; 3], vector![-1.0, 2.0]));
     let inverse = mass.try_inverse().unwrap();
     let hit = vector![2.0, 3.0] - inverse.column(0) * (1.6 * 2.0 / inverse[(0, 0)]);
@@ -55,7 +55,7 @@ fn impacts_of_a_five_bar() {
     let (modes, rates) = after(&scene, [2.0, 3.0]);
     assert_eq!(modes, [Mode::Open; 3]);
     close("v'", (rates - hit).amax(), 0.0, 1e-14);
-    // The other rests: on the one side it leaves its stop, on the other it would be pushed through it.
+    // The other rests: on one side it leaves its stop, on the other it would be pushed through it.
     let alone = vector![2.0, 0.0] - inverse.column(0) * (3.2 / inverse[(0, 0)]);
     assert!(alone[1] > 0.1, "{alone}");
     let (modes, rates) = after(&scene, [2.0, 0.0]);
@@ -73,7 +73,7 @@ fn impacts_of_a_five_bar() {
     close("v'", (rates - both).amax(), 0.0, 1e-14);
 }
 
-/// Elastic stops keep the energy; also one that acts on an output.
+/// Elastic stops keep the energy, also one that acts on an output.
 #[test]
 fn elastic_stops_keep_the_energy() {
     let q = Pair::default().solve(&pair(0.9, 0.9)).unwrap().coordinates;
@@ -93,7 +93,7 @@ fn elastic_stops_keep_the_energy() {
     close("energy", energy(&end.y) / energy(&start), 1.0, 1e-11);
 }
 
-/// Frictions, stops and a force that swings, for a long time: the energy is what was put in less what friction took.
+/// Frictions, stops and an oscillating force, for a long time: the energy is the work done less the work of friction.
 #[test]
 fn a_long_motion_keeps_its_accounts() {
     let scene =

@@ -1,4 +1,4 @@
-//! The powers of a length that the symbols of a mechanism are, found from its constraints and points.
+//! The length exponents of the symbols of a mechanism, from its constraints and points.
 
 use std::collections::HashMap;
 
@@ -6,11 +6,11 @@ use linkage_compiler::derivation::Derivation;
 use linkage_compiler::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use linkage_compiler::model::{Kind, Mechanism};
 
-/// Powers of a length by symbol; a symbol that is not in the map is a pure number.
+/// Exponents of length by symbol; a symbol that is not in the map is a pure number.
 pub(super) type Powers = HashMap<SymbolId, f64>;
 
-/// The powers at which every constraint is homogeneous and every one of these points is a length; None if there are none,
-/// because a length is written as a number.
+/// The exponents for which every constraint is homogeneous and every one of these points is a length; None if there are
+/// none, because a length is written as a number.
 pub(super) fn powers_of_length(mechanism: &Mechanism, derivation: &Derivation, points: &[NodeId]) -> Option<Powers> {
     let graph = &derivation.graph;
     let power = |kind| match kind {
@@ -52,7 +52,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The power of an expression, if its symbols tell it.
+    /// The exponent of an expression, if its symbols determine it.
     fn power(&self, node: NodeId) -> Option<f64> {
         match self.graph.node(node) {
             Node::Constant(_) | Node::Pi => Some(0.0),
@@ -67,12 +67,12 @@ impl Search<'_> {
             Node::Call(Function::Sqrt, arguments) => Some(self.power(arguments[0])? / 2.0),
             Node::Call(Function::Abs | Function::Hypot, arguments) => arguments.iter().find_map(|&a| self.power(a)),
             Node::Call(..) => Some(0.0),
-            // A cam law gives a part of its stroke, the second argument, or a derivative of it by an angle.
+            // A cam law gives a part of its stroke, which is the second argument, or a derivative of it by an angle.
             Node::External(_, arguments) => self.power(arguments[1]),
         }
     }
 
-    /// Gives an expression a power, by those of the symbols in it; None if it has another.
+    /// Assigns an exponent to an expression through its symbols; None if it has another.
     fn expect(&mut self, node: NodeId, power: f64) -> Option<()> {
         let graph = self.graph;
         match graph.node(node) {

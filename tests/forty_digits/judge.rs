@@ -1,4 +1,4 @@
-//! One mechanism in 48 digits: its closures brought to nothing, and its condition numbers.
+//! One mechanism in 48 digits: its constraints solved, and its condition numbers.
 
 use linkage_compiler::derivation::{Coordinate, Derivation};
 use linkage_compiler::graph::{External, NodeId, Number, SymbolId};
@@ -14,7 +14,7 @@ use rand::{Rng, SeedableRng};
 
 use super::dimensions;
 
-/// What a pose is made from.
+/// The data of a pose.
 #[derive(Clone)]
 pub(super) struct Data {
     pub(super) parameters: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct Data {
     pub(super) rates: Vec<f64>,
     pub(super) accelerations: Vec<f64>,
     pub(super) branch: usize,
-    /// q with values of the unknowns to start from, q' and q'' with the inputs' alone.
+    /// q with start values of the unknowns, q' and q'' with the inputs' alone.
     pub(super) coordinates: [Vec<f64>; 3],
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Motion {
     pub(super) points: [Vec<f64>; 3],
 }
 
-/// The closures of one mechanism with their first two derivatives in time, and the points with theirs.
+/// The constraints of one mechanism with their first two derivatives in time, and the points with theirs.
 pub(super) struct Judge {
     pub(super) mechanism: Mechanism,
     pub(super) derivation: Derivation,
@@ -41,7 +41,7 @@ pub(super) struct Judge {
     /// J by rows.
     pub(super) jacobian: Tape,
     pub(super) points: Tape,
-    /// The derivatives of all rows of `closures` and of `points`, by every datum and then every unknown.
+    /// The derivatives of all rows of `constraints` and of `points`, by every datum and then every unknown.
     pub(super) derivatives: Tape,
     pub(super) data: Vec<SymbolId>,
     pub(super) unknowns: Vec<SymbolId>,
@@ -130,8 +130,8 @@ impl Judge {
         tape.evaluate(|symbol| self.bound(data, y, symbol), self.external())
     }
 
-    /// u, u', u'' to 40 digits, from the emitted code's, where the closures and their derivatives have these values:
-    /// each residual in full, what it asks for by J^-1 in doubles, some 14 digits a time. None where they do not arrive.
+    /// u, u', u'' to 40 digits, from the emitted code's, where the constraints and their derivatives have these values:
+    /// each residual in full, its correction by J^-1 in doubles, some 14 digits a step. None if it does not converge.
     pub(super) fn solve(&self, data: &Data, found: &[f64], closed_at: &[f64]) -> Option<Vec<Big>> {
         const TIMES: usize = 20;
         let n = found.len() / 3;
@@ -155,7 +155,7 @@ impl Judge {
         Some(y)
     }
 
-    /// The condition numbers of the points, times their values, from changes by one rounding.
+    /// The condition numbers of the points, times their values, from changes by one ulp.
     pub(super) fn measured_conditions(&self, data: &Data, y: &[Big], found: &[f64]) -> Option<Vec<f64>> {
         const EPSILON: f64 = f64::EPSILON;
         let rounded: Vec<f64> = y.iter().map(Scalar::double).collect();
@@ -216,7 +216,7 @@ impl Judge {
         (of_unknowns.as_slice().to_vec(), of_points.as_slice().to_vec())
     }
 
-    /// The powers of a length that the parameters and the coordinates in the order of q are, with or without the points;
+    /// The length exponents of the parameters and of the coordinates in the order of q, with or without the points;
     /// None if a length is written as a number.
     pub(super) fn powers_of_length(&self, with_points: bool) -> Option<Vec<f64>> {
         let d = &self.derivation;
@@ -227,7 +227,7 @@ impl Judge {
         Some(symbols.map(|symbol| powers.get(&symbol).copied().unwrap_or(0.0)).collect())
     }
 
-    /// The same in another unit of length.
+    /// The data in another unit of length.
     pub(super) fn scaled(&self, data: &Data, powers: &[f64], scale: f64) -> Data {
         let (of_parameters, of_coordinates) = powers.split_at(data.parameters.len());
         let times = |values: &[f64], powers: &[f64]| -> Vec<f64> {

@@ -1,20 +1,20 @@
 //! Position, velocity and acceleration of the gallery at random poses against 48-digit arithmetic: the emitted code
-//! against the closures themselves, whose residuals in dashu's floats are brought to nothing.
+//! against the constraints themselves, solved in dashu's floats.
 //!
-//! An error is measured in ulp times the condition number: the sum of what a relative change of each datum (lengths,
-//! inputs, their rates) and of each term of each closure, of its derivatives and of the point itself does to it. For
-//! velocities and accelerations that is R. D. Skeel's condition number of J x = b, |J^-1| (|J| |x| + |b|), with what
-//! the position contributes. Without the terms, a point that moves along a straight line whatever its lengths are
-//! would have the condition number zero across that line.
+//! An error is measured in ulp times the condition number: the sum of its changes for a relative change of each datum
+//! (lengths, inputs, their rates) and of each term of each constraint, of its derivatives and of the point itself. For
+//! velocities and accelerations that is R. D. Skeel's condition number of J x = b, |J^-1| (|J| |x| + |b|), with the
+//! contribution of the position. Without the terms, a point that moves along a straight line for all lengths would have
+//! the condition number zero across that line.
 //!
-//! A condition number speaks of small changes. Some 1e-5 from a change point a rounding is no small one: angular
-//! accelerations have two digits left, and a point whose condition number is small, because its links stay as long as
-//! they are, moves by the square of what the angles are off. Where a point is off by more than is promised, its
-//! condition is therefore not differentiated but measured: datum by datum and closure by closure, the 48-digit answer
-//! with one rounding more and with one less.
+//! A condition number is for small changes. Some 1e-5 from a change point a rounding error is not small: angular
+//! accelerations have two digits left, and a point whose condition number is small, because its links keep their
+//! lengths, is off by the square of the angles' errors. Where the error of a point exceeds its bound, its condition is
+//! therefore not differentiated but measured: datum by datum and constraint by constraint, the 48-digit answer with one
+//! ulp more and with one less.
 //!
 //! The largest errors of 100 000 poses each, in ulp times condition number. One pose of the coupled wheels, 2.4e-5 rad
-//! from a change point, stands at 0.28 by its measured condition, at 9.67 by its differentiated one.
+//! from a change point, has 0.28 by its measured condition, and 9.67 by its differentiated one.
 //!
 //! | mechanism | position | velocity | acceleration | mechanism | position | velocity | acceleration |
 //! |---|---|---|---|---|---|---|---|
@@ -73,7 +73,7 @@ macro_rules! tests {
         mod $file {
             use linkage_gallery::$file::{$($Mechanism),+};
 
-            /// The unit of length changes exponents and no other bit.
+            /// Another unit of length changes exponents and no other bit.
             #[test]
             fn scale_free() {
                 $(super::unit_of_length::<$Mechanism>();)+

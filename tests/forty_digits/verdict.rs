@@ -1,4 +1,4 @@
-//! How far the emitted code is from that: in rounding, and in another unit of length.
+//! The errors of the emitted code in ulp times condition number, and its bits in another unit of length.
 
 use linkage_compiler::ids::{Id, UnknownId};
 use linkage_gallery::Fixture;
@@ -9,15 +9,15 @@ use rand::rngs::SmallRng;
 use super::judge::Judge;
 use super::run;
 
-/// The promise: ulp times condition number.
+/// The error bound, in ulp times condition number.
 pub(super) const ULPS: f64 = 8.0;
 
-/// Poses of each mechanism; the full size is asked for in the environment.
+/// Poses of each mechanism; the environment variable asks for the full number.
 fn poses() -> usize {
     std::env::var("POSES").ok().and_then(|count| count.parse().ok()).unwrap_or(40)
 }
 
-/// The largest error in ulp times condition number, and where.
+/// The largest error in ulp times condition number, with its place.
 #[derive(Default, Clone)]
 pub(super) struct Worst {
     pub(super) error: f64,
@@ -97,11 +97,11 @@ pub(super) fn judge<F: Fixture>() -> [Worst; 3] {
     worst
 }
 
-/// Mechanisms with a number for a length in a constraint, which no unit scales.
+/// Mechanisms with a number as a length in a constraint, which do not scale.
 const WITH_NUMBERS: [&str; 2] = ["drag_link_drive", "slider_named_first"];
 
-/// Everything at lengths 2^k times as long has the same bits but for its exponent; angles have the same. Points with a
-/// number for a length are left out.
+/// At lengths 2^k times as long, everything has the same bits but for its exponent; angles are equal. Points with a
+/// number as a length are left out.
 pub(super) fn unit_of_length<F: Fixture>() {
     let judge = Judge::new::<F>();
     let with_points = judge.powers_of_length(true);

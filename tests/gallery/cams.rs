@@ -53,7 +53,7 @@ fn cam_follower() {
         exact(motion.outputs.pressure.value.tan() * normal.y, -normal.x, size);
         let along = (points.pitch.position - points.profile.position) / m.roller;
         exact(along.dot(&points.profile.velocity), 0.0, size);
-        // The point of the cam under the roller moves along the tangent beside the roller's axis.
+        // The point of the cam under the roller moves along the tangent relative to the roller's axis.
         let contact = points.contact.position;
         let sliding = points.roller.velocity - nalgebra::vector![-contact.y, contact.x];
         exact(normal.dot(&sliding) / m.roller, 0.0, size);
@@ -88,7 +88,7 @@ fn cam_rocker() {
         let from_axis = points.roller + nalgebra::vector![m.distance, 0.0];
         exact(points.pitch.coords.norm(), from_axis.coords.norm(), size);
     }
-    // The rocker rests while the follower does.
+    // The rocker rests while the cam's follower does.
     for theta in [2.2, 3.0, 5.4, 6.0] {
         let velocity = m.velocity(&m.pose_at(&course.at(theta)), 1.0).unwrap();
         assert_eq!([velocity.psi, velocity.phi, velocity.beta], [0.0; 3]);

@@ -25,8 +25,8 @@ pub(super) struct Course<'a, M: Mechanism<Scalar = f64, V = D<1>>> {
     pub(super) positions: Vec<M::Coordinates>,
 }
 
-/// Follows a mechanism while its input goes from that of `start` by `span`, each position found by Newton's
-/// method from what the velocity ratios at the last one predict.
+/// Follows a mechanism while its input goes from that of `start` by `span`, each position found by Newton's method from
+/// the prediction of the velocity ratios at the last one.
 #[track_caller]
 pub(super) fn follow<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
     mechanism: &'a M,
@@ -44,7 +44,7 @@ pub(super) fn follow<'a, M: Mechanism<Scalar = f64, V = D<1>>>(
     course
 }
 
-/// A full turn, after which the mechanism stands as it stood at the start, never having left its branch.
+/// A full turn, which returns to the position of the start and never leaves the branch.
 #[track_caller]
 pub(super) fn turn<'a, M: Mechanism<Scalar = f64, V = D<1>>>(mechanism: &'a M, start: M::Coordinates) -> Course<'a, M> {
     let course = follow(mechanism, start, TAU);
@@ -61,7 +61,7 @@ pub(super) fn turn<'a, M: Mechanism<Scalar = f64, V = D<1>>>(mechanism: &'a M, s
 }
 
 impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
-    /// Straight on from a position to another input: u + W (to - v).
+    /// The prediction from a position to another input: u + W (to - v).
     #[track_caller]
     fn predict(&self, q: M::Coordinates, to: f64) -> M::Coordinates {
         let step = to - input::<M>(&q);
@@ -96,7 +96,7 @@ impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
         self.assemble(self.predict(*nearest, wanted))
     }
 
-    /// The inputs between which `value` changes its sign, each made a point by bisection.
+    /// The inputs at which `value` changes its sign, by bisection.
     pub(super) fn roots(&self, value: impl Fn(&M::Coordinates) -> f64) -> Vec<f64> {
         let mut roots = Vec::new();
         for pair in self.positions.windows(2) {

@@ -1,5 +1,5 @@
-//! The groups of unknowns of every mechanism in the order in which they are solved: dyads where an engineer sees dyads,
-//! and what has no closed form whole.
+//! The groups of unknowns of every mechanism in the order in which they are solved: Assur dyads, and larger groups
+//! without a closed form.
 
 use linkage_gallery::{FILES, source};
 

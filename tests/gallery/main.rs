@@ -1,5 +1,5 @@
-//! The gallery of classic mechanisms, each followed through its whole motion and held against what is known
-//! of it without any table: links that stay rigid, lines that are straight, strokes, ratios and sweeps.
+//! The gallery of classic mechanisms, each followed through its whole motion and compared with its known properties:
+//! rigid links, straight lines, strokes, ratios and sweeps.
 
 mod cams;
 mod course;

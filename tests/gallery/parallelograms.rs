@@ -24,7 +24,7 @@ fn pantograph_copies() {
         for axis in 0..2 {
             exact(points.pen[axis], m.ratio * points.tracer[axis], size);
         }
-        // Velocity and acceleration too are `ratio` times as large, whatever the tracer does.
+        // Velocity and acceleration too are `ratio` times as large, for any motion of the tracer.
         let motion = m.motion(&q, PantographInputs { x: 0.3, y: -0.7 }, PantographInputs { x: -0.2, y: 0.4 }).unwrap();
         exact(motion.points.pen.velocity.x, m.ratio * 0.3, size);
         exact(motion.points.pen.velocity.y, m.ratio * -0.7, size);

@@ -1,4 +1,4 @@
-//! What slides in the frame: pistons, rams and trammels.
+//! Sliders in the frame: pistons, rams and trammels.
 
 use approx::assert_abs_diff_eq;
 use std::f64::consts::FRAC_PI_2;
@@ -25,7 +25,7 @@ fn offset_slider_crank() {
     exact(largest, ((m.b + m.a).powi(2) - m.c * m.c).sqrt(), m.a + m.b);
 }
 
-/// x = r cos(phi), to a rounding of the radius.
+/// x = r cos(phi), to an ulp of the radius.
 #[test]
 fn scotch_yoke_is_a_cosine() {
     let m = ScotchYoke::default();

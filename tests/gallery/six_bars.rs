@@ -1,4 +1,4 @@
-//! The six-bars of Watt and of Stephenson, and an eight-bar that cannot be taken apart.
+//! The six-bars of Watt and of Stephenson, and an eight-bar whose unknowns are one group.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -21,7 +21,7 @@ fn inverted_slider_crank() {
     course.rigid(points, |p| [(p.o, p.a, m.a), (p.d, p.b, m.c)]);
     for q in &course.positions {
         let points = points(q);
-        // The slide stands at gamma, here a right angle, to its foot.
+        // The slide is at the angle gamma, here a right angle, to its foot.
         exact((points.a - points.d).norm(), q.b.hypot(m.c), m.a + m.d + q.b);
     }
     let [least, largest] = course.range(|q| q.b);
@@ -29,8 +29,8 @@ fn inverted_slider_crank() {
     exact(largest, ((m.d + m.a).powi(2) - m.c * m.c).sqrt(), m.d + m.a);
 }
 
-/// The ram turns back where the slotted arm lies on its line: there the crank's pin is `offset` below the
-/// crank's pivot.
+/// The ram turns back where the slotted arm lies on its line: there the crank's pin is `offset` below the crank's
+/// pivot.
 #[test]
 fn whitworth_returns_faster() {
     let m = Whitworth::default();
@@ -52,7 +52,7 @@ fn whitworth_returns_faster() {
     assert_abs_diff_eq!(course.positions[STEPS as usize].psi - course.positions[0].psi, TAU, epsilon = 1e-13);
 }
 
-/// The ram turns back with the lever, where the crank stands square to it.
+/// The ram turns back with the lever, where the crank is perpendicular to it.
 #[test]
 fn crank_shaper_returns_faster() {
     let m = CrankShaper::default();
@@ -90,7 +90,7 @@ fn geneva_turns_one_slot() {
         let motion = m.motion(end, 1.0, 0.0).unwrap();
         assert_abs_diff_eq!(motion.rates.psi, 0.0, epsilon = 1e-15);
         exact(motion.outputs.depth.value, 0.0, m.crank);
-        // Not without a jerk: omega^2 tan(pi / slots).
+        // The acceleration jumps there, by omega^2 tan(pi / slots).
         assert_abs_diff_eq!(motion.accelerations.psi.abs(), (PI / m.slots).tan(), epsilon = 1e-14);
     }
     // Fastest in the middle: omega sin / (1 - sin) of half a slot.

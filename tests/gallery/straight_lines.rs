@@ -14,8 +14,7 @@ use linkage_gallery::peaucellier::*;
 use linkage_gallery::roberts::*;
 use linkage_gallery::watt_line::*;
 
-/// How far Hoecken's and Chebyshev's lines rise, in cranks of Hoecken: from intersecting circles in 40-digit
-/// arithmetic.
+/// The rise of Hoecken's and Chebyshev's lines, in cranks of Hoecken: from intersecting circles in 40-digit arithmetic.
 const RISE: f64 = 0.009_753_733_086_360_006;
 
 #[test]

@@ -1,5 +1,5 @@
 //! Hart's inversor at the end of its range: both dyads are flat there at once, so that motions cross where the input
-//! turns back. Known to fail: followers that take a crossing for a way on, which here comes back to it for ever.
+//! turns back. Known to fail: followers that take a crossing for a way on and return to it for ever.
 
 use linkage::PathError;
 use linkage::continuation::{Direction, Path};
@@ -23,7 +23,7 @@ fn the_end_of_the_range_is_a_dead_point() {
                 assert!((gap - 0.3).abs() < 1e-7, "{gap}");
                 let found = path.position().theta;
                 assert!((found - way * end).abs() < 1e-7, "{found} is not {end}");
-                // Asked again it does not seek for ever.
+                // A second call does not search for ever.
                 let again = path.advance_to(way * (end + 0.3));
                 assert!(matches!(again, Err(PathError::DeadPoint { .. } | PathError::Lost { .. })), "{again:?}");
             }
@@ -31,7 +31,7 @@ fn the_end_of_the_range_is_a_dead_point() {
     }
 }
 
-/// Sent beyond a dead point twice, a path leaves it the same way from wherever it came.
+/// A path sent beyond a dead point twice leaves it the same way each time.
 #[test]
 fn a_dead_point_twice() {
     let m = FourBar::new(80.0, 50.0, 40.0, 60.0);

@@ -1,4 +1,4 @@
-//! Numbers that make no sense: each is refused with a typed error, and nothing runs for ever.
+//! Invalid numbers: each gives a typed error, and nothing runs for ever.
 
 use linkage::continuation::{Direction, Event, Options, Path};
 use linkage::{Elbow, InputError, PathError, PositionError};
@@ -79,7 +79,7 @@ fn too_far() {
     let options = Options { most_steps: 100, ..Options::default() };
     let mut path = Path::with(&m, &start(&m), Direction::Increasing, options).unwrap();
     assert_eq!(path.advance_to(1e9), Err(PathError::TooManySteps { mechanism: "FourBar", steps: 100 }));
-    // The smallest steps that are allowed only take long.
+    // The smallest allowed steps only take long.
     let options = Options { longest_step: 1e-12, most_steps: 100, ..Options::default() };
     let mut path = Path::with(&m, &start(&m), Direction::Increasing, options).unwrap();
     assert!(path.advance().is_ok());
@@ -94,7 +94,7 @@ fn zero_lengths() {
         let m = FourBar::from(lengths);
         for direction in [Direction::Increasing, Direction::Along(along)] {
             let Ok(mut path) = Path::new(&m, &q, direction) else { continue };
-            // Whatever moves, moves on positions.
+            // Every step that succeeds is at a position.
             for step in path.by_ref().take(50) {
                 let Ok(step) = step else { break };
                 let pose = m.pose_at(&step.position);

@@ -1,5 +1,5 @@
-//! Joints that coincide: a dyad whose outer joints are one point can stand anywhere, and the usual formulas divide zero by
-//! zero. Known to fail: cells of two mirrored dyads that carry a third, at the end of their range and wherever both
+//! Joints that coincide: a dyad whose outer joints are one point can stand anywhere, and the usual formulas divide zero
+//! by zero. Known to fail: cells of two mirrored dyads that carry a third, at the end of their range and wherever both
 //! dyads are on the same side; guides that are parallel; pins that pass through a pivot.
 
 use std::fmt::Debug;
@@ -8,7 +8,7 @@ use linkage::limits::{Limit, Limits};
 use linkage::{Elbow, Error, PositionError, Slider, Slope, linkage};
 
 linkage! {
-    /// Peaucellier's cell, of which the rhombus closes at the ends of the range.
+    /// Peaucellier's cell, whose rhombus closes at the ends of the range.
     #[derive(Debug, Clone, PartialEq)]
     mechanism Cell {
         param crank = 2, long = 5, short = 2;
@@ -21,7 +21,7 @@ linkage! {
         derive limits;
     }
 
-    /// The same with the lower dyad written the other way round, which rounds otherwise.
+    /// Peaucellier's cell with the lower dyad in the opposite order, which rounds differently.
     #[derive(Debug, Clone, PartialEq)]
     mechanism Mirrored {
         param crank = 2, long = 5, short = 2;
@@ -101,7 +101,7 @@ linkage! {
 
 const SCALES: [i32; 3] = [-60, 0, 60];
 
-/// The same value at lengths 2^-60, 1 and 2^60 times as long.
+/// A result that must be equal at lengths 2^-60, 1 and 2^60 times as long.
 #[track_caller]
 fn at_all_scales<V: PartialEq + Debug>(value: impl Fn(f64) -> V) -> V {
     let [small, plain, large] = SCALES.map(|exponent| value(2_f64.powi(exponent)));
@@ -123,7 +123,7 @@ fn in_unit(limits: Limits<f64>, unit: f64) -> Limits<f64> {
     Limits { lower, upper }
 }
 
-/// Exact, of this group, and this number to an ulp.
+/// Checks an exact limit: its group, and its input to an ulp.
 #[track_caller]
 fn exact(limit: Limit<f64>, expected: f64, of: &str) {
     let Limit::Exact { input, group } = limit else { panic!("{limit:?}") };
@@ -155,7 +155,7 @@ macro_rules! cell {
                     let input = limit.input().unwrap();
                     let there = at_all_scales(|scale| at(scale).assemble(input, branch).map(|pose| pose.coordinates()));
                     assert_eq!(there, Err(undetermined), "{input}");
-                    // Before it the cell is determined, beyond it out of reach.
+                    // Before it the cell is determined, beyond it it cannot be assembled.
                     assert!(at(1.0).assemble(input * (1.0 - 1e-12), branch).is_ok());
                     let beyond = at(1.0).assemble(input * (1.0 + 1e-12), branch);
                     assert!(matches!(beyond, Err(PositionError::Unbuildable { group: "up, up1", .. })), "{beyond:?}");
@@ -176,7 +176,7 @@ fn a_cell_at_the_ends_of_its_range() {
     );
 }
 
-/// Where the joints coincide but for rounding, a rounding error has no say.
+/// Joints that coincide to rounding error are treated as coincident.
 #[test]
 fn a_cell_that_rounds_otherwise() {
     cell!(Mirrored, MirroredBranch, "Mirrored");
@@ -197,7 +197,7 @@ fn two_dyads_carry_a_third() {
             let found = at_all_scales(|scale| at(scale).assemble(end * scale, branch).map(|pose| pose.e));
             assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Symmetric", group: "e, f" }));
         }
-        // Links that are not equally long do not reach a joint that is nearly one, nor one that is.
+        // Links of different lengths do not reach a joint that coincides, exactly or nearly.
         let unequal = |scale: f64| Symmetric { k: 1.9 * scale, ..at(scale) };
         let found = unequal(1.0).limits(2.0, branch).unwrap();
         let (Limit::Bracketed { assembled, group, .. }, Limit::Bracketed { assembled: lower, .. }) =
@@ -209,7 +209,7 @@ fn two_dyads_carry_a_third() {
         let found = at_all_scales(|scale| unequal(scale).assemble(3.5 * scale, branch).map(|pose| pose.e));
         let Err(PositionError::Unbuildable { group: "e, f", gap, .. }) = found else { panic!("{found:?}") };
         assert!((gap - (0.1_f64 / 3.9).powi(2)).abs() < 1e-15, "{gap}");
-        // Whether the end of the first dyads is rounded inward or outward, the third stops before.
+        // In either case of rounding of the end of the first dyads, the third ends before.
         for l in (1..200).map(|part| 1.9 + 0.001 * f64::from(part)) {
             let m = Symmetric { l, ..unequal(1.0) };
             let found = m.limits(2.0, branch).unwrap();
@@ -223,7 +223,7 @@ fn two_dyads_carry_a_third() {
     }
 }
 
-/// A search passes an input at which the kite is folded, and finds the limit beyond.
+/// A search passes an input at which the kite is folded, and finds the limit beyond it.
 #[test]
 fn a_kite_that_folds() {
     let at = |scale: f64| Kite::default().map(|length: f64| length * scale);
@@ -240,7 +240,7 @@ fn a_kite_that_folds() {
         });
         assert!(matches!(unequal, Err(PositionError::Unbuildable { group: "alpha, beta", .. })), "{unequal:?}");
     }
-    // The steps from here are of a degree, and one of them is the fold.
+    // The steps from here are of a degree, and one of them is at the fold.
     let mut passed = 0;
     for branch in KiteBranch::all() {
         for degrees in [-40, -20, 20, 40] {
@@ -259,7 +259,7 @@ fn a_kite_that_folds() {
     assert!(passed > 0);
 }
 
-/// Flat, but not coincident: every joint stands somewhere, on both branches.
+/// Flat, but not coincident: every joint is determined, on both branches.
 #[test]
 fn a_parallelogram_is_flat_but_determined() {
     let at = |scale: f64| {
@@ -272,7 +272,7 @@ fn a_parallelogram_is_flat_but_determined() {
         };
         assert_eq!([flat.alpha, flat.beta], [0.0; 2]);
     }
-    // The links are in line without folding, too.
+    // The links are also in line without folding.
     assert_eq!(at(1.0).branches(0.0).filter_map(Result::ok).count(), 4);
 }
 
@@ -281,7 +281,7 @@ fn a_pin_in_the_pivot_of_its_slot() {
     let at = |scale: f64| Slot::default().map(|length: f64| length * scale);
     for along in [Slider::Far, Slider::Near] {
         let branch = SlotBranch { arm_along: along };
-        // A turn later the pin is off by rounding alone.
+        // A turn later the pin is off by a rounding error.
         for theta in [0.0, std::f64::consts::TAU] {
             let found = at_all_scales(|scale| at(scale).assemble(theta, branch).map(|pose| pose.arm));
             assert_eq!(found, Err(PositionError::Undetermined { mechanism: "Slot", group: "arm, along" }));
@@ -303,7 +303,7 @@ fn a_link_without_length() {
         let found = at_all_scales(|scale| at(scale).assemble(0.4, branch).map(|pose| pose.phi));
         assert!(matches!(found, Err(PositionError::Unbuildable { .. })), "{found:?}");
     }
-    // Of a dyad one link or both.
+    // One link of a dyad, or both.
     let branch = CellBranch { up_up1: Elbow::Left, down_down1: Elbow::Right, up2_down2: Elbow::Left };
     let found = at_all_scales(|scale| {
         Cell { crank: scale, long: 2.0 * scale, short: 0.0 }.assemble(0.0, branch).map(|pose| pose.up)
@@ -321,7 +321,7 @@ fn parallel_guides() {
     let Err(PositionError::Unbuildable { mechanism: "Guides", group: "s, u", gap }) = apart else {
         panic!("{apart:?}")
     };
-    // Their distance, relative to the terms.
+    // Their distance, relative to its terms.
     assert!(gap > 0.01 && gap < 1.0, "{gap}");
     // On one line.
     let one = |scale: f64| Guides { a: 4.0 * 0.5_f64.cos() * scale, b: 4.0 * 0.5_f64.sin() * scale, alpha: 0.5 };

@@ -41,7 +41,7 @@ fn to_the_last_digit() {
         let expected = crank_angle(z3);
         println!("delta {delta:e}: crank at {:e}, expected {expected:e}", q.phi1);
         assert_eq!(q.z3, z3);
-        // The stroke is 0.45 - 0.225 phi1^2 + ...: four roundings of terms that add up to 0.9 move the crank by so much.
+        // The stroke is 0.45 - 0.225 phi1^2 + ...: four ulps of terms whose sum is 0.9 move the crank by this much.
         let error = 16.0 * 2.0 * f64::EPSILON / expected.max(f64::EPSILON.sqrt());
         assert!((q.phi1 - expected).abs() <= error, "{delta:e}: {} is not {expected}", q.phi1);
     }
@@ -53,18 +53,18 @@ fn the_crank_keeps_its_direction() {
     for delta in [0.0, 1e-16] {
         let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
         path.advance_to(R + L - delta).unwrap();
-        // Out again: the crank goes on through the dead centre, and does not come back the way it went.
+        // On the way out the crank goes on through the dead centre, and does not return the way it came.
         let q = path.advance_to(0.4).unwrap().position;
         assert!((q.phi1 + crank_angle(0.4)).abs() < 1e-14, "{delta:e}: {q:?}");
     }
-    // Short of the dead centre the same call goes back.
+    // Before the dead centre the same call goes back.
     let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
     path.advance_to(R + L - 1e-6).unwrap();
     let q = path.advance_to(0.4).unwrap().position;
     assert!((q.phi1 - crank_angle(0.4)).abs() < 1e-14);
 }
 
-/// Five turns of the crank, the slider driving: nothing is derived anew.
+/// Five turns of the crank, driven by the slider, with one derivation.
 #[test]
 fn round_and_round() {
     let m = engine();

@@ -16,7 +16,7 @@ const SLOPES: [Slope; 2] = [Slope::Rising, Slope::Falling];
 fn velocity_at_the_singularity() {
     let m = Compressor { z1: 1.5, z2: 1.5 };
     for phi1 in [FRAC_PI_2, -FRAC_PI_2] {
-        // The formula has an answer, and another one for the same angle written otherwise.
+        // The formula has a result, and a different one for the same angle plus full turns.
         let ratio = |phi2: f64| -m.z1 * phi1.cos() / (m.z2 * phi2.cos());
         let answers = [ratio(-phi1), ratio(-phi1 + 4.0 * std::f64::consts::PI)];
         println!("phi1 = {phi1}: quotients {answers:?}");
@@ -30,7 +30,7 @@ fn velocity_at_the_singularity() {
     }
 }
 
-/// Beside it z3 = 2 z1 cos(phi1) on one branch and 0 on the other, to what sigma min allows.
+/// Near it, z3 = 2 z1 cos(phi1) on one branch and 0 on the other, within the error that sigma min predicts.
 #[test]
 fn positions_beside_it() {
     let m = Compressor { z1: 1.5, z2: 1.5 };
@@ -44,7 +44,7 @@ fn positions_beside_it() {
             let attainable = singularity::accuracy(&m, &pose).unwrap().unknowns();
             let error = (big(pose.z3) - expected).double().abs();
             worst = worst.max(error / attainable.largest());
-            // Away from it nothing is lost; near it what must be.
+            // Far from it no digit is lost; near it the unavoidable ones.
             assert!(error <= f64::EPSILON * 10_f64.powi(digits) * 8.0, "{error:e}");
         }
     }

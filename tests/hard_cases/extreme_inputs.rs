@@ -1,5 +1,5 @@
-//! Lengths and inputs that no mechanism has: infinite, not numbers, zero, negative, at the ends of the range. A
-//! position is an error, or every number of it is finite.
+//! Lengths and inputs of no real mechanism: infinite, NaN, zero, negative, at the ends of the range. A position is an
+//! error, or every number of it is finite.
 
 use linkage::{Dim, Elbow, PerInput, PositionError};
 use linkage_gallery::four_bar::{FourBar, FourBarBranch};
@@ -26,14 +26,14 @@ const EXTREME: [f64; 13] = [
 /// Trials of each mechanism.
 const TRIALS: usize = 1000;
 
-/// How many positions there were, and how many errors.
+/// The counts of positions and of errors.
 #[derive(Default)]
 struct Found {
     positions: usize,
     errors: usize,
 }
 
-/// Every number that can be got out of a position is finite.
+/// Checks that every number that follows from a position is finite.
 fn assert_finite<M: Kinematics<T>, T: linkage::Real + std::fmt::Debug>(
     m: &M,
     pose: &M::Pose,
@@ -86,7 +86,8 @@ fn assembles_or_says_why<M: ClosedForm<Scalar = f64> + Kinematics<f64> + Default
     }
 }
 
-/// Triangles of all shapes and sizes, in both precisions: what a well-conditioned triangle gives is not checked again.
+/// Triangles of all shapes and sizes, in both precisions: numbers of a well-conditioned triangle are not checked at run
+/// time.
 #[test]
 fn dyads_of_every_size() {
     let random = &mut SmallRng::seed_from_u64(5);
@@ -95,7 +96,7 @@ fn dyads_of_every_size() {
         let most = [3, 30, 70, 300, 540][random.random_range(0..5)];
         let mut length = || random.random_range(1.0..2.0) * 2_f64.powi(random.random_range(-most..=most));
         let (ground, crank, p, gap) = (length(), length(), length(), length());
-        // Nearly equal links, so that the line between their joints may be anything.
+        // Nearly equal links, so that the line between their joints has any length.
         let m = FourBar::new(ground, crank, p, p + gap);
         let single = m.clone().map(|length| length as f32);
         for branch in [Elbow::Left, Elbow::Right].map(FourBarBranch::new) {
@@ -117,7 +118,7 @@ macro_rules! of_method {
     (closed $Mechanism:ty, $random:ident, $found:ident) => {
         assembles_or_says_why::<$Mechanism>($random, $found);
     };
-    // Newton's method on such numbers is a matter of `tests/invalid_numbers`.
+    // For Newton's method on such numbers, see `tests/invalid_numbers`.
     (newton $Mechanism:ty, $random:ident, $found:ident) => {};
 }
 

@@ -1,6 +1,6 @@
 //! Freudenstein's equation by the tangent of the half angle, t = (-B +- sqrt(B^2 - 4 A C)) / (2 A) (R. L. Norton,
 //! "Design of Machinery", eq. 4.10b): where one root passes pi, A passes zero, and the other root loses all digits
-//! though nothing is special about it.
+//! though it is well conditioned.
 
 use linkage::Elbow;
 
@@ -45,7 +45,7 @@ fn the_other_root() {
         let operations: [fn(&Big, &Big) -> Big; 3] = [|x, y| x + y, |x, y| x * y, |x, y| x / y];
         let exact = half_angle(sides.map(big), angle, big, operations, |x| x.sqrt(), |y, x| y.atan2(x));
         let operations: [fn(&f64, &f64) -> f64; 3] = [|x, y| x + y, |x, y| x * y, |x, y| x / y];
-        // As it is programmed: the arc tangent of the quotient.
+        // The usual program: the arc tangent of the quotient.
         let naive = half_angle(sides, theta2.sin_cos(), |x| x, operations, |x| x.sqrt(), |y, x| (y / x).atan());
         let difference = |found: f64, exact: &Big| {
             let (sine, cosine) = (big(found) - exact).sin_cos();

@@ -32,7 +32,7 @@ const LIMITS_OF_X3: [[f64; 3]; 2] = [
     [20.485_857_827_923_454, -0.896_805_253_274_476_5, 0.587_587_325_408_120_1],
     [61.020_315_011_582_72, 2.230_138_586_607_81, -0.686_352_757_506_885_5],
 ];
-/// Of the figures as they are published.
+/// Relative error of the published figures.
 const PUBLISHED: [[f64; 3]; 4] = [
     [14.28309, -1.741377, 0.2585779],
     [61.66936, 1.983801, -0.6638797],
@@ -60,7 +60,7 @@ fn published_figures() {
     }
 }
 
-/// Driven by x3 its limits are dead points, and those of x1 are zeros of a rate.
+/// Driven by x3, the limits of x3 are dead points, and those of x1 are zeros of a rate.
 #[test]
 fn driven_by_x3() {
     let m = FoldsOfX3::default();
@@ -79,12 +79,12 @@ fn driven_by_x3() {
     of_x1.iter().zip(LIMITS_OF_X1).for_each(|(q, expected)| agrees(q, expected));
     of_x3.iter().zip(LIMITS_OF_X3).for_each(|(q, expected)| agrees(q, expected));
     agrees(&path.advance_to(1.0).unwrap().position, [5.0, 4.0, 1.0]);
-    // By the input alone it is not reached.
+    // It is not reached by the input alone.
     let error = Path::new(&m, &start(), Direction::Increasing).unwrap().advance_to(1.0);
     assert!(matches!(error, Err(PathError::DeadPoint { mechanism: "FoldsOfX3", .. })), "{error:?}");
 }
 
-/// Driven by x1 it is the other way round.
+/// Driven by x1, the limits of x1 are dead points, and those of x3 are zeros of a rate.
 #[test]
 fn driven_by_x1() {
     let m = FoldsOfX1::default();

@@ -1,6 +1,6 @@
-//! A six-bar whose second group locks while the first could turn on.
+//! A six-bar whose second group locks where the first could turn on.
 //!
-//! Known to fail: programs that look at det J alone, which say that the mechanism is singular but not where.
+//! Known to fail: programs that check det J alone, which report a singular mechanism but not the group.
 
 use linkage::continuation::{Direction, Event, Path};
 use linkage::{Elbow, PathError, PositionError};
@@ -13,7 +13,7 @@ fn six_bar() -> SixBar {
 
 const BRANCH: SixBarBranch = SixBarBranch::new(Elbow::Left, Elbow::Left);
 
-/// The first crank angle, beyond one where the mechanism can be assembled, where it cannot.
+/// The first crank angle, after one with a position, at which the mechanism cannot be assembled.
 fn limits(m: &SixBar) -> (f64, f64, &'static str) {
     let exists = |theta: f64| m.assemble(theta, BRANCH).is_ok();
     let start = (0..360).map(|k| f64::from(k).to_radians()).find(|&theta| exists(theta)).unwrap();
@@ -40,7 +40,7 @@ fn the_error_names_the_group() {
     assert_eq!((mechanism, group), ("SixBar", "theta4, theta5"));
     println!("locks at {}, {limit} by bisection of the assembly", path.position().theta1);
     assert!((gap - 0.5).abs() < 1e-14 && (path.position().theta1 - limit).abs() < 1e-14);
-    // Followed on, the second group changes its branch, said so by the event alone; the first never.
+    // Followed further, the second group changes its branch, with one event; the first never does.
     let expected = SixBarBranch { theta4_theta5: Elbow::Right, ..BRANCH };
     for _ in 0..5 {
         let q = path.advance().unwrap().position;

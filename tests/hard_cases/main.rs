@@ -1,5 +1,5 @@
-//! Hard cases, one a file, each with the program or the formula that is known to fail there. Where the usual form of
-//! a formula fails, it runs beside the emitted code and is seen to; the reference are 48-digit floats.
+//! Hard cases, one a file, each with the program or the formula that is known to fail there. If the usual formula
+//! fails, the test runs it too and checks that it fails; the reference are 48-digit floats.
 
 mod all_flat_at_once;
 mod bad_input;
@@ -33,12 +33,12 @@ fn relative(found: f64, expected: &Big) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / expected.double().abs() }
 }
 
-/// A mechanism of two links between joints that are given: a triangle from its sides.
+/// A mechanism of two links between given joints: a triangle from its sides.
 mod triangle {
     use linkage::linkage;
 
     linkage! {
-        /// Two links between the origin and a joint that is given.
+        /// Two links between the origin and a given joint.
         #[derive(Debug, Clone, PartialEq)]
         pub mechanism Triangle {
             param p = 1, q = 1;

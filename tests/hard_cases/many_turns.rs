@@ -1,7 +1,7 @@
 //! A crank that has made a million turns.
 //!
-//! Known to fail: a tolerance on residuals that does not know what an angle of 6e6 radians is rounded to, and steps
-//! that add up their rounding.
+//! Known to fail: an absolute tolerance on residuals, which ignores the ulp of an angle of 6e6 radians, and steps that
+//! accumulate rounding errors.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ use linkage_gallery::four_bar::*;
 
 const BRANCH: FourBarBranch = FourBarBranch::new(Elbow::Left);
 
-/// Turns `turns` times, looking once a turn.
+/// Follows `turns` turns with one check a turn.
 fn turn(from: f64, turns: u32, looks: u32) {
     let m = FourBar::default();
     let start = m.assemble(from, BRANCH).unwrap().coordinates();
@@ -22,7 +22,7 @@ fn turn(from: f64, turns: u32, looks: u32) {
         let q = path.advance_to(theta2).unwrap().position;
         let expected = m.assemble(theta2, BRANCH).unwrap();
         assert_eq!(q.theta2, theta2);
-        // The rocker's angles are small, and their sines and cosines those of this very input.
+        // The rocker's angles are small, and their sines and cosines are those of this very input.
         let error = (q.theta3 - expected.theta3_angle).abs().max((q.theta4 - expected.theta4_angle).abs());
         assert!(error < 1e-14, "{error:e} at {theta2}");
     }

@@ -1,7 +1,7 @@
-//! A four-bar whose lengths miss a change point by epsilon: two motions within the root of epsilon of each other.
+//! A four-bar whose lengths miss a change point by epsilon: two motions whose distance is the root of epsilon.
 //!
-//! Known to fail: a follower with a step of fixed size. Whatever its prediction, it cuts the corner where the motion
-//! turns aside, and goes on along the other motion.
+//! Known to fail: a follower with a step of fixed size. With any prediction it cuts the corner where the motion turns
+//! aside, and goes on along the other motion.
 
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ fn start(m: &FourBar, elbow: Elbow, theta: f64) -> FourBarCoordinates {
     m.assemble(theta, FourBarBranch::new(elbow)).unwrap().coordinates()
 }
 
-/// Whether a step of fixed size changes its motion, Newton's method started from what the velocity ratios predict.
+/// True if a follower with a fixed step changes its motion: Newton's method from the prediction of the velocity ratios.
 fn fixed_step_changes(m: &FourBar, step: f64) -> bool {
     let mut q = start(m, Elbow::Left, PI - 0.3 * step);
     let before = m.determinant(&m.pose_at(&q));
@@ -48,7 +48,8 @@ fn round_the_corner() {
                 let pose = m.pose_at(&step.position);
                 assert_eq!(m.branch_of(&pose), branch, "{epsilon} {:?}", step.position);
                 let expected = m.assemble(step.position.theta2, branch).unwrap();
-                // Rounding of the closures, whose terms add up to 8, through a determinant that is nearly zero.
+                // The rounding error of the residuals, whose terms have the sum 8, divided by a nearly zero
+                // determinant.
                 let error = 4e-14 / m.determinant(&expected).abs();
                 assert!(
                     (pose.theta4.im - expected.theta4.im).abs() < error.max(1e-13),
@@ -64,7 +65,7 @@ fn round_the_corner() {
             }
             println!("epsilon {epsilon:e}: {steps} steps, {elbow:?}");
             assert!(steps < 400);
-            // And in one call, over the corner and back.
+            // The corner in one call, there and back.
             let mut path = Path::new(&m, &start(&m, elbow, 2.5), Direction::Increasing).unwrap();
             for theta in [3.8, 2.4, PI + 0.1] {
                 let q = path.advance_to(theta).unwrap().position;
@@ -74,7 +75,7 @@ fn round_the_corner() {
     }
 }
 
-/// With nothing missing, it is a change point, and the tangents are those of the two motions: ratios 1 and -1/2.
+/// At epsilon = 0 it is a change point with the tangents of the two motions: ratios 1 and -1/2.
 #[test]
 fn nothing_missing() {
     let m = near(0.0);

@@ -1,16 +1,17 @@
-//! Coupler and rocker nearly parallel: the determinant of J from rounded sines, cos a sin b - sin a cos b, loses as
-//! many digits as the links are parallel, and with it every velocity. A factorisation of J by a library and the
-//! products that symbolic tools emit do so; so does W. Kahan's difference of products, the sines being rounded before.
-//! The emitted code has sin(a - b), of the stored angles.
+//! Coupler and rocker nearly parallel: the determinant of J from rounded sines, cos a sin b - sin a cos b, loses digits
+//! as the angle between the links decreases, and so does every velocity. This is the fault of a factorisation of J by a
+//! library, of the products that symbolic tools emit, and of W. Kahan's difference of products, as the sines are
+//! rounded before. The emitted code has sin(a - b), of the stored angles.
 //!
 //! In doubles no formula of stored sines and cosines keeps every velocity within 4e-16. Measured at the poses below, at
 //! sin(theta3 - theta4) = 1e-3, the worst of the emitted form is 5.9e-16. With every sine rounded correctly and the
-//! exact determinant it is 5.3e-16; with a division each and l4 cancelled, three roundings beside the numerator's,
-//! 5.0e-16; with the numerator as W. Kahan's difference of products the same 5.0e-16. Only a numerator from sines of
-//! more than 53 bits comes to 3.7e-16: sin(theta2 - theta4) as s2 c4 - c2 s4 has the roundings of four stored numbers,
-//! enlarged by (|s2 c4| + |c2 s4|) / |sin(theta2 - theta4)|, up to two here; the sine of the rounded difference has the
-//! difference's and comes to 6.5e-16. The accelerations have the squares of the velocities, so that correctly rounded
-//! velocities alone leave 5.9e-16. The same code in double-double arithmetic loses nothing but the last rounding.
+//! exact determinant it is 5.3e-16; with a division each and l4 cancelled, three more rounding errors than the
+//! numerator's, 5.0e-16; with the numerator as W. Kahan's difference of products also 5.0e-16. Only a numerator from
+//! sines of more than 53 bits comes to 3.7e-16: sin(theta2 - theta4) as s2 c4 - c2 s4 has the rounding errors of four
+//! stored numbers, enlarged by (|s2 c4| + |c2 s4|) / |sin(theta2 - theta4)|, up to two here; the sine of the rounded
+//! difference has that of the difference and comes to 6.5e-16. The accelerations have the squares of the velocities, so
+//! that correctly rounded velocities alone leave 5.9e-16. In double-double arithmetic the same code has only the last
+//! rounding error.
 
 use linkage_double::DoubleDouble;
 use nalgebra::vector;
@@ -42,7 +43,7 @@ fn exact(m: &FourBar, q: &FourBarCoordinates, rate: f64, acceleration: f64) -> [
     [[w3, w4], accelerations]
 }
 
-/// The same by the emitted code in double-double arithmetic, rounded to doubles.
+/// The rates by the emitted code in double-double arithmetic, rounded to doubles.
 fn in_double_double(m: &FourBar, q: &FourBarCoordinates, rate: f64, acceleration: f64) -> [[f64; 2]; 2] {
     let [l1, l2, l3, l4] = [m.l1, m.l2, m.l3, m.l4].map(DoubleDouble::from);
     let m = FourBar { l1, l2, l3, l4 };
@@ -72,7 +73,7 @@ fn velocities_and_accelerations() {
         for _ in 0..1000 {
             let theta4 = random.random_range(-3.0..3.0);
             let theta3 = theta4 + 10_f64.powi(-digits).asin();
-            // The crank across the links: what is lost, is lost in the determinant.
+            // The crank across the links: all loss is in the determinant.
             let theta2 = theta4 + random.random_range(0.5..2.5);
             let q = FourBarCoordinates { theta2, theta3, theta4 };
             let exact = exact(&m, &q, 1.5, -0.7);
@@ -81,7 +82,7 @@ fn velocities_and_accelerations() {
             let acceleration = m.acceleration(&pose, &velocity, -0.7).unwrap();
             let found = [[velocity.theta3, velocity.theta4], [acceleration.theta3, acceleration.theta4]];
             let in_double_double = in_double_double(&m, &q, 1.5, -0.7);
-            // J from the same sines, by a library.
+            // J from the same sines, factorised by a library.
             let j = m.jacobian_unknowns(&pose).lu();
             let by_library = j.solve(&-(m.jacobian_inputs(&pose) * vector![1.5])).unwrap();
             let rate = FourBarRates { theta3: by_library[0], theta4: by_library[1], theta2: 1.5 };
@@ -105,7 +106,7 @@ fn velocities_and_accelerations() {
         println!("    double-double at worst {}", short(&double));
         within(velocity, [1.3e-16, 4.6e-16, 6e-16]);
         within(acceleration, [2.8e-16, 1.2e-15, 1.4e-15]);
-        // Half a rounding of the double that is returned.
+        // Half an ulp of the double that is returned.
         assert!(double.iter().all(|&error| error <= 1.12e-16), "{double:?}");
         let lost = 1e-17 * 10_f64.powi(digits);
         assert!(naive[0] > lost && naive[1] > lost, "{naive:?}");

@@ -1,6 +1,6 @@
 //! Needles: W. Kahan, "Miscalculating Area and Angles of a Needle-like Triangle" (2014), table of page 5. Heron's
-//! formula sqrt(s (s - a) (s - b) (s - c)) gives nothing of some of them. The triangles are those of the table as far
-//! as their sides are needles in doubles.
+//! formula sqrt(s (s - a) (s - b) (s - c)) loses all digits of some of them. The triangles are those of the table whose
+//! sides are needles in doubles.
 
 use linkage::Elbow;
 
@@ -28,7 +28,7 @@ fn areas() {
         let s = (a + b + c) / 2.0;
         let heron = relative((s * (s - a) * (s - b) * (s - c)).sqrt(), &expected);
         assert!(heron >= least, "{sides:?}: Heron {heron:e}");
-        // Whichever side lies between the joints.
+        // Each side in turn is the one between the joints.
         for [p, q, d] in [[a, b, c], [b, c, a], [c, a, b]] {
             let m = Triangle { p, q };
             let branch = TriangleBranch { alpha_beta: Elbow::Left };
@@ -41,9 +41,9 @@ fn areas() {
     }
 }
 
-/// A triangle that is none is said to be none. One that is flat to one rounding of its sides is flat: links of 33.3
-/// and 66.7 are in line over 100. Kahan's formula takes the doubles at their word, and of 5278.64055, 94721.35941 and
-/// 99999.99996, which are flat as decimals, finds an area of 9.54.
+/// Sides that are no triangle give an error. Sides that are flat to one ulp are flat: links of 33.3 and 66.7 are in
+/// line over 100. Kahan's formula takes the doubles as exact, and of 5278.64055, 94721.35941 and 99999.99996, which are
+/// flat as decimals, finds an area of 9.54.
 #[test]
 fn no_triangle() {
     let branch = TriangleBranch { alpha_beta: Elbow::Right };
@@ -55,12 +55,12 @@ fn no_triangle() {
         let flat = Triangle { p, q }.assemble(TriangleInputs { x: d, y: 0.0 }, branch).unwrap();
         assert_eq!(flat.determinant, 0.0);
     }
-    // Two roundings are no longer flat.
+    // Off by two ulps, they are no longer flat.
     let nearly = Triangle { p: 33.3, q: 66.7 }.assemble(TriangleInputs { x: 100.0 - 3e-14, y: 0.0 }, branch).unwrap();
     assert!(nearly.determinant != 0.0);
 }
 
-/// No number, no length and no line are errors, on the way of flat triangles too.
+/// NaN, zero lengths and coincident joints give errors, for flat triangles too.
 #[test]
 fn bad_input() {
     let branch = TriangleBranch { alpha_beta: Elbow::Left };

@@ -1,6 +1,5 @@
-//! Guides that stand upright or lie 0.05 degrees off an axis: a guide as the line y = m x + k, met with the rod's
-//! circle, is what programs of analytic geometry do; m is 1.6e16 of an upright one and amplifies every rounding of an
-//! oblique one.
+//! Guides that are upright or 0.05 degrees off an axis. Programs of analytic geometry intersect the line y = m x + k
+//! with the rod's circle; m is 1.6e16 for an upright guide and amplifies every rounding error of an oblique one.
 
 use linkage::{Slider, linkage};
 
@@ -21,7 +20,8 @@ linkage! {
     }
 }
 
-/// Where circle and line y = m x + k meet, the larger root as a distance along the line from the foot of the pivot.
+/// The intersection of circle and line y = m x + k: the larger root as a distance along the line from the foot of the
+/// pivot.
 fn by_slope(m: &TiltedSliderCrank, theta2: f64) -> f64 {
     let slope = m.tilt.tan();
     let foot = [-m.c * m.tilt.sin(), m.c * m.tilt.cos()];

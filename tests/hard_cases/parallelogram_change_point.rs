@@ -1,7 +1,7 @@
 //! A parallelogram driven through its change points.
 //!
-//! Known to fail: Newton's method started at the last position, as solvers of assemblies do that know no motion. It
-//! falls into the antiparallelogram near a change point and says nothing.
+//! Known to fail: Newton's method started at the last position, as assembly solvers without a motion do. Near a change
+//! point it falls into the antiparallelogram without an error.
 
 use std::f64::consts::{PI, TAU};
 
@@ -24,12 +24,12 @@ fn at(theta: f64) -> CoupledWheelsCoordinates {
     CoupledWheelsCoordinates { theta, rod: 0.0, follower: theta }
 }
 
-/// Whether a position is one of the parallelogram, where the follower stands as the crank does.
+/// True if a position is one of the parallelogram, in which the follower is parallel to the crank.
 fn is_parallel(q: &CoupledWheelsCoordinates) -> bool {
     (q.follower - q.theta).sin().abs() < 1e-6 && (q.follower - q.theta).cos() > 0.0
 }
 
-/// Whether a follower without prediction stays on the parallelogram.
+/// True if a follower without prediction stays on the parallelogram.
 fn naive(start: f64, step: f64, steps: u32) -> Result<bool, Error> {
     let m = wheels();
     let mut q = at(start);
@@ -77,7 +77,7 @@ fn never_an_antiparallelogram() {
                 assert_eq!(q.theta, theta);
                 assert!(q.rod.abs() < 1e-7 && (q.follower - theta).abs() < 1e-7, "{start} {step} {q:?}");
             }
-            // Every half turn has one.
+            // Every half turn has a change point.
             let expected = ((start + step * f64::from(steps)) / PI).floor() as u32;
             assert_eq!(passed, expected, "from {start} by {degrees} degrees");
         }
@@ -103,7 +103,7 @@ fn steps_that_land_on_it() {
             assert_eq!(matches!(reached.event, Some(Event::ChangePoint { .. })), k % parts == 0, "{k} of {parts}");
         }
     }
-    // A hair before it and a hair behind it.
+    // Just before it and just after it.
     for hair in [1e-3, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12, 1e-15] {
         let mut path = Path::new(&m, &at(1.0), Direction::Increasing).unwrap();
         for theta in [PI - hair, PI + hair, PI - hair, PI + hair, PI + 2.0 * hair, PI + 1.0] {
@@ -139,7 +139,7 @@ fn policies() {
     let anti = |q: &CoupledWheelsCoordinates| !is_parallel(q) && m.residual(&m.pose_at(q)).amax() < 1e-14;
     let mut switched = start(AtChangePoint::Switch);
     assert!(anti(&switched.advance_to(4.0).unwrap().position));
-    // Half a turn on, at the next change point, it goes back to the parallelogram.
+    // Half a turn further, at the next change point, it returns to the parallelogram.
     assert!(is_parallel(&switched.advance_to(7.0).unwrap().position));
     let mut stopped = start(AtChangePoint::Stop);
     let error = PathError::ChangePoint { mechanism: "CoupledWheels", group: "rod, follower" };
@@ -157,7 +157,7 @@ fn policies() {
     let q = other.advance().unwrap().position;
     assert!(anti(&q) || (q.theta - PI).abs() < 1e-6);
     assert!(anti(&other.advance().unwrap().position));
-    // At a start on the change point the input does not say which motion is meant.
+    // At a start on the change point the input does not determine the motion.
     for direction in [Direction::Increasing, Direction::Decreasing] {
         assert_eq!(Path::new(&m, &at(0.0), direction).err(), Some(error));
         assert_eq!(Path::new(&m, &at(TAU), direction).err(), Some(error));

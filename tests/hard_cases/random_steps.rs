@@ -1,7 +1,7 @@
 //! Random steps over every mechanism of the gallery and over random four-bars.
 //!
-//! Known to fail: followers that trust Newton's method to find the nearest position. Each position is held against
-//! the closed form of the branch that the events alone allow; what is not an event must be a typed error.
+//! Known to fail: followers that rely on Newton's method for the nearest position. Each position is compared with the
+//! closed form of the branch that the events determine; every other end must be a typed error.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,7 +12,7 @@ use linkage_gallery::{ClosedForm, Fixture, all_mechanisms};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-/// What came of some steps.
+/// The outcomes of steps.
 #[derive(Debug, Default, Clone, Copy)]
 struct Count {
     steps: usize,
@@ -32,13 +32,13 @@ impl std::ops::AddAssign for Count {
     }
 }
 
-/// From 1e-6 to 2 radians, either way, small ones as often as large ones.
+/// A step from 1e-6 to 2 radians, either way, evenly by its logarithm.
 fn stride(random: &mut SmallRng) -> f64 {
     let size = 2.0 * 10_f64.powf(random.random_range(-6.0..0.0));
     if random.random() { size } else { -size }
 }
 
-/// The largest difference of the unknowns: of angles but for whole turns, of lengths by the largest.
+/// The largest difference of the unknowns: of angles modulo full turns, of lengths relative to the largest.
 fn difference<M: Mechanism<Scalar = f64>>(one: &M::Coordinates, two: &M::Coordinates) -> f64 {
     let (one, two) = (M::unknowns(one), M::unknowns(two));
     let is_length = |index: &usize| !M::UNKNOWN_ANGLES[*index];
@@ -47,12 +47,12 @@ fn difference<M: Mechanism<Scalar = f64>>(one: &M::Coordinates, two: &M::Coordin
         turn if M::UNKNOWN_ANGLES[index] => 2.0 * (turn / 2.0).sin().abs(),
         length => length.abs() / largest,
     };
-    // A length that is zero to the last digit on both sides is no difference.
+    // If a length is exactly zero in both, there is no difference.
     (0..M::U::COUNT).map(part).filter(|part| !part.is_nan()).fold(0.0, f64::max)
 }
 
-/// Sends the input here and there, from one of the positions that `starts` has at an input. On the way no position may
-/// be another than the one that `expected` has from where the walk started, from the last position, at the input.
+/// Sends the input to random values, from one of the positions that `starts` has at an input. Every position on the way
+/// must be that of `expected`, from the start of the walk, the last position and the input.
 fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
     m: &M,
     starts: impl Fn(f64, &mut SmallRng) -> Vec<M::Coordinates>,
@@ -82,7 +82,7 @@ fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
                 Ok(step) => {
                     let is_branch = m.same_branch(&m.pose_at(&start), &m.pose_at(&step.position));
                     let off = expected(&start, &before, input).map(|q| difference::<M>(&step.position, &q));
-                    // The closed form and the follower meet to rounding, or at a dead point to its root.
+                    // The closed form and the follower agree to rounding error, or at a dead point to the root of it.
                     if !is_branch || off.is_none_or(|off| off > 1e-7) {
                         let [before, after] = [before, step.position].map(|q| (M::inputs(&q)[0], M::unknowns(&q)));
                         println!("{} from {before:?} to {after:?}: {off:?}", M::NAME);
@@ -100,7 +100,7 @@ fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
     count
 }
 
-/// What may end a walk.
+/// Counts the end of a walk.
 fn stop(count: &mut Count, error: &PathError) {
     match error {
         PathError::DeadPoint { .. } => count.dead_points += 1,
@@ -111,7 +111,7 @@ fn stop(count: &mut Count, error: &PathError) {
 }
 
 /// The position of a mechanism without closed form at an input, from another position, by steps so short that Newton's
-/// method has nothing to choose: each corrects the tangent by a hundredth of the step at most.
+/// method has no choice: each corrects the tangent by a hundredth of the step at most.
 fn by_short_steps<M: Mechanism<Scalar = f64, V = D<1>>>(
     m: &M,
     from: &M::Coordinates,
@@ -145,7 +145,7 @@ fn by_short_steps<M: Mechanism<Scalar = f64, V = D<1>>>(
     }
 }
 
-/// Walks by the number of inputs: those of several all follow one parameter.
+/// Walks by the number of inputs: several inputs follow one parameter.
 trait Inputs: Dim {
     fn closed<M: ClosedForm<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
     fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
@@ -157,7 +157,7 @@ impl Inputs for D<1> {
         let starts = |input: f64, _: &mut SmallRng| {
             M::all_branches().into_iter().filter_map(|branch| Some(M::coordinates_of(&at(input, branch)?))).collect()
         };
-        // In the turns that are nearest to the last position.
+        // The turns that are nearest to the last position.
         let expected = |start: &M::Coordinates, before: &M::Coordinates, input: f64| {
             let guess = M::with_inputs(before, [input].into());
             Some(M::coordinates_of(&m.assemble_near(&guess, m.branch_of(&m.pose_at(start))).ok()?))
@@ -204,8 +204,8 @@ macro_rules! several_inputs {
 
 several_inputs!(2 4);
 
-/// Inputs with their first two derivatives by the parameter: angles at different rates, lengths round circles or ellipses
-/// that leave what the mechanism reaches.
+/// Inputs with their first two derivatives by the parameter: angles at different rates, lengths round circles or
+/// ellipses that leave the range of the mechanism.
 fn round<M: Mechanism<Scalar = f64>>(scale: f64, s: f64) -> [PerInput<M>; 3] {
     let parts = |index: usize| {
         let place = index as f64;
@@ -236,11 +236,11 @@ macro_rules! walks {
     };
 }
 
-// `cam_follower` is lost at times on the return: the law there is a difference of nearly equal numbers and has fewer digits
-// than its scale says, which the follower does not take for rounding error.
+// `cam_follower` is lost at times on the return: the law there is a difference of nearly equal numbers and has fewer
+// digits than its scale suggests, which the follower does not take for rounding error.
 all_mechanisms!(walks);
 
-/// Four-bars of random lengths, followed by arc length through whatever they have.
+/// Four-bars of random lengths, followed by arc length through all their events.
 fn four_bars(steps: usize) -> Count {
     let (random, mut count) = (&mut SmallRng::seed_from_u64(11), Count::default());
     while count.steps < steps {

@@ -1,7 +1,7 @@
 //! Lengths of 2^-300 to 2^300, and joints 1e6 lengths from the origin. A tolerance of 1e-9, as Newton's method has it
-//! in most programs (`scipy.optimize.fsolve` and the like compare residuals as they are), accepts anything of tiny
-//! lengths and nothing of huge ones; circles written with their constant terms, x^2 + y^2 + e x + f y + g = 0, lose the
-//! square of the offset.
+//! in most programs (`scipy.optimize.fsolve` and others compare residuals with absolute numbers), accepts anything for
+//! tiny lengths and nothing for huge ones; circles written with their constant terms, x^2 + y^2 + e x + f y + g = 0,
+//! lose the square of the offset.
 
 use linkage::{Elbow, linkage};
 
@@ -59,7 +59,7 @@ linkage! {
     }
 }
 
-/// Where the circles of two links meet, by the radical line of their equations, the joint left of the line.
+/// The intersection of the circles of two links by the radical line of their equations: the joint left of the line.
 fn by_radical_line([x1, y1]: [f64; 2], r1: f64, [x2, y2]: [f64; 2], r2: f64) -> [f64; 2] {
     let g = |x: f64, y: f64, r: f64| x * x + y * y - r * r;
     let (a, b, c) = (2.0 * (x2 - x1), 2.0 * (y2 - y1), g(x2, y2, r2) - g(x1, y1, r1));
@@ -80,7 +80,7 @@ fn offsets() {
         let (sine, cosine) = big(theta2).sin_cos();
         let joint = [big(far.ax) + big(far.l2) * cosine, big(far.ay) + big(far.l2) * sine];
         let d = [big(far.dx) - &joint[0], big(far.dy) - &joint[1]];
-        // The joint C as two circles say it.
+        // The joint C from two circles.
         let square = &d[0] * &d[0] + &d[1] * &d[1];
         let [p2, q2] = [far.l3, far.l4].map(|length| big(length) * big(length));
         let along = (&square + &p2 - &q2) / (big(2.0) * &square);

@@ -39,7 +39,7 @@ fn tangent() {
         assert!((angle.abs() - 2.0 * (pose[0].b / m.c).atan()).abs() <= 1e-15, "{angle:e}");
     }
     assert!(naive_worst >= 1e-10, "{naive_worst:e}");
-    // At the tangency itself there is one position, and which way it goes on is the side.
+    // At the tangency itself there is one position; the branch determines the way on.
     let m = InvertedSliderCrank { a: 60.0, c: 40.0, d: 100.0, gamma: FRAC_PI_2 };
     for slider in [Slider::Far, Slider::Near] {
         let pose = m.assemble(0.0, branch(slider)).unwrap();
@@ -47,7 +47,7 @@ fn tangent() {
         assert!(pose.b.abs() <= 1e-14 && (pose.theta4.re + 1.0).abs() <= 1e-15, "{pose:?}");
         assert!(m.velocity_ratios(&pose).is_err());
     }
-    // Nearer there is none.
+    // Nearer there is no position.
     assert!(InvertedSliderCrank { c: 40.0 + 1e-9, ..m }.assemble(0.0, branch(Slider::Far)).is_err());
 }
 

@@ -1,5 +1,5 @@
-//! Two circles that nearly touch: the half chord sqrt(r1^2 - a^2) with a = (r1^2 - r2^2 + d^2) / (2 d), as P. Bourke
-//! ("Circles and spheres", 1997) and most programs have it, loses half of the digits, and then all.
+//! Two circles that nearly touch: the half chord sqrt(r1^2 - a^2) with a = (r1^2 - r2^2 + d^2) / (2 d), as in P. Bourke
+//! ("Circles and spheres", 1997) and most programs, loses half of the digits, and then all.
 
 use linkage::Elbow;
 
@@ -31,7 +31,7 @@ fn half_chords() {
                 let ours = relative(pose.determinant.abs() / d, &expected);
                 println!("gap 1e-{digits} at ({x:.3}, {y:.3}): naive {naive:.1e}, emitted {ours:.1e}");
                 assert!(ours <= 4.0 * f64::EPSILON, "{ours:e}");
-                // Along an axis, where d is what was given.
+                // Along an axis, where d is the given number.
                 if x == 0.0 || y == 0.0 {
                     naive_worst = naive_worst.max(naive);
                 }

@@ -1,4 +1,4 @@
-//! A four-bar that is started with coupler and rocker in line: J has no inverse at the very start.
+//! A four-bar that starts with coupler and rocker in line: J has no inverse at the very start.
 //!
 //! Known to fail: every program that begins by solving J u' = -A v'.
 
@@ -7,7 +7,7 @@ use linkage::{Elbow, PathError, PositionError};
 
 use linkage_gallery::four_bar::*;
 
-/// The crank stands upright: 3, 4 and 2 + 3 are the sides of a right triangle.
+/// The crank is upright: 3, 4 and 2 + 3 are the sides of a right triangle.
 fn stretched() -> (FourBar, FourBarCoordinates) {
     let along = (-4_f64).atan2(3.0);
     let q = FourBarCoordinates { theta2: std::f64::consts::FRAC_PI_2, theta3: along, theta4: along };
@@ -18,7 +18,7 @@ fn stretched() -> (FourBar, FourBarCoordinates) {
 fn both_ways_out() {
     let (m, q) = stretched();
     assert!(matches!(m.velocity_ratios(&m.pose_at(&q)), Err(PositionError::Singular { .. })));
-    // The input stands still: it does not say which way.
+    // The rate of the input is zero, which does not determine the direction.
     for direction in [Direction::Increasing, Direction::Decreasing] {
         assert_eq!(Path::new(&m, &q, direction).err(), Some(PathError::NoDirection { mechanism: "FourBar" }));
     }
@@ -39,7 +39,7 @@ fn both_ways_out() {
     }
 }
 
-/// A direction across the path says nothing.
+/// A direction perpendicular to the path determines nothing.
 #[test]
 fn across() {
     let (m, q) = stretched();

@@ -1,6 +1,6 @@
 //! Three sides to an angle by the law of cosines: acos((p^2 + q^2 - d^2) / (2 p q)) of a flat or a pointed triangle
 //! loses half of the digits, and then all. W. Kahan, "Miscalculating Area and Angles of a Needle-like Triangle"
-//! (2014), gives the formula without that fault, which here is the reference's double.
+//! (2014), gives the accurate formula, which here is evaluated as the reference.
 
 use linkage::Elbow;
 
@@ -47,7 +47,7 @@ fn stretched() {
         let d = p + q - 10_f64.powi(-digits);
         let beyond = |angle: f64| std::f64::consts::PI - angle;
         let expected = linkage_oracle::precise::pi() - exact(p, q, d);
-        // What is left of the angle to pi, where its double has no digits any more, is in the determinant.
+        // The difference of the angle from pi, which its double no longer resolves, is in the determinant.
         let m = Triangle { p, q };
         let pose = m.assemble(TriangleInputs { x: d, y: 0.0 }, TriangleBranch { alpha_beta: Elbow::Left }).unwrap();
         let ours = relative((pose.determinant.abs() / (p * q)).asin(), &expected);

@@ -1,5 +1,5 @@
-//! A crank after a million turns: an angle brought back to one turn by the remainder of 2 pi as a double is wrong by a
-//! million roundings of 2 pi.
+//! A crank after a million turns: an angle reduced by the remainder of 2 pi as a double is wrong by a million rounding
+//! errors of 2 pi.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use linkage_oracle::precise::{Big, Scalar, big};
 
 use linkage_gallery::four_bar::*;
 
-/// The direction of l3 on the left: V . D and D x V as of two circles.
+/// The direction of l3 on the left: V . D and D x V from two circles.
 fn exact(m: &FourBar, theta2: f64) -> Big {
     let (sine, cosine) = big(theta2).sin_cos();
     let d = [big(m.l1) - big(m.l2) * cosine, -(big(m.l2) * sine)];

@@ -1,6 +1,6 @@
 //! A start that Newton's method takes to the mirrored position.
 //!
-//! Known to fail: solvers that give what they find: of these guesses a part comes out mirrored.
+//! Known to fail: solvers that return any solution: part of these guesses gives the mirrored one.
 
 use linkage::continuation::{Direction, Path};
 use linkage::{PathError, PositionError, position};

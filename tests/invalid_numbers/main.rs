@@ -1,5 +1,5 @@
-//! Every public function of every mechanism and scene of these tests, called with random and extreme arguments: no `Ok`
-//! holds a number that is not finite, no call takes more than a stated number of evaluations, none panics.
+//! Every public function of every mechanism and scene of these tests, called with random and extreme arguments: every
+//! number of an `Ok` is finite, no call takes more than a stated number of evaluations, none panics.
 //!
 //! The program that makes the calls is written from what the compiler emits: each `pub fn` of each `impl` becomes one
 //! call, with arguments by their types, and each emitted type is taken apart field by field. So a new mechanism, a new
@@ -7,7 +7,7 @@
 //!
 //! ```text
 //! cargo test --test invalid_numbers                                  100 000 calls
-//! INVALID_NUMBERS_TRIALS=100000 cargo test --test invalid_numbers    so many calls of each function, in release
+//! INVALID_NUMBERS_TRIALS=100000 cargo test --test invalid_numbers    this many calls of each function, in release
 //! ```
 
 mod program;
@@ -16,10 +16,10 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-/// Of each function, in an ordinary run of the tests.
+/// Calls of each function in an ordinary run of the tests.
 const TRIALS: &str = "40";
 
-/// The program is built by itself: what is slow in it are the functions under test.
+/// The program is built with optimisation, because the functions under test take most of the time.
 const MANIFEST: &str = r#"
 [package]
 name = "invalid_numbers"
@@ -62,7 +62,7 @@ fn no_ok_holds_a_number_that_is_not_finite() {
     let main = ("main.rs".to_owned(), MAIN.replace("ROOT", root));
     for (file, text) in program::files(Path::new(root), None).into_iter().chain([main]) {
         let path = folder.join("src").join(file);
-        // What is the same is not built again.
+        // An unchanged program is not built again.
         if fs::read_to_string(&path).ok().as_ref() != Some(&text) {
             fs::write(path, text).unwrap();
         }

@@ -20,7 +20,7 @@ pub fn files(root: &Path, chosen: Option<&[&str]>) -> Vec<(String, String)> {
         let mut text = functions + &prettyplease::unparse(&emitted);
         let calls = Calls::of(&emitted);
         write!(text, "\npub mod calls {{ use super::*; use crate::harness as h;\n{}}}\n", calls.text).unwrap();
-        // Generated calls use whatever there is; warnings of emitted code are the business of `emitted_source`.
+        // Generated calls use all emitted functions; `emitted_source` checks the warnings of emitted code.
         writeln!(modules, "#[allow(warnings)] mod {module};").unwrap();
         for subject in calls.subjects {
             writeln!(subjects, "(\"{subject}\", {module}::calls::{}),", snake(&subject)).unwrap();
@@ -79,7 +79,7 @@ struct Calls {
     subjects: Vec<String>,
 }
 
-/// What is emitted, by its types.
+/// The emitted items, by their types.
 #[derive(Default)]
 struct Emitted<'a> {
     structs: BTreeMap<String, &'a ItemStruct>,
@@ -242,7 +242,7 @@ impl Calls {
     }
 }
 
-/// Results that become arguments, by the endings of their types, and where they are kept.
+/// Results that become arguments, by the ends of their types, and the pools that keep them.
 const POOLS: [(&str, &str); 5] = [
     ("Coordinates", "positions"),
     ("Rates", "rates"),
@@ -259,12 +259,12 @@ fn result_of(function: &Signature) -> Option<String> {
     }
 }
 
-/// What a result is if it is no error.
+/// The type of a result without its error.
 fn success(of: &str) -> Option<&str> {
     Some(of.strip_prefix("Result<")?.rsplit_once(',')?.0)
 }
 
-/// Where values of a type are kept.
+/// The pool for values of a type.
 fn pool_of(of: &str) -> Option<&'static str> {
     let name = of.strip_suffix("<T>")?;
     let is_plain = name.chars().all(char::is_alphanumeric);
@@ -318,7 +318,7 @@ fn call(name: &str, function: &Signature) -> String {
             "positions.keep(r.coordinates)".to_owned()
         }
         Some(of) => pool_of(of).map_or("()".to_owned(), |pool| format!("{pool}.keep(r)")),
-        // What a function without `Result` gives for invalid numbers, its description says.
+        // Functions without `Result` document their results for invalid numbers.
         None => String::new(),
     };
     let _ = if of.starts_with("implIterator<Item=Result<") || of.starts_with("impl::core::iter::Iterator<Item=Result<")

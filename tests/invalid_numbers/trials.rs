@@ -7,8 +7,8 @@ use rand::rngs::SmallRng;
 
 use crate::harness::{Source, Subject, Tally, listen};
 
-/// `invalid_numbers 100000` makes so many trials of each subject; `invalid_numbers 100000 FourBar` of those whose names
-/// begin so; `invalid_numbers seed 17 FourBar` repeats one trial and tells of it.
+/// `invalid_numbers 100000` makes this many trials of each subject; `invalid_numbers 100000 FourBar` of those whose
+/// names begin so; `invalid_numbers seed 17 FourBar` repeats one trial and prints it.
 pub fn main(subjects: &[(&'static str, Subject)]) -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -29,7 +29,7 @@ pub fn main(subjects: &[(&'static str, Subject)]) -> ExitCode {
     for (number, (name, subject)) in chosen.enumerate() {
         let mut tally = Tally::default();
         for seed in seeds.clone() {
-            // Of each mechanism other numbers.
+            // Each mechanism has other numbers.
             let random = SmallRng::seed_from_u64(seed.wrapping_mul(1_000_003) ^ (number as u64) << 48);
             subject(&mut tally, &mut Source::new(Box::new(random), seed));
         }

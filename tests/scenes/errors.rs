@@ -1,10 +1,10 @@
-//! What is refused, by name.
+//! Errors of scenes, with the names of their causes.
 
 use linkage::{InputError, MotionError, PositionError, Scene};
 
 use super::machines::*;
 
-/// The name of what is wrong, as the error gives it.
+/// Checks the name in the error message.
 #[test]
 fn errors_name_the_body_or_the_effect() {
     let q = four_bar_at([0.4]).unwrap();
@@ -33,7 +33,7 @@ fn errors_name_the_body_or_the_effect() {
     let laws = Loaded::default().acceleration(f64::NAN, &q, inputs);
     assert_eq!(laws.map(|_| ()), named("torque on theta2"));
 
-    // Without masses nothing resists; without one of two only that input.
+    // Without masses no input has inertia; without one of two, that input has none.
     let mut light = Idle::default();
     (light.m2, light.j2, light.m3, light.j3, light.m4, light.j4) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     let error = light.acceleration(0.0, &q, inputs).unwrap_err();
@@ -51,7 +51,7 @@ fn errors_name_the_body_or_the_effect() {
     assert_eq!(start(0.0, 16.0), wrong("rate", 1.0));
     let without_rate = start(0.0, f64::NAN);
     assert!(matches!(without_rate, Err(MotionError::Input(InputError::Inconsistent { quantity: "rate", .. }))));
-    // Nor where the mechanism is torn apart.
+    // A start whose loops are open.
     let open = LoadedFourBarCoordinates { theta2: 0.4, theta3: f64::NAN, theta4: 0.0 };
     let torn = Idle::default().start(0.0, &open, &inputs);
     assert!(matches!(torn, Err(MotionError::Position(PositionError::NotFinite { .. }))));

@@ -6,8 +6,8 @@ use num_dual::Dual64;
 use super::machines::*;
 use super::virtual_work::{Placed, Positions, agrees, at_random, constant, virtual_work};
 
-/// The reaction where the rocker meets the ground, and then each body by Newton's and Euler's laws: forces from
-/// joint to joint, moments about each centre, and what is left at the crank is the torque of the drive.
+/// The reaction where the rocker meets the ground, and then each body by Newton's and Euler's laws: forces from joint
+/// to joint, moments about each centre; the remaining moment at the crank is the torque of the drive.
 #[test]
 fn reactions_hold_every_body() {
     use linkage::nalgebra::{Point2, Vector2};
@@ -22,7 +22,7 @@ fn reactions_hold_every_body() {
         let lambda: Vector2<f64> = scene.reactions(t, &q, rate[0]).unwrap();
         let weight = Vector2::new(0.0, -scene.g);
         let end = points.c.position + Vector2::new(q.theta4.cos(), q.theta4.sin()) * four_bar.l4;
-        // What holds a body where it is driven from, and the moment that is left about its centre.
+        // The force on a body at its driven joint, and the remaining moment about its centre.
         let held =
             |m: f64, center: linkage::PointMotion<f64>, from: Point2<f64>, to: Point2<f64>, load: Vector2<f64>| {
                 let force = (center.acceleration - weight) * m - load;
@@ -62,7 +62,7 @@ fn statics_by_virtual_work() {
     });
 }
 
-/// Where the forces vanish; the stiffness in the search is exact, or it would not be found in a few steps.
+/// Equilibria; the stiffness in the search is exact, or it would take more than a few steps.
 #[test]
 fn equilibria() {
     let scene = Balanced::default();
@@ -82,13 +82,13 @@ fn equilibria() {
     let q = free.equilibrium(0.5, &pose.coordinates()).unwrap();
     let left = free.forces(0.5, &q, PairInputs { theta1: 0.0, theta4: 0.0 }).unwrap();
     assert!(left.amax() < 1e-12 * free.m2 * free.g, "{left} {q:?}");
-    // One input is driven, and stays where it is put.
+    // One input is driven, and stays at its value.
     let half = Half::default();
     let q = half.equilibrium(0.5, &pose.coordinates()).unwrap();
     assert_eq!(q.theta4, 0.7 * 0.5 + 0.125);
     let left = half.forces(0.5, &q, PairInputs { theta1: 0.0, theta4: 0.0 }).unwrap();
     assert!(left[0].abs() < 1e-12 * half.m2 * half.g, "{left} {q:?}");
-    // Without forces every position is one.
+    // Without forces every position is an equilibrium.
     let mut empty = Balanced::default();
     (empty.m3, empty.m4, empty.kt) = (0.0, 0.0, 0.0);
     assert_eq!(empty.equilibrium(0.0, &guess).unwrap().theta2, 0.4);

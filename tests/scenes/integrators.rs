@@ -54,7 +54,7 @@ fn a_state_for_integrators() {
     agrees("theta3''", of_unknowns[0], all.theta3, 0.0);
     agrees("theta4''", of_unknowns[1], all.theta4, 0.0);
     assert_eq!(idle.contacts(0.0, &q, &rates).unwrap(), []);
-    // The crank has made more than a turn, and the angles say so.
+    // The crank has made more than a turn, and so have the angles.
     let end = run(&idle, start, 0.005, 200);
     let (q, _) = Idle::parts(&end);
     assert!(q.theta2 > 7.0, "{q:?}");

@@ -1,4 +1,4 @@
-//! The mechanisms, and what position says of them.
+//! The mechanisms, and their positions.
 
 use linkage::Real;
 

@@ -23,7 +23,7 @@ fn four_bar_by_virtual_work() {
         let acceleration = idle.acceleration(t, &q, rate[0]).unwrap().theta2;
         agrees("v''", acceleration * expected.mass[0][0], expected.forces[0], expected.sizes[0]);
 
-        // The torque that drives is what is missing to the law.
+        // The driving torque is the residual of the law.
         let mut resisted = virtual_work(&FourBarPositions, v, rate, [0.0, -idle.g]);
         resisted.add(1, |_, speed| -driven.ct * speed);
         let bent = -9.0 * (3.0 * t).sin();
@@ -103,7 +103,7 @@ fn five_bar_by_virtual_work() {
     });
 }
 
-/// Of the two drivers of one mechanism: `crank` and `piston` are the same bodies.
+/// Two drivers of one mechanism: `crank` and `piston` have the same bodies.
 #[test]
 fn slider_crank_by_either_driver() {
     struct OfCrank;

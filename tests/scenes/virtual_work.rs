@@ -21,17 +21,17 @@ pub(super) fn agrees(what: &str, found: f64, expected: f64, scale: f64) {
 /// A body at a position: mass, moment of inertia, centre and angle.
 pub(super) type Placed<T> = (f64, f64, [T; 2], T);
 
-/// What position says of one scene: its bodies, and the scalars that its laws act along.
+/// The quantities of one scene that follow from the position: its bodies, and the scalars that its laws act along.
 pub(super) trait Positions<const V: usize> {
     fn bodies<T: Real>(&self, v: [T; V]) -> Vec<Placed<T>>;
     fn scalars<T: Real>(&self, v: [T; V]) -> Vec<T>;
 }
 
-/// M, the part of Q that is left of inertia and the field g, and of each scalar its derivatives and its rate.
+/// M, the part of Q from inertia and the field g, and of each scalar its derivatives and its rate.
 pub(super) struct Virtual<const V: usize> {
     pub(super) mass: [[f64; V]; V],
     pub(super) forces: [f64; V],
-    /// The sum of the magnitudes of what the forces are made of.
+    /// The sum of the magnitudes of the terms of the forces.
     pub(super) sizes: [f64; V],
     pub(super) scalars: Vec<(f64, [f64; V], f64)>,
 }

@@ -7,7 +7,7 @@ use linkage::simulation::{State, simulate};
 use linkage_gallery::andrews_motion::{END, START};
 use linkage_gallery::andrews_scene::*;
 
-/// The rates then, found with the angles.
+/// The rates at that time, computed with the angles.
 const END_RATES: SqueezerRates = SqueezerRates {
     beta: 1_139.920_302_259_106,
     theta: -1_424.379_295_177_54,
@@ -51,7 +51,7 @@ fn twelve_digits_at_the_tightest_tolerance() {
     assert!(errors[0] < 1e-12 && errors[1] < 1e-10, "{errors:?}");
 }
 
-/// A tenth of the tolerance is at least some of a digit, by either method.
+/// A tenth of the tolerance gains at least part of a digit, by either method.
 #[test]
 fn digits_follow_the_tolerance() {
     for (tolerance, bound) in [(1e-6, 1e-5), (1e-8, 5e-7), (1e-10, 5e-9), (1e-12, 5e-11)] {

@@ -1,4 +1,4 @@
-//! Back in time.
+//! Simulations backward in time.
 
 use linkage::simulation::{State, simulate};
 use linkage::{MotionError, linkage};
@@ -40,7 +40,7 @@ fn what_contacts_have_taken_does_not_come_back() {
     }
 }
 
-/// What dampers have taken does.
+/// Energy dissipated by dampers returns.
 #[test]
 fn a_damped_motion_goes_back_where_it_came_from() {
     let damped = Damped::default();

@@ -1,5 +1,5 @@
-//! Change points and what looks like one: the motion goes straight on where two motions cross, and round the bend where
-//! two only come near each other.
+//! Change points and near ones: the motion goes straight on where two motions cross, and round the bend where two only
+//! come near each other.
 
 use linkage::Scene;
 use linkage::integrate::{Tolerance, dop853};
@@ -22,7 +22,8 @@ linkage! {
     }
 }
 
-/// Crossed, the cranks turn against each other by tan(psi/2) = -(b + a)/(b - a) tan(theta/2), through all change points.
+/// Crossed, the cranks turn against each other by tan(psi/2) = -(b + a)/(b - a) tan(theta/2), through all change
+/// points.
 #[test]
 fn crossed_stays_crossed() {
     let scene = Rolling::default();
@@ -50,7 +51,7 @@ fn parallel_stays_parallel_also_when_driven() {
     let (rolling, driven) = (Rolling::default(), Driven::default());
     let q = FrameCoordinates { theta: 0.3, phi: 0.0, psi: 0.3 };
     let mut motion = simulate(&rolling, (0.0, q, 6.0), 10.0, 1e-12).unwrap();
-    // Nothing tells the steps of an even motion to be shorter than from one change point to the next but one.
+    // The steps of an even motion are not limited to less than the distance of two change points.
     let given = simulate(&driven, (0.0, q, 3.0), 10.0, 1e-12).unwrap();
     let mut given = given.largest_step(0.5).unwrap();
     motion
@@ -72,8 +73,8 @@ fn parallel_stays_parallel_also_when_driven() {
     assert_eq!(given.passages().change_points, 9);
 }
 
-/// The crank is a little too short to take the rocker along: it swings, and the more sudden the nearer the frame is to a
-/// parallelogram. The same motion by the equations in the input alone, which has no dead point.
+/// The crank is a little too short to take the rocker along: it swings, the more suddenly the nearer the frame is to a
+/// parallelogram. The reference are the equations in the input alone, which has no dead point.
 #[test]
 fn what_only_comes_near_is_no_change_point() {
     for short in [1e-3, 1e-6, 1e-9] {
@@ -98,7 +99,7 @@ fn what_only_comes_near_is_no_change_point() {
         assert_eq!(motion.passages().change_points, 0);
         let error = (found.theta - expected.theta).abs().max((found.psi - expected.psi).abs());
         println!("{error:e}");
-        // Rounding counts for more the sharper the bend is.
+        // Rounding errors count for more the sharper the bend is.
         assert!(error < 1e-9 + 1e-13 / short, "{short:e}: {error:e}");
     }
 }

@@ -30,7 +30,8 @@ fn a_sliding_block_stops() {
     assert_eq!((end.t, end.q.y, end.rates), (5.0, end.q.x, BlockRates { x: 0.0, y: 0.0 }));
 }
 
-/// A spring against dry friction: each half cycle the amplitude is 2 F / k less, until the spring holds no more.
+/// A spring against dry friction: in each half cycle the amplitude decreases by 2 F / k, until friction holds the
+/// block.
 #[test]
 fn an_oscillator_comes_to_rest() {
     let scene = Sprung::default();
@@ -96,7 +97,7 @@ fn a_block_on_a_belt() {
     assert_eq!((sticks.contacts[0].mode, slips.contacts[0].mode), (Mode::Stick, Mode::SlipBackward));
     close("end", motion.state().q.x, reach + 0.5 / omega * (omega * 0.4).sin(), 1e-11);
     close("belt", motion.state().q.z, 0.5 * (free + 0.4), 1e-15);
-    // What drives the belt holds against the friction, while it slips forth, rides, and slips back.
+    // The drive of the belt acts against the friction, while it slips forth, rides, and slips back.
     let mut motion = simulate(&scene, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), free + 0.4, 1e-13).unwrap();
     while let Some(state) = motion.advance().unwrap() {
         let loads = motion.loads().unwrap();
@@ -107,7 +108,7 @@ fn a_block_on_a_belt() {
         close("power", loads.drive_power, 0.5 * force, 1e-10);
         assert_eq!(loads.drives.x, 0.0);
     }
-    // While it rides its rate is that of the belt, also in between.
+    // While it rides its rate is that of the belt, also between the ends of steps.
     let mut motion = simulate(&scene, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), free + 0.4, 1e-13).unwrap();
     let times = (1..200).map(|i| stuck + (free - stuck) * f64::from(i) / 200.0);
     for state in motion.at(times) {
@@ -132,7 +133,7 @@ fn what_cannot_begin_or_go_on() {
     close("there", motion.t(), 2.0, 1e-12);
 }
 
-/// While nothing moves nothing tells how fast the load changes: it is looked at often enough all the same.
+/// While nothing moves, the motion does not limit the steps; the load is still evaluated often enough.
 #[test]
 fn a_load_that_swings_frees_the_block_in_time() {
     for (beyond, slowest) in [(1.0001, 3.0), (1.02, 1.0), (1.3, 30.0)] {
@@ -152,7 +153,7 @@ fn a_load_that_swings_frees_the_block_in_time() {
     assert_eq!((motion.state().q.x, motion.state().mode("friction on x")), (0.0, Some(Mode::Stick)));
 }
 
-/// A block that has stopped is struck and slides back; a ball that rests is struck up, and one that flies down.
+/// A block that has stopped is struck and slides back; so are a ball that rests and one that flies down.
 #[test]
 fn blows_from_outside() {
     let scene = Sliding::default();
@@ -197,8 +198,8 @@ fn blows_from_outside() {
     }
 }
 
-/// A ball that is let go late, when the time itself is known to rounding errors only: it bounces while a flight is
-/// longer than some of these, and rests.
+/// A ball that is let go late, when the time itself has a rounding error: it bounces while a flight is longer than some
+/// of these, and then rests.
 #[test]
 fn a_ball_let_go_late_bounces_and_rests() {
     let scene = Bouncing::default();
@@ -210,7 +211,7 @@ fn a_ball_let_go_late_bounces_and_rests() {
             impacts += i32::from(state.changes().any(|(_, change)| change == Change::Impact));
         }
         assert_eq!((motion.state().rates.x, motion.state().mode("stop on height")), (0.0, Some(Mode::AtLower)));
-        // What is left of the last flight is 64 rounding errors of the time, or 0.4^20 of the fall.
+        // The last flight lasts 64 rounding errors of the time, or 0.4^20 of the fall.
         let flights = |shortest: f64| (shortest / (2.0 * fall)).ln() / 0.4_f64.ln();
         let expected = flights(64.0 * f64::EPSILON * start.abs()).min(20.0) as i32;
         println!("{start:e}: {impacts} of {expected}");

@@ -1,4 +1,5 @@
-//! Dry friction and stops of linkages: in two choices of inputs, and against the same motion of clamped or smooth scenes.
+//! Dry friction and stops of linkages: in two choices of inputs, and against the same motion of clamped or smooth
+//! scenes.
 
 use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
@@ -37,7 +38,7 @@ linkage! {
 
 type Happened = Vec<(f64, &'static str, Change)>;
 
-/// Runs to the end, with all that happens.
+/// Runs to the end, with all changes.
 macro_rules! run {
     ($motion:expr) => {{
         let mut happened = Happened::new();
@@ -49,7 +50,7 @@ macro_rules! run {
     }};
 }
 
-/// What happens at one time may come in any order.
+/// Compares changes; those at one time may come in any order.
 fn agree(some: &Happened, others: &Happened, tolerance: f64) {
     let sorted = |all: &Happened| {
         let mut all = all.clone();
@@ -68,7 +69,7 @@ fn motor(phi: f64) -> MotorCoordinates<f64> {
     Turned::default().mechanism.solve(&MotorCoordinates { phi, psi: -0.25, z: 0.19 }).unwrap().coordinates
 }
 
-/// The friction of the piston turns round in its dead points, and there it does not drive the crank.
+/// The friction of the piston reverses in its dead points, and there it does not drive the crank.
 #[test]
 fn friction_in_the_dead_points() {
     let (shaft, piston) = (Turned::default(), Thrust::default());
@@ -88,7 +89,7 @@ fn friction_in_the_dead_points() {
     }
 }
 
-/// A stop that gives all back turns the motion round: it goes back the way it came, over the dead points too.
+/// An elastic stop reverses the motion: it returns the way it came, over the dead points too.
 #[test]
 fn a_stop_on_an_output_turns_the_motion_round() {
     let (shaft, piston) = (Knocking::default(), Knocked::default());
@@ -116,7 +117,8 @@ fn pair(theta1: f64, theta4: f64) -> PairCoordinates<f64> {
     PairCoordinates { theta2: 0.4, theta3: 1.9, theta1, theta4 }
 }
 
-/// One crank is held by its friction while the other slips, turns round and slips back: as if it were clamped.
+/// One crank is held by its friction while the other slips, turns round and slips back: the motion with a clamped
+/// crank.
 #[test]
 fn one_crank_sticks_while_the_other_slips() {
     let (scene, clamped) = (Braked::default(), Clamped { place: 1.1, ..Clamped::default() });
@@ -139,7 +141,7 @@ fn one_crank_sticks_while_the_other_slips() {
 }
 
 linkage! {
-    /// A five-bar whose motor turns one crank, by the other crank or by an arm.
+    /// A five-bar whose motor drives one crank; the other input is the other crank or an arm.
     #[derive(Debug, Clone)]
     mechanism Chain {
         param a = 0.7, b = 1.6, c = 1.5, d = 0.8, e = 1.7, hold = 2, near = 0.25, far = 1.3;
@@ -169,7 +171,7 @@ linkage! {
     }
 }
 
-/// A motor that keeps to its law, with a crank that sticks and slips and arms that hit their stop, through positions in
+/// A motor that follows its law, with a crank that sticks and slips and arms that hit their stop, through positions in
 /// which one or the other choice of inputs is singular.
 #[test]
 fn a_motor_through_singular_inputs() {
@@ -193,7 +195,8 @@ fn a_motor_through_singular_inputs() {
         assert!(some.iter().any(|(.., what)| *what == change), "{change:?}");
     }
     close("theta4", one.state().q.theta4, other.state().q.theta4, 1e-8);
-    // What sticks stands, to rounding, also where it is no input; between the ends of steps too.
+    // A coordinate that sticks is at rest, to rounding error, also if it is no input, and between the ends of steps
+    // too.
     let mut other = simulate(&arm, (0.0, q, ArmInputs { theta1: 2.0, theta2: start.theta2 }), 6.0, 1e-13).unwrap();
     let mut stuck = 0;
     for state in other.at((0..6000).map(|i| 0.001 * f64::from(i))).map(Result::unwrap) {
@@ -212,7 +215,7 @@ fn a_motor_through_singular_inputs() {
     close("law", other.state().q.theta1, 12.3, 1e-14);
 }
 
-/// The arms stay so near to a line that the cranks never are good inputs.
+/// The arms stay so near to a line that the cranks are never good inputs.
 #[test]
 fn a_motor_beside_a_singular_position() {
     let mut seen = Happened::new();

@@ -28,10 +28,10 @@ fn at(theta: f64) -> CranksCoordinates<f64> {
     CranksCoordinates { theta, phi: 0.0, psi: theta }
 }
 
-/// The inertia of all that turns.
+/// The inertia of all parts that turn.
 const INERTIA: f64 = 2.0 * 5.0 + 1.2;
 
-/// Slowed evenly it stops after the angle that its energy lasts for, behind 1, 2 and 3 change points or beside one.
+/// Slowed evenly it stops after the angle that its energy lasts for, beyond 1, 2 and 3 change points or next to one.
 #[test]
 fn friction_takes_all_the_energy() {
     let (scene, start) = (Rubbed::default(), 0.5);
@@ -48,7 +48,7 @@ fn friction_takes_all_the_energy() {
                 let t = between.t.min(ends);
                 close("theta", between.q.theta, start + t * (speed - 0.5 * scene.mu / INERTIA * t), 1e-8);
                 close("psi", between.q.psi, between.q.theta, 1e-8);
-                // What is left is what friction has not taken.
+                // The remaining energy is the initial energy less the work of friction.
                 let energy = 0.5 * INERTIA * between.rates.theta.powi(2);
                 let left = 0.5 * INERTIA * speed * speed - scene.mu * (between.q.psi - start);
                 close("energy", energy, left, 1e-7);
@@ -65,7 +65,7 @@ fn friction_takes_all_the_energy() {
     }
 }
 
-/// A stop soon after a change point, or before it: it is thrown back at the right moment, over the change point again.
+/// A stop just after a change point, or before it: the crank returns at the right moment, over the change point again.
 #[test]
 fn a_stop_beside_a_change_point() {
     let (start, speed) = (0.5, 1.3);
@@ -89,7 +89,7 @@ fn a_stop_beside_a_change_point() {
             }
         }
         if beyond == 0.0 {
-            // In the change point itself nothing tells how it goes on.
+            // In the change point itself the motion that follows is not determined.
             assert!(matches!(failure, Some(MotionError::Path(PathError::ChangePoint { .. }))), "{failure:?}");
             continue;
         }
@@ -115,7 +115,7 @@ linkage! {
     }
 }
 
-/// Over change points: friction takes its moment times the way of the wheel, an impact 1 - e^2 of what there is.
+/// Over change points: the work of friction is its moment times the distance of the wheel, an impact takes 1 - e^2.
 #[test]
 fn the_account_of_energy_closes() {
     let crossed = Spinning::default();
@@ -149,7 +149,7 @@ fn the_account_of_energy_closes() {
 }
 
 linkage! {
-    /// The same, driven evenly, with a block that its friction holds on the coupler.
+    /// Steady rotation over change points, with a block that its friction holds on the coupler.
     #[derive(Debug, Clone)]
     mechanism Tray {
         param a = 1, d = 2, m = 1.2, omega = 2, from = 0.5, grip = 3;
@@ -161,8 +161,8 @@ linkage! {
     }
 }
 
-/// The block is held while m a omega^2 |cos theta| is not more than its friction, and slips where that is exceeded, also
-/// if that is beside a change point.
+/// The block is held while m a omega^2 |cos theta| is at most its friction, and slips where that is exceeded, also next
+/// to a change point.
 #[test]
 fn it_slips_in_time_beside_a_change_point() {
     let omega = 2.0_f64;
@@ -185,7 +185,7 @@ fn it_slips_in_time_beside_a_change_point() {
         let [(t, Change::Slips, s), (again, Change::Sticks, rest), ..] = happened[..] else { panic!("{happened:?}") };
         close("slips", t, slips, 1e-8);
         close("held until then", s, 0.3, 1e-15);
-        // Also where the simulation ends beside the change point.
+        // Also if the simulation ends next to the change point.
         for end in [-0.6, 0.0, 0.2].map(|part| (PI - from + part * before) / omega) {
             let mut motion = simulate(&scene, (0.0, q, TrayInputs { theta: omega, s: 0.0 }), end, 1e-12).unwrap();
             motion.finish(|_, _| true).unwrap();

@@ -4,7 +4,7 @@ use linkage::linkage;
 use linkage::simulation::simulate;
 
 linkage! {
-    /// An engine that crank or piston may drive.
+    /// An engine with crank or piston as input.
     #[derive(Debug, Clone)]
     mechanism Engine {
         param r = 0.05, l = 0.18, m2 = 0.8, j2 = 1.2e-3, m3 = 0.6, j3 = 2e-3, m4 = 0.9, g = 9.81, k = 900, z0 = 0.15;
@@ -72,7 +72,8 @@ linkage! {
     }
 }
 
-/// The two arms come in line, where the cranks do not drive them; by one crank and its arm other poses are singular.
+/// The two arms come in line, where the cranks do not drive them; with one crank and its arm as inputs, other poses are
+/// singular.
 #[test]
 fn two_inputs_by_either_choice() {
     let (cranks, chain) = (OnCranks::default(), OnChain::default());

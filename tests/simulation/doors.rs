@@ -1,4 +1,4 @@
-//! The doors of a simulation: output times, events, progress, methods, fixed steps.
+//! The functions of a simulation: output times, events, progress, methods, fixed steps.
 
 use linkage::integrate::{Crossing, Dopri5};
 use linkage::simulation::{RealTime, Then, simulate};
@@ -16,12 +16,12 @@ fn the_same_bits_again_and_output_times_that_change_none() {
     let outputs: Vec<_> = third.at(times).map(Result::unwrap).collect();
     assert_eq!(outputs.len(), 1001);
     assert_eq!((first.state(), first.t()), (third.state(), 5.0));
-    // Everywhere on the closures and in between to the tolerance.
+    // All states satisfy the constraints, and those between the ends of steps do so to the tolerance.
     for state in &outputs {
         let q = state.q;
         let x = 0.3 * q.theta.cos() + 0.9 * q.phi.cos() - 1.0 - 0.6 * q.psi.cos();
         let y = 0.3 * q.theta.sin() + 0.9 * q.phi.sin() - 0.6 * q.psi.sin();
-        // An angle of many turns is itself rounded.
+        // An angle of many turns has a rounding error of its own.
         let rounding = f64::EPSILON * (2.0 + q.theta.abs());
         assert!(x.abs() < rounding && y.abs() < rounding, "{}: {x:e} {y:e}", state.t);
     }
@@ -64,7 +64,7 @@ fn events_with_what_they_do() {
     let last = *motion.state();
     assert_eq!((turns, last.event), (10, Some(1)));
     assert!((last.q.theta - 5.0 * std::f64::consts::TAU).abs() < 1e-12 && motion.progress() < 1.0);
-    // A blow that turns the crank back.
+    // An impulse that turns the crank back.
     let motion = simulate(&scene, (0.0, start(), 9.0), 1.0, 1e-11).unwrap();
     let mut motion = motion
         .events(
@@ -100,7 +100,7 @@ fn progress_methods_and_pauses() {
     assert!(other.counts().evaluations > 0 && other.counts().accepted < motion.counts().accepted * 10);
 }
 
-/// Kutta's method: a tenth of the step is a ten-thousandth of the error.
+/// Kutta's method: with a tenth of the step, the error is a ten-thousandth.
 #[test]
 fn in_step_with_a_clock() {
     let scene = Idling::default();

@@ -19,7 +19,7 @@ linkage! {
 }
 
 linkage! {
-    /// A block with nothing to hold it.
+    /// A block without forces.
     mechanism Loose {
         param m = 1, g = 0, omega = 1, k = 0;
         input x;
@@ -40,7 +40,7 @@ fn loose(x: f64) -> LooseCoordinates {
     LooseCoordinates { x, y: x }
 }
 
-/// What a motion of 8 s shows, in units of its own: of each step the time, the angle, the place of the slider.
+/// A motion of 8 s in units of its own: of each step the time, the angle, the coordinate of the slider.
 fn shown<S>(motion: Simulation<'_, S>, [length, time]: [f64; 2]) -> Vec<[f64; 3]>
 where
     S: linkage::Scene<Scalar = f64, Mechanism = Swing<f64>>,
@@ -82,7 +82,7 @@ fn units_change_no_bit() {
     }
 }
 
-/// Nothing much happens in the interval, or far more than steps can tell.
+/// Intervals in which hardly anything moves, and ones with more turns than steps.
 #[test]
 fn intervals_of_any_length() {
     for g in [1e-300, 1e-200, 1e-160, 1e-100, 1e-30, 0.0] {
@@ -95,7 +95,7 @@ fn intervals_of_any_length() {
         }
     }
     for end in [1e10, 1e30, 1e150, 1e300] {
-        // The first steps are short beside the interval, wherever it begins.
+        // The first steps are short relative to the interval, for any start time.
         for (x, rate) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
             let drifting = Drifting::default();
             let mut motion = simulate(&drifting, (0.0, loose(x), rate), end, 1e-9).unwrap();
@@ -121,7 +121,7 @@ fn intervals_of_any_length() {
     }
 }
 
-/// Every tolerance that may be set: an error is never one of the numbers.
+/// Every tolerance that is allowed gives a state or an error, and never NaN.
 #[test]
 fn tolerances_of_any_size() {
     for tolerance in [1.0, 0.1, 1e-3, 1e-6, 1e-12, 2.3e-15] {

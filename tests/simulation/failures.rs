@@ -1,4 +1,4 @@
-//! What cannot be simulated says why, and what was computed stays.
+//! A simulation that fails returns the reason, and keeps the computed states.
 
 use linkage::simulation::simulate;
 use linkage::{InputError, MotionError, PositionError, linkage};
@@ -22,7 +22,7 @@ fn a_law_that_ends() {
     assert!(motion.t() > 1.0 - 1e-6 && motion.t() <= 1.0);
     assert!(motion.next().is_none());
     assert_eq!(before.last().unwrap().unwrap(), *motion.state());
-    // The same by output times.
+    // The simulation by output times.
     let mut motion = simulate(&scene, (0.0, start(), 1.0), 2.0, 1e-9).unwrap();
     let states: Vec<_> = motion.at([0.25, 0.5, 1.5, 1.75]).collect();
     assert!(states.len() == 3 && states[1].is_ok() && states[2] == Err(error), "{states:?}");
@@ -53,7 +53,7 @@ fn starts_that_make_no_sense() {
 }
 
 linkage! {
-    /// Driven to where it cannot go.
+    /// A drive to positions that do not exist.
     mechanism Reach {
         param r = 0.05, l = 0.18;
         input z;
@@ -64,7 +64,7 @@ linkage! {
     }
 }
 
-/// At 0.3 s crank and rod are in line, and the law goes on.
+/// At 0.3 s crank and rod are in line, and the prescribed motion goes on.
 #[test]
 fn a_drive_beyond_the_dead_point() {
     let scene = Pulled::default();

@@ -1,4 +1,4 @@
-//! Stops and frictions that carry no load: what is hit, and what rests, keeps its place.
+//! Stops and frictions that carry no load: a part that hits its stop or rests on it keeps its position.
 
 use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
@@ -29,7 +29,7 @@ linkage! {
 }
 
 linkage! {
-    /// Two blocks that meet, and what is between them.
+    /// Two blocks that meet, and the stop between them.
     mechanism Pair {
         param m1 = 1, m2 = 3, far = 100, e = 0, g = 0;
         input a, b;
@@ -79,7 +79,7 @@ fn what_hits_a_stop_without_load_rests_there() {
     }
 }
 
-/// After a plastic collision the two go on together, at the rate of their momentum.
+/// After a plastic collision the two move together, at the rate of their momentum.
 #[test]
 fn two_free_blocks_stay_together() {
     for (scale, g) in [(1.0, 0.0), (1.0, 9.81), (2.0_f64.powi(40), 0.0), (2.0_f64.powi(-40), 1e-14)] {
@@ -123,7 +123,7 @@ fn three_free_blocks_stay_together() {
     }
 }
 
-/// On a stop that is there twice, and with a friction whose normal load is zero.
+/// A stop declared twice, and a friction whose normal load is zero.
 #[test]
 fn redundant_stops_and_frictions_without_load_hold() {
     let scene = Twice::default();
@@ -141,7 +141,7 @@ fn redundant_stops_and_frictions_without_load_hold() {
     }
 }
 
-/// A load of any size and either sign, on what has hit its stop and on what rests there.
+/// A load of any size and either sign, on a part that has hit its stop and on one that rests there.
 #[test]
 fn tiny_loads_hold_or_free() {
     for size in [5e-324, 1e-300, 1e-100, 1e-40, 1e-20, 1e-16, 1e-12, 1e-8] {
@@ -181,7 +181,7 @@ fn a_load_that_passes_zero_frees_and_comes_back() {
             close("place", motion.state().q.x, end, 1e-11);
         }
     }
-    // A load that touches zero: it stays.
+    // A load that touches zero: the part stays.
     for omega in [1.0, PI, 20.0] {
         let scene = Eased { f: 1.0, omega, ..Eased::default() };
         for (place, rate) in [(-1.0, 0.0), (0.0, -0.5)] {

@@ -1,4 +1,4 @@
-//! The four-bar of doors and failures.
+//! The four-bar of `doors` and `failures`.
 
 use linkage::linkage;
 

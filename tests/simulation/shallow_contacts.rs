@@ -26,13 +26,14 @@ fn at(x: f64) -> OscillatorCoordinates {
     OscillatorCoordinates { x, y: x }
 }
 
-/// x = a sin(10 t) with a = 0.1 meets a wall at a (1 - depth), by any tolerance and method, and then at both walls or again.
+/// x = a sin(10 t) with a = 0.1 meets a wall at a (1 - depth), by any tolerance and method, and then both walls or
+/// again.
 #[test]
 fn a_wall_within_the_last_part_of_the_amplitude() {
     let free = Free::default();
     for tolerance in [1e-3, 1e-4, 1e-6, 1e-9, 1e-12] {
         for depth in [0.1_f64, 1e-2, 1e-3, 1e-5, 1e-8] {
-            // What the motion alone is in error by, at this tolerance.
+            // The error of the motion alone, at this tolerance.
             if depth < 100.0 * tolerance {
                 continue;
             }
@@ -58,7 +59,7 @@ fn a_wall_within_the_last_part_of_the_amplitude() {
             let motion = simulate(&output, start, 2.0, tolerance).unwrap();
             let mut hits = motion.map(Result::unwrap).filter(|state| state.changes().count() > 0).map(|state| state.t);
             check("output", [hits.next().unwrap(), hits.next().unwrap()], walls);
-            // With a friction that is none: the margins beside the gap have no known rates.
+            // With a friction coefficient of zero: margins next to the gap have no known rates.
             let rough = Rough { upper, ..Rough::default() };
             let motion = simulate(&rough, start, 2.0, tolerance).unwrap();
             let mut hits = motion
@@ -66,7 +67,7 @@ fn a_wall_within_the_last_part_of_the_amplitude() {
                 .filter(|state| state.changes().any(|(name, _)| name == "stop on x"))
                 .map(|state| state.t);
             check("rough", [hits.next().unwrap(), hits.next().unwrap()], again);
-            // The same as a user's event: in and out.
+            // A user event at the same place: in and out.
             let motion = simulate(&free, start, 2.0, tolerance).unwrap();
             let motion =
                 motion.events([Crossing::Either], |state| Ok([state.q.x - upper]), |_, _| Ok(Then::GoOn)).unwrap();
@@ -76,7 +77,7 @@ fn a_wall_within_the_last_part_of_the_amplitude() {
     }
 }
 
-/// Where the amplitude is just less than the wall is far nothing happens.
+/// If the amplitude is just less than the distance of the wall, nothing happens.
 #[test]
 fn a_wall_beyond_the_amplitude_is_not_met() {
     for tolerance in [1e-6, 1e-9, 1e-12] {

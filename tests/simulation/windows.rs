@@ -85,7 +85,7 @@ fn a_policy_ends_the_motion_where_the_input_no_longer_drives() {
         ),
         "{error}"
     );
-    // What was computed stays: the bars are first in line at 0.70845 s.
+    // The computed states stay: the bars are first in line at 0.70845 s.
     assert!(motion.t() > 0.5 && motion.t() < 0.708_46 && motion.state().q.phi0 > 0.0);
     assert!(motion.next().is_none());
 }

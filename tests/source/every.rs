@@ -1,4 +1,4 @@
-//! What is emitted for every mechanism and scene of these tests, each asked for everything that it can be asked for.
+//! Emitted code of every mechanism and scene of these tests, each with all `derive` requests.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{Expr, Item, Stmt};
 
-/// What a mechanism can be asked for; those that it does not ask for itself are added.
+/// All `derive` requests; those that a mechanism lacks are added.
 const REQUESTS: [&str; 4] = ["limits", "jerk", "velocity_ratio_derivatives", "sensitivity"];
 
 /// Folders and files with mechanisms.
@@ -18,7 +18,7 @@ const SOURCES: [&str; 3] =
 pub struct Expansion {
     /// The file and the number of the macro in it.
     pub module: String,
-    /// Modules of the user's, which stand beside the mechanism.
+    /// User modules that the mechanism refers to.
     pub functions: String,
     pub emitted: syn::File,
 }
@@ -59,7 +59,7 @@ pub fn expansions(root: &Path, chosen: Option<&[&str]>) -> Vec<Expansion> {
     expansions
 }
 
-/// What is emitted for mechanisms, asked for everything that they can be asked for.
+/// The emitted code of mechanisms with all `derive` requests.
 fn expanded(tokens: &TokenStream) -> TokenStream {
     let text = tokens.to_string();
     let expand = |text: &str| linkage_compiler::expand(text.parse().unwrap(), &"::linkage".parse().unwrap());
@@ -77,7 +77,7 @@ fn expanded(tokens: &TokenStream) -> TokenStream {
     expand(&if allowed.is_empty() { text.clone() } else { with(&allowed) })
 }
 
-/// Every item, those in the blocks of constants, too.
+/// Every item, also those in the blocks of constants.
 pub fn items(items: &[Item]) -> Vec<&Item> {
     let mut all = Vec::new();
     for item in items {

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use linkage_compiler::budget::Budget;
 use proc_macro2::{TokenStream, TokenTree};
 
-/// The macro does not panic, gives something, and accepts nothing that is beyond the budget.
+/// Expands a mutant: the macro does not panic, gives something, and accepts nothing beyond its budget.
 pub fn expanded(mutant: &TokenStream, root: &TokenStream, budget: &Budget) -> TokenStream {
     let expand = || linkage_compiler::expand_within(mutant.clone(), &linkage_compiler::Facade::complete(root), budget);
     let expansion = catch_unwind(AssertUnwindSafe(expand)).unwrap_or_else(|_| panic!("the macro panics:\n{mutant}"));
@@ -14,7 +14,7 @@ pub fn expanded(mutant: &TokenStream, root: &TokenStream, budget: &Budget) -> To
     expansion
 }
 
-/// The expansion is Rust.
+/// Parses the expansion as Rust.
 pub fn parsed(expansion: TokenStream, mutant: &TokenStream) -> syn::File {
     syn::parse2(expansion).unwrap_or_else(|error| panic!("{error}:\n{mutant}"))
 }

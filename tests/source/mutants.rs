@@ -1,5 +1,5 @@
-//! Mechanisms with something changed: statements moved and doubled, names exchanged, parts of expressions replaced by
-//! others from a grammar. The grammar follows the language, so that many mutants are mechanisms still.
+//! Mechanisms with changes: statements moved and doubled, names exchanged, parts of expressions replaced by others from
+//! a grammar. The grammar follows the language, so that many mutants are still mechanisms.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,7 +8,7 @@ use std::path::Path;
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use rand::Rng;
 
-/// Numbers at the ends of what `f64` holds, beside those that people write.
+/// Numbers at the ends of the range of `f64`, and ordinary ones.
 const NUMBERS: [&str; 22] = [
     "0",
     "1",
@@ -146,7 +146,7 @@ impl<R: Rng> Mutator<R> {
         list.get(at)
     }
 
-    /// A token missing, doubled or exchanged: most of these are mistakes.
+    /// A token missing, doubled or exchanged, most often a mistake.
     fn scrambled(&mut self, mut tokens: Vec<TokenTree>) -> Vec<TokenTree> {
         let (at, other) = (self.index(&tokens), self.index(&tokens));
         if let (TokenTree::Group(group), true) = (&tokens[at], self.random.random_bool(0.5)) {
@@ -240,7 +240,7 @@ impl<R: Rng> Mutator<R> {
                 format!("loop 3@{a} + 2.5@{b} = {};", self.vector(names, depth))
             }
             _ => {
-                // A chain of names, each made of the one before twice.
+                // A chain of names, each of which uses the one before twice.
                 let mut text = format!("let deep_0 = {};", self.scalar(names, 1));
                 let length = self.random.random_range(1..24);
                 for link in 1..=length {
@@ -393,7 +393,7 @@ fn statements(body: TokenStream) -> Vec<Vec<TokenTree>> {
     statements
 }
 
-/// Where a statement holds a number or a name that is declared, as places of groups in groups; but not what it declares.
+/// The places of numbers and declared names in a statement, as places of groups in groups; without its declarations.
 fn atoms(tokens: &[TokenTree], names: &Names, path: &mut Vec<usize>, found: &mut Vec<Vec<usize>>) {
     let mut declares = path.is_empty();
     for (place, token) in tokens.iter().enumerate() {

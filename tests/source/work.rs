@@ -1,4 +1,4 @@
-//! The operations of emitted functions, as their documentation gives them.
+//! The operations of emitted functions, read from their documentation.
 
 use std::collections::BTreeMap;
 
@@ -6,10 +6,10 @@ use linkage_compiler::program::Operations;
 use proc_macro2::TokenStream;
 use syn::visit::Visit;
 
-/// By type and function; those that take no part of an operation are not among them.
+/// Operations by type and function, without functions that have none.
 pub type Work = BTreeMap<(String, String), Operations>;
 
-/// Of all functions that `linkage!` emits for these tokens.
+/// The operations of all functions that `linkage!` emits for these tokens.
 pub fn work(tokens: TokenStream) -> Work {
     let expansion = linkage_compiler::expand(tokens, &"::linkage".parse().expect("a path"));
     let mut visitor = Visitor { of: String::new(), work: Work::new() };

@@ -27,14 +27,14 @@ linkage! {
     }
 }
 
-/// In the dead centre: half of this times the square of the rate of the crank is the kinetic energy.
+/// In the dead centre, half of this times the square of the rate of the crank is the kinetic energy.
 fn inertia(engine: &Piston<f64>, [m2, m3]: [f64; 2]) -> f64 {
     let r = engine.r;
     m2 * r * r * (1.0 + 1.0 / 16.0) + m3 * r * r * (4.0 / 9.0 + 1.0 / 12.0)
 }
 
-/// The rates of the crank at the impacts: at one place there is one potential energy, so that the kinetic energy is that
-/// of the fall and then each time e^2 of it.
+/// The rates of the crank at the impacts: in one position the potential energy is one number, so that the kinetic
+/// energy is that of the fall and then each time e^2 of it.
 macro_rules! knocks {
     ($scene:ident, $sign:expr, $size:expr, $e:expr) => {{
         let mut scene = $scene::<f64> { e: $e, k: 0.3 * $size * $size, g: 9.81 * $size, ..$scene::default() };

@@ -1,5 +1,5 @@
-//! Arms that come into line, where both cranks are no good inputs, and stop there: in two choices of inputs, each impact
-//! by Newton's law for two coordinates.
+//! Arms that come into line, where both cranks are bad inputs, and stop there: in two choices of inputs, each impact by
+//! Newton's law for two coordinates.
 
 use std::f64::consts::PI;
 
@@ -35,10 +35,10 @@ linkage! {
     }
 }
 
-/// The time, the position, its rates, and the stop: the same whatever the inputs are.
+/// The time, the position, its rates, and the stop: equal for both choices of inputs.
 type Moment = (f64, ArmsCoordinates, ArmsRates, Touch);
 
-/// The account of one run: its energy goes into impacts and nowhere else. Gives the times of the impacts.
+/// The energy account of one run: all losses are in impacts. Returns the times of the impacts.
 fn account(scene: &BentOnChain<f64>, moments: &[Moment]) -> Vec<f64> {
     let chain = &scene.mechanism;
     let energy = |(_, q, rates, _): &Moment| {
@@ -51,7 +51,7 @@ fn account(scene: &BentOnChain<f64>, moments: &[Moment]) -> Vec<f64> {
         close("energy", energy(moment), whole - taken, 1e-10 * whole);
         let (bend, turn) = (q.theta3 - q.theta2 - PI, rates.theta3 - rates.theta2);
         let is_open = touch.mode == Mode::Open;
-        // What rests keeps its rate to rounding, and its place as the steps do.
+        // A coordinate at rest keeps its rate to rounding error, and its position to the error of the steps.
         let drift = if is_open { ROUNDINGS } else { 1e-11 };
         assert!(bend < drift, "{bend:e} at {t}");
         let Some(change) = touch.change else {
@@ -74,7 +74,7 @@ fn account(scene: &BentOnChain<f64>, moments: &[Moment]) -> Vec<f64> {
     times
 }
 
-/// Lengths by `size`, and what goes with their squares.
+/// Lengths times `size`, and the other parameters by their squares.
 macro_rules! scaled {
     ($scene:ident, $size:expr, $part:expr) => {{
         let (mut scene, square) = ($scene::<f64> { part: $part, ..$scene::default() }, $size * $size);

@@ -1,4 +1,4 @@
-//! A ladder that falls onto the slot of its input, as a ball does.
+//! A ladder that falls onto the slot of its input, compared with a ball.
 
 use linkage::contact::Change;
 use linkage::simulation::{State, simulate};
@@ -29,7 +29,7 @@ linkage! {
     }
 }
 
-/// The time, the height over the stop, its rate, what has happened then, and the mode from there on.
+/// The time, the height over the stop, its rate, the change at that time, and the mode from there on.
 type Moment = (f64, f64, f64, Option<Change>, Mode);
 
 /// A ball that falls from this height over its stop.
@@ -37,7 +37,7 @@ struct Fall {
     height: f64,
     g: f64,
     e: f64,
-    /// What is large for its place.
+    /// The scale of heights.
     size: f64,
 }
 
@@ -62,7 +62,7 @@ impl Fall {
             match change {
                 Some(Change::Impact | Change::Rests) => {
                     let (time, before) = self.impact(impacts);
-                    // Rounding in the place of an impact counts for more the slower it is.
+                    // The rounding error of the position of an impact counts for more the slower it is.
                     let late = 4.0 * ROUNDINGS * self.size / before;
                     close("time", t, time, 1e-11 * first + late);
                     close("rate", -rate, before, 1e-11 * speed + late * self.g);
@@ -137,8 +137,8 @@ fn it_falls_as_a_ball_does() {
     }
 }
 
-/// What begins at rest on its stop rests there, on whichever side rounding has left it, and what begins beyond it is
-/// refused.
+/// A start at rest on the stop rests there, on either side of it within rounding error, and a start beyond it is an
+/// error.
 #[test]
 fn it_begins_on_its_stop() {
     let (mut below, mut above) = (0, 0);

@@ -1,8 +1,8 @@
-//! Stops at zero, where roundings have no scale, in positions in which the inputs are singular.
+//! Stops at zero, where an absolute rounding error has no scale, in positions in which the inputs are singular.
 
 mod crank;
 mod five_bar;
 mod ladder;
 
-/// What rounding may leave of a place, beside what is large for it.
+/// The rounding error of a position, relative to its scale.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;

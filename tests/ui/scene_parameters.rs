@@ -31,10 +31,10 @@ fn main() {
     let _ = (rough.upper, rough.e);
     let _ = Stopped { mu: 0.2, ..Stopped::default() };
     let _ = Weighed { k: 40.0, ..Weighed::default() };
-    // Neither gravity nor friction beside the mass.
+    // Neither gravity nor friction in a place for the mass.
     let _ = Bare::new(slider, 1.0, 9.81);
     let _ = Bare::new(slider, 1.0, 0.2, 30.0);
-    // Nor a restitution beside the friction.
+    // Nor a restitution in a place for the friction.
     let _ = Rough::new(slider, 1.0, 0.2, 30.0, 0.5);
     let q = SliderCoordinates { phi: 0.3, x: 1.9 };
     // Nor what tells where the contacts are, nor what the drive takes.

@@ -1,4 +1,4 @@
-//! What a scene does not name is not in its type.
+//! A scene has no parameters and functions that it does not declare.
 
 use linkage::linkage;
 

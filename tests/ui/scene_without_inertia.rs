@@ -1,4 +1,4 @@
-//! What can be told of scenes only once names are known, and once they are derived.
+//! Mistakes in scenes that are found when names are resolved, and when scenes are derived.
 
 use linkage::linkage;
 

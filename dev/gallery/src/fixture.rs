@@ -70,7 +70,7 @@ pub trait HigherOrders<T: Real>: Kinematics<T> {
 pub trait Fixture: Kinematics<f64> + Default {
     /// The file of `src/mechanisms` without its ending.
     const FILE: &'static str;
-    /// The same mechanism in another scalar.
+    /// The mechanism in another scalar.
     type Of<T: Real>: Kinematics<T>;
 
     /// The number of branches; 1 if the position is found by Newton's method.
@@ -83,7 +83,7 @@ pub trait Fixture: Kinematics<f64> + Default {
 
 /// A fixture with higher orders.
 pub trait WithHigherOrders: Fixture + HigherOrders<f64> {
-    /// The same mechanism in another scalar.
+    /// The mechanism in another scalar, with higher orders.
     type OfOrders<T: Real>: HigherOrders<T>;
 }
 

@@ -1,4 +1,4 @@
-//! The compiler's interpreter as the oracle of emitted code, and random poses to ask it about.
+//! The compiler's interpreter as the oracle of emitted code, and random poses for both.
 
 use std::collections::HashMap;
 
@@ -31,7 +31,7 @@ impl Oracle {
     /// The oracle of a mechanism of the gallery.
     ///
     /// # Panics
-    /// If the file is not that of the mechanism.
+    /// If the file has no such mechanism.
     #[must_use]
     pub fn of<F: Fixture>() -> Self {
         let mechanism = linkage_compiler::read(tokens_of(F::FILE)).expect(F::FILE).remove(0);

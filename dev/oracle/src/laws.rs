@@ -1,4 +1,4 @@
-//! The cam laws behind the functions of the user's.
+//! The cam laws behind user functions.
 
 use linkage_compiler::graph::External;
 use linkage_compiler::model::Mechanism;

@@ -34,14 +34,14 @@ thread_local! {
     static INVERSE_FACTORIALS: Vec<Big> = inverse_factorials();
 }
 
-/// 1, 1/2, 1/6, ...: to the first that is no digit of a sum that begins with 1 at an angle of 2^-11.
+/// 1, 1/2, 1/6, ...: down to the first that is below the last digit of a sum that begins with 1, at an angle of 2^-11.
 fn inverse_factorials() -> Vec<Big> {
     let next = |(n, value): &(i32, Big)| Some((n + 1, value / big(f64::from(n + 1))));
     std::iter::successors(Some((0, big(1.0))), next).map(|(_, value)| value).take(20).collect()
 }
 
-/// Cosine and sine, by addition to those of an angle nearby: dashu's, which cost more than all else, are asked for at
-/// the multiples of 2^-10, each once. An iterate is added to the one before.
+/// Cosine and sine by addition to those of an angle nearby: dashu's, which cost more than all else, are computed at
+/// multiples of 2^-10, each once. An iterate is added to the one before.
 pub fn direction(angle: &Big) -> Direction {
     const STEPS: f64 = 1024.0;
     let double = angle.double();
@@ -69,13 +69,13 @@ pub fn direction(angle: &Big) -> Direction {
     })
 }
 
-/// A direction turned by an angle of at most 2^-11, whose sine and cosine are Taylor's.
+/// A direction turned by an angle of at most 2^-11, whose sine and cosine are Taylor series.
 fn turned((cosine, sine): &Direction, angle: &Big) -> Direction {
     let size = angle.double().abs();
     if size == 0.0 {
         return (cosine.clone(), sine.clone());
     }
-    // The first power of the angle that no digit is left of.
+    // The first negligible power of the angle.
     let bits = (PRECISION + 16) as f64;
     let terms = ((bits / -size.log2()).ceil() as usize + 1).min(19);
     INVERSE_FACTORIALS.with(|factors| {
@@ -90,7 +90,7 @@ fn turned((cosine, sine): &Direction, angle: &Big) -> Direction {
     })
 }
 
-/// What a tape is evaluated in.
+/// The scalar that a tape is evaluated in.
 pub trait Scalar: Clone {
     fn number(value: Number) -> Self;
     fn of(value: f64) -> Self;

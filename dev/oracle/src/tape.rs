@@ -17,16 +17,16 @@ enum Step {
     External(External, Vec<usize>),
 }
 
-/// Expressions in the order in which they can be evaluated, what changes most often last.
+/// Expressions in an order in which they can be evaluated; those that depend on changing symbols come last.
 pub struct Tape {
     steps: Vec<Step>,
-    /// How many steps stand before those that depend on what changes.
+    /// The number of steps before those that depend on changing symbols.
     fixed: usize,
     roots: Vec<usize>,
 }
 
 impl Tape {
-    /// The values of `roots`, made for being evaluated again with `changing` symbols.
+    /// The values of `roots`, for repeated evaluation with `changing` symbols.
     pub fn new(graph: &Graph, roots: &[NodeId], changing: &[SymbolId]) -> Self {
         let order = graph.reachable(roots);
         let mut changes = HashSet::new();
@@ -66,8 +66,8 @@ impl Tape {
         Self { steps: order.iter().map(step).collect(), fixed, roots: all(roots) }
     }
 
-    /// The values of the roots. `external` has the values of the user's functions in doubles, which are taken for
-    /// exact: they are data.
+    /// The values of the roots. `external` has the values of user functions in doubles, which are taken for exact: they
+    /// are data.
     pub fn evaluate<S: Scalar>(
         &self,
         bind: impl Fn(SymbolId) -> S,
@@ -76,7 +76,8 @@ impl Tape {
         self.evaluate_again(&mut Vec::new(), bind, external)
     }
 
-    /// The same where `values` are all steps' from before, or none: those that nothing changes are kept.
+    /// The values of the roots, where `values` are those of all steps from the last evaluation, or empty: steps that
+    /// depend on no changing symbol are not repeated.
     pub fn evaluate_again<S: Scalar>(
         &self,
         values: &mut Vec<S>,

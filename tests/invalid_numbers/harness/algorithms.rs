@@ -1,4 +1,4 @@
-//! The algorithms that take any mechanism, any scene or any system, called with what counts their evaluations.
+//! The algorithms for all mechanisms, scenes or systems, called with types that count their evaluations.
 
 use std::fmt::Debug;
 
@@ -94,7 +94,7 @@ struct CountedScene<'a, S: Scene> {
     mechanism: Counted<'a, S::Mechanism>,
 }
 
-/// What is given for the coordinates, the rates and the inputs of a mechanism by name.
+/// Coordinates, rates and inputs of a mechanism by name.
 type Q<S> = <<S as Scene>::Mechanism as Mechanism>::Coordinates;
 type Rates<S> = <<S as Scene>::Mechanism as Mechanism>::Rates;
 type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
@@ -145,10 +145,10 @@ impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
     }
 }
 
-/// Of what takes long one trial in so many.
+/// Expensive functions are called in one trial of this many.
 const SELDOM: usize = 40;
 
-/// Positions of a mechanism, where there are some.
+/// Positions of a mechanism, if there are any.
 pub fn positions<M>(m: &M, s: &mut Source, positions: &mut Pool<M::Coordinates>)
 where
     M: Mechanism<Scalar = f64, Coordinates: Draw>,
@@ -161,7 +161,7 @@ where
     }
 }
 
-/// What takes any mechanism.
+/// The algorithms for any mechanism.
 pub fn mechanism<M>(
     t: &mut Tally,
     s: &mut Source,
@@ -200,7 +200,7 @@ pub fn mechanism<M>(
     }
 }
 
-/// What takes any mechanism with one input.
+/// The algorithms for any mechanism with one input.
 pub fn driven<M>(t: &mut Tally, s: &mut Source, m: &M, positions: &mut Pool<M::Coordinates>)
 where
     M: Mechanism<Scalar = f64, V = D<1>, Coordinates: Draw + Finite, Rates: Draw + Finite, Pose: Finite + Debug>,
@@ -259,7 +259,7 @@ where
     }
 }
 
-/// What takes any scene.
+/// The algorithms for any scene.
 pub fn scene<S, M>(t: &mut Tally, s: &mut Source, scene: &S, positions: &mut Pool<M::Coordinates>)
 where
     S: Scene<Scalar = f64, Mechanism = M>,
@@ -307,7 +307,7 @@ where
     t.fallible(s, "Simulation::state", || Ok::<_, MotionError>((*simulation.state(), simulation.progress())));
 }
 
-/// Integrations of systems that are no mechanism.
+/// Integrations of systems that are not mechanisms.
 pub fn integrations(t: &mut Tally, s: &mut Source) {
     let (matrix, constant) = (SMatrix::<f64, 2, 2>::draw(s), SVector::<f64, 2>::draw(s));
     let (start, end, y) = (s.number(), s.number(), SVector::<f64, 2>::draw(s));

@@ -6,7 +6,7 @@ use linkage::nalgebra::{Complex, SMatrix, Unit, UnitComplex};
 use linkage::{Column, Dim, Elbow, Matrix, Slider, Slope};
 use rand::{Rng, RngCore};
 
-/// At the ends of the range, beyond it, and where squares and products leave it.
+/// Numbers at the ends of the range, beyond it, and where squares and products overflow or underflow.
 const EXTREME: [f64; 24] = [
     f64::NAN,
     f64::INFINITY,
@@ -35,10 +35,10 @@ const EXTREME: [f64; 24] = [
     -1.0,
 ];
 
-/// Where the numbers of one trial come from.
+/// The source of the numbers of one trial.
 pub struct Source {
     random: Box<dyn RngCore>,
-    /// What to call the trial by.
+    /// The name of the trial.
     pub seed: u64,
     /// The share of extreme numbers, and of numbers of any size.
     extreme: f64,
@@ -56,11 +56,11 @@ impl Source {
             // Ordinary mechanisms, of which some are scaled.
             0 => {}
             1 => length = power(&mut random),
-            // One number or two are bad.
+            // One or two numbers are bad.
             2..=4 => extreme = random.random_range(0.0..0.1),
             5 => sized = random.random_range(0.0..0.2),
             6 => (extreme, sized, length, scale) = (0.05, 0.05, power(&mut random), power(&mut random)),
-            // All are.
+            // All numbers are bad.
             _ => [extreme, sized] = [0, 1].map(|_| random.random_range(0.0..1.0)),
         }
         Self { random, seed, extreme, sized, length, scale }
@@ -172,7 +172,7 @@ impl<Q> Default for Pool<Q> {
     }
 }
 
-/// A pool holds so many.
+/// The capacity of a pool.
 const MOST: usize = 6;
 
 impl<Q: Draw + Copy> Pool<Q> {
@@ -182,7 +182,7 @@ impl<Q: Draw + Copy> Pool<Q> {
         }
     }
 
-    /// One that was kept, or any.
+    /// A kept value, or a new one.
     pub fn take(&mut self, source: &mut Source) -> Q {
         if self.0.is_empty() || source.below(5) == 0 { Q::draw(source) } else { self.0[source.below(self.0.len())] }
     }

@@ -15,7 +15,7 @@ use linkage::{
     Mechanism, OutputMotion, PointMotion, Power, Scene, Slider, Slope, Solution, Unreduced,
 };
 
-/// Every number of a value: a type says so of its parts.
+/// Checks every number of a value: a type passes on its parts.
 pub trait Finite {
     fn all_finite(&self) -> bool;
 }
@@ -186,7 +186,7 @@ impl<Y: Finite> Finite for Action<Y> {
     }
 }
 
-/// At its ends and between them.
+/// The state at the ends of a step and between them.
 impl<N: Dim> Finite for Interpolant<f64, N> {
     fn all_finite(&self) -> bool {
         let (from, to) = self.interval();
@@ -194,14 +194,14 @@ impl<N: Dim> Finite for Interpolant<f64, N> {
     }
 }
 
-/// What it tells of itself; what it holds shows in the positions that it gives.
+/// A path: its report; its contents show in the positions that it gives.
 impl<M: Mechanism<Scalar = f64, V = D<1>>, const N: usize> Finite for Table<M, N> {
     fn all_finite(&self) -> bool {
         self.error().is_finite()
     }
 }
 
-/// Its numbers, and not what follows from them where the position is singular.
+/// The numbers of a position, without those that follow from them where the position is singular.
 impl<M: Mechanism<Scalar = f64>> Finite for Accuracy<M> {
     fn all_finite(&self) -> bool {
         [self.residual, self.sigma_min].all_finite()
@@ -209,7 +209,7 @@ impl<M: Mechanism<Scalar = f64>> Finite for Accuracy<M> {
     }
 }
 
-/// By all that it can be asked.
+/// A motion by all its functions.
 impl<M: Mechanism<Scalar = f64>> Finite for Singularity<M> {
     fn all_finite(&self) -> bool {
         [self.determinant(), self.sigma_min()].all_finite()

@@ -1,4 +1,4 @@
-//! The calls: what their arguments are made of, what is asked of their results, and what they were.
+//! The calls: their arguments, the checks of their results, and their outcomes.
 
 mod algorithms;
 mod draw;

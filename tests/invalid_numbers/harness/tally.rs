@@ -20,7 +20,7 @@ pub fn evaluated() {
     EVALUATIONS.set(EVALUATIONS.get() + 1);
 }
 
-/// Keeps what a panic says.
+/// Keeps the message of a panic.
 pub fn listen() {
     std::panic::set_hook(Box::new(|panic| PANIC.with_borrow_mut(|said| *said = panic.to_string())));
 }
@@ -44,16 +44,16 @@ pub struct Tally {
     rows: BTreeMap<&'static str, Row>,
 }
 
-/// So many of what is wrong are told of each function.
+/// The number of failures of each function that are printed.
 const EXAMPLES: u64 = 2;
 
-/// No call takes more evaluations: Newton's method at most 60 steps of 40 halvings each, a search for limits in 720
-/// steps with a closer look at each, a path 20 steps of 64 trials, a simulation 60 steps, and dense output four states
-/// of one simulation in one call: of 3.6e8 calls such a one took the most, 259 059.
+/// The limit of evaluations of one call: Newton's method at most 60 steps of 40 halvings each, a search for limits in
+/// 720 steps with a closer search at each, a path 20 steps of 64 trials, a simulation 60 steps, and dense output four
+/// states of one simulation in one call. The largest of 3.6e8 calls was such a call, 259 059.
 const MOST_EVALUATIONS: u64 = 400_000;
 
 impl Tally {
-    /// A call that may refuse; what it gives if it does not, and all is well.
+    /// A call that may return an error; its result if there is one and all numbers are finite.
     pub fn fallible<R: Finite + Debug, E: Into<Error>>(
         &mut self,
         source: &Source,
@@ -86,7 +86,7 @@ impl Tally {
         None
     }
 
-    /// A call that gives several results, of which each may refuse.
+    /// A call that gives several results, each of which may be an error.
     pub fn each<R: Finite + Debug, E: Into<Error>>(
         &mut self,
         source: &Source,
@@ -99,7 +99,7 @@ impl Tally {
         }
     }
 
-    /// A call that always gives something, of which nothing is asked here.
+    /// A call that always gives a result, which is not checked here.
     pub fn total<R>(&mut self, source: &Source, name: &'static str, call: impl FnOnce() -> R) -> Option<R> {
         let (result, row) = self.call(source, name, call)?;
         row.finite += 1;
@@ -121,7 +121,8 @@ impl Tally {
         result.ok().map(|result| (result, row))
     }
 
-    /// No result that is not finite, no panic, and no more evaluations than are said.
+    /// Checks that no result is infinite or NaN, that nothing panicked, and that no call exceeded the limit of
+    /// evaluations.
     pub fn is_clean(&self) -> bool {
         self.rows.values().all(|row| row.not_finite == 0 && row.panics == 0 && row.evaluations <= MOST_EVALUATIONS)
     }
