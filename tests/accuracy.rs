@@ -196,15 +196,15 @@ fn newton_keeps_its_branch() {
     let m = FourBar::new(80.0, 50.0, 40.0, 60.0);
     let left = FourBarBranch::new(linkage::Elbow::Left);
     let here = Reached::at(&m, m.assemble(0.9, left).unwrap().coordinates());
-    let mut refused = 0;
+    let mut errors = 0;
     for step in 0..60 {
         match Newton::<1>::position(&m, &here, 0.9 + 0.05 * f64::from(step)) {
             Ok(there) => assert_eq!(m.branch_of(&there.pose), left),
-            Err(PositionError::OtherBranch { group: "theta3, theta4", .. }) => refused += 1,
+            Err(PositionError::OtherBranch { group: "theta3, theta4", .. }) => errors += 1,
             Err(other) => panic!("{other}"),
         }
     }
-    assert!(refused > 5, "{refused}");
+    assert!(errors > 5, "{errors}");
 }
 
 /// Twice as many entries have a sixteenth of the error, and the error is the one that the table measured.
@@ -238,7 +238,7 @@ fn tables_go_round() {
 }
 
 #[test]
-fn tables_refuse() {
+fn tables_that_do_not_exist() {
     let m = FourBar::new(80.0, 50.0, 40.0, 60.0);
     let start = m.assemble(0.9, FourBarBranch::new(linkage::Elbow::Left)).unwrap().coordinates();
     // The crank cannot make a full turn, but a part of one.

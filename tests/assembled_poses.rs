@@ -72,7 +72,7 @@ fn agrees<M>(
 }
 
 #[test]
-fn whichever_unknown_is_named_first() {
+fn the_order_of_the_unknowns_does_not_matter() {
     let m = SliderNamedFirst::default();
     agrees(
         &m,

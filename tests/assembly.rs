@@ -248,7 +248,7 @@ impl Bits for JansenPose<f64> {
 }
 
 #[test]
-fn what_does_not_reach_is_named() {
+fn links_that_do_not_reach_are_named() {
     let short = FourBar::new(80.0, 20.0, 10.0, 10.0);
     match short.assemble(0.3, branch(Elbow::Right)) {
         Err(PositionError::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap }) => assert!(gap > 1.0),
@@ -295,7 +295,7 @@ fn scale_free() {
 }
 
 #[test]
-fn nonsense_is_an_error_and_never_a_number() {
+fn invalid_numbers_are_errors_and_never_nan() {
     let branch = branch(Elbow::Right);
     for m in [
         FourBar::new(80.0, 20.0, f64::NAN, 70.0),

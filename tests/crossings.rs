@@ -270,7 +270,7 @@ fn scale_free() {
 
 /// If the second dyad reaches a little further, there is no crossing but a dead point of the first.
 #[test]
-fn what_only_comes_near_is_a_dead_point() {
+fn a_near_crossing_is_a_dead_point() {
     for longer in [1e-3, 1e-6, 1e-9, 1e-12] {
         let m = TwoDyads { n: 1.5 + longer, ..TwoDyads::default() };
         for start in TwoDyadsBranch::all() {

@@ -51,7 +51,7 @@ fn of<'a>(work: &'a Work, name: &'a str) -> impl Iterator<Item = (&'a str, Opera
 /// Each function of a scene and of its mechanism does the same operations whatever else is declared; but if a spring or
 /// a stop needs the number of turns of an angle, assembly computes it.
 #[test]
-fn what_other_scenes_declare_costs_nothing() {
+fn other_scenes_cost_nothing() {
     let all = work(source::tokens_of("four_bar_effects"));
     for scene in SCENES {
         let alone = work(with_scenes(|name| name == scene));

@@ -64,7 +64,7 @@ fn one_call_for_each_argument() {
 }
 
 #[test]
-fn what_is_inside_the_function_is_found_by_newton() {
+fn arguments_of_functions_are_found_by_newton() {
     let slider = Slider::default();
     let guess = WedgeCoordinates { x: 0.3, z: 0.0, ..at_one() };
     let q = slider.solve(&guess).unwrap().coordinates;

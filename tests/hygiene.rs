@@ -151,7 +151,7 @@ mod orders {
 }
 
 #[test]
-fn greedy_names_of_higher_order() {
+fn names_of_higher_order_that_emitted_code_uses() {
     let orders = orders::Both::from([1.0, 2.5, 2.2, 0.8, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
     let guess = orders::OrdersCoordinates::<f64> { sensitivity_by_jerk: 0.8, p_sensitivity: 1.2, x: 1.1, y: 2.3 };
     let q = orders.solve(&guess).unwrap().coordinates;
@@ -170,7 +170,7 @@ fn greedy_names_of_higher_order() {
 }
 
 #[test]
-fn greedy_names_of_scenes() {
+fn names_of_scenes_that_emitted_code_uses() {
     let scene = scenes::Everything::default();
     let guess = scenes::ActingCoordinates { blame: 0.5, phi2: -0.2, x: 3.9 };
     let q = scene.mechanism_.solve(&guess).unwrap().coordinates;
@@ -251,7 +251,7 @@ fn several_in_one_invocation() {
 }
 
 #[test]
-fn greedy_names() {
+fn names_that_emitted_code_uses() {
     let greedy = greedy::Greedy::default();
     let guess = greedy::GreedyCoordinates::<f64> { acceleration: 0.349, right: 1.2, finite: -0.9 };
     let q = greedy.solve(&guess).unwrap().coordinates;

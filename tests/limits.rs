@@ -277,7 +277,7 @@ fn scale_free() {
 }
 
 #[test]
-fn nonsense_is_refused() {
+fn invalid_input_is_an_error() {
     let m = FourBar::new(80.0, 20.0, 10.0, 10.0);
     let branch = FourBarBranch::new(Elbow::Left);
     assert!(matches!(m.limits(0.3, branch), Err(PositionError::Unbuildable { .. })));
@@ -408,7 +408,7 @@ fn limits_of_a_slide() {
     }
 }
 
-/// A start at a limit that rounding may have moved beyond it: the limit is there, and the other one unchanged.
+/// A start at a limit, or beyond it by a rounding error: the limit is there, and the other one unchanged.
 #[test]
 fn a_start_at_a_limit() {
     let m = FourBar::new(70.0, 60.0, 30.0, 50.0);
@@ -525,18 +525,18 @@ fn no_limit_is_not_finite() {
     }
     // Joints far from the origin and near each other: the squares of the coordinates overflow, that of the line does
     // not.
-    let mut refused = 0;
+    let mut errors = 0;
     for exponent in 480..600 {
         let (far, near) = (2_f64.powi(exponent), 2_f64.powi(320));
         let m = FourBar::new(far, far, 0.6 * near, 0.7 * near);
         let start = near / far;
         assert!(m.assemble(start, on_bar).is_ok());
         let limits = m.limits(start, on_bar);
-        refused +=
+        errors +=
             usize::from(matches!(limits, Err(PositionError::NotFinite { mechanism: "FourBar", quantity: "a limit" })));
         check(limits, start, &m);
     }
-    assert!((80..100).contains(&refused), "{refused}");
+    assert!((80..100).contains(&errors), "{errors}");
     println!("{found} limits");
     assert!(found > 10_000, "{found}");
 }

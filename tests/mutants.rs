@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-use expanded::{expanded, is_refused, parsed};
+use expanded::{expanded, is_rejected, parsed};
 use linkage_compiler::budget::{Budget, MOST_STEPS};
 use linkage_gallery::source;
 use mutants::{Mutator, corpus};
@@ -48,7 +48,7 @@ fn no_mutant_makes_the_macro_panic_or_run_away() {
         let mutant = mutator.mutant();
         let budget = Budget::default();
         let expansion = expanded(&mutant, &root, &budget);
-        accepted += usize::from(!is_refused(&expansion));
+        accepted += usize::from(!is_rejected(&expansion));
         let steps = MOST_STEPS - budget.left();
         if steps > most {
             (most, longest) = (steps, mutant.to_string());
@@ -78,7 +78,7 @@ fn a_budget_that_ends_anywhere_is_one_message() {
     {
         let all = {
             let budget = Budget::default();
-            assert!(!is_refused(&linkage_compiler::expand_within(
+            assert!(!is_rejected(&linkage_compiler::expand_within(
                 source::tokens_of(file),
                 &linkage_compiler::Facade::complete(&root),
                 &budget
@@ -143,7 +143,7 @@ fn accepted_mutants_compile() {
             let (mutant, expansion) = loop {
                 let mutant = mutator.mutant();
                 let expansion = linkage_compiler::expand(mutant.clone(), &path);
-                if !is_refused(&expansion) {
+                if !is_rejected(&expansion) {
                     break (mutant, expansion);
                 }
             };

@@ -27,8 +27,8 @@ fn draws(usual: usize) -> usize {
     std::env::var("TOLERANCES").ok().and_then(|count| count.parse().ok()).unwrap_or(usual)
 }
 
-/// The angle from upright, and its rate, at a time: phi'' = k sin(phi) by Dormand and Prince's method, to rounding
-/// error.
+/// The angle from upright, and its rate, at a time: phi'' = k sin(phi) by Dormand and Prince's method, with a tolerance
+/// of 1e-14.
 fn pendulum(windows: f64, t: f64) -> (f64, f64) {
     let k = 9.81 * (0.5 * (windows + 1.0) + windows) / ((windows + 1.0) / 3.0 + windows);
     let tolerance = Tolerance::new(1e-14, [1.0, 1.0]).unwrap();
@@ -57,7 +57,7 @@ struct Run {
 }
 
 /// Runs at random tolerances, and checks their outcomes.
-fn judge(windows: f64, count: usize, run: impl Fn(f64, (f64, f64)) -> Run) {
+fn check_runs(windows: f64, count: usize, run: impl Fn(f64, (f64, f64)) -> Run) {
     let random = &mut SmallRng::seed_from_u64(SEED + windows as u64);
     let exact = pendulum(windows, 20.0);
     let (mut stops, mut worst_spread, mut worst_share) = (0, 0.0_f64, 0.0_f64);
@@ -94,7 +94,7 @@ fn judge(windows: f64, count: usize, run: impl Fn(f64, (f64, f64)) -> Run) {
 macro_rules! windows {
     ($size:ident, $windows:literal, $usual:literal, $([$left:ident $bar:ident $right:ident $upright:ident $beam:ident $at:tt])*) => {
         mod $size {
-            use super::{Run, draws, judge, linkage, simulate};
+            use super::{Run, draws, check_runs, linkage, simulate};
 
             linkage! {
                 /// Uprights on the ground, one metre apart, joined by bars; angles from the horizontal.
@@ -116,7 +116,7 @@ macro_rules! windows {
 
             #[test]
             fn never_on_another_motion() {
-                judge($windows, draws($usual), |tolerance, (angle, _)| {
+                check_runs($windows, draws($usual), |tolerance, (angle, _)| {
                     let scene = Falling::default();
                     let up = std::f64::consts::FRAC_PI_2;
                     let start = WindowsCoordinates { phi0: up, $($bar: 0.0, $right: up),* };

@@ -26,7 +26,7 @@ fn unassemblable_lengths() {
 }
 
 #[test]
-fn numbers_that_are_none() {
+fn infinite_and_nan_numbers() {
     for bad in [f64::NAN, f64::INFINITY] {
         let broken = FourBar::new(80.0, bad, 50.0, 70.0);
         assert!(matches!(broken.solve(&guess()), Err(PositionError::NotFinite { mechanism: "FourBar", .. })));

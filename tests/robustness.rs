@@ -61,7 +61,7 @@ fn no_token_missing_or_doubled_makes_it_panic() {
 }
 
 #[test]
-fn deep_parentheses_are_refused() {
+fn deep_parentheses_are_rejected() {
     let found = messages(&with_output(&format!("{}v{}", "(".repeat(1000), ")".repeat(1000))));
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].contains("nested deeper than 64 levels"));
@@ -91,9 +91,9 @@ fn deep_names_need_no_deep_stack() {
 
 /// Third derivatives and a full du/dp are rejected as well, before they take long.
 #[test]
-fn higher_orders_of_hopeless_inputs() {
+fn higher_orders_of_huge_inputs() {
     let asking = |source: String| source.replacen('{', "{ derive jerk, velocity_ratio_derivatives, sensitivity;", 1);
-    for (source, refused) in [
+    for (source, rejected) in [
         (families::nested(20), false),
         (families::nested(3000), true),
         (families::wide(300), false),
@@ -102,13 +102,13 @@ fn higher_orders_of_hopeless_inputs() {
         (families::chain(64), true),
     ] {
         let found = expansion_messages(&asking(source));
-        assert_eq!(found.len(), usize::from(refused), "{found:?}");
+        assert_eq!(found.len(), usize::from(rejected), "{found:?}");
         assert!(found.iter().all(|found| found.contains("the derivatives of `")), "{found:?}");
     }
 }
 
 #[test]
-fn more_than_anybody_waits_for_is_refused() {
+fn inputs_that_take_too_long_are_rejected() {
     for (terms, message) in [(900, ""), (10_000, "`M` has 30004 expressions"), (200_000, "more than 100000 tokens")] {
         let found = expansion_messages(&families::wide(terms));
         assert_eq!(found.len(), usize::from(!message.is_empty()), "{found:?}");
@@ -121,14 +121,14 @@ fn constants_overflow_cleanly() {
     let large = "9000000000000000000";
     assert!(messages(&with_output(&format!("{large} * {large} * {large} / {large}"))).is_empty());
     assert!(messages(&with_output("2 ^ 500")).is_empty());
-    for hopeless in ["10 ^ 400", "1e308 * 10", "0 ^ 0", "0 ^ -1", "1 / (a - a)", "v ^ 3000000000"] {
-        assert_eq!(messages(&with_output(hopeless)).len(), 1, "{hopeless}");
+    for invalid in ["10 ^ 400", "1e308 * 10", "0 ^ 0", "0 ^ -1", "1 / (a - a)", "v ^ 3000000000"] {
+        assert_eq!(messages(&with_output(invalid)).len(), 1, "{invalid}");
     }
 }
 
 /// Bodies whose centres are at r and at -r along one line: products that differ in the signs inside them alone.
 #[test]
-fn what_differs_in_signs_alone_is_shared_in_the_end() {
+fn products_that_differ_in_signs_are_shared() {
     let source = "mechanism M { param k = 1, m = 1; input v; unknown r; equation r = k * v;
         body b { mass m; center r@v; } body c { mass m; center (-r)@v; } scene Loaded { inertia; } }";
     assert_eq!(expansion_messages(source), [""; 0]);
@@ -164,7 +164,7 @@ fn tokens_left_over_in_an_attribute_are_told() {
 }
 
 #[test]
-fn attributes_without_effect_are_refused() {
+fn attributes_without_effect_are_rejected() {
     for (attribute, statement, message) in [
         ("#[cfg(test)]", "param", "does not work on a part"),
         ("#[cfg(test)]", "equation", "does not work on a part"),
@@ -189,8 +189,8 @@ fn attributes_without_effect_are_refused() {
 }
 
 #[test]
-fn constants_that_no_float_holds_are_refused() {
-    for hopeless in [
+fn constants_beyond_the_range_are_rejected() {
+    for invalid in [
         "v / 5e-324",
         "(1e200 * v)^2",
         "v * pi * 1e308",
@@ -200,11 +200,8 @@ fn constants_that_no_float_holds_are_refused() {
         "(1e-200 * v)^2",
         "v + 1e308 + 1e308",
     ] {
-        let found = expansion_messages(&with_output(hopeless));
-        assert!(
-            matches!(found.as_slice(), [one] if one.contains("beyond the range of `f64`")),
-            "{hopeless}: {found:?}"
-        );
+        let found = expansion_messages(&with_output(invalid));
+        assert!(matches!(found.as_slice(), [one] if one.contains("beyond the range of `f64`")), "{invalid}: {found:?}");
     }
     // The determinant is a product of constants that are in range.
     for (first, second) in [("1e-200 * u + 2 * w = v", "u = 1e-200 * w"), ("1e200 * u = w^2 + v", "w * 1e200 = u^2")] {
@@ -214,7 +211,7 @@ fn constants_that_no_float_holds_are_refused() {
     }
 }
 
-/// As many legs as 100 000 tokens hold; the work of an invocation is the sum over its mechanisms.
+/// The most legs that 100 000 tokens hold; the work of an invocation is the sum over its mechanisms.
 #[test]
 fn a_hundred_thousand_tokens_of_honest_input_are_within_the_budget() {
     use linkage_compiler::budget::{Budget, MOST_STEPS};

@@ -62,7 +62,7 @@ fn the_file_stands_alone() {
 }
 
 #[test]
-fn what_the_user_gives_is_escaped() {
+fn texts_of_users_are_escaped() {
     let html = sheet();
     assert!(html.contains("<h1>Four-bar &lt;A&amp;B&gt; &quot;linkage&quot;</h1>"));
     assert!(html.contains("<caption>Pose &lt;rad&gt;</caption>"));
@@ -72,7 +72,7 @@ fn what_the_user_gives_is_escaped() {
 }
 
 #[test]
-fn numbers_stand_beside_formulas() {
+fn numbers_are_next_to_formulas() {
     let html = sheet();
     let row = |name: &str| format!("<th scope=\"row\"><math>{name}</math></th>");
     let theta = |index: u8| format!("<msub><mi>θ</mi><mn>{index}</mn></msub>");

@@ -18,12 +18,12 @@ use linkage_gallery::rrr::*;
 use linkage_gallery::six_bar::*;
 use linkage_gallery::slider_crank::*;
 
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const ROUNDING_ERROR: f64 = 4.0 * f64::EPSILON;
 
 /// Equal up to rounding errors.
 #[track_caller]
 fn is_rounded(found: f64, expected: f64) {
-    assert_abs_diff_eq!(found, expected, epsilon = 4.0 * ROUNDING * (1.0 + expected.abs()));
+    assert_abs_diff_eq!(found, expected, epsilon = 4.0 * ROUNDING_ERROR * (1.0 + expected.abs()));
 }
 
 fn names<M: Mechanism>(report: &singularity::Singularity<M>) -> Vec<(&'static str, &'static str)> {
@@ -39,7 +39,7 @@ fn slider_crank_driven_by_its_slider() {
         let z3 = m.z1 * f64::cos(phi1) + m.z2 * f64::cos(phi2);
         let pose = m.pose_at(&SliderCrankCoordinates { z3, phi1, phi2 });
         let found = singularity::report(&m, &pose).unwrap();
-        assert!(found.is_singular() && found.rank() == 1 && found.sigma_min() <= ROUNDING, "{found}");
+        assert!(found.is_singular() && found.rank() == 1 && found.sigma_min() <= ROUNDING_ERROR, "{found}");
         assert_eq!(found.rank_with_inputs(), 2);
         assert_eq!(found.admissible().count(), 0);
         let [free] = found.free().collect::<Vec<_>>()[..] else { panic!("{found}") };
@@ -59,8 +59,8 @@ fn slider_crank_driven_by_its_slider() {
         assert!(!found.is_singular());
         let [group] = found.groups().copied().collect::<Vec<_>>()[..] else { panic!("{found}") };
         let sine = f64::sin(phi2 - phi1).abs();
-        assert!((group.regularity - sine).abs() <= ROUNDING * sine, "{group:?}");
-        assert!((found.determinant() - m.z1 * m.z2 * f64::sin(phi2 - phi1)).abs() <= 4.0 * ROUNDING * sine);
+        assert!((group.regularity - sine).abs() <= ROUNDING_ERROR * sine, "{group:?}");
+        assert!((found.determinant() - m.z1 * m.z2 * f64::sin(phi2 - phi1)).abs() <= 4.0 * ROUNDING_ERROR * sine);
     }
 }
 
@@ -130,7 +130,7 @@ fn dyad_with_a_slider() {
         let found = singularity::report(&m, &pose).unwrap();
         // det J in the notes' letters: what z1 - z2 - z3 moves across the guide.
         let across = z2 - m.z1 * m.alpha.cos() + m.z3 * (m.beta - m.alpha).cos();
-        assert!((found.determinant().abs() - across.abs()).abs() <= 4.0 * ROUNDING * 2.0, "{found} {across}");
+        assert!((found.determinant().abs() - across.abs()).abs() <= 4.0 * ROUNDING_ERROR * 2.0, "{found} {across}");
     }
     let z2 = m.z1 * m.alpha.cos() - m.z3 * (m.beta - m.alpha).cos();
     let pose = m.pose_at(&RprCoordinates { phi1: 0.7, z2, xa: 0.1, ya: 0.2, xb: 0.3, yb: 0.4 });
@@ -158,8 +158,11 @@ fn six_bar_with_its_second_dyad_stretched() {
     is_rounded(m.f * free[2] - -m.g * free[3], 0.0);
     let groups: Vec<_> = found.groups().copied().collect();
     assert_eq!([groups[0].name, groups[1].name], ["theta2, theta3", "theta4, theta5"]);
-    assert!(groups[0].is_regular && !groups[1].is_regular && groups[1].regularity <= 2.0 * ROUNDING, "{groups:?}");
-    assert!((groups[0].regularity - (q.theta2 - q.theta3).sin().abs()).abs() <= ROUNDING);
+    assert!(
+        groups[0].is_regular && !groups[1].is_regular && groups[1].regularity <= 2.0 * ROUNDING_ERROR,
+        "{groups:?}"
+    );
+    assert!((groups[0].regularity - (q.theta2 - q.theta3).sin().abs()).abs() <= ROUNDING_ERROR);
     assert_eq!(names(&found), [("theta4", "theta1"), ("theta5", "theta1")]);
 }
 
@@ -197,9 +200,9 @@ fn brute_force<M: Mechanism<Scalar = f64>>(m: &M, pose: &M::Pose) -> bool {
     assert_eq!(found.rank_with_inputs(), numerical_rank(&all));
     assert_eq!(found.admissible().count(), v - (numerical_rank(&all) - rank));
     for rates in found.admissible() {
-        let mut beside = dynamic.clone().insert_column(u, 0.0);
-        beside.column_mut(u).copy_from_slice((a * rates).as_slice());
-        assert_eq!(numerical_rank(&beside), rank, "an admissible rate leaves the range of J");
+        let mut extended = dynamic.clone().insert_column(u, 0.0);
+        extended.column_mut(u).copy_from_slice((a * rates).as_slice());
+        assert_eq!(numerical_rank(&extended), rank, "an admissible rate leaves the range of J");
     }
     let mut exchanges = Vec::new();
     for input in 0..v {
@@ -282,7 +285,7 @@ fn attainable_accuracy() {
         for found in m.branches(theta2) {
             let (_, pose) = found.unwrap();
             let here = singularity::accuracy(&m, &pose).unwrap();
-            assert!(here.residual <= ROUNDING, "{here:?}");
+            assert!(here.residual <= ROUNDING_ERROR, "{here:?}");
             let q = pose.coordinates();
             let Ok(solution) = m.solve(&q) else { continue };
             let other = solution.coordinates;

@@ -273,7 +273,7 @@ fn turns_that_cannot_be_counted() {
 
 /// A branch has no turn if no angle's number is needed.
 #[test]
-fn what_has_no_turn() {
+fn branches_without_turns() {
     let FourBarBranch { theta3_theta4: _, theta3_turn, theta4_turn } = FourBarBranch::new(Elbow::Left);
     assert_eq!([theta3_turn, theta4_turn], [0, 0]);
     let BareBranch { phi_psi: _ } = BareBranch::all().next().unwrap();

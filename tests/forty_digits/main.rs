@@ -40,12 +40,12 @@
 //! ```
 
 mod dimensions;
-mod judge;
-mod verdict;
+mod errors;
+mod reference;
 
-use judge::{Data, Motion};
+use errors::{ULPS, largest_errors, unit_of_length};
 use linkage_gallery::{Fixture, all_mechanisms};
-use verdict::{ULPS, judge, unit_of_length};
+use reference::{Data, Motion};
 
 /// The motion that the emitted code finds for some data.
 fn run<F: Fixture>(data: &Data) -> Option<Motion> {
@@ -63,7 +63,7 @@ fn run<F: Fixture>(data: &Data) -> Option<Motion> {
 }
 
 fn eight_ulps<F: Fixture>() {
-    for worst in judge::<F>() {
+    for worst in largest_errors::<F>() {
         assert!(worst.error <= ULPS, "{} ulp x condition: {}", worst.error, worst.place);
     }
 }

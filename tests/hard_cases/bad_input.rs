@@ -12,7 +12,7 @@ fn start(m: &FourBar) -> FourBarCoordinates {
 }
 
 #[test]
-fn numbers_that_are_none() {
+fn infinite_and_nan_numbers() {
     let m = FourBar::default();
     let q = start(&m);
     for bad in BAD {
@@ -21,8 +21,8 @@ fn numbers_that_are_none() {
             FourBarCoordinates { theta3: bad, ..q },
             FourBarCoordinates { theta4: bad, ..q },
         ] {
-            let refused = Path::new(&m, &broken, Direction::Increasing).err();
-            assert!(matches!(refused, Some(PathError::Position(PositionError::NotFinite { .. }))), "{refused:?}");
+            let error = Path::new(&m, &broken, Direction::Increasing).err();
+            assert!(matches!(error, Some(PathError::Position(PositionError::NotFinite { .. }))), "{error:?}");
         }
         let rates = FourBarRates { theta2: 1.0, theta3: 0.0, theta4: 0.0 };
         for broken in [
@@ -30,12 +30,12 @@ fn numbers_that_are_none() {
             FourBarRates { theta3: bad, ..rates },
             FourBarRates { theta4: bad, ..rates },
         ] {
-            let refused = Path::new(&m, &q, Direction::Along(broken)).err();
-            assert!(matches!(refused, Some(PathError::Position(PositionError::NotFinite { .. }))), "{refused:?}");
+            let error = Path::new(&m, &q, Direction::Along(broken)).err();
+            assert!(matches!(error, Some(PathError::Position(PositionError::NotFinite { .. }))), "{error:?}");
         }
         for broken in [FourBar::new(bad, 20.0, 50.0, 70.0), FourBar::new(80.0, 20.0, bad, 70.0)] {
-            let refused = Path::new(&broken, &q, Direction::Increasing).err();
-            assert!(matches!(refused, Some(PathError::Position(PositionError::NotFinite { .. }))), "{refused:?}");
+            let error = Path::new(&broken, &q, Direction::Increasing).err();
+            assert!(matches!(error, Some(PathError::Position(PositionError::NotFinite { .. }))), "{error:?}");
         }
         let mut path = Path::new(&m, &q, Direction::Increasing).unwrap();
         assert!(matches!(path.advance_to(bad), Err(PathError::Position(PositionError::NotFinite { .. }))));
@@ -44,7 +44,7 @@ fn numbers_that_are_none() {
 }
 
 #[test]
-fn options_that_make_no_sense() {
+fn invalid_options() {
     let m = FourBar::default();
     let q = start(&m);
     let good = Options::default();
@@ -58,10 +58,10 @@ fn options_that_make_no_sense() {
         all.push(Options { range: Some(range), ..good });
     }
     for options in all {
-        let refused = Path::with(&m, &q, Direction::Increasing, options).err();
+        let error = Path::with(&m, &q, Direction::Increasing, options).err();
         assert!(
-            matches!(refused, Some(PathError::Input(InputError::OutOfRange { of: Some("FourBar"), .. }))),
-            "{options:?}: {refused:?}"
+            matches!(error, Some(PathError::Input(InputError::OutOfRange { of: Some("FourBar"), .. }))),
+            "{options:?}: {error:?}"
         );
     }
     let options = Options { range: Some([0.0, 1.0]), ..good };
@@ -102,9 +102,6 @@ fn zero_lengths() {
             }
         }
     }
-    let refused = Path::new(&FourBar::from([0.0; 4]), &q, Direction::Increasing).err();
-    assert!(
-        matches!(refused, Some(PathError::Lost { mechanism: "FourBar", group: "theta3, theta4", .. })),
-        "{refused:?}"
-    );
+    let error = Path::new(&FourBar::from([0.0; 4]), &q, Direction::Increasing).err();
+    assert!(matches!(error, Some(PathError::Lost { mechanism: "FourBar", group: "theta3, theta4", .. })), "{error:?}");
 }

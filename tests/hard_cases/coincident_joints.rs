@@ -209,7 +209,7 @@ fn two_dyads_carry_a_third() {
         let found = at_all_scales(|scale| unequal(scale).assemble(3.5 * scale, branch).map(|pose| pose.e));
         let Err(PositionError::Unbuildable { group: "e, f", gap, .. }) = found else { panic!("{found:?}") };
         assert!((gap - (0.1_f64 / 3.9).powi(2)).abs() < 1e-15, "{gap}");
-        // In either case of rounding of the end of the first dyads, the third ends before.
+        // The end of the first dyads is rounded inward or outward, and the third ends before either.
         for l in (1..200).map(|part| 1.9 + 0.001 * f64::from(part)) {
             let m = Symmetric { l, ..unequal(1.0) };
             let found = m.limits(2.0, branch).unwrap();

@@ -32,7 +32,7 @@ fn velocity_at_the_singularity() {
 
 /// Near it, z3 = 2 z1 cos(phi1) on one branch and 0 on the other, within the error that sigma min predicts.
 #[test]
-fn positions_beside_it() {
+fn positions_near_it() {
     let m = Compressor { z1: 1.5, z2: 1.5 };
     let mut worst = 0.0_f64;
     for digits in 1..8 {

@@ -1,5 +1,5 @@
-//! A crank after a million turns: an angle reduced by the remainder of 2 pi as a double is wrong by a million rounding
-//! errors of 2 pi.
+//! A crank after a million turns: an angle reduced by the remainder of 2 pi as a double is wrong by a million times the
+//! rounding error of 2 pi.
 
 use std::f64::consts::TAU;
 

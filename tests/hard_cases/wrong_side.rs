@@ -10,7 +10,7 @@ use linkage_gallery::four_bar::*;
 #[test]
 fn never_mirrored_silently() {
     let m = FourBar::default();
-    let (mut followed, mut mirrored, mut refused) = (0, 0, 0);
+    let (mut followed, mut mirrored, mut not_found) = (0, 0, 0);
     for i in 0..60 {
         for j in 0..60 {
             let angle = |k: i32| f64::from(k) / 60.0 * std::f64::consts::TAU - std::f64::consts::PI;
@@ -28,11 +28,11 @@ fn never_mirrored_silently() {
                     assert_ne!(found.unwrap(), side);
                     mirrored += 1;
                 }
-                Err(PathError::Position(PositionError::NotConverged { .. })) => refused += 1,
+                Err(PathError::Position(PositionError::NotConverged { .. })) => not_found += 1,
                 Err(error) => panic!("{error}"),
             }
         }
     }
-    println!("of 3600 starts {followed} are followed, {mirrored} are refused as mirrored, {refused} not found");
+    println!("of 3600 starts {followed} are followed, {mirrored} are mirrored, {not_found} not found");
     assert!(followed > 2000 && mirrored > 100);
 }

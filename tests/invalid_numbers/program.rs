@@ -302,7 +302,7 @@ fn call(name: &str, function: &Signature) -> String {
             _ if of.starts_with("&SVector<T,") => {
                 (format!("<{} as h::Draw>::draw(s)", of[1..].replace("SVector<T,", "h::SVector<f64,")), "&")
             }
-            _ => panic!("{name}::{}: nobody knows how to make `{wish}: {of}`", function.ident),
+            _ => panic!("{name}::{}: no rule makes `{wish}: {of}`", function.ident),
         };
         let _ = write!(text, "let a{place} = {value}; ");
         arguments.push(format!("{passed}a{place}"));

@@ -59,7 +59,7 @@ fn errors_name_the_body_or_the_effect() {
 
 /// A dead point: the coupler and the rocker in line.
 #[test]
-fn a_dead_point_is_refused() {
+fn a_dead_point_is_an_error() {
     let mut idle = Idle::default();
     (idle.mechanism.l1, idle.mechanism.l2) = (1.0, 0.5);
     // -0.5 + 0.8 + 0.7 = 1, all on one line.

@@ -25,15 +25,15 @@ fn at(x: f64) -> SledgeCoordinates {
 }
 
 #[test]
-fn what_contacts_have_taken_does_not_come_back() {
-    let refused = |scene, contact| Some(MotionError::Irreversible { scene, contact });
+fn energy_lost_in_contacts_does_not_return() {
+    let irreversible = |scene, contact| Some(MotionError::Irreversible { scene, contact });
     let (start, end) = ((1.0, at(0.3), 0.1), 0.0);
-    assert_eq!(simulate(&Rubbing::default(), start, end, 1e-9).err(), refused("Rubbing", "friction on x"));
-    assert_eq!(simulate(&Both::default(), start, end, 1e-9).err(), refused("Both", "stop on x"));
+    assert_eq!(simulate(&Rubbing::default(), start, end, 1e-9).err(), irreversible("Rubbing", "friction on x"));
+    assert_eq!(simulate(&Both::default(), start, end, 1e-9).err(), irreversible("Both", "stop on x"));
     for e in [0.0, 0.5, 1.0] {
         let scene = Hitting { e, ..Hitting::default() };
         let error = simulate(&scene, start, end, 1e-9).err();
-        assert_eq!(error, refused("Hitting", "stop on x"));
+        assert_eq!(error, irreversible("Hitting", "stop on x"));
         assert!(error.unwrap().to_string().contains("backwards in time"));
         assert!(simulate(&scene, start, 2.0, 1e-9).is_ok());
         assert!(simulate(&scene, start, 1.0, 1e-9).is_ok());

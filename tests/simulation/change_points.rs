@@ -76,7 +76,7 @@ fn parallel_stays_parallel_also_when_driven() {
 /// The crank is a little too short to take the rocker along: it swings, the more suddenly the nearer the frame is to a
 /// parallelogram. The reference are the equations in the input alone, which has no dead point.
 #[test]
-fn what_only_comes_near_is_no_change_point() {
+fn a_near_change_point_is_none() {
     for short in [1e-3, 1e-6, 1e-9] {
         let mut scene = Rolling::default();
         scene.mechanism.a -= short;

@@ -118,7 +118,7 @@ fn a_block_on_a_belt() {
 }
 
 #[test]
-fn what_cannot_begin_or_go_on() {
+fn starts_and_motions_that_fail() {
     let beyond = InputError::BeyondStop { scene: "Bouncing", stop: "stop on height", gap: 0.5 };
     assert_eq!(simulate(&Bouncing::default(), (0.0, block(0.75), 0.0), 1.0, 1e-9).err(), Some(beyond.into()));
     // A drive through a stop.
@@ -155,7 +155,7 @@ fn a_load_that_swings_frees_the_block_in_time() {
 
 /// A block that has stopped is struck and slides back; so are a ball that rests and one that flies down.
 #[test]
-fn blows_from_outside() {
+fn impulses_from_outside() {
     let scene = Sliding::default();
     let brake = 0.3 * 9.81;
     let motion = simulate(&scene, (0.0, block(0.0), 1.7), 5.0, 1e-13).unwrap();

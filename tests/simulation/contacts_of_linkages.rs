@@ -217,7 +217,7 @@ fn a_motor_through_singular_inputs() {
 
 /// The arms stay so near to a line that the cranks are never good inputs.
 #[test]
-fn a_motor_beside_a_singular_position() {
+fn a_motor_near_a_singular_position() {
     let mut seen = Happened::new();
     for grip in [0.2, 20.0] {
         let begin = 2.943;

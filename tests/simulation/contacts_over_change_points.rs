@@ -35,8 +35,8 @@ const INERTIA: f64 = 2.0 * 5.0 + 1.2;
 #[test]
 fn friction_takes_all_the_energy() {
     let (scene, start) = (Rubbed::default(), 0.5);
-    let beside = [-0.3, -0.1, -0.03, -0.01, 0.01, 0.03, 0.1, 0.3].map(|beyond| PI + beyond);
-    for end in [2.9, 5.0, 7.8, 8.9, 10.1].into_iter().chain(beside) {
+    let near = [-0.3, -0.1, -0.03, -0.01, 0.01, 0.03, 0.1, 0.3].map(|beyond| PI + beyond);
+    for end in [2.9, 5.0, 7.8, 8.9, 10.1].into_iter().chain(near) {
         let speed = (2.0 * scene.mu / INERTIA * (end - start)).sqrt();
         let mut motion = simulate(&scene, (0.0, at(start), speed), 40.0, 1e-12).unwrap();
         let mut stuck = None;
@@ -67,7 +67,7 @@ fn friction_takes_all_the_energy() {
 
 /// A stop just after a change point, or before it: the crank returns at the right moment, over the change point again.
 #[test]
-fn a_stop_beside_a_change_point() {
+fn a_stop_near_a_change_point() {
     let (start, speed) = (0.5, 1.3);
     for beyond in [-0.9, -0.3, -0.1, -0.03, -0.01, -1e-3, 0.0, 1e-3, 0.01, 0.03, 0.1, 0.3, 0.9] {
         let bound = PI + beyond;
@@ -164,7 +164,7 @@ linkage! {
 /// The block is held while m a omega^2 |cos theta| is at most its friction, and slips where that is exceeded, also next
 /// to a change point.
 #[test]
-fn it_slips_in_time_beside_a_change_point() {
+fn it_slips_in_time_near_a_change_point() {
     let omega = 2.0_f64;
     for before in [0.9, 0.5, 0.3, 0.2, 0.1, 0.05, 0.02] {
         let grip = 1.2 * omega * omega * f64::cos(before);

@@ -29,7 +29,7 @@ fn a_law_that_ends() {
 }
 
 #[test]
-fn starts_that_make_no_sense() {
+fn invalid_starts() {
     let mut scene = Idling::default();
     let error = |scene: &Idling<f64>, tolerance: f64, rate: f64, end: f64| {
         simulate(scene, (0.0, start(), rate), end, tolerance).err()

@@ -61,7 +61,7 @@ fn at(x: f64) -> SliderCoordinates {
 }
 
 #[test]
-fn what_hits_a_stop_without_load_rests_there() {
+fn a_part_that_hits_a_stop_without_load_rests_there() {
     for scale in [1.0, 2.0_f64.powi(-60), 2.0_f64.powi(60)] {
         for tolerance in [1e-4, 1e-9, 1e-13] {
             let scene = Loaded { lower: -scale, upper: scale, ..Loaded::default() };

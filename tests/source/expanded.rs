@@ -10,7 +10,7 @@ pub fn expanded(mutant: &TokenStream, root: &TokenStream, budget: &Budget) -> To
     let expand = || linkage_compiler::expand_within(mutant.clone(), &linkage_compiler::Facade::complete(root), budget);
     let expansion = catch_unwind(AssertUnwindSafe(expand)).unwrap_or_else(|_| panic!("the macro panics:\n{mutant}"));
     assert!(!expansion.is_empty(), "this vanishes:\n{mutant}");
-    assert!(!budget.is_spent() || is_refused(&expansion), "this is beyond the budget:\n{mutant}");
+    assert!(!budget.is_spent() || is_rejected(&expansion), "this is beyond the budget:\n{mutant}");
     expansion
 }
 
@@ -20,7 +20,7 @@ pub fn parsed(expansion: TokenStream, mutant: &TokenStream) -> syn::File {
 }
 
 /// True if an expansion begins with a message.
-pub fn is_refused(expansion: &TokenStream) -> bool {
+pub fn is_rejected(expansion: &TokenStream) -> bool {
     let beginning = expansion.clone().into_iter().take(8);
     beginning.into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "compile_error"))
 }

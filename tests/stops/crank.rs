@@ -6,7 +6,7 @@ use linkage::simulation::simulate;
 
 use linkage_oracle::close;
 
-use super::ROUNDINGS;
+use super::POSITION_ERROR;
 
 linkage! {
     /// An engine that its piston drives, but not in its dead centres.
@@ -54,7 +54,7 @@ macro_rules! knocks {
         while let Some(state) = motion.advance().unwrap() {
             let times = (1..4).map(|part| last + (state.t - last) * f64::from(part) / 4.0);
             for between in motion.at(times).map(Result::unwrap) {
-                assert!(sign * between.q.phi > -ROUNDINGS, "{between:?}");
+                assert!(sign * between.q.phi > -POSITION_ERROR, "{between:?}");
             }
             last = state.t;
             for (_, change) in state.changes() {
@@ -66,7 +66,7 @@ macro_rules! knocks {
             }
         }
         assert!(rest.is_some_and(|rest| rest < 1e-6) && (impacts == 1) == ($e == 0.0), "{impacts} {rest:?}");
-        assert!(motion.state().rates.phi == 0.0 && motion.state().q.phi.abs() < ROUNDINGS, "{:?}", motion.state());
+        assert!(motion.state().rates.phi == 0.0 && motion.state().q.phi.abs() < POSITION_ERROR, "{:?}", motion.state());
     }};
 }
 

@@ -10,7 +10,7 @@ use linkage::{Mechanism, Mode, linkage};
 
 use linkage_oracle::close;
 
-use super::ROUNDINGS;
+use super::POSITION_ERROR;
 
 linkage! {
     /// A five-bar on a table whose springs pull its arms straight.
@@ -52,7 +52,7 @@ fn account(scene: &BentOnChain<f64>, moments: &[Moment]) -> Vec<f64> {
         let (bend, turn) = (q.theta3 - q.theta2 - PI, rates.theta3 - rates.theta2);
         let is_open = touch.mode == Mode::Open;
         // A coordinate at rest keeps its rate to rounding error, and its position to the error of the steps.
-        let drift = if is_open { ROUNDINGS } else { 1e-11 };
+        let drift = if is_open { POSITION_ERROR } else { 1e-11 };
         assert!(bend < drift, "{bend:e} at {t}");
         let Some(change) = touch.change else {
             let rests = bend.abs() < drift && turn.abs() < 64.0 * f64::EPSILON * rates.theta2.abs();

@@ -6,7 +6,7 @@ use linkage::{InputError, Mode, MotionError, linkage};
 
 use linkage_oracle::close;
 
-use super::ROUNDINGS;
+use super::POSITION_ERROR;
 
 linkage! {
     /// A ladder whose ends slide in two slots at right angles, askew to the axes. All its mass is at the upper end, and
@@ -58,12 +58,12 @@ impl Fall {
         let (first, speed) = (self.speed() / self.g, self.speed());
         let mut impacts = 0;
         for &(t, height, rate, change, mode) in moments {
-            assert!(height > -ROUNDINGS * self.size, "{t}: {height:e}");
+            assert!(height > -POSITION_ERROR * self.size, "{t}: {height:e}");
             match change {
                 Some(Change::Impact | Change::Rests) => {
                     let (time, before) = self.impact(impacts);
                     // The rounding error of the position of an impact counts for more the slower it is.
-                    let late = 4.0 * ROUNDINGS * self.size / before;
+                    let late = 4.0 * POSITION_ERROR * self.size / before;
                     close("time", t, time, 1e-11 * first + late);
                     close("rate", -rate, before, 1e-11 * speed + late * self.g);
                     impacts += 1;
@@ -72,12 +72,12 @@ impl Fall {
                 }
                 Some(other) => panic!("{other:?} at {t}"),
                 None if mode != Mode::Open => {
-                    assert!(height.abs() <= ROUNDINGS * self.size && rate == 0.0, "{t}: {height:e} {rate:e}");
+                    assert!(height.abs() <= POSITION_ERROR * self.size && rate == 0.0, "{t}: {height:e} {rate:e}");
                 }
                 None => {
                     let (hit, before) = if impacts > 0 { self.impact(impacts - 1) } else { (0.0, 0.0) };
                     let (start, up) = if impacts > 0 { (0.0, self.e * before) } else { (self.height, 0.0) };
-                    let (flight, late) = (t - hit, 8.0 * ROUNDINGS * self.size / before.max(1e-9 * speed));
+                    let (flight, late) = (t - hit, 8.0 * POSITION_ERROR * self.size / before.max(1e-9 * speed));
                     let tolerance = 1e-11 * self.size + late * up;
                     close("height", height, start + flight * (up - 0.5 * self.g * flight), tolerance);
                     close("rate", rate, up - self.g * flight, 1e-10 * speed + late * self.g);
@@ -159,9 +159,9 @@ fn it_begins_on_its_stop() {
                     true
                 })
                 .unwrap();
-            assert!(over(&motion.state().q).abs() <= ROUNDINGS * l);
-            let refused = simulate(&scene, (0.0, at(lean - 1e-9), 0.0), 1.0, 1e-12).err();
-            assert!(matches!(refused, Some(MotionError::Input(InputError::BeyondStop { .. }))), "{refused:?}");
+            assert!(over(&motion.state().q).abs() <= POSITION_ERROR * l);
+            let error = simulate(&scene, (0.0, at(lean - 1e-9), 0.0), 1.0, 1e-12).err();
+            assert!(matches!(error, Some(MotionError::Input(InputError::BeyondStop { .. }))), "{error:?}");
         }
     }
     assert!(below > 0 && above > 0, "{below} {above}");

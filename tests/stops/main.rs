@@ -5,4 +5,4 @@ mod five_bar;
 mod ladder;
 
 /// The rounding error of a position, relative to its scale.
-const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+const POSITION_ERROR: f64 = 64.0 * f64::EPSILON;

@@ -28,12 +28,12 @@ fn main() {
     let _ = (idle.k, idle.c);
     // Neither gravity nor the other body.
     let _ = (light.g, light.m3);
-    // Nothing accelerates without inertia, and what it would take is not there.
+    // Nothing accelerates without inertia, so its parameters are absent.
     let _ = held.j2;
     let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
     let _ = held.acceleration(0.0, &q, 1.0);
     let _ = held.mass_matrix(&q);
-    // Nobody asked.
+    // Functions that the scene does not request.
     let _ = idle.energy(&q, 1.0);
     let _ = idle.reactions(0.0, &q, 1.0);
     let _ = idle.drive_forces(0.0, &q, 1.0);

@@ -319,7 +319,7 @@ pub fn integrations(t: &mut Tally, s: &mut Source) {
             0 => Ok(matrix * y + constant),
             1 => Ok(SVector::from([y[1], -y[0] - level * y[0].powi(3)])),
             2 => Ok(SVector::from([y[1].sqrt(), t.ln()])),
-            _ if y[0] > level => Err(MotionError::NotFinite { quantity: "the rate of the user's", t }),
+            _ if y[0] > level => Err(MotionError::NotFinite { quantity: "the user's rate", t }),
             _ => Ok(SVector::from([y[1], matrix[0]])),
         }
     };

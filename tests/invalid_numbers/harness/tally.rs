@@ -31,7 +31,7 @@ struct Row {
     calls: u64,
     finite: u64,
     /// By the error: of inputs, positions, paths and motions.
-    refused: [u64; 4],
+    errors: [u64; 4],
     not_finite: u64,
     panics: u64,
     /// The most evaluations of one call.
@@ -80,7 +80,7 @@ impl Tally {
                     Error::Motion(_) => 3,
                     other => panic!("an error of a new kind: {other:?}"),
                 };
-                row.refused[kind] += 1;
+                row.errors[kind] += 1;
             }
         }
         None
@@ -130,11 +130,11 @@ impl Tally {
     pub fn tell(&self, name: &str) {
         let sum = |number: fn(&Row) -> u64| self.rows.values().map(number).sum::<u64>();
         let [calls, finite] = [sum(|row| row.calls), sum(|row| row.finite)];
-        let refused = [0, 1, 2, 3].map(|kind| self.rows.values().map(|row| row.refused[kind]).sum::<u64>());
+        let errors = [0, 1, 2, 3].map(|kind| self.rows.values().map(|row| row.errors[kind]).sum::<u64>());
         let [not_finite, panics] = [sum(|row| row.not_finite), sum(|row| row.panics)];
         let most = self.rows.values().map(|row| row.evaluations).max().unwrap_or_default();
         println!(
-            "{name}: {calls} calls of {} functions, {finite} finite, refused by input, position, path, motion {refused:?}, \
+            "{name}: {calls} calls of {} functions, {finite} finite, errors of input, position, path, motion {errors:?}, \
              {not_finite} not finite, {panics} panics, at most {most} evaluations",
             self.rows.len()
         );
@@ -142,8 +142,8 @@ impl Tally {
             let is_wrong = row.not_finite > 0 || row.panics > 0 || row.evaluations > MOST_EVALUATIONS;
             if is_wrong || (name == "all" && !function.contains("::")) {
                 println!(
-                    "  {function}: {} calls, {} finite, {:?} refused, {} not finite, {} panics, at most {} evaluations",
-                    row.calls, row.finite, row.refused, row.not_finite, row.panics, row.evaluations
+                    "  {function}: {} calls, {} finite, {:?} errors, {} not finite, {} panics, at most {} evaluations",
+                    row.calls, row.finite, row.errors, row.not_finite, row.panics, row.evaluations
                 );
             }
         }
@@ -160,8 +160,8 @@ impl AddAssign<&Self> for Tally {
             let sum = self.rows.entry(name).or_default();
             sum.calls += row.calls;
             sum.finite += row.finite;
-            for (sum, refused) in sum.refused.iter_mut().zip(row.refused) {
-                *sum += refused;
+            for (sum, errors) in sum.errors.iter_mut().zip(row.errors) {
+                *sum += errors;
             }
             sum.not_finite += row.not_finite;
             sum.panics += row.panics;

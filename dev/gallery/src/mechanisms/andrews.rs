@@ -28,7 +28,7 @@ linkage! {
         point E = pin;
         point H = A + zt@delta;
         point G = A - u@(epsilon + 90deg);
-        /// Where the spring pulls at the third body.
+        /// The joint of the spring on the third body.
         point D = B + (sd, -sc)@gamma;
         point C = (xc, yc);
         /// Length of the spring.

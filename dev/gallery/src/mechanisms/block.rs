@@ -1,7 +1,7 @@
 use linkage::linkage;
 
 linkage! {
-    /// A block on a table, its place told twice.
+    /// A block on a table, with two coordinates for one position.
     #[derive(Debug, Clone)]
     pub mechanism Block {
         param m = 2, g = 9.81, mu = 0.3, k = 50, push = 0, omega = 20, lower = -1, upper = 1, e = 0.4;

@@ -1,7 +1,7 @@
 use linkage::linkage;
 
 linkage! {
-    /// Oscillating roller follower of a disc cam with a dyad behind it: the follower swings by cycloidal motion,
+    /// Oscillating roller follower of a disc cam with a dyad behind it: the follower swings with cycloidal motion,
     /// and a rod carries the swing to a rocker. The dimensions are this gallery's.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism CamRocker {

@@ -1,7 +1,7 @@
 use linkage::linkage;
 
 linkage! {
-    /// The four-bar of the Maple sheet, its closures written by component as `vincoloX` and `vincoloY`.
+    /// The four-bar of the Maple sheet, its loop written by component as `vincoloX` and `vincoloY`.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism Components {
         param l1 = 80, l2 = 20, l3 = 50, l4 = 70;

@@ -4,8 +4,8 @@ linkage! {
     /// Crank and slotted lever of the shaping machine: the crank is shorter than the distance of the pivots, so that
     /// the slotted lever swings; the ram runs above.
     ///
-    /// A textbook mechanism (R. Willis, "Principles of Mechanism", 1841, knows the slotted lever), whose maker is
-    /// not known for certain. The dimensions are this gallery's.
+    /// A textbook mechanism (R. Willis, "Principles of Mechanism", 1841, describes the slotted lever), whose inventor
+    /// is not known for certain. The dimensions are this gallery's.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism CrankShaper {
         param crank = 50, offset = 120, lever = 300, rod = 100, height = 166;

@@ -2,8 +2,8 @@ use linkage::linkage;
 
 linkage! {
     /// The double butterfly: an eight-bar of four ternary links (the crank `A C D`, the rocker `B F J`, and `E F G`,
-    /// `D H I` that float) and three couplers. It has no loop of four bars, and no dyad to begin with: six angles
-    /// are found together.
+    /// `D H I` that float) and three couplers. It has no four-bar loop and no dyad at the input: six angles are solved
+    /// together.
     ///
     /// A benchmark of position analysis: J. Nielsen and B. Roth, "Solving the input/output problem for planar
     /// mechanisms" (1999); C. W. Wampler, "Solving the kinematics of planar mechanisms by Dixon determinant and a

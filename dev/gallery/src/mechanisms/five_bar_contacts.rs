@@ -23,7 +23,7 @@ linkage! {
             friction brake4 on theta4;
             energy;
         }
-        /// The same with the crank held by hand.
+        /// `Braked` with a clamped crank.
         scene Clamped {
             inertia;
             torque torque on theta4;

@@ -1,7 +1,7 @@
 use linkage::linkage;
 
 linkage! {
-    /// Four-bar linkage; the closure runs A-B-C-D with l4 from C to D.
+    /// Four-bar linkage; the loop runs A-B-C-D with l4 from C to D.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism FourBar {
         param l1 = 80, l2 = 20, l3 = 50, l4 = 70;

@@ -1,13 +1,13 @@
 use linkage::linkage;
 
 linkage! {
-    /// Four-bar linkage with three bodies, and what may act on them.
+    /// Four-bar linkage with three bodies and forces of all kinds.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism LoadedFourBar {
         param l1 = 0.8, l2 = 0.2, l3 = 0.5, l4 = 0.7;
         param m2 = 1.5, j2 = 0.02, m3 = 2.5, j3 = 0.05, m4 = 3, j4 = 0.1;
         param g = 9.81;
-        /// Of the linear spring: stiffness, free length and where it is fixed.
+        /// The linear spring: stiffness, free length and where it is fixed.
         param k = 120, s0 = 0.3, xp = 0.6, yp = 0.9;
         param kt = 4, phi0 = -1.2, c = 7, ct = 0.6, t0 = 3, kw = 0.4, f = 5, omega = 12;
         input theta2;

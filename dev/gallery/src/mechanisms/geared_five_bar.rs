@@ -1,7 +1,7 @@
 use linkage::linkage;
 
 linkage! {
-    /// Five-bar whose second crank is geared to the first: three closures, an angle used as it is.
+    /// Five-bar whose second crank is geared to the first: three equations, one of them between angles.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism GearedFiveBar {
         param a = 1, b = 2.5, c = 2.2, d = 0.8, e = 2, ratio = -2, phase = 40deg;

@@ -2,7 +2,7 @@ use linkage::linkage;
 
 linkage! {
     /// The Geneva drive while its pin is in a slot: the crank's pin moves along the slot of a wheel, which it enters
-    /// and leaves square to its own path. Engaged from theta = -(90deg - 180deg/slots) to the opposite.
+    /// and leaves perpendicular to its own path. Engaged from theta = -(90deg - 180deg/slots) to the opposite.
     ///
     /// From the watchmakers' stop work that gave it its name, the Maltese cross; analysis in J. H. Bickford,
     /// "Mechanisms for Intermittent Motion" (1972). The dimensions are this gallery's.

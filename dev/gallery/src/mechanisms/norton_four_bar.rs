@@ -2,7 +2,7 @@ use linkage::linkage;
 
 linkage! {
     /// Four-bar linkage in the layout and letters of R. L. Norton, "Design of Machinery", chapter 4: the crank
-    /// `a`, the coupler `b`, and the rocker `c` that stands on the ground `d`, with all that can be asked for.
+    /// `a`, the coupler `b`, the rocker `c` and the ground `d`, with everything that `derive` offers.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism NortonFourBar {
         param a = 40, b = 120, c = 80, d = 100;

@@ -1,9 +1,9 @@
 use linkage::linkage;
 
 linkage! {
-    /// Slider-crank whose slider runs beside the crank's pivot, at the offset `c`.
+    /// Slider-crank whose slider passes the crank's pivot at the offset `c`.
     ///
-    /// Layout, letters and dimensions of R. L. Norton, "Design of Machinery", chapter 4: the closure is
+    /// Layout, letters and dimensions of R. L. Norton, "Design of Machinery", chapter 4: the loop equation is
     /// a - b - c - d = 0, so that `b` points from the slider to the crank's pin.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism OffsetSliderCrank {

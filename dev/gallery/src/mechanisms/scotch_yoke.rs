@@ -1,7 +1,7 @@
 use linkage::linkage;
 
 linkage! {
-    /// Scotch yoke by one scalar closure: the smallest block there is.
+    /// Scotch yoke by one scalar equation: the smallest block there is.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism ScotchYoke {
         param r = 0.75;

@@ -1,9 +1,9 @@
 use linkage::linkage;
 
 linkage! {
-    /// Stephenson's six-bar chain on a link of its dyad (Stephenson II): the ternary crank holds the ternary link
-    /// `C D E` by two couplers, and a rocker holds it to the ground. No loop of two unknowns stands alone: four
-    /// angles are found together.
+    /// Stephenson's six-bar chain on a link of its dyad (Stephenson II): the ternary crank holds the ternary link `C D
+    /// E` by two couplers, and a rocker holds it to the ground. No loop has two unknowns only: four angles are solved
+    /// together.
     ///
     /// Names of the inversions as in J. M. McCarthy and G. S. Soh, "Geometric Design of Linkages". The dimensions
     /// are this gallery's.

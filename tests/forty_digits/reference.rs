@@ -33,11 +33,11 @@ pub(super) struct Motion {
 }
 
 /// The constraints of one mechanism with their first two derivatives in time, and the points with theirs.
-pub(super) struct Judge {
+pub(super) struct Reference {
     pub(super) mechanism: Mechanism,
     pub(super) derivation: Derivation,
     /// Psi, J u' + A v', J u'' + A v'' + gamma: for changing u, u', u''.
-    pub(super) closures: [Tape; 3],
+    pub(super) constraints: [Tape; 3],
     /// J by rows.
     pub(super) jacobian: Tape,
     pub(super) points: Tape,
@@ -47,7 +47,7 @@ pub(super) struct Judge {
     pub(super) unknowns: Vec<SymbolId>,
 }
 
-impl Judge {
+impl Reference {
     pub(super) fn new<F: Fixture>() -> Self {
         let mechanism = linkage_compiler::read(source::tokens_of(F::FILE)).expect(F::FILE).remove(0);
         let driver = mechanism.drivers.iter().position(|driver| driver.name == F::NAME).expect(F::NAME);
@@ -97,9 +97,10 @@ impl Judge {
             .flat_map(|row| d.unknowns.ids().map(|c| row.get(&c).copied().unwrap_or(zero)).collect::<Vec<_>>())
             .collect();
         let n = d.unknowns.len();
-        let closures = [0, 1, 2].map(|order| Tape::new(&d.graph, &rows[order * n..(order + 1) * n], &by_order[order]));
+        let constraints =
+            [0, 1, 2].map(|order| Tape::new(&d.graph, &rows[order * n..(order + 1) * n], &by_order[order]));
         let [jacobian, points, derivatives] = [j, points, derivatives].map(|roots| Tape::new(&d.graph, &roots, &[]));
-        Self { closures, jacobian, points, derivatives, data, unknowns, mechanism, derivation }
+        Self { constraints, jacobian, points, derivatives, data, unknowns, mechanism, derivation }
     }
 
     pub(super) fn external(&self) -> impl Fn(&External, &[f64]) -> f64 {
@@ -137,7 +138,7 @@ impl Judge {
         let n = found.len() / 3;
         let inverse = DMatrix::from_row_slice(n, n, &self.evaluate(&self.jacobian, data, found)).try_inverse()?;
         let mut y: Vec<Big> = found.iter().map(|&value| big(value)).collect();
-        for (order, tape) in self.closures.iter().enumerate() {
+        for (order, tape) in self.constraints.iter().enumerate() {
             let (sizes, mut values) = (self.magnitudes(tape, data, found), Vec::new());
             let mut residual = || {
                 let bind = |symbol| self.bound(data, &y, symbol);
@@ -183,7 +184,7 @@ impl Judge {
             });
             add([(&more, &none), (&less, &none)])?;
         }
-        let terms: Vec<f64> = self.closures.iter().flat_map(|tape| self.magnitudes(tape, data, &rounded)).collect();
+        let terms: Vec<f64> = self.constraints.iter().flat_map(|tape| self.magnitudes(tape, data, &rounded)).collect();
         for (place, size) in terms.iter().enumerate() {
             let [more, less] = [EPSILON * size, -EPSILON * size].map(|offset| {
                 let mut offsets = none.clone();
@@ -206,7 +207,7 @@ impl Judge {
         let by_data = -&inverse * rows.columns(0, x);
         let sizes = data.parameters.iter().chain(&data.inputs).chain(&data.rates).chain(&data.accelerations);
         let sizes = DVector::from_iterator(x, sizes.map(|x| x.abs()));
-        let terms = self.closures.iter().flat_map(|tape| self.magnitudes(tape, data, y));
+        let terms = self.constraints.iter().flat_map(|tape| self.magnitudes(tape, data, y));
         let terms = DVector::from_iterator(n, terms);
         let points_by_data = points.columns(0, x) + points.columns(x, n) * &by_data;
         let points_by_terms = points.columns(x, n) * &inverse;

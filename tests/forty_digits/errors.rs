@@ -6,7 +6,7 @@ use linkage_oracle::precise::{Big, Scalar, big};
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
 
-use super::judge::Judge;
+use super::reference::Reference;
 use super::run;
 
 /// The error bound, in ulp times condition number.
@@ -38,14 +38,14 @@ impl Worst {
     }
 }
 
-pub(super) fn judge<F: Fixture>() -> [Worst; 3] {
-    let (judge, file, branches) = (Judge::new::<F>(), F::NAME, F::branch_count());
+pub(super) fn largest_errors<F: Fixture>() -> [Worst; 3] {
+    let (reference, file, branches) = (Reference::new::<F>(), F::NAME, F::branch_count());
     let mut random = SmallRng::seed_from_u64(20_091_121);
     let mut worst: [Worst; 3] = Default::default();
     let (mut count, mut missed) = (0, 0);
-    let (unknowns, place_of) = (&judge.derivation.unknowns, &judge.derivation.coordinates);
+    let (unknowns, place_of) = (&reference.derivation.unknowns, &reference.derivation.coordinates);
     while count < poses() {
-        let data = judge.data(&mut random, branches);
+        let data = reference.data(&mut random, branches);
         let Some(motion) = run::<F>(&data) else {
             missed += 1;
             assert!(missed < 50 * poses(), "{file}: hardly anything can be assembled");
@@ -53,9 +53,9 @@ pub(super) fn judge<F: Fixture>() -> [Worst; 3] {
         };
         let found: Vec<f64> =
             motion.coordinates.iter().flat_map(|q| unknowns.iter().map(|&place| q[place.index()])).collect();
-        let Some(y) = judge.solve(&data, &found, &vec![0.0; found.len()]) else {
+        let Some(y) = reference.solve(&data, &found, &vec![0.0; found.len()]) else {
             // At a dead point half of the digits are lost, and Newton's method halves the rest step by step.
-            if judge.regularity(&data, &found) < 1e-7 {
+            if reference.regularity(&data, &found) < 1e-7 {
                 missed += 1;
                 continue;
             }
@@ -64,8 +64,8 @@ pub(super) fn judge<F: Fixture>() -> [Worst; 3] {
         count += 1;
         let n = unknowns.len();
         let rounded: Vec<f64> = y.iter().map(Scalar::double).collect();
-        let (of_unknowns, of_points) = judge.conditions(&data, &rounded);
-        let points = judge.evaluate(&judge.points, &data, &y);
+        let (of_unknowns, of_points) = reference.conditions(&data, &rounded);
+        let points = reference.evaluate(&reference.points, &data, &y);
         let third = points.len() / 3;
         for (order, worst) in worst.iter_mut().enumerate() {
             let at =
@@ -81,7 +81,7 @@ pub(super) fn judge<F: Fixture>() -> [Worst; 3] {
             off.note(&motion.points[order], expected, conditions, of_point);
             if off.error > ULPS {
                 println!("{file}: {:.2} ulp x condition as differentiated, {}", off.error, off.place);
-                let measured = judge.measured_conditions(&data, &y, &found).expect("positions a rounding away");
+                let measured = reference.measured_conditions(&data, &y, &found).expect("positions an ulp away");
                 off = Worst::default();
                 off.note(&motion.points[order], expected, &measured[part], of_point);
                 println!("{file}: {:.2} ulp x condition as measured, {}", off.error, off.place);
@@ -103,10 +103,10 @@ const WITH_NUMBERS: [&str; 2] = ["drag_link_drive", "slider_named_first"];
 /// At lengths 2^k times as long, everything has the same bits but for its exponent; angles are equal. Points with a
 /// number as a length are left out.
 pub(super) fn unit_of_length<F: Fixture>() {
-    let judge = Judge::new::<F>();
-    let with_points = judge.powers_of_length(true);
+    let reference = Reference::new::<F>();
+    let with_points = reference.powers_of_length(true);
     let scales_points = with_points.is_some();
-    let Some(powers) = with_points.or_else(|| judge.powers_of_length(false)) else {
+    let Some(powers) = with_points.or_else(|| reference.powers_of_length(false)) else {
         assert!(WITH_NUMBERS.contains(&F::FILE), "{} has a number for a length: add it to WITH_NUMBERS", F::FILE);
         return;
     };
@@ -114,7 +114,7 @@ pub(super) fn unit_of_length<F: Fixture>() {
     let mut random = SmallRng::seed_from_u64(5);
     let mut found = 0;
     for _ in 0..5000 {
-        let data = judge.data(&mut random, F::branch_count());
+        let data = reference.data(&mut random, F::branch_count());
         let Some(plain) = run::<F>(&data) else { continue };
         found += 1;
         if found > 100 {
@@ -122,10 +122,10 @@ pub(super) fn unit_of_length<F: Fixture>() {
         }
         for k in [-300, -37, -1, 2, 101, 300] {
             let scale = 2_f64.powi(k);
-            let scaled = judge.scaled(&data, &powers, scale);
+            let scaled = reference.scaled(&data, &powers, scale);
             let other =
                 run::<F>(&scaled).unwrap_or_else(|| panic!("{} at 2^{k}: no position at {:?}", F::NAME, data.inputs));
-            let of_coordinates = &powers[judge.mechanism.parameters.len()..];
+            let of_coordinates = &powers[reference.mechanism.parameters.len()..];
             for order in 0..3 {
                 let pairs = plain.coordinates[order].iter().zip(&other.coordinates[order]).zip(of_coordinates);
                 for ((&one, &other), &power) in pairs {
