@@ -149,7 +149,7 @@ fn shared_angles_are_looked_at_once() {
 }
 
 #[test]
-fn tokens_left_over_in_an_attribute_are_told() {
+fn tokens_after_an_attribute_are_reported() {
     // In a part of a mechanism a `derive` has no effect, which is the first message.
     for (attribute, of_a_part) in
         [("#[derive(Clone) nonsense]", "`#[derive]` has no effect here"), ("#[doc = \"x\" y]", "unexpected token")]

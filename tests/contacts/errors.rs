@@ -36,7 +36,7 @@ fn errors_name_the_friction_or_the_stop() {
     let rates = MachineRates { phi: 0.8, psi: 2.9, z: 0.4 };
     let named = PositionError::NotFinite { mechanism: "Jointed", quantity: "friction on joint" };
     assert_eq!(broken.contacts(0.0, &guess, &rates).map(|_| ()), Err(named.into()));
-    // A normal load that turns negative on the way.
+    // A friction law with a negative value.
     let curved = Curved { brake1: -1.0, ..Curved::default() };
     let rates = PairRates { theta1: 0.0, theta2: 0.4, theta3: 1.9, theta4: 0.0 };
     let found = curved.contacts(0.0, &pair(1.0, 1.0), &rates);

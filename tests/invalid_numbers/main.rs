@@ -19,7 +19,7 @@ use std::{env, fs};
 /// Calls of each function in an ordinary run of the tests.
 const TRIALS: &str = "40";
 
-/// The program is built with optimisation, because the functions under test take most of the time.
+/// The program is a package of its own, with all checks in release too.
 const MANIFEST: &str = r#"
 [package]
 name = "invalid_numbers"

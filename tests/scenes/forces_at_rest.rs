@@ -22,7 +22,7 @@ fn reactions_hold_every_body() {
         let lambda: Vector2<f64> = scene.reactions(t, &q, rate[0]).unwrap();
         let weight = Vector2::new(0.0, -scene.g);
         let end = points.c.position + Vector2::new(q.theta4.cos(), q.theta4.sin()) * four_bar.l4;
-        // The force on a body at its driven joint, and the remaining moment about its centre.
+        // The force that holds a body at the joint `from`, and the remaining moment about its centre.
         let held =
             |m: f64, center: linkage::PointMotion<f64>, from: Point2<f64>, to: Point2<f64>, load: Vector2<f64>| {
                 let force = (center.acceleration - weight) * m - load;

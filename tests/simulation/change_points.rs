@@ -51,7 +51,7 @@ fn parallel_stays_parallel_also_when_driven() {
     let (rolling, driven) = (Rolling::default(), Driven::default());
     let q = FrameCoordinates { theta: 0.3, phi: 0.0, psi: 0.3 };
     let mut motion = simulate(&rolling, (0.0, q, 6.0), 10.0, 1e-12).unwrap();
-    // The steps of an even motion are not limited to less than the distance of two change points.
+    // In an even motion no error estimate keeps a step from passing two change points: it needs a largest step.
     let given = simulate(&driven, (0.0, q, 3.0), 10.0, 1e-12).unwrap();
     let mut given = given.largest_step(0.5).unwrap();
     motion

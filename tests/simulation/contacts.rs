@@ -153,7 +153,7 @@ fn a_load_that_swings_frees_the_block_in_time() {
     assert_eq!((motion.state().q.x, motion.state().mode("friction on x")), (0.0, Some(Mode::Stick)));
 }
 
-/// A block that has stopped is struck and slides back; so are a ball that rests and one that flies down.
+/// A block that has stopped is struck and slides back; a resting ball is struck upward, a falling one downward.
 #[test]
 fn impulses_from_outside() {
     let scene = Sliding::default();

@@ -82,7 +82,7 @@ fn units_change_no_bit() {
     }
 }
 
-/// Intervals in which hardly anything moves, and ones with more turns than steps.
+/// Intervals in which hardly anything changes, and ones far too long for the number of steps.
 #[test]
 fn intervals_of_any_length() {
     for g in [1e-300, 1e-200, 1e-160, 1e-100, 1e-30, 0.0] {

@@ -186,7 +186,7 @@ impl<Y: Finite> Finite for Action<Y> {
     }
 }
 
-/// The state at the ends of a step and between them.
+/// An interpolant at the ends of its step and between them.
 impl<N: Dim> Finite for Interpolant<f64, N> {
     fn all_finite(&self) -> bool {
         let (from, to) = self.interval();
@@ -194,14 +194,14 @@ impl<N: Dim> Finite for Interpolant<f64, N> {
     }
 }
 
-/// A path: its report; its contents show in the positions that it gives.
+/// A table by its error; its entries show in the positions that it gives.
 impl<M: Mechanism<Scalar = f64, V = D<1>>, const N: usize> Finite for Table<M, N> {
     fn all_finite(&self) -> bool {
         self.error().is_finite()
     }
 }
 
-/// The numbers of a position, without those that follow from them where the position is singular.
+/// The accuracy of a position, without the attainable error where the position is singular.
 impl<M: Mechanism<Scalar = f64>> Finite for Accuracy<M> {
     fn all_finite(&self) -> bool {
         [self.residual, self.sigma_min].all_finite()
@@ -209,7 +209,7 @@ impl<M: Mechanism<Scalar = f64>> Finite for Accuracy<M> {
     }
 }
 
-/// A motion by all its functions.
+/// A singularity report by all its functions.
 impl<M: Mechanism<Scalar = f64>> Finite for Singularity<M> {
     fn all_finite(&self) -> bool {
         [self.determinant(), self.sigma_min()].all_finite()
