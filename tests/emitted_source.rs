@@ -46,7 +46,7 @@ fn crate_called(name: &str) -> PathBuf {
     folder
 }
 
-/// What cargo does to the crate in a folder must succeed; all crates share one target folder.
+/// Runs a command of cargo on the crate in a folder, which must succeed; all crates share one target folder.
 fn succeeds(folder: &Path, command: &str) {
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let output = Command::new(cargo)

@@ -1,4 +1,4 @@
-//! The instructions of a scene's derivative beside those of one written by hand.
+//! The instructions of a scene's derivative relative to those of one written by hand.
 //!
 //! `benches/twin.rs` is built for release by itself, with nothing but `linkage`, and run by valgrind's callgrind at two
 //! numbers of calls, whose difference is that of the calls alone. `.ci/run` calls it and installs valgrind:
@@ -31,7 +31,7 @@ linkage = { path = "ROOT", default-features = false, features = ["std", "dynamic
 /// per cent. On Rust 1.95 they take 0.94 and 0.95 times as many.
 const MARGIN: f64 = 1.05;
 
-/// As many, and three times as many.
+/// Calls of the first run; the second makes three times as many.
 const CALLS: u64 = 1000;
 
 /// All that a run takes.

@@ -107,7 +107,7 @@ fn zero(of: Factors, parameters: &[f64], near: f64) -> Option<(Big, f64)> {
         v -= &step;
         last = step.double().abs();
     }
-    // Near a double zero the two zeros cannot be told apart.
+    // Near a double zero the two zeros cannot be distinguished.
     let distance = (&v - big(near)).double().abs();
     (last < 1e-30 && distance < 1e-6).then_some(())?;
     let slope = slope(&v).double();

@@ -46,7 +46,8 @@ const FIRST: [&str; 10] =
     ["What ", "Where ", "Whether ", "Which ", "Whichever ", "Whose ", "How ", "Of ", "As ", "The same "];
 
 /// Where a banned word is right: the end of a path, and the text around the word.
-const ALLOWED: [(&str, &str); 0] = [];
+const ALLOWED: [(&str, &str); 2] =
+    [("rack_steering.rs", "Road Vehicle Suspensions"), ("firmware/main.rs", "a Rust closure")];
 
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     let mut entries: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();

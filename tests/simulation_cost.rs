@@ -1,5 +1,5 @@
-//! What the price list of simulation stands on: its references, by 31 digits and two methods, its formulations, by the
-//! figures of another program, and the orders of its methods.
+//! The example `simulation_cost` against other ways: its references against 31 digits and two methods, its formulations
+//! against the figures of another program, and its methods against their orders.
 
 use linkage::integrate::{Dop853, Dopri5, Method};
 use linkage::simulation::{RealTime, simulate};

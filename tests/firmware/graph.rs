@@ -1,4 +1,5 @@
-//! What machine code can come to: sections of object files, each a function or a table, and what they refer to.
+//! The call graph of machine code: the nodes are sections of object files, each a function or a table, the edges their
+//! relocations.
 
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::path::Path;
@@ -13,7 +14,7 @@ struct Node {
     to: Vec<To>,
 }
 
-/// What a node refers to.
+/// The end of an edge.
 #[derive(Clone)]
 enum To {
     Node(usize),
@@ -25,13 +26,13 @@ enum To {
 #[derive(Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    /// Where the symbols that other object files may name are.
+    /// The nodes of the symbols that other object files may name.
     symbols: HashMap<String, usize>,
     /// All functions, by the names that Rust gives them.
     functions: Vec<(String, usize)>,
 }
 
-/// What a function needs that is nowhere in the libraries: the compiler asks for these of every program.
+/// Functions that no library has: the compiler requires every program to have them.
 const OF_EVERY_TARGET: [&str; 5] = ["memcpy", "memmove", "memset", "memcmp", "bcmp"];
 
 impl Graph {
@@ -123,7 +124,7 @@ impl Graph {
         meant.map(|(name, node)| (name.as_str(), way(*node))).collect()
     }
 
-    /// What the functions whose names these are come to and no library has: nobody knows whether it panics.
+    /// Returns the symbols that these functions can reach and that no library has: they might panic.
     pub fn missing(&self, is_meant: impl Fn(&str) -> bool) -> BTreeSet<&str> {
         let mut missing = BTreeSet::new();
         let mut is_seen = vec![false; self.nodes.len()];

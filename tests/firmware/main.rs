@@ -120,7 +120,7 @@ fn judge(folder: &Path, level: &str, count: usize) {
     for library in libraries(folder, level) {
         graph.add(&library);
     }
-    // Not what stands inside of a wrapper, as a closure does.
+    // Not a Rust closure inside of a wrapper.
     let is_wrapper = |name: &str| {
         let inside = name.strip_prefix("firmware::").and_then(|name| name.split_once("::wrappers::"));
         inside.is_some_and(|(_, function)| !function.contains("::"))

@@ -29,7 +29,7 @@ pub fn files(root: &Path) -> (Vec<(String, String)>, usize) {
     (files, count)
 }
 
-/// What must be found, by way of a generic function and by a pointer in a table, and what must not.
+/// Planted functions: two that can panic, through a generic function and through a pointer in a table, and one that cannot.
 const PLANTED: &str = "
 pub mod planted {
     #[inline(never)]
