@@ -29,7 +29,7 @@ const MOST_ROUNDS: usize = 8;
 const LARGEST: usize = 400;
 
 /// Returns the cheapest form of each root that the identities find. The sines and cosines of the angles in `given` cost
-/// nothing: they are computed anyway. Expressions of more than [`LARGEST`] nodes are not changed.
+/// nothing: they are computed anyway. Expressions of more than `LARGEST` nodes are not changed.
 pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -> Vec<NodeId> {
     let mut better: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     let nodes = graph.reachable(roots);

@@ -150,7 +150,7 @@ where
         Ok((between <= sum * real(DOUBLE_ZERO_SHARE)).then_some(distance))
     }
 
-    /// The groups that are singular at a change point: their regularity is at most [`nearly_zero`], since rounding
+    /// The groups that are singular at a change point: their regularity is at most [`nearly_zero`], since small
     /// errors of Psi move the change point, a double root, by their square root.
     pub(super) fn singular_groups(&self, q: &M::Coordinates) -> Groups {
         let mut groups = Groups::none(M::GROUPS);
