@@ -39,10 +39,9 @@ fn cams_reach_their_published_peaks() {
 #[test]
 fn cam_follower() {
     let m = CamFollower::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let course = turn(&m, CamFollowerCoordinates { theta: 0.0, s: 0.0 });
     course.closed_form();
-    course.rigid(points, |p| [(p.roller, p.contact, m.roller), (p.pitch, p.profile, m.roller)]);
+    course.rigid(CamFollower::points, |p| [(p.roller, p.contact, m.roller), (p.pitch, p.profile, m.roller)]);
     let size = m.prime + m.roller + m.height;
     for q in &course.positions {
         let motion = m.motion(q, 1.0, 0.0).unwrap();
@@ -78,7 +77,7 @@ fn cam_rocker() {
     let start = CamRockerCoordinates { theta: 0.0, psi: degrees(75.0), phi: 0.2, beta: degrees(100.0) };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| [(p.a, p.b, m.rod), (p.b, p.c, m.rocker)]);
+    course.rigid(CamRocker::points, |p| [(p.a, p.b, m.rod), (p.b, p.c, m.rocker)]);
     let [least, largest] = course.range(|q| q.psi);
     exact(least, m.rest, PI);
     exact(largest, m.rest + m.swing, PI);

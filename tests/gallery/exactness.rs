@@ -20,11 +20,11 @@ impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
     #[track_caller]
     pub(super) fn rigid<P, const N: usize>(
         &self,
-        points: impl Fn(&M::Coordinates) -> P,
+        points: impl Fn(&M, &M::Pose) -> Result<P, PositionError>,
         links: impl Fn(P) -> [(Point2<f64>, Point2<f64>, f64); N],
     ) {
         for q in &self.positions {
-            let links = links(points(q));
+            let links = links(points(self.mechanism, &self.mechanism.pose_at(q)).expect("finite points"));
             let size: f64 = links.iter().map(|(_, _, length)| length).sum();
             for (one, other, length) in links {
                 exact((one - other).norm(), length, size);

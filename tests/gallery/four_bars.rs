@@ -17,7 +17,7 @@ fn four_bar_on_both_branches() {
         let start = FourBarCoordinates { theta2: degrees(20.0), theta3: degrees(theta3), theta4: degrees(theta4) };
         let course = turn(&m, start);
         course.closed_form();
-        course.rigid(points, |p| [(p.b, p.c, m.l3), (p.b, p.g3, m.l3 / 2.0), (p.c, p.g4, m.l4 / 2.0)]);
+        course.rigid(FourBar::points, |p| [(p.b, p.c, m.l3), (p.b, p.g3, m.l3 / 2.0), (p.c, p.g4, m.l4 / 2.0)]);
         // On one branch C is always above the line from B to D, on the other below it.
         assert!(course.positions.iter().all(|q| side * m.outputs(&m.pose_at(q)).unwrap().mu.sin() > 0.0));
         for q in &course.positions {
@@ -30,7 +30,6 @@ fn four_bar_on_both_branches() {
 #[test]
 fn wiper_sweeps() {
     let m = Wiper::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = WiperCoordinates {
         theta: FRAC_PI_2,
         phi: degrees(3.8),
@@ -40,7 +39,7 @@ fn wiper_sweeps() {
     };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| {
+    course.rigid(Wiper::points, |p| {
         [
             (p.motor, p.first, m.base),
             (p.motor, p.pin, m.crank),

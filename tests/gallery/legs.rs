@@ -33,7 +33,7 @@ fn jansen_walks() {
     let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let course = turn(&m, jansen_start());
     course.closed_form();
-    course.rigid(points, |p| {
+    course.rigid(Jansen::points, |p| {
         [
             (p.o, p.pin, m.m),
             (p.pin, p.upper, m.j),
@@ -87,7 +87,7 @@ fn klann_walks() {
     course.closed_form();
     // The third side of a triangle, by the law of cosines.
     let third = |a: f64, b: f64, angle: f64| (a * a + b * b - 2.0 * a * b * angle.cos()).sqrt();
-    course.rigid(points, |p| {
+    course.rigid(Klann::points, |p| {
         [
             (p.o, p.pin, m.crank),
             (p.pin, p.elbow, m.pin_elbow),

@@ -37,12 +37,13 @@ fn pantograph_copies() {
 #[test]
 fn coupled_wheels_stay_parallel() {
     let m = CoupledWheels::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let half = degrees(0.5);
     let start = CoupledWheelsCoordinates { theta: half, rod: 0.0, follower: half };
     let course = follow(&m, start, TAU);
     course.closed_form();
-    course.rigid(points, |p| [(p.a, p.b, m.crank), (p.a, p.d, m.base), (p.b, p.c, m.base), (p.c, p.d, m.crank)]);
+    course.rigid(CoupledWheels::points, |p| {
+        [(p.a, p.b, m.crank), (p.a, p.d, m.base), (p.b, p.c, m.base), (p.c, p.d, m.crank)]
+    });
     for q in &course.positions {
         // The Jacobian is singular with the sine of the crank's angle.
         let sine = q.theta.sin().abs();

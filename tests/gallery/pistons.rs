@@ -14,11 +14,10 @@ use linkage_gallery::v_twin::*;
 #[test]
 fn offset_slider_crank() {
     let m = OffsetSliderCrank::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = OffsetSliderCrankCoordinates { theta2: degrees(60.0), theta3: degrees(153.0), d: 127.0 };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| [(p.o, p.a, m.a), (p.a, p.b, m.b)]);
+    course.rigid(OffsetSliderCrank::points, |p| [(p.o, p.a, m.a), (p.a, p.b, m.b)]);
     // Crank and rod in line at both ends of the stroke.
     let [least, largest] = course.range(|q| q.d);
     exact(least, ((m.b - m.a).powi(2) - m.c * m.c).sqrt(), m.a + m.b);
@@ -45,7 +44,8 @@ fn elliptic_trammel_draws_an_ellipse() {
     let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let course = turn(&m, EllipticTrammelCoordinates { theta: 0.0, x: -2.0, y: 0.0 });
     course.closed_form();
-    course.rigid(points, |p| [(p.a, p.b, m.rod), (p.a, p.pen, m.reach), (p.b, p.pen, m.reach - m.rod)]);
+    course
+        .rigid(EllipticTrammel::points, |p| [(p.a, p.b, m.rod), (p.a, p.pen, m.reach), (p.b, p.pen, m.reach - m.rod)]);
     let pen = |q: &_| points(q).pen;
     for q in &course.positions {
         let at = pen(q);
@@ -57,7 +57,6 @@ fn elliptic_trammel_draws_an_ellipse() {
 #[test]
 fn v_twin_runs_in_phase() {
     let m = VTwin::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = VTwinCoordinates {
         theta: FRAC_PI_2,
         phi_front: degrees(61.4),
@@ -67,7 +66,7 @@ fn v_twin_runs_in_phase() {
     };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| [(p.o, p.pin, m.crank), (p.pin, p.front, m.rod), (p.pin, p.rear, m.rod)]);
+    course.rigid(VTwin::points, |p| [(p.o, p.pin, m.crank), (p.pin, p.front, m.rod), (p.pin, p.rear, m.rod)]);
     let later = m.vee.to_degrees().round() as usize;
     for (front, rear) in course.positions.iter().zip(&course.positions[later..]) {
         exact(rear.s_rear, front.s_front, m.crank + m.rod);

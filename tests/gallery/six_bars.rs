@@ -14,7 +14,6 @@ use linkage_gallery::watt_ii::*;
 #[test]
 fn watt_i() {
     let m = WattI::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = WattICoordinates {
         theta2: FRAC_PI_2,
         theta3: degrees(31.4),
@@ -26,7 +25,7 @@ fn watt_i() {
     course.closed_form();
     let (bp, dq) = (m.px.hypot(m.py), m.qx.hypot(m.qy));
     let (cp, cq) = ((m.b - m.px).hypot(m.py), (m.c - m.qx).hypot(m.qy));
-    course.rigid(points, |p| {
+    course.rigid(WattI::points, |p| {
         [
             (p.a, p.d, m.d),
             (p.a, p.b, m.a),
@@ -45,7 +44,6 @@ fn watt_i() {
 #[test]
 fn watt_ii() {
     let m = WattII::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = WattIICoordinates {
         theta2: FRAC_PI_2,
         theta3: degrees(31.4),
@@ -56,7 +54,7 @@ fn watt_ii() {
     let course = turn(&m, start);
     course.closed_form();
     let cp = (m.c * m.c + m.e * m.e - 2.0 * m.c * m.e * m.delta.cos()).sqrt();
-    course.rigid(points, |p| {
+    course.rigid(WattII::points, |p| {
         [
             (p.a, p.b, m.a),
             (p.b, p.c, m.b),
@@ -73,7 +71,6 @@ fn watt_ii() {
 #[test]
 fn stephenson_i() {
     let m = StephensonI::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = StephensonICoordinates {
         theta2: FRAC_PI_2,
         theta3: degrees(31.4),
@@ -85,7 +82,7 @@ fn stephenson_i() {
     course.closed_form();
     let (ap, bp) = (m.px.hypot(m.py), (m.a - m.px).hypot(m.py));
     let (dq, cq) = (m.qx.hypot(m.qy), (m.c - m.qx).hypot(m.qy));
-    course.rigid(points, |p| {
+    course.rigid(StephensonI::points, |p| {
         [
             (p.a, p.b, m.a),
             (p.b, p.c, m.b),
@@ -104,7 +101,6 @@ fn stephenson_i() {
 #[test]
 fn stephenson_ii() {
     let m = StephensonII::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = StephensonIICoordinates {
         theta: 0.0,
         alpha: degrees(30.0),
@@ -115,7 +111,7 @@ fn stephenson_ii() {
     let course = turn(&m, start);
     course.assembles_from_the_last(|guess, pose| m.assemble_near(guess, m.branch_of(pose)));
     let (ab, ce, de) = ((m.a - m.bx).hypot(m.by), m.ex.hypot(m.ey), (m.cd - m.ex).hypot(m.ey));
-    course.rigid(points, |p| {
+    course.rigid(StephensonII::points, |p| {
         [
             (p.o, p.a, m.a),
             (p.a, p.b, ab),
@@ -132,7 +128,6 @@ fn stephenson_ii() {
 #[test]
 fn stephenson_iii() {
     let m = StephensonIII::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = StephensonIIICoordinates {
         theta2: FRAC_PI_2,
         theta3: degrees(31.4),
@@ -143,7 +138,7 @@ fn stephenson_iii() {
     let course = turn(&m, start);
     course.closed_form();
     let (bp, cp) = (m.px.hypot(m.py), (m.b - m.px).hypot(m.py));
-    course.rigid(points, |p| {
+    course.rigid(StephensonIII::points, |p| {
         [
             (p.a, p.b, m.a),
             (p.b, p.c, m.b),
@@ -160,7 +155,6 @@ fn stephenson_iii() {
 #[test]
 fn double_butterfly() {
     let m = DoubleButterfly::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = DoubleButterflyCoordinates {
         crank: 1.036,
         coupler: 1.0,
@@ -176,7 +170,7 @@ fn double_butterfly() {
     let (eg, fg) = (m.gx.hypot(m.gy), (m.ef - m.gx).hypot(m.gy));
     let (bj, fj) = (m.jx.hypot(m.jy), (m.bf - m.jx).hypot(m.jy));
     let (di, hi) = (m.ix.hypot(m.iy), (m.dh - m.ix).hypot(m.iy));
-    course.rigid(points, |p| {
+    course.rigid(DoubleButterfly::points, |p| {
         [
             (p.a, p.b, m.ab),
             (p.a, p.c, m.ac),

@@ -18,7 +18,7 @@ fn inverted_slider_crank() {
     let start = InvertedSliderCrankCoordinates { theta2: 0.0, theta4: degrees(109.5), b: 56.6 };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| [(p.o, p.a, m.a), (p.d, p.b, m.c)]);
+    course.rigid(InvertedSliderCrank::points, |p| [(p.o, p.a, m.a), (p.d, p.b, m.c)]);
     for q in &course.positions {
         let points = points(q);
         // The slide is at the angle gamma, here a right angle, to its foot.
@@ -34,11 +34,12 @@ fn inverted_slider_crank() {
 #[test]
 fn whitworth_returns_faster() {
     let m = Whitworth::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = WhitworthCoordinates { theta: FRAC_PI_2, psi: FRAC_PI_2, s: 80.0, phi: degrees(17.5), x: 191.0 };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| [(p.o, p.c, m.offset), (p.o, p.pin, m.crank), (p.c, p.e, m.arm), (p.e, p.ram, m.rod)]);
+    course.rigid(Whitworth::points, |p| {
+        [(p.o, p.c, m.offset), (p.o, p.pin, m.crank), (p.c, p.e, m.arm), (p.e, p.ram, m.rod)]
+    });
     let dip = (m.offset / m.crank).asin();
     let velocity = |q: &WhitworthCoordinates| m.velocity(&m.pose_at(q), 1.0).unwrap().x;
     let [first, second] = course.roots(velocity)[..] else { panic!("two dead centres") };
@@ -56,11 +57,12 @@ fn whitworth_returns_faster() {
 #[test]
 fn crank_shaper_returns_faster() {
     let m = CrankShaper::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let start = CrankShaperCoordinates { theta: FRAC_PI_2, psi: FRAC_PI_2, s: 170.0, phi: degrees(-8.0), x: 99.0 };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| [(p.o, p.c, m.offset), (p.o, p.pin, m.crank), (p.c, p.e, m.lever), (p.e, p.ram, m.rod)]);
+    course.rigid(CrankShaper::points, |p| {
+        [(p.o, p.c, m.offset), (p.o, p.pin, m.crank), (p.c, p.e, m.lever), (p.e, p.ram, m.rod)]
+    });
     let swing = (m.crank / m.offset).asin();
     let velocity = |q: &CrankShaperCoordinates| m.velocity(&m.pose_at(q), 1.0).unwrap().x;
     let [first, second] = course.roots(velocity)[..] else { panic!("two dead centres") };
@@ -78,12 +80,11 @@ fn crank_shaper_returns_faster() {
 #[test]
 fn geneva_turns_one_slot() {
     let m = Geneva::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let engaged = FRAC_PI_2 - PI / m.slots;
     let start = GenevaCoordinates { theta: -engaged, psi: PI / m.slots, s: m.crank };
     let course = follow(&m, start, 2.0 * engaged);
     course.closed_form();
-    course.rigid(points, |p| [(p.o, p.pin, m.crank), (p.o, p.wheel, m.crank / (PI / m.slots).sin())]);
+    course.rigid(Geneva::points, |p| [(p.o, p.pin, m.crank), (p.o, p.wheel, m.crank / (PI / m.slots).sin())]);
     let [first, middle, last] = [0, 180, 360].map(|step: usize| &course.positions[step]);
     assert_abs_diff_eq!(last.psi - first.psi, -TAU / m.slots, epsilon = 1e-15);
     for end in [first, last] {

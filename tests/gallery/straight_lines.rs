@@ -24,7 +24,7 @@ fn hoecken_is_nearly_straight() {
     let start = HoeckenCoordinates { theta2: FRAC_PI_2, theta3: degrees(20.0), theta4: degrees(130.0) };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| {
+    course.rigid(Hoecken::points, |p| {
         [
             (p.a, p.d, m.ground),
             (p.a, p.b, m.crank),
@@ -52,7 +52,7 @@ fn chebyshev_is_nearly_straight() {
     let start = ChebyshevCoordinates { theta2: 4.0_f64.atan2(3.0), theta3: PI, theta4: 4.0_f64.atan2(-3.0) };
     let course = turn(&m, start);
     course.closed_form();
-    course.rigid(points, |p| {
+    course.rigid(ChebyshevCoupler::points, |p| {
         [
             (p.a, p.d, m.ground),
             (p.a, p.b, m.rocker),
@@ -95,7 +95,7 @@ fn roberts_is_nearly_straight() {
     let start = RobertsCoordinates { theta2: first, theta3: degrees(-27.6), theta4: PI - end };
     let course = follow(&m, start, end - first);
     course.closed_form();
-    course.rigid(points, |p| {
+    course.rigid(Roberts::points, |p| {
         [
             (p.a, p.d, m.ground),
             (p.a, p.b, m.side),
@@ -126,7 +126,7 @@ fn watt_line_touches_fivefold() {
     let start = WattLineCoordinates { theta: degrees(-20.0), phi: -FRAC_PI_2, psi: degrees(-160.0) };
     let course = follow(&m, start, degrees(40.0));
     course.closed_form();
-    course.rigid(points, |p| {
+    course.rigid(WattLine::points, |p| {
         [
             (p.left, p.b, m.arm),
             (p.b, p.c, 2.0 * m.half_link),
@@ -172,7 +172,7 @@ fn peaucellier_is_straight() {
     for span in [degrees(90.0), degrees(-90.0)] {
         let course = follow(&m, start, span);
         course.closed_form();
-        course.rigid(points, |p| {
+        course.rigid(Peaucellier::points, |p| {
             [
                 (p.o, p.centre, m.crank),
                 (p.centre, p.p, m.crank),
@@ -202,7 +202,6 @@ fn peaucellier_is_straight() {
 #[test]
 fn hart_is_straight() {
     let m = Hart::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let (long, short) = (degrees(145.1), degrees(107.5));
     let start = HartCoordinates { theta: 0.0, alpha: -long, beta: -short, gamma: short, delta: long };
     let size = 2.0 * (m.crank + m.long + m.short);
@@ -210,7 +209,7 @@ fn hart_is_straight() {
     for span in [degrees(90.0), degrees(-90.0)] {
         let course = follow(&m, start, span);
         course.closed_form();
-        course.rigid(points, |p| {
+        course.rigid(Hart::points, |p| {
             [
                 (p.o, p.centre, m.crank),
                 (p.centre, p.p, m.crank),
@@ -239,11 +238,11 @@ fn hart_is_straight() {
 #[test]
 fn cardan_is_straight() {
     let m = Cardan::default();
-    let points = |q: &_| m.points(&m.pose_at(q)).unwrap();
     let course = turn(&m, CardanCoordinates { carrier: 0.0, roll: 0.1 });
     course.closed_form();
-    course
-        .rigid(points, |p| [(p.o, p.centre, m.ring - m.planet), (p.centre, p.rim, m.planet), (p.centre, p.pen, m.pen)]);
+    course.rigid(Cardan::points, |p| {
+        [(p.o, p.centre, m.ring - m.planet), (p.centre, p.rim, m.planet), (p.centre, p.pen, m.pen)]
+    });
     for q in &course.positions {
         let motion = m.motion(q, 1.0, 0.0).unwrap();
         let rim = motion.points.rim;
