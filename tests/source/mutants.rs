@@ -50,9 +50,9 @@ pub struct Mutator<R> {
     corpus: Vec<Vec<TokenTree>>,
 }
 
-/// The invocations of the files of `tests/mechanisms`, in the order of their names.
+/// The invocations of the files of the gallery, in the order of their names.
 pub fn corpus(root: &Path) -> Vec<TokenStream> {
-    let entries = fs::read_dir(root.join("tests/mechanisms")).expect("a folder");
+    let entries = fs::read_dir(root.join("dev/gallery/src/mechanisms")).expect("a folder");
     let mut paths: Vec<_> = entries.map(|entry| entry.expect("a file").path()).collect();
     paths.sort();
     let texts = paths.iter().map(|path| fs::read_to_string(path).expect("text"));

@@ -120,7 +120,7 @@ parts! {
     [] OutputMotion<f64> { OutputMotion { value, velocity, acceleration } => value velocity acceleration }
     [] Energy<f64> { Energy { kinetic, potential } => kinetic potential }
     [] Power<f64> { Power { applied, dissipated } => applied dissipated }
-    [const N: usize] Balance<f64, N> { Balance { forces, sizes, slopes } => forces sizes slopes }
+    [const N: usize] Balance<f64, N> { Balance { forces, scales, slopes } => forces scales slopes }
     [U: Dim, V: Dim] Equations<f64, U, V> {
         Equations { mass, forces, ratios, bias } => mass forces ratios bias
     }
