@@ -133,3 +133,29 @@ fn what_is_not_found_is_refused() {
         assert!(matches!(found, Err(MotionError::NoContactForces { .. })), "{trial}");
     }
 }
+
+/// A body between two closed stops that move towards each other: no forces can keep both, whatever the units.
+#[test]
+fn stops_that_contradict_each_other_are_an_error_in_every_unit() {
+    for unit in [1e-30, 1e-15, 1.0, 1e15, 1e30] {
+        let stop = |name, row: f64| ReducedContact {
+            name,
+            value: 0.0,
+            row: Column::from([row]),
+            drift: 0.0,
+            bias: -unit,
+            law: ContactLaw::Stop { lower: 0.0, upper: 1.0, restitution: 0.0 },
+        };
+        let equations = ReducedEquations::<f64, D<1>, D<2>> {
+            scene: "Closing",
+            coordinates: ["x"].into(),
+            mass: Matrix::identity(),
+            forces: Column::zeros(),
+            rates: Column::zeros(),
+            contacts: Column::from([stop("left", 1.0), stop("right", -1.0)]),
+        };
+        let at = |rates: &Column<f64, D<1>>| Ok::<_, MotionError>(ReducedEquations { rates: *rates, ..equations });
+        let found = Contacts::begin(0.0, &Column::zeros(), at).map(|_| ());
+        assert!(matches!(found, Err(MotionError::NoContactForces { scene: "Closing", .. })), "{unit:e}: {found:?}");
+    }
+}
