@@ -110,6 +110,41 @@ fn scale_free() {
     }
 }
 
+/// A slider held by three bars, found together. What depends on the crank alone is computed before the iteration.
+mod hoisted {
+    linkage::linkage! {
+        #[derive(Debug, Clone)]
+        pub mechanism Hoisted {
+            param r, s, u, a, d, e;
+            input theta;
+            unknown phi, z, psi, chi;
+            let x = r * cos(theta) - s;
+            equation z = u * x - s;
+            loop a@phi + x@psi = d@0 + e@chi;
+            equation sin(chi) + sin(phi - psi) = z;
+        }
+    }
+}
+
+/// z is computed with the opposite sign of what it is named for; the formulas of the iteration number their values anew
+/// and keep their own signs.
+#[test]
+fn an_iteration_keeps_the_signs_of_its_values() {
+    use hoisted::{Hoisted, HoistedBranch, HoistedCoordinates};
+    let (theta, phi, psi, chi) = (1.0_f64, 0.6_f64, -2.4_f64, 0.7_f64);
+    let (r, s, a) = (0.5, 4.0, 1.0);
+    let x = r * theta.cos() - s;
+    let z = chi.sin() + (phi - psi).sin();
+    let e = (a * phi.sin() + x * psi.sin()) / chi.sin();
+    let d = a * phi.cos() + x * psi.cos() - e * chi.cos();
+    let m = Hoisted { r, s, u: (z + s) / x, a, d, e };
+    let guess = HoistedCoordinates { theta, phi: phi + 0.01, z, psi: psi - 0.01, chi: chi + 0.01 };
+    let q = m.assemble_near(&guess, HoistedBranch {}).unwrap().coordinates();
+    for (found, expected) in [(q.phi, phi), (q.z, z), (q.psi, psi), (q.chi, chi)] {
+        assert!((found - expected).abs() < 1e-13, "{q:?}");
+    }
+}
+
 /// A pose gives its coordinates back.
 #[test]
 fn angles_on_request() {
