@@ -278,6 +278,13 @@ fn links_in_line_assemble() {
         assert!(m.residual(&pose).amax() <= 1e-6, "{}", m.residual(&pose).amax());
         assert!(m.velocity_ratios(&pose).is_err());
     }
+    // Folded back: the difference of two long links, as rounded as they are, spans 0.3 - 0.2.
+    for (l3, l4) in [(100.2, 100.1), (100.1, 100.2), (33.4, 33.3)] {
+        let m = FourBar::new(0.3, 0.2, l3, l4);
+        let pose = m.assemble(0.0, branch(Elbow::Right)).unwrap();
+        assert!(m.residual(&pose).amax() <= 1e-13, "{}", m.residual(&pose).amax());
+        assert!(m.velocity_ratios(&pose).is_err());
+    }
 }
 
 /// Another unit of length changes exponents only.
