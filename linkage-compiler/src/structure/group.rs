@@ -202,6 +202,8 @@ mod tests {
             (&[("l", "phi", ""), ("s", "delta", "")], ["phi", "s"], Group::Rrp),
             (&[("s", "delta", ""), ("l", "phi", "")], ["s", "phi"], Group::Rrp),
             (&[("s", "phi", "delta"), ("l", "phi", "")], ["phi", "s"], Group::Rpr),
+            // A guide that turns with phi only in part.
+            (&[("s", "phi", ""), ("s", "delta", ""), ("l", "phi", "")], ["phi", "s"], Group::Pair),
             (&[("s", "delta", ""), ("t", "psi", "")], ["s", "t"], Group::Sliders),
             // An angle measured from the other link.
             (&[("l", "phi", "psi"), ("r", "psi", "")], ["phi", "psi"], Group::Rrr),
