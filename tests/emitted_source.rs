@@ -29,6 +29,10 @@ too_many_lines = "allow"
 # Clippy itself does not ask this of what a macro emits.
 inline_always = "allow"
 
+[profile.dev]
+debug = false
+incremental = false
+
 [workspace]
 "#;
 
@@ -51,7 +55,7 @@ fn succeeds(folder: &Path, command: &str) {
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let output = Command::new(cargo)
         .args([command, "--quiet", "--color=never", "--target-dir"])
-        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("emitted/target"))
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("target"))
         .current_dir(folder)
         .env_remove("RUSTFLAGS")
         .output()

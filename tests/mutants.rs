@@ -118,6 +118,10 @@ linkage = { path = "ROOT", default-features = false, features = ["std", "dynamic
 [lints.rust]
 warnings = "deny"
 
+[profile.dev]
+debug = false
+incremental = false
+
 [workspace]
 "#;
 
@@ -156,7 +160,8 @@ fn accepted_mutants_compile() {
         let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
         let output = Command::new(cargo)
             .args(["check", "--quiet", "--color=never", "--target-dir"])
-            .arg(folder.join("target"))
+            // One folder for all crates that tests write, which have the same dependencies.
+            .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("target"))
             .current_dir(&folder)
             .env_remove("RUSTFLAGS")
             .output()

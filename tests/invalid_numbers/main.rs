@@ -73,7 +73,8 @@ fn no_ok_holds_a_number_that_is_not_finite() {
     };
     let output = Command::new(env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()))
         .args(["run", "--quiet", "--color=never", "--profile", profile, "--target-dir"])
-        .arg(folder.join("target"))
+        // One folder for all crates that tests write, which have the same dependencies.
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("target"))
         .args(["--", &trials])
         .current_dir(&folder)
         .env_remove("RUSTFLAGS")

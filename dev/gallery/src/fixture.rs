@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// The kinematics that `linkage!` emits for a mechanism.
 ///
-/// Lists of coordinates, rates and accelerations are in the order of declaration; points are listed as x, y, x, y, ..
+/// Lists of coordinates, rates and accelerations are in the order of their fields; points are listed as x, y, x, y, ..
 pub trait Kinematics<T: Real>: Mechanism<Scalar = T> + Sized {
     /// The mechanism with these parameters, in the order of declaration.
     fn with_parameters(parameters: &[T]) -> Self;

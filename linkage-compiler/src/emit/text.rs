@@ -49,7 +49,8 @@ fn statement(statement: &Statement) -> String {
             let inside: Vec<String> = inside.iter().map(self::statement).collect();
             format!("unless {}: {}", expressions(conditions), inside.join("; "))
         }
-        Statement::Check { .. } | Statement::CheckPosition => String::new(),
+        Statement::Check { what, values, .. } => format!("check {what}: {}", expressions(values)),
+        Statement::CheckPosition => "check the position".to_owned(),
     }
 }
 

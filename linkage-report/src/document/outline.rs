@@ -115,7 +115,7 @@ pub(crate) mod words {
     pub(crate) const LEAD_VELOCITY: &str = "so that";
     pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the constraint equations give";
     pub(crate) const LEAD_GAMMA: &str = "with the terms that contain no acceleration:";
-    pub(crate) const LEAD_RATIO_DERIVATIVES: &str = "With w, the motion of all coordinates for a unit rate of one input, and γ as the bilinear form of two motions,";
+    pub(crate) const LEAD_RATIO_DERIVATIVES: &str = "The derivatives of the velocity ratios follow from the rates of all coordinates at a unit rate of each input, and from the quadratic velocity term as a bilinear form of two of them:";
     pub(crate) const LEAD_JERK: &str = "Differentiated three times, the constraint equations give";
     pub(crate) const LEAD_ETA: &str = "with the terms that contain no jerk:";
     pub(crate) const LEAD_SENSITIVITY: &str = "With fixed inputs, the unknowns depend on the parameters p by";
