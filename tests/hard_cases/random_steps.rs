@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Options, Path};
 use linkage::{D, Dim, Elbow, Mechanism, PathError, PerInput};
 use linkage_gallery::four_bar::{FourBar, FourBarBranch};
-use linkage_gallery::{ClosedForm, Fixture, all_mechanisms};
+use linkage_gallery::{ClosedForm, Fixture, Kinematics, all_mechanisms};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -147,12 +147,12 @@ fn by_short_steps<M: Mechanism<Scalar = f64, V = D<1>>>(
 
 /// Walks by the number of inputs: several inputs follow one parameter.
 trait Inputs: Dim {
-    fn closed<M: ClosedForm<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
+    fn closed<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count;
     fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
 }
 
 impl Inputs for D<1> {
-    fn closed<M: ClosedForm<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+    fn closed<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count {
         let at = |input: f64, branch| m.assemble(PerInput::<M>::from([input]).into(), branch).ok();
         let starts = |input: f64, _: &mut SmallRng| {
             M::all_branches().into_iter().filter_map(|branch| Some(M::coordinates_of(&at(input, branch)?))).collect()
@@ -167,20 +167,24 @@ impl Inputs for D<1> {
 
     fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
         let starts = |input: f64, random: &mut SmallRng| {
-            let guess: Vec<f64> = (0..M::U::COUNT + 1).map(|_| random.random_range(-PI..PI)).collect();
-            let guess = M::with_inputs(&M::named(&guess), [input].into());
-            let listed = M::listed(&m.pose_at(&guess));
-            m.solved(&listed).map(|q| M::named(&q)).into_iter().collect()
+            from_a_random_guess(&m, PerInput::<M>::from([input]), random).into_iter().collect()
         };
         walk(&m, starts, |_: &_, before: &_, input| by_short_steps(&m, before, input), steps, random)
     }
 }
 
+/// The position that Newton's method finds at these inputs from random unknowns.
+fn from_a_random_guess<M: Fixture>(m: &M, inputs: PerInput<M>, random: &mut SmallRng) -> Option<M::Coordinates> {
+    let guess: Vec<f64> = (0..M::U::COUNT + M::V::COUNT).map(|_| random.random_range(-PI..PI)).collect();
+    let guess = M::with_inputs(&M::named(&guess), inputs);
+    Some(M::named(&m.solved(&M::listed(&m.pose_at(&guess))).ok()?))
+}
+
 macro_rules! several_inputs {
     ($($count:literal)*) => {$(
         impl Inputs for D<$count> {
-            fn closed<M: ClosedForm<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
-                let scale = m.parameters().into_iter().fold(0.0, f64::max);
+            fn closed<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+                let scale = scale(&m);
                 let m = Along { mechanism: m, inputs: move |s| round::<M>(scale, s) };
                 let at = |parameter: f64, branch| {
                     let pose = m.mechanism.assemble((m.inputs)(parameter)[0].into(), branch).ok()?;
@@ -195,14 +199,25 @@ macro_rules! several_inputs {
                 walk(&m, starts, expected, steps, random)
             }
 
-            fn newton<M: Fixture<V = Self>>(_: M, _: usize, _: &mut SmallRng) -> Count {
-                unimplemented!("{}: random steps of several inputs need a closed form", M::NAME)
+            fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+                let scale = scale(&m);
+                let m = Along { mechanism: m, inputs: move |s| round::<M>(scale, s) };
+                let starts = |s: f64, random: &mut SmallRng| {
+                    let q = from_a_random_guess(&m.mechanism, (m.inputs)(s)[0], random);
+                    q.map(|q| AlongCoordinates { q, parameter: s }).into_iter().collect()
+                };
+                walk(&m, starts, |_: &_, before: &_, s| by_short_steps(&m, before, s), steps, random)
             }
         }
     )*};
 }
 
-several_inputs!(2 4);
+several_inputs!(2 3 4);
+
+/// The largest parameter, which is of the order of the lengths.
+fn scale<M: Kinematics<f64>>(m: &M) -> f64 {
+    m.parameters().into_iter().fold(0.0, f64::max)
+}
 
 /// Inputs with their first two derivatives by the parameter: angles at different rates, lengths round circles or
 /// ellipses that leave the range of the mechanism.

@@ -9,6 +9,8 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 pub trait Kinematics<T: Real>: Mechanism<Scalar = T> + Sized {
     /// The mechanism with these parameters, in the order of declaration.
     fn with_parameters(parameters: &[T]) -> Self;
+    /// The parameters in the order of declaration.
+    fn parameters(&self) -> Vec<T>;
     /// The coordinates by name.
     fn named(q: &[T]) -> Self::Coordinates;
     /// The position at coordinates.
@@ -93,8 +95,6 @@ pub trait ClosedForm: Assembly {
     fn all_branches() -> Vec<Self::Branch>;
     /// The coordinates of a position by name.
     fn coordinates_of(pose: &Self::Pose) -> Self::Coordinates;
-    /// The parameters in the order of declaration.
-    fn parameters(&self) -> Vec<Self::Scalar>;
 }
 
 /// Implements the traits for all mechanisms of a list.
@@ -113,6 +113,10 @@ macro_rules! kinematics {
         impl<T: Real> Kinematics<T> for $file::$Mechanism<T> {
             fn with_parameters(parameters: &[T]) -> Self {
                 array(parameters).into()
+            }
+            fn parameters(&self) -> Vec<T> {
+                let parameters: [T; _] = self.clone().into();
+                parameters.to_vec()
             }
             fn named(q: &[T]) -> Self::Coordinates {
                 named(q)
@@ -232,10 +236,6 @@ macro_rules! closed_form {
             }
             fn coordinates_of(pose: &Self::Pose) -> Self::Coordinates {
                 pose.coordinates()
-            }
-            fn parameters(&self) -> Vec<T> {
-                let parameters: [T; _] = self.clone().into();
-                parameters.to_vec()
             }
         }
     };
