@@ -159,3 +159,37 @@ fn stops_that_contradict_each_other_are_an_error_in_every_unit() {
         assert!(matches!(found, Err(MotionError::NoContactForces { scene: "Closing", .. })), "{unit:e}: {found:?}");
     }
 }
+
+/// A block on a belt, with mass 1 and friction 1/2. Where rounding error gives the rate of a slip the wrong sign, the
+/// slip goes on only if it grows: not if push and belt rest again, where friction alone would turn it round.
+#[test]
+fn slip_that_has_just_begun_goes_on_where_it_grows() {
+    let block = |push: f64, belt: f64, rate: f64| ReducedEquations::<f64, D<1>, D<1>> {
+        scene: "Block",
+        coordinates: ["x"].into(),
+        mass: Matrix::identity(),
+        forces: Column::from([push]),
+        rates: Column::from([rate]),
+        contacts: Column::from([ReducedContact {
+            name: "friction",
+            value: 0.0,
+            row: Column::from([1.0]),
+            drift: 0.0,
+            // The acceleration of the belt, that of the block left aside.
+            bias: -belt,
+            law: ContactLaw::Friction { limit: 0.5 },
+        }]),
+    };
+    for (push, belt, mode, wrong) in [
+        (1.0, 0.0, Mode::SlipForward, -1e-17),
+        (-1.0, 0.0, Mode::SlipBackward, 1e-17),
+        (0.0, -1.0, Mode::SlipForward, -1e-17),
+        (0.0, 1.0, Mode::SlipBackward, 1e-17),
+    ] {
+        let at = |rates: &Column<f64, D<1>>| Ok::<_, MotionError>(block(push, belt, rates[0]));
+        let (contacts, _) = Contacts::begin(0.0, &Column::zeros(), at).unwrap();
+        assert_eq!(contacts.modes[0], mode);
+        assert!(contacts.review(&block(push, belt, wrong)).unwrap().1, "push {push}, belt {belt}");
+        assert!(!contacts.review(&block(0.0, 0.0, wrong)).unwrap().1, "push {push}, belt {belt}");
+    }
+}
