@@ -129,6 +129,23 @@ fn units_change_nothing() {
     }
 }
 
+/// A state of zero tells nothing of the time in which it moves: that follows from its scale, not from the length of a
+/// run that is much longer.
+#[test]
+fn a_first_step_from_zero_is_the_same_in_every_long_run() {
+    for moves_in in [1e-3, 1.0, 1e3] {
+        let begun = |runs: f64| {
+            let rate = move |_: f64, y: &State<2>| Ok(vector![y[1] / moves_in, (1.0 - y[0]) / moves_in]);
+            let motion = dop853(rate, (0.0, vector![0.0, 0.0]), runs * moves_in, tolerance(1e-9)).unwrap();
+            motion.take(3).map(Result::unwrap).collect::<Vec<_>>()
+        };
+        // Longer than the ten thousand times from which the scale decides.
+        let [one, other] = [begun(1e6), begun(1e9)];
+        assert_eq!(one, other);
+        assert!(one[0].t <= moves_in, "{}", one[0].t);
+    }
+}
+
 #[test]
 fn backwards_leads_back() {
     for end in [7.0, -7.0] {
