@@ -71,4 +71,40 @@ mod tests {
         let introductory = determinant(&mut g, [[x, cosine], [y, sine]]);
         assert_eq!(g.text(introductory), "-z2 - z3*cos(delta)");
     }
+    /// The nine products of their parts, 18 terms before they are combined, are within the limit of work.
+    #[test]
+    fn links_of_three_parts_each_give_nine_sines() {
+        let mut g = Graph::default();
+        let names = [("a", "alpha"), ("b", "beta"), ("c", "gamma"), ("p", "phi"), ("q", "psi"), ("r", "chi")];
+        let parts = names.map(|names| {
+            <[&str; 2]>::from(names).map(|name| {
+                let symbol = g.symbol(name);
+                g.variable(symbol)
+            })
+        });
+        let (one, other) = parts.split_at(3);
+        let [left, right] = [one, other].map(|parts| {
+            [Function::Cos, Function::Sin].map(|function| {
+                let terms: Vec<_> = parts
+                    .iter()
+                    .map(|&[length, angle]| {
+                        let component = g.call(function, &[angle]);
+                        (Number::ONE, g.multiply(length, component))
+                    })
+                    .collect();
+                g.sum(&terms)
+            })
+        });
+        let found = determinant(&mut g, [[left[0], right[0]], [left[1], right[1]]]);
+        let mut sines = Vec::new();
+        for &[length, angle] in one {
+            for &[other_length, other_angle] in other {
+                let between = g.subtract(other_angle, angle);
+                let sine = g.call(Function::Sin, &[between]);
+                sines.push((Number::ONE, g.product(&[(length, 1), (other_length, 1), (sine, 1)])));
+            }
+        }
+        let expected = g.sum(&sines);
+        assert_eq!(g.text(found), g.text(expected));
+    }
 }
