@@ -51,6 +51,8 @@ fn slider_crank_driven_by_its_slider() {
         for line in ["Engine is singular", "rank 1 of 2", "no input can move", "phi1 could drive in place of z3"] {
             assert!(text.contains(line), "{text}");
         }
+        let rates = format!("\nfree: phi1' = {:.4} phi2' = {:.4}\n", free[0], free[1]);
+        assert!(text.contains(&rates), "{text}");
     }
     // |sin(phi2 - phi1)| everywhere: the notes' det J = z1 z2 sin(phi2 - phi1).
     for (phi1, phi2) in [(0.3, 1.1), (2.0, -0.4), (1.0, 1.0 + 1e-9)] {
