@@ -4,6 +4,7 @@ use linkage::PositionError;
 
 use linkage_gallery::four_bar::*;
 use linkage_gallery::six_bar::*;
+use linkage_gallery::slider_crank::*;
 
 fn guess() -> FourBarCoordinates {
     FourBarCoordinates { theta2: 0.35, theta3: 1.2, theta4: -0.9 }
@@ -83,6 +84,14 @@ fn every_guess_converges_or_says_why() {
     }
     println!("of 3600 guesses {found} lead to a position, {other_branch} to one on the other branch");
     assert!(found + other_branch > 3000 && other_branch > 1000, "{found} {other_branch}");
+}
+
+/// Crank and rod in line, 1 + 3 = 4: there is no residual to reduce.
+#[test]
+fn a_guess_without_residual_takes_no_step() {
+    let guess = SliderCrankCoordinates { z3: 4.0, phi1: 0.0, phi2: 0.0 };
+    let solution = Compressor::default().solve(&guess).unwrap();
+    assert_eq!((solution.coordinates, solution.iterations, solution.residual), (guess, 0, 0.0));
 }
 
 /// Scaling all lengths by a power of two changes exponents only.
