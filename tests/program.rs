@@ -115,3 +115,29 @@ snapshots! {
     contact_checks: "five_bar_contacts" "Shaken" ["check"];
     unreduced_equations: "five_bar_contacts" "Clamped" ["unreduced"];
 }
+
+/// The motion of sixty loops in a chain, in blocks: each ends between two loops, where the fewest values are used later.
+/// Only results leave it, and the square of the last rate, which the next loop uses too.
+#[test]
+fn long_functions_are_divided_where_few_values_are_used_later() {
+    let one = |i: usize| {
+        let before = i - 1;
+        format!("param a{i}, b{i}, c{i}; unknown u{i}, w{i}; loop a{i}@w{before} + b{i}@u{i} = c{i}@w{i} + d@0;")
+    };
+    let loops: String = (1..=60).map(one).collect();
+    let source = format!("mechanism Chain {{ param d; input w0; {loops} }}");
+    let mechanism = linkage_compiler::read(source.parse().unwrap()).unwrap().remove(0);
+    let text = linkage_compiler::programs(&mechanism).concat();
+    let motion = text.split("\n\n").find(|part| part.starts_with("motion(")).unwrap();
+    let blocks: Vec<_> = motion.lines().filter_map(|line| line.trim().split_once(" = {")).collect();
+    assert!(blocks.len() > 3, "{blocks:?}");
+    for (names, _) in blocks {
+        let names: Vec<_> = names.trim_matches(['(', ')']).split(", ").collect();
+        let is_result = |name: &&&str| name.ends_with("_rate") || name.ends_with("_acceleration");
+        let results = names.iter().filter(is_result).count();
+        let others: Vec<_> = names.iter().filter(|name| !is_result(name)).collect();
+        // The rates and accelerations of two unknowns of each loop.
+        assert!(results > 0 && results % 4 == 0, "{names:?}");
+        assert!(others.iter().all(|name| name.ends_with("_rate_squared")) && others.len() <= 1, "{others:?}");
+    }
+}
