@@ -14,4 +14,13 @@ linkage! {
     }
 }
 
+linkage! {
+    pub mechanism Wedge {
+        input phi;
+        unknown s;
+        extern fn lift(phi) -> (law, slope);
+        equation s = law(phi);
+    }
+}
+
 fn main() {}
