@@ -191,5 +191,7 @@ fn slip_that_has_just_begun_goes_on_where_it_grows() {
         assert_eq!(contacts.modes[0], mode);
         assert!(contacts.review(&block(push, belt, wrong)).unwrap().1, "push {push}, belt {belt}");
         assert!(!contacts.review(&block(0.0, 0.0, wrong)).unwrap().1, "push {push}, belt {belt}");
+        // At a rate of zero the slip has not turned yet: its event is where the rate falls below zero.
+        assert!(contacts.review(&block(0.0, 0.0, 0.0)).unwrap().1, "push {push}, belt {belt}");
     }
 }
