@@ -107,4 +107,21 @@ mod tests {
         let expected = g.sum(&sines);
         assert_eq!(g.text(found), g.text(expected));
     }
+    /// Nothing of the entry opposite to a zero is left to be taken for a term of the other product.
+    #[test]
+    fn a_zero_hides_no_identity() {
+        let mut g = Graph::default();
+        let [phi, psi] = ["phi", "psi"].map(|name| {
+            let symbol = g.symbol(name);
+            g.variable(symbol)
+        });
+        let mut product = |of_phi, of_psi| {
+            let (one, other) = (g.call(of_phi, &[phi]), g.call(of_psi, &[psi]));
+            g.multiply(one, other)
+        };
+        let (left, right) = (product(Function::Sin, Function::Cos), product(Function::Cos, Function::Sin));
+        let (difference, zero, one) = (g.subtract(left, right), g.number(Number::ZERO), g.one());
+        let found = determinant(&mut g, [[zero, one], [difference, left]]);
+        assert_eq!(g.text(found), "-sin(phi - psi)");
+    }
 }
