@@ -8,10 +8,13 @@ pub use core::result::Result::{self, Err, Ok};
 
 pub use nalgebra::{Point2, SMatrix, SVector, Scalar, UnitComplex, Vector2};
 
-pub use crate::branch::{Triangle, chord, elbow_chord, existing, reach_chord, side_of, solvable};
+pub use crate::branch::{existing, side_of};
+pub use crate::chord::{
+    Triangle, chord, elbow_chord, reach_chord, regular_chord, regular_elbow_chord, regular_reach_chord, solvable,
+};
 pub use crate::error::{finite, finite_matrix};
 pub use crate::limits::{Bound, Search, limits};
-pub use crate::linear::{Factorization, product_of_pivots, regular};
+pub use crate::linear::{Factorization, is_nonzero, product_of_pivots, regular};
 pub use crate::motion::{
     finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
 };

@@ -21,6 +21,7 @@ pub mod __rt;
 pub mod __shared;
 pub mod accuracy;
 mod branch;
+mod chord;
 mod column;
 pub mod continuation;
 pub mod derivation;

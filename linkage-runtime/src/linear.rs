@@ -18,10 +18,16 @@ pub fn regular<T: Real>(
     determinant: T,
     scale: T,
 ) -> Result<(), PositionError> {
-    if determinant.abs() > ulps::<T>(ZERO_ULPS) * scale.abs() && determinant.is_finite() {
+    if is_nonzero(determinant, scale) && determinant.is_finite() {
         return Ok(());
     }
     Err(singular(mechanism, group, determinant, scale))
+}
+
+/// True if the determinant of a group of unknowns is not zero to rounding error, relative to `scale`.
+#[inline]
+pub fn is_nonzero<T: Real>(determinant: T, scale: T) -> bool {
+    determinant.abs() > ulps::<T>(ZERO_ULPS) * scale.abs()
 }
 
 /// True if numbers have the same signs, pair by pair; zero counts as positive.
@@ -31,6 +37,7 @@ pub fn same_signs<T: Real>(these: &[T], those: &[T]) -> bool {
 }
 
 #[cold]
+#[inline(never)]
 fn singular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, scale: T) -> PositionError {
     if determinant.is_finite() && scale.is_finite() {
         // A determinant of scale zero is singular.

@@ -4,6 +4,8 @@ mod input;
 mod path;
 mod position;
 
+use core::hint::cold_path;
+
 use nalgebra::SMatrix;
 
 pub use input::InputError;
@@ -50,9 +52,9 @@ pub fn all_finite<'a, T: Real>(
 ) -> Result<(), PositionError> {
     // A sum is finite only if all its terms are, and takes a single test; but the sum of finite terms may overflow.
     let sum = values.clone().copied().reduce(|sum, value| sum + value);
-    if sum.is_none_or(|sum| sum.is_finite()) || values.clone().all(T::is_finite) {
-        Ok(())
-    } else {
-        Err(PositionError::NotFinite { mechanism, quantity })
+    if sum.is_none_or(|sum| sum.is_finite()) {
+        return Ok(());
     }
+    cold_path();
+    if values.clone().all(T::is_finite) { Ok(()) } else { Err(PositionError::NotFinite { mechanism, quantity }) }
 }

@@ -1,0 +1,370 @@
+//! The half chords of groups with two solutions: square roots of products of two factors, exact near dead points.
+
+use crate::branch::Side;
+use crate::linear::{is_nonzero, power_of_two_below};
+use crate::scalar::to_f64;
+use crate::{PositionError, Real, real};
+
+/// A factor under the root of a chord that is negative by at most this many ulps of its scale counts as zero: the links
+/// are in line.
+///
+/// Limits of an input are then off by up to 1.9 ulp times their condition number; with 1.5 by up to 3.2, with 2 by up
+/// to 4.0 (`tests/limits_to_forty_digits.rs`). With 0, links in line whose lengths are rounded decimals do not reach
+/// each other.
+const TOUCHING_ULPS: f64 = 1.0;
+
+/// A distance of at most this many ulps of the sum of the magnitudes of its terms counts as zero. The joints of the
+/// test mechanisms are accurate to three ulp of that sum times their condition number (`tests/forty_digits`). With 0,
+/// joints that coincide up to rounding error count as apart; with more, positions that still have correct digits are
+/// rejected.
+const COINCIDENT_ULPS: f64 = 8.0;
+
+/// ±sqrt((n - h) (n + h)), with the sign of `side`: the half chord of a circle of radius n at the distance h from its
+/// centre. The joint of a link (RRP) is on both the circle about its other end, with the link's length as n, and the
+/// guide at the distance h; for RPR n is the distance of the outer joints and h the offset of the arm; for
+/// a cos(phi) + b sin(phi) = h, n is hypot(a, b).
+///
+/// `factors` are n - h and n + h, `radius` is n, `scales` are the sums of the magnitudes of the terms of n and of h.
+///
+/// # Errors
+/// [`PositionError::Unbuildable`] if the product is negative, [`PositionError::Undetermined`] if n and h are both zero,
+/// [`PositionError::NotFinite`] if a number is not finite.
+#[inline]
+pub fn chord<T: Real, S: Side>(
+    mechanism: &'static str,
+    group: &'static str,
+    factors: [T; 2],
+    radius: T,
+    scales: [T; 2],
+    side: S,
+) -> Result<T, PositionError> {
+    let [low, high] = factors;
+    let radicand = low * high;
+    // At most one factor is negative.
+    let root = if is_in_range(radicand) {
+        radicand.sqrt()
+    } else {
+        touching_chord(mechanism, group, low, high, radius, scales[0], scales[1])?
+    };
+    Ok(side.signed(root))
+}
+
+/// Computes the [`chord`] where n is a distance between joints, or another sum that may cancel to rounding error.
+///
+/// # Errors
+/// Those of [`chord`].
+#[inline]
+pub fn reach_chord<T: Real, S: Side>(
+    mechanism: &'static str,
+    group: &'static str,
+    factors: [T; 2],
+    radius: T,
+    scales: [T; 2],
+    side: S,
+) -> Result<T, PositionError> {
+    if radius <= real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scales[0] {
+        touching_chord(mechanism, group, factors[0], factors[1], radius, scales[0], scales[1])?;
+    }
+    chord(mechanism, group, factors, radius, scales, side)
+}
+
+/// Returns an error if the determinant of a group of linear unknowns is zero. `numerators` are those of Cramer's rule,
+/// `scales` the sums of the magnitudes of the terms of each.
+///
+/// # Errors
+/// [`PositionError::Undetermined`] if the numerators are zero as well, else [`PositionError::Unbuildable`];
+/// [`PositionError::NotFinite`] if a numerator is not finite.
+#[inline]
+pub fn solvable<T: Real, const N: usize>(
+    mechanism: &'static str,
+    group: &'static str,
+    determinant: T,
+    numerators: [T; N],
+    scales: [T; N],
+) -> Result<(), PositionError> {
+    // A determinant that is NaN makes the position NaN, which is reported when the position is complete.
+    if determinant.is_zero() { Err(unsolvable(mechanism, group, &numerators, &scales)) } else { Ok(()) }
+}
+
+#[cold]
+#[inline(never)]
+fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators: &[T], scales: &[T]) -> PositionError {
+    let gaps = numerators.iter().zip(scales).map(|(numerator, scale)| relative(numerator.abs(), *scale));
+    let tolerance = COINCIDENT_ULPS * to_f64(T::default_epsilon());
+    // `max` would drop NaN.
+    let gap = gaps.fold(0.0, |most: f64, gap| if gap <= most { most } else { gap });
+    if !numerators.iter().all(T::is_finite) {
+        PositionError::NotFinite { mechanism, quantity: POSITION }
+    } else if gap <= tolerance {
+        PositionError::Undetermined { mechanism, group }
+    } else {
+        PositionError::Unbuildable { mechanism, group, gap }
+    }
+}
+
+/// The quantity named in errors of this module.
+const POSITION: &str = "the position";
+
+/// magnitude / scale, where 0 / 0 = 0.
+fn relative<T: Real>(magnitude: T, scale: T) -> f64 {
+    if magnitude.is_zero() {
+        0.0
+    } else if scale.is_zero() {
+        f64::INFINITY
+    } else {
+        to_f64(magnitude / scale)
+    }
+}
+
+/// True if a product of two squared lengths is far from overflow and underflow. If not, [`root`] computes in other
+/// units.
+#[inline]
+fn is_in_range<T: Real>(product: T) -> bool {
+    let epsilon = T::default_epsilon();
+    let tiny = epsilon * epsilon * epsilon * epsilon;
+    product > tiny && product < T::one() / tiny
+}
+
+/// If a factor, a difference of two squares, is less than this fraction of the larger one, it is computed without
+/// rounding error.
+const CANCELLATION: f64 = 1.0 / 16.0;
+
+/// The triangle of two links of lengths p and q whose outer joints are (x, y) apart, D^2 = x^2 + y^2. Only the
+/// magnitude of a length counts.
+#[derive(Debug, Clone, Copy)]
+pub struct Triangle<T> {
+    /// p and q.
+    pub links: [T; 2],
+    /// x and y.
+    pub line: [T; 2],
+    /// The sum of the magnitudes of the terms of x and y.
+    pub scale: T,
+    /// (p + q)^2.
+    pub reach_squared: T,
+    /// D^2.
+    pub distance_squared: T,
+    /// (p + q)^2 - D^2 and D^2 - (p - q)^2.
+    pub factors: [T; 2],
+}
+
+impl<T: Real> Triangle<T> {
+    /// True if it is far from flat.
+    #[inline(always)]
+    fn is_open(&self) -> bool {
+        let Self { reach_squared, distance_squared, factors: [low, high], .. } = *self;
+        let part = real::<T>(CANCELLATION);
+        low > part * reach_squared
+            && high > part * distance_squared
+            && distance_squared > T::default_epsilon() * reach_squared
+    }
+}
+
+/// ±sqrt(((p + q)^2 - D^2) (D^2 - (p - q)^2)), with the sign of `side`: twice the half chord of a triangle.
+///
+/// The flag returned is true if the triangle is far from flat and of moderate size. The directions of the links then
+/// follow without overflow and underflow: with s = p + q, D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16, so that neither
+/// link is shorter than s/32; and since D^2 / s^2, s^2 D^2 and 1 / s are in range, so are the links' components, which
+/// are less than 2 s even after rounding errors.
+///
+/// Near a dead point a factor is a difference of nearly equal squares. It is then computed in extended precision, so
+/// that the chord is accurate to a few ulp however flat the triangle is: T. J. Dekker, "A floating-point technique for
+/// extending the available precision", Numerische Mathematik 18, 1971.
+///
+/// # Errors
+/// [`PositionError::Unbuildable`] if there is no such triangle, [`PositionError::Undetermined`] if the joints coincide
+/// and the links are equally long or if a link has no length, [`PositionError::NotFinite`] if a number is not finite.
+#[inline(always)]
+pub fn elbow_chord<T: Real, S: Side>(
+    mechanism: &'static str,
+    group: &'static str,
+    triangle: Triangle<T>,
+    side: S,
+) -> Result<(T, bool), PositionError> {
+    let Triangle { links: [p, q], line: [x, y], scale, reach_squared, factors: [low, high], .. } = triangle;
+    let (is_open, product) = (triangle.is_open(), low * high);
+    let is_plain = is_open && is_in_range(product);
+    let root = if is_plain {
+        product.sqrt()
+    } else if is_open {
+        root(low, high, reach_squared)
+    } else {
+        flat_chord(mechanism, group, p, q, x, y, scale)?
+    };
+    Ok((side.signed(root), is_plain))
+}
+
+/// The [`elbow_chord`] of a triangle whose links have finite directions and whose determinant is not zero to rounding
+/// error; `None` for another triangle, and where there is none.
+#[inline(always)]
+pub fn regular_elbow_chord<T: Real, S: Side>(triangle: Triangle<T>, side: S) -> Option<T> {
+    let Triangle { links: [p, q], line: [x, y], scale, reach_squared, factors: [low, high], .. } = triangle;
+    let (is_open, product) = (triangle.is_open(), low * high);
+    let root = if is_open && is_in_range(product) {
+        product.sqrt()
+    } else if is_open {
+        has_inverse(reach_squared).then(|| root(low, high, reach_squared))?
+    } else {
+        flat_regular_chord(p, q, x, y, scale)?
+    };
+    Some(side.signed(root))
+}
+
+/// True if the inverse of a squared length is finite, and so is that of any part of it that is not negligible.
+fn has_inverse<T: Real>(square: T) -> bool {
+    (T::default_epsilon() * square).recip().is_finite()
+}
+
+/// The [`flat_chord`] of a triangle that is not singular, of links whose directions are finite.
+#[cold]
+#[inline(never)]
+fn flat_regular_chord<T: Real>(p: T, q: T, x: T, y: T, scale: T) -> Option<T> {
+    let chord = flat_chord("", "", p, q, x, y, scale).ok()?;
+    let reach = p.abs() + q.abs();
+    let (reach_squared, distance_squared) = (reach * reach, x * x + y * y);
+    let shortest = T::default_epsilon() * reach_squared;
+    let are_apart = [distance_squared, p * p, q * q].into_iter().all(|square| square > shortest);
+    // The determinant is half the chord.
+    (are_apart && has_inverse(reach_squared) && is_nonzero(chord * real(0.5), p * q)).then_some(chord)
+}
+
+/// The [`chord`] of two positive factors, else `None`.
+#[inline]
+pub fn regular_chord<T: Real, S: Side>(factors: [T; 2], radius: T, side: S) -> Option<T> {
+    let [low, high] = factors;
+    let radicand = low * high;
+    let root = if is_in_range(radicand) {
+        radicand.sqrt()
+    } else {
+        (low > T::zero() && high > T::zero()).then(|| root(low, high, radius))?
+    };
+    Some(side.signed(root))
+}
+
+/// The [`reach_chord`] of two positive factors and a distance `radius` that exceeds its rounding error, else `None`.
+/// `scale` is the sum of the magnitudes of the terms of the distance.
+#[inline]
+pub fn regular_reach_chord<T: Real, S: Side>(factors: [T; 2], radius: T, scale: T, side: S) -> Option<T> {
+    let is_apart = radius > real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scale;
+    if is_apart { regular_chord(factors, radius, side) } else { None }
+}
+
+/// The chord of a triangle that is nearly flat, does not exist, or is very large or small.
+///
+/// Scalars instead of arrays: arrays would be stored in memory even by callers that do not reach this function.
+#[cold]
+#[inline(never)]
+fn flat_chord<T: Real>(
+    mechanism: &'static str,
+    group: &'static str,
+    p: T,
+    q: T,
+    x: T,
+    y: T,
+    scale: T,
+) -> Result<T, PositionError> {
+    let (p, q, epsilon) = (p.abs(), q.abs(), T::default_epsilon());
+    let (sum, distance, line) = ((p + q) * (p + q), x * x + y * y, x.hypot(y));
+    if !(sum.is_finite() && distance.is_finite()) {
+        return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
+    }
+    let coincident = real::<T>(COINCIDENT_ULPS) * epsilon;
+    let difference = (p - q).abs();
+    if line <= coincident * scale {
+        let gap = relative(difference, p + q);
+        let is_undetermined = difference <= coincident * (scale + p + q);
+        return Err(if is_undetermined {
+            PositionError::Undetermined { mechanism, group }
+        } else {
+            PositionError::Unbuildable { mechanism, group, gap: gap * gap }
+        });
+    }
+    let (low, high) = exact_factors(p, q, x, y, sum, distance);
+    // The sums of the magnitudes of the terms of both factors, with their multiplicities.
+    let two = real::<T>(2.0);
+    let of_line = line * scale;
+    let scales = [two * (sum + of_line), two * (difference * (p + q) + of_line)];
+    let least = if low < high { low } else { high };
+    let tolerance = real::<T>(TOUCHING_ULPS) * epsilon * if low < high { scales[0] } else { scales[1] };
+    let root = if least > T::zero() {
+        root(low, high, sum)
+    } else if -least <= tolerance {
+        T::zero()
+    } else {
+        return Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, sum) });
+    };
+    // A link of length zero can have any angle.
+    if p.is_zero() || q.is_zero() { Err(PositionError::Undetermined { mechanism, group }) } else { Ok(root) }
+}
+
+/// (p + q)^2 - D^2 and D^2 - (p - q)^2, without rounding error. A result below one ulp of the squares is set to zero,
+/// because lengths such as 33.3 and 66.7 are themselves rounded to that precision.
+///
+/// In a scalar without fused multiply-add, such as double-double, the rounding errors of the squares remain.
+fn exact_factors<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
+    let (low, high) = (beyond(two_sum(p, q), [x, y]), -beyond(two_sum(p, -q), [x, y]));
+    let touching = |factor: T, size: T| if factor.abs() <= T::default_epsilon() * size { T::zero() } else { factor };
+    (touching(low, sum), touching(high, distance))
+}
+
+/// (a + b)^2 - x^2 - y^2 for a sum a and its rounding error b.
+fn beyond<T: Real>((a, b): (T, T), [x, y]: [T; 2]) -> T {
+    let ([a2, e], [x2, f], [y2, g]) = (two_product(a), two_product(x), two_product(y));
+    // The larger square is subtracted first, so that the other difference is one of similar numbers.
+    let (large, small) = if x2 < y2 { (y2, x2) } else { (x2, y2) };
+    let (first, h) = two_sum(a2, -large);
+    let (second, i) = two_sum(first, -small);
+    second + (h + i + (e - f - g) + (a + a + b) * b)
+}
+
+/// a + b and its rounding error: D. E. Knuth.
+fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// a^2 and its rounding error.
+fn two_product<T: Real>(a: T) -> [T; 2] {
+    let square = a * a;
+    [square, a.mul_add(a, -square)]
+}
+
+/// The chord of a group whose links are in line or do not reach each other, or whose factors overflow or underflow.
+#[cold]
+#[inline(never)]
+fn touching_chord<T: Real>(
+    mechanism: &'static str,
+    group: &'static str,
+    low: T,
+    high: T,
+    radius: T,
+    radius_scale: T,
+    offset_scale: T,
+) -> Result<T, PositionError> {
+    if !(low.is_finite() && high.is_finite() && radius.is_finite()) {
+        return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
+    }
+    let (scale, epsilon) = (radius_scale + offset_scale, T::default_epsilon());
+    let least = if low < high { low } else { high };
+    let vanishes = radius <= real::<T>(COINCIDENT_ULPS) * epsilon * radius_scale;
+    let tolerance = real::<T>(if vanishes { COINCIDENT_ULPS } else { TOUCHING_ULPS }) * epsilon * scale;
+    if least > T::zero() && !vanishes {
+        Ok(root(low, high, radius))
+    } else if -least > tolerance {
+        Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, radius) })
+    } else if vanishes {
+        Err(PositionError::Undetermined { mechanism, group })
+    } else {
+        // The caller gives the zero the sign of the side.
+        Ok(T::zero())
+    }
+}
+
+/// sqrt(`low` `high`) of positive factors, divided by a power of two near `size` against overflow: the digits are those
+/// of a mechanism with lengths near 1.
+#[cold]
+#[inline(never)]
+fn root<T: Real>(low: T, high: T, size: T) -> T {
+    let unit = power_of_two_below(size);
+    ((low / unit) * (high / unit)).sqrt() * unit
+}
