@@ -68,6 +68,9 @@ snapshots! {
     velocity_with_a_user_function: "cam_rocker" "CamRocker" ["velocity"];
     acceleration: "introductory" "Introductory" ["acceleration"];
     acceleration_of_two_groups: "six_bar" "SixBar" ["acceleration"];
+    kinematics: "four_bar" "FourBar" ["kinematics", "full_kinematics", "kinematics_by_parts"];
+    kinematics_of_five_groups: "klann" "Klann" ["kinematics"];
+    kinematics_by_newton: "double_butterfly" "DoubleButterfly" ["kinematics_near"];
     motion: "four_bar" "FourBar" ["motion"];
     motion_with_a_user_function: "cam_rocker" "CamRocker" ["motion"];
 }

@@ -37,11 +37,13 @@ use proc_macro::TokenStream;
 /// }
 ///
 /// let four_bar = FourBar::default();
-/// let guess = FourBarCoordinates { theta2: 0.35, theta3: 1.2, theta4: -0.9 };
-/// let solution = four_bar.solve(&guess)?;
-/// let motion = four_bar.motion(&solution.coordinates, 41.9, 0.0)?;
+/// // C to the left of the line from B to D; the crank at 20 degrees turns at 400 rpm.
+/// let branch = FourBarBranch::new(linkage::Elbow::Left);
+/// let motion = four_bar.full_kinematics(20_f64.to_radians(), branch, 41.9, 0.0)?;
 /// assert!((motion.rates.theta3 + 18.4).abs() < 0.1);
 /// assert!(motion.points.g3.position.y > 30.0);
+/// // Functions of a position take its pose.
+/// assert!((four_bar.velocity_ratios(&motion.pose)?[0] + 0.4399).abs() < 1e-4);
 /// # Ok::<(), linkage::Error>(())
 /// ```
 ///
@@ -544,7 +546,10 @@ use proc_macro::TokenStream;
 /// | `FourBarCoordinates<T>`, `FourBarRates<T>`, `FourBarAccelerations<T>` | q, q' and q'' by name, with `derive jerk` also `FourBarJerks<T>`, q'''; u before v; conversions from and to `SVector` |
 /// | `FourBarInputs<T>` | v by name, also used for v' and v''; a single input converts from a number, and all from q, q' or q'' |
 /// | `FourBarPoints<Q>`, `FourBarOutputs<Q>` | a quantity `Q`, such as a velocity, for each point or output by name |
-/// | `motion(&q, v', v'')` | everything in one call, common subexpressions computed once: `FourBarMotion<T>` with `position`, `rates`, `accelerations`, `points` and `outputs` |
+/// | `kinematics(v, branch, v', v'')` | position, velocity and acceleration in one computation from the inputs: `FourBarKinematics<T>` with `pose`, `rates` and `accelerations`. It is the fastest way: links are solved once for all three, and no angle is computed that nothing reads |
+/// | `full_kinematics(v, branch, v', v'')` | the same with `points` and `outputs`: `FourBarFullKinematics<T>`; emitted if points or outputs are declared |
+/// | `kinematics_near(&guess, branch, v', v'')`, `full_kinematics_near` | replace these two if some blocks have no closed form, see `assemble_near` |
+/// | `motion(&q, v', v'')` | the same at given coordinates of a position: `FourBarMotion<T>` with `position`, `rates`, `accelerations`, `points` and `outputs` |
 /// | `assemble(v, branch)` | position in closed form, group by group, on the given branch; emitted if every block has a closed form |
 /// | `assemble_near(&guess, branch)` | if some blocks have no closed form: replaces `assemble`, with Newton's method from the guess for these blocks. If turns of angles matter (see below): in addition to `assemble`, with each angle in the turn nearest to the guess |
 /// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values; branches on which a group is undetermined are omitted |

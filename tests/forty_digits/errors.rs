@@ -6,7 +6,7 @@ use linkage_oracle::precise::{Big, Scalar, big};
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
 
-use super::reference::Reference;
+use super::reference::{Motion, Reference};
 use super::run;
 
 /// The error bound, in ulp times condition number.
@@ -46,48 +46,55 @@ pub(super) fn largest_errors<F: Fixture>() -> [Worst; 3] {
     let (unknowns, place_of) = (&reference.derivation.unknowns, &reference.derivation.coordinates);
     while count < poses() {
         let data = reference.data(&mut random, branches);
-        let Some(motion) = run::<F>(&data) else {
+        let Some(motions) = run::<F>(&data) else {
             missed += 1;
             assert!(missed < 50 * poses(), "{file}: hardly anything can be assembled");
             continue;
         };
-        let found: Vec<f64> =
-            motion.coordinates.iter().flat_map(|q| unknowns.iter().map(|&place| q[place.index()])).collect();
+        let of_unknowns = |motion: &Motion| -> Vec<f64> {
+            motion.coordinates.iter().flat_map(|q| unknowns.iter().map(|&place| q[place.index()])).collect()
+        };
+        let found = of_unknowns(&motions[0]);
         let Some(y) = reference.solve(&data, &found, &vec![0.0; found.len()]) else {
             // At a dead point half of the digits are lost, and Newton's method halves the rest step by step.
             if reference.regularity(&data, &found) < 1e-7 {
                 missed += 1;
                 continue;
             }
-            panic!("{file}: nothing near {:?} closes {:?} at {:?}", motion.coordinates, data.parameters, data.inputs)
+            let near = &motions[0].coordinates;
+            panic!("{file}: nothing near {near:?} closes {:?} at {:?}", data.parameters, data.inputs)
         };
         count += 1;
         let n = unknowns.len();
         let rounded: Vec<f64> = y.iter().map(Scalar::double).collect();
-        let (of_unknowns, of_points) = reference.conditions(&data, &rounded);
+        let (conditions_of_unknowns, of_points) = reference.conditions(&data, &rounded);
         let points = reference.evaluate(&reference.points, &data, &y);
         let third = points.len() / 3;
-        for (order, worst) in worst.iter_mut().enumerate() {
-            let at =
-                |what: String| format!("{what} at {:?}, branch {}, of {:?}", data.inputs, data.branch, data.parameters);
-            let part = order * n..(order + 1) * n;
-            worst.note(&found[part.clone()], &y[part.clone()], &of_unknowns[part], |index| {
-                at(place_of[unknowns[UnknownId::new(index)]].name.clone())
-            });
-            let part = order * third..(order + 1) * third;
-            let (expected, conditions) = (&points[part.clone()], &of_points[part.clone()]);
-            let of_point = |index| at(format!("point {}", index / 2 + 1));
-            let mut off = Worst::default();
-            off.note(&motion.points[order], expected, conditions, of_point);
-            if off.error > ULPS {
-                println!("{file}: {:.2} ulp x condition as differentiated, {}", off.error, off.place);
-                let measured = reference.measured_conditions(&data, &y, &found).expect("positions an ulp away");
-                off = Worst::default();
-                off.note(&motion.points[order], expected, &measured[part], of_point);
-                println!("{file}: {:.2} ulp x condition as measured, {}", off.error, off.place);
-            }
-            if off.error > worst.error {
-                *worst = off;
+        for motion in &motions {
+            let found = of_unknowns(motion);
+            for (order, worst) in worst.iter_mut().enumerate() {
+                let at = |what: String| {
+                    format!("{what} at {:?}, branch {}, of {:?}", data.inputs, data.branch, data.parameters)
+                };
+                let part = order * n..(order + 1) * n;
+                worst.note(&found[part.clone()], &y[part.clone()], &conditions_of_unknowns[part], |index| {
+                    at(place_of[unknowns[UnknownId::new(index)]].name.clone())
+                });
+                let part = order * third..(order + 1) * third;
+                let (expected, conditions) = (&points[part.clone()], &of_points[part.clone()]);
+                let of_point = |index| at(format!("point {}", index / 2 + 1));
+                let mut off = Worst::default();
+                off.note(&motion.points[order], expected, conditions, of_point);
+                if off.error > ULPS {
+                    println!("{file}: {:.2} ulp x condition as differentiated, {}", off.error, off.place);
+                    let measured = reference.measured_conditions(&data, &y, &found).expect("positions an ulp away");
+                    off = Worst::default();
+                    off.note(&motion.points[order], expected, &measured[part], of_point);
+                    println!("{file}: {:.2} ulp x condition as measured, {}", off.error, off.place);
+                }
+                if off.error > worst.error {
+                    *worst = off;
+                }
             }
         }
     }
@@ -126,7 +133,9 @@ pub(super) fn unit_of_length<F: Fixture>() {
             let other =
                 run::<F>(&scaled).unwrap_or_else(|| panic!("{} at 2^{k}: no position at {:?}", F::NAME, data.inputs));
             let of_coordinates = &powers[reference.mechanism.parameters.len()..];
-            for order in 0..3 {
+            for ((plain, other), order) in
+                plain.iter().zip(&other).flat_map(|pair| (0..3).map(move |order| (pair, order)))
+            {
                 let pairs = plain.coordinates[order].iter().zip(&other.coordinates[order]).zip(of_coordinates);
                 for ((&one, &other), &power) in pairs {
                     assert_eq!(one * scale.powf(power), other, "{} at 2^{k}, order {order}", F::NAME);

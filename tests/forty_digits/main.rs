@@ -47,8 +47,8 @@ use errors::{ULPS, largest_errors, unit_of_length};
 use linkage_gallery::{Fixture, all_mechanisms};
 use reference::{Data, Motion};
 
-/// The motion that the emitted code finds for some data.
-fn run<F: Fixture>(data: &Data) -> Option<Motion> {
+/// The motion that the emitted code finds for some data, by separate calls and in one computation.
+fn run<F: Fixture>(data: &Data) -> Option<[Motion; 2]> {
     let m = F::with_parameters(&data.parameters);
     let inputs = |order: usize| F::inputs_of(&data.coordinates[order]);
     let pose = m.position(&data.coordinates[0], data.branch).ok()?;
@@ -59,7 +59,11 @@ fn run<F: Fixture>(data: &Data) -> Option<Motion> {
         m.point_velocities(&pose, &velocity).ok()?,
         m.point_accelerations(&pose, &velocity, &acceleration).ok()?,
     ];
-    Some(Motion { coordinates: [F::listed(&pose), velocity, acceleration], points })
+    let position = F::listed(&pose);
+    let fused = m.moving(&position, data.branch, &inputs(1), &inputs(2), true).ok()?;
+    let coordinates = [F::listed(&fused.pose), fused.rates, fused.accelerations];
+    let fused = Motion { coordinates, points: fused.points? };
+    Some([Motion { coordinates: [position, velocity, acceleration], points }, fused])
 }
 
 fn eight_ulps<F: Fixture>() {

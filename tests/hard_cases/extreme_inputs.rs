@@ -3,7 +3,7 @@
 
 use linkage::{Dim, Elbow, PerInput, PositionError};
 use linkage_gallery::four_bar::{FourBar, FourBarBranch};
-use linkage_gallery::{ClosedForm, Kinematics, all_mechanisms};
+use linkage_gallery::{ClosedForm, Fixture, Kinematics, Moving, all_mechanisms};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -33,6 +33,61 @@ struct Found {
     errors: usize,
 }
 
+/// Checks that `kinematics` and `full_kinematics` return what separate calls return, error for error.
+fn assert_same_kinematics<F: Fixture + std::fmt::Debug>(m: &F, q: &[f64], branch: usize, moving: [&[f64]; 2]) {
+    let [rates, given] = moving;
+    let parts = m.moving_by_parts(q, branch, rates, given);
+    for full in [false, true] {
+        let fused = m.moving(q, branch, rates, given, full);
+        let at = || format!("{m:?} {q:?} {branch} {rates:?} {given:?}");
+        match (&fused, &parts) {
+            (Ok(fused), Ok(parts)) => {
+                let [ours, theirs] = [fused, parts].map(|moving| {
+                    let numbers = [F::listed(&moving.pose), moving.rates.clone(), moving.accelerations.clone()];
+                    assert!(
+                        numbers.iter().flatten().all(|number| number.is_finite()),
+                        "{} {}: {numbers:?}",
+                        F::NAME,
+                        at()
+                    );
+                    numbers
+                });
+                assert_eq!(ours[0].len(), theirs[0].len());
+            }
+            // Products near the largest number overflow in one order and not in another.
+            (Ok(_) | Err(PositionError::NotFinite { .. }), Err(_)) | (Err(PositionError::NotFinite { .. }), Ok(_))
+                if overflows(m, moving) => {}
+            (Err(error), Err(expected)) => {
+                assert_eq!(format!("{error:?}"), format!("{expected:?}"), "{} {}", F::NAME, at());
+            }
+            (Err(PositionError::NotFinite { .. }), Ok(Moving { pose, rates, accelerations, .. })) if full => {
+                let separate = [
+                    m.points(pose),
+                    m.point_velocities(pose, rates),
+                    m.point_accelerations(pose, rates, accelerations),
+                    m.outputs(pose),
+                    m.output_velocities(pose, rates),
+                    m.output_accelerations(pose, rates, accelerations),
+                ];
+                assert!(separate.iter().any(Result::is_err), "{} {}", F::NAME, at());
+            }
+            (fused, parts) => panic!(
+                "{} {}: {:?}, by parts {:?}",
+                F::NAME,
+                at(),
+                fused.as_ref().map(|moving| &moving.accelerations),
+                parts.as_ref().map(|moving| &moving.accelerations)
+            ),
+        }
+    }
+}
+
+/// True if an acceleration of a length may be near the largest number.
+fn overflows<F: Fixture>(m: &F, [rates, given]: [&[f64]; 2]) -> bool {
+    let largest = |values: &[f64]| values.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
+    largest(&m.parameters()) * largest(rates).powi(2) * largest(given) > f64::MAX / 1e9
+}
+
 /// Checks that every number that follows from a position is finite.
 fn assert_finite<M: Kinematics<T>, T: linkage::Real + std::fmt::Debug>(
     m: &M,
@@ -46,7 +101,7 @@ fn assert_finite<M: Kinematics<T>, T: linkage::Real + std::fmt::Debug>(
 }
 
 /// Assembles a mechanism of which some parameters and inputs are extreme.
-fn assembles_or_says_why<M: ClosedForm<Scalar = f64> + Kinematics<f64> + Default>(
+fn assembles_or_says_why<M: ClosedForm<Scalar = f64> + Fixture + std::fmt::Debug>(
     random: &mut SmallRng,
     found: &mut Found,
 ) {
@@ -67,7 +122,18 @@ fn assembles_or_says_why<M: ClosedForm<Scalar = f64> + Kinematics<f64> + Default
             }
         }
         let m = M::with_parameters(&parameters);
-        for branch in M::all_branches() {
+        let mut moving = || -> Vec<f64> {
+            let any = |random: &mut SmallRng| match EXTREME.get(random.random_range(0..10 * EXTREME.len())) {
+                Some(&bad) => bad,
+                None => random.random_range(-2.0..2.0) * 2_f64.powi(random.random_range(-540..540) / 10),
+            };
+            (0..M::V::COUNT).map(|_| any(random)).collect()
+        };
+        let (rates, given) = (moving(), moving());
+        let mut q = vec![0.0; M::U::COUNT];
+        q.extend(inputs.iter());
+        for (place, branch) in M::all_branches().into_iter().enumerate() {
+            assert_same_kinematics(&m, &q, place, [&rates, &given]);
             match m.assemble(inputs.into(), branch) {
                 Ok(pose) => {
                     found.positions += 1;

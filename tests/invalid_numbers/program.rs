@@ -170,7 +170,7 @@ impl Calls {
     /// A value of a type that can be an argument.
     fn drawn(&mut self, name: &str, item: &ItemStruct, has_default: bool) {
         let of = if item.generics.params.is_empty() { "" } else { "<f64>" };
-        if name.ends_with("Points") || name.ends_with("Outputs") || name.ends_with("Motion") {
+        if ["Points", "Outputs", "Motion", "Kinematics"].iter().any(|ending| name.ends_with(ending)) {
             return;
         }
         let fields: String = item

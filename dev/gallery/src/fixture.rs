@@ -50,6 +50,15 @@ pub struct Motion<T> {
     pub outputs: [Vec<T>; 3],
 }
 
+/// A position with its rates and accelerations, and the motion of points and outputs if it is computed.
+pub struct Moving<P, T> {
+    pub pose: P,
+    pub rates: Vec<T>,
+    pub accelerations: Vec<T>,
+    pub points: Option<[Vec<T>; 3]>,
+    pub outputs: Option<[Vec<T>; 3]>,
+}
+
 /// The functions of a mechanism with `derive jerk, velocity_ratio_derivatives, sensitivity`.
 pub trait HigherOrders<T: Real>: Kinematics<T> {
     /// q''' for q', q'' and the inputs' v'''.
@@ -81,6 +90,31 @@ pub trait Fixture: Kinematics<f64> + Default {
     fn solved(&self, guess: &[f64]) -> Result<Vec<f64>, PositionError>;
     /// The position at the inputs of q, on a branch or by Newton's method from q.
     fn position(&self, q: &[f64], branch: usize) -> Result<Self::Pose, PositionError>;
+    /// Position, velocity and acceleration in one computation, from q as in `position`, or from q on its branch by
+    /// Newton's method; with points and outputs if `full`.
+    fn moving(
+        &self,
+        q: &[f64],
+        branch: usize,
+        input_rates: &[f64],
+        given: &[f64],
+        full: bool,
+    ) -> Result<Moving<Self::Pose, f64>, PositionError>;
+    /// Position, velocity and acceleration by separate calls.
+    fn moving_by_parts(
+        &self,
+        q: &[f64],
+        branch: usize,
+        input_rates: &[f64],
+        given: &[f64],
+    ) -> Result<Moving<Self::Pose, f64>, PositionError> {
+        let pose = self.assembled(q, branch)?;
+        let rates = self.velocity(&pose, input_rates)?;
+        let accelerations = self.acceleration(&pose, &rates, given)?;
+        Ok(Moving { pose, rates, accelerations, points: None, outputs: None })
+    }
+    /// The position that `moving` starts from.
+    fn assembled(&self, q: &[f64], branch: usize) -> Result<Self::Pose, PositionError>;
 }
 
 /// A fixture with higher orders.
@@ -209,7 +243,47 @@ macro_rules! position {
         }
         $crate::fixture::closed_form!($file $Mechanism $method);
     };
+    (@ moving $kinematics:ident $full_kinematics:ident $assemble:ident, |$m:ident, $q:ident, $branch:ident| $from:expr, $on:expr) => {
+        fn moving(
+            &self,
+            q: &[f64],
+            branch: usize,
+            input_rates: &[f64],
+            given: &[f64],
+            full: bool,
+        ) -> Result<Moving<Self::Pose, f64>, PositionError> {
+            let ($m, $q, $branch) = (self, q, branch);
+            let (rates, bent) = (inputs::<Self>(input_rates), inputs::<Self>(given));
+            if !full {
+                let moving = self.$kinematics($from, $on, rates, bent)?;
+                let (rates, accelerations) = (column(moving.rates), column(moving.accelerations));
+                return Ok(Moving { pose: moving.pose, rates, accelerations, points: None, outputs: None });
+            }
+            let moving = self.$full_kinematics($from, $on, rates, bent)?;
+            let (points, outputs): ([_; _], [_; _]) = (moving.points.into(), moving.outputs.into());
+            Ok(Moving {
+                pose: moving.pose,
+                rates: column(moving.rates),
+                accelerations: column(moving.accelerations),
+                points: Some([
+                    pairs(points.map(|point| point.position)),
+                    pairs(points.map(|point| point.velocity)),
+                    pairs(points.map(|point| point.acceleration)),
+                ]),
+                outputs: Some([
+                    outputs.map(|output| output.value).to_vec(),
+                    outputs.map(|output| output.velocity).to_vec(),
+                    outputs.map(|output| output.acceleration).to_vec(),
+                ]),
+            })
+        }
+        fn assembled(&self, q: &[f64], branch: usize) -> Result<Self::Pose, PositionError> {
+            let ($m, $q, $branch) = (self, q, branch);
+            self.$assemble($from, $on)
+        }
+    };
     (@ closed) => {
+        $crate::fixture::position!(@ moving kinematics full_kinematics assemble, |_m, q, branch| inputs::<Self>(&Self::inputs_of(q)), Self::all_branches()[branch]);
         fn branch_count() -> usize {
             Self::all_branches().len()
         }
@@ -218,6 +292,7 @@ macro_rules! position {
         }
     };
     (@ newton) => {
+        $crate::fixture::position!(@ moving kinematics_near full_kinematics_near assemble_near, |m, q, _branch| &Self::named(q), m.branch_of(&m.pose(q)));
         fn branch_count() -> usize {
             1
         }

@@ -9,7 +9,7 @@ pub mod families;
 mod fixture;
 pub mod source;
 
-pub use fixture::{ClosedForm, Fixture, HigherOrders, Kinematics, Motion, WithHigherOrders};
+pub use fixture::{ClosedForm, Fixture, HigherOrders, Kinematics, Motion, Moving, WithHigherOrders};
 
 /// Calls a macro with the list of all mechanisms.
 ///

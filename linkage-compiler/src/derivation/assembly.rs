@@ -1,32 +1,16 @@
-//! Position in closed form, group by group (Chace's cases), without sines of solved angles.
-//!
-//! The solution of an angle is its direction (cos, sin). The two solutions of a group are the intersections of a circle
-//! with a line or another circle: they differ in the sign of a square root, the half chord. It equals the determinant
-//! of the group's block of J up to sign, and is accurate because it is not computed from rounded sines. With plane
-//! vectors, a . b their scalar and a x b their vector product, V and W the links, D the vector between the outer
-//! joints, E the direction of a guide:
-//!
-//! - RRR: V + W = D, |V| = p, |W| = q. D x V = k, (2 k)^2 = ((p + q)^2 - D^2) (D^2 - (p - q)^2),
-//!   V . D = (D^2 + p^2 - q^2) / 2, V x W = -k
-//! - RRP: V + s E = D, |V| = p. V x E = D x E = h, V . E = -g, g^2 = (p n - h) (p n + h), n = |E|
-//! - RPR: (s E + P) e^(i phi) = D. (s E + P) . E = g, g^2 = (|D| n)^2 - (P x E)^2
-//! - an angle: a cos phi + b sin phi = h. b cos phi - a sin phi = g, g^2 = (n - h) (n + h), n = |(a, b)|
-//! - two sliders and one linear unknown have one solution.
+//! Position group by group: the steps that solve all groups, and their results.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap;
 
+use super::closed_form::Solver;
 use super::data::{Block, Derivation};
-use super::scale;
-use super::step::{ChordGeometry, Step};
-use crate::algebra::{cramer, simplify};
+use super::plane::{Vector, turned};
+use super::step::Step;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::ids::{BlockId, ColumnId, Id};
+use crate::ids::{BlockId, ColumnId};
 use crate::structure::Group;
-
-/// A vector of the plane.
-type Vector = [NodeId; 2];
 
 /// The steps that solve all groups, and their results.
 #[derive(Debug, Clone, Default)]
@@ -42,8 +26,10 @@ pub struct Assembly {
     pub bounds: Vec<(BlockId, Vec<NodeId>)>,
     /// The coordinates without closed form, and the symbols of their guesses.
     pub guesses: Vec<(ColumnId, SymbolId)>,
-    /// The cosine and sine of each solved angle.
-    directions: BTreeMap<SymbolId, Vector>,
+    /// The cosine and sine of each solved angle, for formulas.
+    pub(super) directions: BTreeMap<SymbolId, Vector>,
+    /// Their names.
+    pub named_directions: BTreeMap<SymbolId, Vector>,
 }
 
 /// A block with two solutions, which differ in the sign of its half chord.
@@ -113,6 +99,13 @@ impl Assembly {
         graph.replace(roots, &by)
     }
 
+    /// Steps that follow the assembly, with cosines and sines of solved angles replaced by their symbols.
+    pub fn solved_steps(&self, graph: &mut Graph, steps: Vec<Step>) -> Vec<Step> {
+        let nodes: Vec<NodeId> = steps.iter().flat_map(Step::nodes).collect();
+        let solved: FxHashMap<NodeId, NodeId> = nodes.iter().copied().zip(self.solved(graph, &nodes)).collect();
+        steps.into_iter().map(|step| step.map(|node| solved.get(&node).copied().unwrap_or(node))).collect()
+    }
+
     /// The direction of an angle that is an integer combination of solved angles plus other terms; None if it contains
     /// no solved angle, or one with another factor.
     fn direction(&self, graph: &mut Graph, angle: NodeId) -> Option<Vector> {
@@ -143,57 +136,6 @@ impl Assembly {
         }
         Some(total)
     }
-}
-
-/// The product a b as complex numbers.
-fn turned(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> Vector {
-    let products = [(a, c), (b, d), (a, d), (b, c)].map(|(x, y)| g.multiply(x, y));
-    [g.subtract(products[0], products[1]), g.add(products[2], products[3])]
-}
-
-fn dot(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> NodeId {
-    let (x, y) = (g.multiply(a, c), g.multiply(b, d));
-    g.add(x, y)
-}
-
-fn cross(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> NodeId {
-    let (x, y) = (g.multiply(a, d), g.multiply(b, c));
-    g.subtract(x, y)
-}
-
-/// The vector w with w . e = `along` and w x e = `across`.
-fn with_products(g: &mut Graph, e: Vector, square: NodeId, along: NodeId, across: NodeId) -> Vector {
-    let minus = g.negate(across);
-    let [x, y] = [[along, across], [minus, along]].map(|row| dot(g, row, e));
-    [g.divide(x, square), g.divide(y, square)]
-}
-
-/// |e|, simplified: for a single link its length.
-fn length(g: &mut Graph, [x, y]: Vector) -> NodeId {
-    let modulus = g.call(Function::Hypot, &[x, y]);
-    simplify(g, &[modulus], &BTreeSet::new())[0]
-}
-
-/// A length without its absolute values: for |l| it is l.
-fn unsigned(g: &mut Graph, length: NodeId) -> NodeId {
-    let inside = |g: &Graph, id: NodeId| match g.node(id) {
-        Node::Call(Function::Abs, arguments) => arguments[0],
-        _ => id,
-    };
-    match g.node(length).clone() {
-        Node::Product { coefficient, factors } => {
-            let mut product = vec![(g.number(coefficient), 1)];
-            product.extend(factors.into_iter().map(|(base, exponent)| (inside(g, base), exponent)));
-            g.product(&product)
-        }
-        _ => inside(g, length),
-    }
-}
-
-/// The square of a length: for |l| it is l^2.
-fn square_of(g: &mut Graph, length: NodeId) -> NodeId {
-    let square = g.power(length, 2);
-    simplify(g, &[square], &BTreeSet::new())[0]
 }
 
 impl Derivation {
@@ -246,320 +188,5 @@ impl Derivation {
             }
             _ => None,
         }
-    }
-}
-
-/// The state of the solution of one group.
-struct Solver<'a> {
-    graph: &'a mut Graph,
-    block: BlockId,
-    /// The residuals in terms of the unknowns of earlier groups.
-    equations: Vec<NodeId>,
-    assembly: &'a mut Assembly,
-}
-
-impl Solver<'_> {
-    fn name(&mut self, symbol: SymbolId, node: NodeId) -> NodeId {
-        self.assembly.steps.push(Step::Let { symbol, node });
-        self.graph.variable(symbol)
-    }
-
-    fn fresh(&mut self, name: &str, node: NodeId) -> NodeId {
-        let symbol = self.graph.symbol(name);
-        self.name(symbol, node)
-    }
-
-    /// The expressions with some symbols set to zero.
-    fn at_zero<const N: usize>(&mut self, nodes: [NodeId; N], symbols: &[SymbolId]) -> [NodeId; N] {
-        let zero = self.graph.zero();
-        let by = symbols.iter().map(|&symbol| (self.graph.variable(symbol), zero)).collect();
-        let replaced = self.graph.replace(&nodes, &by);
-        std::array::from_fn(|index| replaced[index])
-    }
-
-    /// Splits two rows into the terms with a symbol and the other terms.
-    fn parted(&mut self, rows: [NodeId; 2], symbol: SymbolId) -> (Vector, Vector) {
-        let with = rows.map(|row| {
-            let terms = match self.graph.node(row) {
-                Node::Sum { terms, .. } => terms.clone(),
-                _ => vec![(Number::ONE, row)],
-            };
-            let holding: Vec<_> =
-                terms.into_iter().filter(|&(_, term)| self.graph.symbols_of(&[term]).contains(&symbol)).collect();
-            self.graph.sum(&holding)
-        });
-        let rest = [0, 1].map(|row| self.graph.subtract(rows[row], with[row]));
-        (with, rest)
-    }
-
-    fn negated(&mut self, vector: Vector) -> Vector {
-        vector.map(|part| self.graph.negate(part))
-    }
-
-    /// Names the vector between the outer joints.
-    fn line(&mut self, [x, y]: Vector) -> Vector {
-        let number = self.block.number();
-        [("x", x), ("y", y)].map(|(axis, part)| match self.graph.node(part) {
-            Node::Sum { .. } | Node::Product { .. } => self.fresh(&format!("line_{number}_{axis}"), part),
-            _ => part,
-        })
-    }
-
-    /// Names a solved direction and the angle itself, which is computed only if it is used.
-    fn direction(&mut self, angle: SymbolId, [cosine, sine]: Vector) {
-        let name = self.graph.symbol_name(angle).to_owned();
-        let cosine = self.fresh(&format!("cos_{name}"), cosine);
-        let sine = self.fresh(&format!("sin_{name}"), sine);
-        self.assembly.directions.insert(angle, [cosine, sine]);
-        let principal = self.graph.call(Function::Atan2, &[sine, cosine]);
-        self.assembly.steps.push(Step::Turn { symbol: angle, principal });
-    }
-
-    /// The square root of a product of two non-negative factors, with the sign of the branch; see [`Step::Chord`].
-    fn chord(&mut self, factors: [NodeId; 2], size: NodeId, of: ChordGeometry<NodeId>) -> NodeId {
-        self.assembly.bounds.push((self.block, factors.to_vec()));
-        let symbol = self.graph.symbol(format!("chord_{}", self.block.number()));
-        self.assembly.steps.push(Step::Chord { block: self.block, symbol, factors, size, of });
-        self.graph.variable(symbol)
-    }
-
-    /// The sum of the magnitudes of the terms of several expressions.
-    fn scale(&mut self, nodes: &[NodeId]) -> NodeId {
-        let scales: Vec<_> = nodes.iter().map(|&node| (Number::ONE, scale::of(self.graph, node))).collect();
-        self.graph.sum(&scales)
-    }
-
-    /// The sum of the magnitudes of the terms of the equations without these unknowns.
-    fn scale_without(&mut self, unknowns: &[SymbolId]) -> NodeId {
-        let mut rest = Vec::new();
-        for equation in self.equations.clone() {
-            let terms = match self.graph.node(equation).clone() {
-                Node::Sum { constant, mut terms } => {
-                    terms.push((constant, self.graph.one()));
-                    terms
-                }
-                _ => vec![(Number::ONE, equation)],
-            };
-            let is_free = |&(_, term): &(Number, NodeId)| {
-                let symbols = self.graph.symbols_of(&[term]);
-                unknowns.iter().all(|unknown| !symbols.contains(unknown))
-            };
-            let free: Vec<_> = terms.into_iter().filter(is_free).collect();
-            rest.push(self.graph.sum(&free));
-        }
-        self.scale(&rest)
-    }
-
-    /// The geometry of a chord of a circle of radius `radius`, by the scales of the radius and of the offset.
-    fn reach(&mut self, radius: NodeId, scales: [NodeId; 2]) -> ChordGeometry<NodeId> {
-        let is_sum = |id: NodeId| matches!(self.graph.node(id), Node::Sum { .. });
-        let may_cancel = self.graph.reachable(&[radius]).into_iter().any(is_sum);
-        ChordGeometry::Circle { scales, may_cancel }
-    }
-
-    /// Adds a check that a determinant is not zero, unless it is a constant.
-    fn solvable(&mut self, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId>) {
-        if self.graph.constant_value(determinant).is_none() {
-            self.assembly.steps.push(Step::Solvable { block: self.block, determinant, numerators, scales });
-        }
-    }
-
-    fn linear(&mut self, row: NodeId, unknown: SymbolId) -> Option<NodeId> {
-        let slope = self.graph.partial(&[row], unknown)[0];
-        let [rest] = self.at_zero([row], &[unknown]);
-        let minus = self.graph.negate(rest);
-        let scale = self.scale_without(&[unknown]);
-        self.solvable(slope, vec![minus], vec![scale]);
-        let value = self.graph.divide(minus, slope);
-        self.name(unknown, value);
-        Some(slope)
-    }
-
-    fn angle(&mut self, row: NodeId, phi: SymbolId) -> Option<NodeId> {
-        let zero = self.graph.zero();
-        let ([part, _], [rest, _]) = self.parted([row, zero], phi);
-        let slope = self.graph.partial(&[part], phi)[0];
-        let [a, b] = self.at_zero([part, slope], &[phi]);
-        let h = self.graph.negate(rest);
-        let n = length(self.graph, [a, b]);
-        let factors = [self.graph.subtract(n, h), self.graph.add(n, h)];
-        let square = square_of(self.graph, n);
-        let scales = [self.scale(&[a, b]), self.scale_without(&[phi])];
-        let of = self.reach(n, scales);
-        let g = self.chord(factors, n, of);
-        // (cos, sin) . (a, b) = h and (cos, sin) x (a, b) = g
-        let direction = with_products(self.graph, [a, b], square, h, g);
-        self.direction(phi, direction);
-        Some(g)
-    }
-
-    fn sliders(&mut self, rows: [NodeId; 2], s: SymbolId, t: SymbolId) -> Option<NodeId> {
-        let (along, other) = (self.graph.partial(&rows, s), self.graph.partial(&rows, t));
-        let rest = self.at_zero(rows, &[s, t]);
-        let right = self.negated(rest);
-        let jacobian = [[along[0], other[0]], [along[1], other[1]]];
-        let whole = crate::algebra::determinant(self.graph, jacobian);
-        let [along_s, along_t] = [&along, &other].map(|guide| [guide[0], guide[1]]);
-        let numerators = [(right, along_t), (along_s, right)]
-            .map(|(one, two)| crate::algebra::determinant(self.graph, [[one[0], two[0]], [one[1], two[1]]]));
-        let of_right = self.scale_without(&[s, t]);
-        let scales = [&other, &along].map(|guide| {
-            let scale = self.scale(guide);
-            self.graph.multiply(of_right, scale)
-        });
-        self.solvable(whole, numerators.to_vec(), scales.to_vec());
-        let [first, second] = cramer(self.graph, jacobian, whole, right);
-        self.name(s, first);
-        self.name(t, second);
-        Some(whole)
-    }
-
-    /// True if the terms without `a` rotate with `b`, and those with `a` rotate with `a`: two links.
-    fn is_link(&mut self, rows: &[NodeId; 2], a: SymbolId, b: SymbolId) -> bool {
-        let (link, rest) = self.parted(*rows, a);
-        let ([x, y], _) = self.parted(rest, b);
-        let minus = self.graph.negate(y);
-        let [link_x, link_y] = link;
-        let minus_link = self.graph.negate(link_y);
-        self.graph.partial(&[x, y], b) == [minus, x]
-            && self.graph.partial(&link, a) == [minus_link, link_x]
-            && !(self.graph.is_zero(x) && self.graph.is_zero(y))
-    }
-
-    /// Solves an RRR dyad. `left` is the sign of D x V if the elbow is left of the line from the first to the second
-    /// outer joint.
-    fn two_links(&mut self, rows: [NodeId; 2], a: SymbolId, b: SymbolId, left: i64) -> Option<NodeId> {
-        let (v, rest) = self.parted(rows, a);
-        let (w, rest) = self.parted(rest, b);
-        let d = self.negated(rest);
-        let d = self.line(d);
-        // V rotates with a + k b.
-        let slope = self.graph.partial(&v, b);
-        let k = (-2..=2).find(|&k| {
-            slope == [self.graph.scale(Number::integer(-k), v[1]), self.graph.scale(Number::integer(k), v[0])]
-        })?;
-        let (at_v, at_w) = (self.at_zero(v, &[a, b]), self.at_zero(w, &[b]));
-        // The product of the factors of the chord does not depend on the signs of p and q.
-        let [p, q] = [at_v, at_w].map(|at_zero| {
-            let length = length(self.graph, at_zero);
-            unsigned(self.graph, length)
-        });
-        let g = &mut *self.graph;
-        let distance_squared = dot(g, d, d);
-        let distance_squared = self.fresh(&format!("distance_squared_{}", self.block.number()), distance_squared);
-        let g = &mut *self.graph;
-        let (sum, difference) = (g.add(p, q), g.subtract(p, q));
-        let squares = g.multiply(sum, difference);
-        let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
-        let factors = [g.subtract(sum, distance_squared), g.subtract(distance_squared, difference)];
-        let (p2, q2) = (square_of(g, p), square_of(g, q));
-        let scale = self.scale_without(&[a, b]);
-        let triangle = ChordGeometry::Triangle { links: [p, q], line: d, distance_squared, scale };
-        let twice = self.chord(factors, sum, triangle);
-        let g = &mut *self.graph;
-        let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
-        let cross_product = g.negate(half_chord);
-        // Both products and the divisor are doubled, which saves two factors of 1/2.
-        let along = g.add(distance_squared, squares);
-        let across = g.scale(Number::integer(-left), twice);
-        let divisor = g.scale(Number::integer(2), distance_squared);
-        let solved = with_products(g, d, divisor, along, across);
-        let solved = [("link_x", solved[0]), ("link_y", solved[1])].map(|(name, part)| self.fresh(name, part));
-        let g = &mut *self.graph;
-        let other = [g.subtract(d[0], solved[0]), g.subtract(d[1], solved[1])];
-        // e^(i alpha) = V / V(0)
-        let over = |g: &mut Graph, vector: Vector, at_zero: Vector, square: NodeId| -> Vector {
-            let conjugate = [at_zero[0], g.negate(at_zero[1])];
-            turned(g, vector, conjugate).map(|part| g.divide(part, square))
-        };
-        let alpha = over(g, solved, at_v, p2);
-        let beta = over(g, other, at_w, q2);
-        self.direction(b, beta);
-        let [cosine, sine] = self.assembly.directions[&b];
-        let mut first = alpha;
-        for _ in 0..k.abs() {
-            let back = if k > 0 { self.graph.negate(sine) } else { sine };
-            first = turned(self.graph, first, [cosine, back]);
-        }
-        self.direction(a, first);
-        self.assembly.of_dyads.extend([(a, self.block), (b, self.block)]);
-        Some(cross_product)
-    }
-
-    fn slider(&mut self, rows: [NodeId; 2], phi: SymbolId, s: SymbolId, group: Group) -> Option<NodeId> {
-        let slope = self.graph.partial(&rows, s);
-        let line = [slope[0], slope[1]];
-        if group == Group::Rrp {
-            let (v, rest) = self.parted(rows, phi);
-            let rest = self.at_zero(rest, &[s]);
-            let d = self.negated(rest);
-            let at_zero = self.at_zero(v, &[phi]);
-            let (p, n) = (length(self.graph, at_zero), length(self.graph, line));
-            let g = &mut *self.graph;
-            let h = cross(g, d, line);
-            let h = self.fresh(&format!("offset_{}", self.block.number()), h);
-            let g = &mut *self.graph;
-            let reach = g.multiply(p, n);
-            let factors = [g.subtract(reach, h), g.add(reach, h)];
-            let (of_link, of_line) = (self.scale(&at_zero), self.scale(&line));
-            let of_rest = self.scale_without(&[phi, s]);
-            let scales = [of_link, of_rest].map(|scale| self.graph.multiply(scale, of_line));
-            let of = self.reach(reach, scales);
-            let along = self.chord(factors, reach, of);
-            let g = &mut *self.graph;
-            let square = square_of(g, n);
-            let minus = g.negate(along);
-            let solved = with_products(g, line, square, minus, h);
-            let forward = dot(g, d, line);
-            let rest = g.add(forward, along);
-            let value = g.divide(rest, square);
-            let p2 = square_of(g, p);
-            let conjugate = [at_zero[0], g.negate(at_zero[1])];
-            let direction = turned(g, solved, conjugate).map(|part| g.divide(part, p2));
-            self.name(s, value);
-            self.direction(phi, direction);
-            return Some(along);
-        }
-        let (turning, rest) = self.parted(rows, phi);
-        let d = self.negated(rest);
-        let d = self.line(d);
-        let e = self.at_zero(line, &[phi]);
-        let p = self.at_zero(turning, &[phi, s]);
-        let n = length(self.graph, e);
-        let g = &mut *self.graph;
-        let square = square_of(g, n);
-        let distance_squared = dot(g, d, d);
-        let distance_squared = self.fresh(&format!("distance_squared_{}", self.block.number()), distance_squared);
-        let g = &mut *self.graph;
-        let across = cross(g, p, e);
-        let across = simplify(g, &[across], &BTreeSet::new())[0];
-        let reach = g.call(Function::Sqrt, &[distance_squared]);
-        let reach = g.multiply(reach, n);
-        let factors = [g.subtract(reach, across), g.add(reach, across)];
-        let (of_line, of_arm, of_rest) = (self.scale(&e), self.scale(&p), self.scale_without(&[phi, s]));
-        let scales = [of_rest, of_arm].map(|scale| self.graph.multiply(scale, of_line));
-        // The squared distance is a named sum, so that it may vanish by cancellation.
-        let along = self.chord(factors, reach, ChordGeometry::Circle { scales, may_cancel: true });
-        // The reach is a square root; the bound uses its square.
-        let g = &mut *self.graph;
-        let (whole, part) = (g.multiply(distance_squared, square), g.power(across, 2));
-        let bound = g.subtract(whole, part);
-        self.assembly.bounds.pop();
-        self.assembly.bounds.push((self.block, vec![bound]));
-        let g = &mut *self.graph;
-        let offset = dot(g, p, e);
-        let offset = simplify(g, &[offset], &BTreeSet::new())[0];
-        let forward = g.subtract(along, offset);
-        let value = g.divide(forward, square);
-        let value = self.name(s, value);
-        let g = &mut *self.graph;
-        let arm = [0, 1].map(|axis| {
-            let part = g.multiply(value, e[axis]);
-            g.add(part, p[axis])
-        });
-        let conjugate = [arm[0], g.negate(arm[1])];
-        let direction = turned(g, d, conjugate).map(|part| g.divide(part, distance_squared));
-        self.direction(phi, direction);
-        Some(self.graph.negate(along))
     }
 }

@@ -1,6 +1,6 @@
 //! The steps of a solution: names, checks and linear or nonlinear solves, in order.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::BlockId;
@@ -41,6 +41,8 @@ pub enum ChordGeometry<V> {
     /// The chord of a circle of radius n at the distance h from its centre: the scales of n and of h; `may_cancel` if n
     /// is a sum that may cancel to rounding error.
     Circle { scales: [V; 2], may_cancel: bool },
+    /// A circle of which only positive factors count: the scale of n if it may cancel.
+    RegularCircle { scale: Option<V> },
 }
 
 impl<V: Copy> ChordGeometry<V> {
@@ -50,6 +52,7 @@ impl<V: Copy> ChordGeometry<V> {
                 vec![p, q, x, y, distance_squared, scale]
             }
             Self::Circle { scales, .. } => scales.to_vec(),
+            Self::RegularCircle { scale } => scale.into_iter().collect(),
         }
     }
 
@@ -62,6 +65,7 @@ impl<V: Copy> ChordGeometry<V> {
                 scale: f(scale),
             },
             Self::Circle { scales, may_cancel } => ChordGeometry::Circle { scales: scales.map(f), may_cancel },
+            Self::RegularCircle { scale } => ChordGeometry::RegularCircle { scale: scale.map(f) },
         }
     }
 }
@@ -77,6 +81,33 @@ impl Step {
             | Self::Chord { symbol, .. } => vec![*symbol],
             Self::Solve { targets, .. } | Self::Newton { targets, .. } => targets.clone(),
             Self::Guard { .. } | Self::Factor { .. } | Self::Solvable { .. } => Vec::new(),
+        }
+    }
+
+    /// This step with other expressions.
+    #[must_use]
+    pub fn map(self, f: impl Fn(NodeId) -> NodeId) -> Self {
+        let all = |nodes: Vec<NodeId>| nodes.into_iter().map(&f).collect::<Vec<_>>();
+        match self {
+            Self::Let { symbol, node } => Self::Let { symbol, node: f(node) },
+            Self::Turn { symbol, principal } => Self::Turn { symbol, principal: f(principal) },
+            Self::Guard { block, determinant, scale } => {
+                Self::Guard { block, determinant: f(determinant), scale: f(scale) }
+            }
+            Self::Factor { block, matrix, row_scales } => {
+                Self::Factor { block, matrix: matrix.into_iter().map(all).collect(), row_scales: all(row_scales) }
+            }
+            Self::Solve { block, targets, right } => Self::Solve { block, targets, right: all(right) },
+            Self::Chord { block, symbol, factors, size, of } => {
+                Self::Chord { block, symbol, factors: factors.map(&f), size: f(size), of: of.map(f) }
+            }
+            Self::Solvable { block, determinant, numerators, scales } => {
+                Self::Solvable { block, determinant: f(determinant), numerators: all(numerators), scales: all(scales) }
+            }
+            Self::Newton { block, targets, start, known, system } => {
+                Self::Newton { block, targets, start: all(start), known: all(known), system: all(system) }
+            }
+            Self::Pivots { symbol, matrix } => Self::Pivots { symbol, matrix: matrix.into_iter().map(all).collect() },
         }
     }
 
@@ -99,6 +130,25 @@ impl Step {
             Self::Newton { start, known, .. } => start.iter().chain(known).copied().collect(),
         }
     }
+}
+
+/// Puts each of some later steps after the last step that it depends on, in their own order.
+#[must_use]
+pub fn merged(graph: &Graph, steps: Vec<Step>, later: Vec<Step>) -> Vec<Step> {
+    let mut places: BTreeMap<SymbolId, usize> = BTreeMap::new();
+    for (place, step) in steps.iter().enumerate() {
+        places.extend(step.introduced().into_iter().map(|symbol| (symbol, place)));
+    }
+    let mut placed: Vec<(usize, Step)> = steps.into_iter().enumerate().collect();
+    let mut place = 0;
+    for step in later {
+        let symbols = graph.symbols_of(&step.nodes());
+        place = symbols.iter().filter_map(|symbol| places.get(symbol)).copied().fold(place, usize::max);
+        places.extend(step.introduced().into_iter().map(|symbol| (symbol, place)));
+        placed.push((place, step));
+    }
+    placed.sort_by_key(|(place, _)| *place);
+    placed.into_iter().map(|(_, step)| step).collect()
 }
 
 /// Keeps all checks, and the steps that `results` and these checks depend on.

@@ -196,12 +196,16 @@ impl ToTokens for Statement {
             Self::Let(pattern, value) => quote!(let #pattern = #value;),
             Self::Do(value) => quote!(#value;),
             Self::Assign(place, value) => quote!(#place = #value;),
+            Self::Return(value) => quote!(return #value;),
+            Self::LetElse(pattern, value, otherwise) => {
+                quote!(let __rt::Some(#pattern) = #value else { return #otherwise; };)
+            }
             Self::Unless(conditions, inside) => match conditions.as_slice() {
                 [only] => quote!(if !#only { #(#inside)* }),
                 several => quote!(if !(#(#several)&&*) { #(#inside)* }),
             },
             // Lowering has replaced these by calls.
-            Self::Check { .. } | Self::CheckPosition => TokenStream::new(),
+            Self::Check { .. } | Self::CheckPosition | Self::CheckKinematics { .. } => TokenStream::new(),
         });
     }
 }

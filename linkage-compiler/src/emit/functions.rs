@@ -29,6 +29,8 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
     let attributes = match access {
         Access::Public if !is_fallible && !matches!(returns, Type::Branches { .. }) => quote!(#[must_use] pub),
         Access::Public => quote!(pub),
+        Access::PublicInlined if !is_fallible => quote!(#[inline] #[must_use] pub),
+        Access::PublicInlined => quote!(#[inline] pub),
         Access::Hidden if !is_fallible => quote!(#[doc(hidden)] #[must_use] pub),
         Access::Hidden => quote!(#[doc(hidden)] pub),
         Access::PublicLayer => quote!(#[inline(always)] #[must_use] pub),

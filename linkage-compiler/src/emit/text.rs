@@ -21,7 +21,7 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
     for function in functions {
         let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
         let access = match function.access {
-            Access::Public | Access::Hidden | Access::PublicLayer => "",
+            Access::Public | Access::PublicInlined | Access::Hidden | Access::PublicLayer => "",
             Access::Inlined | Access::Layer => "inlined ",
             Access::Cold => "cold ",
         };
@@ -45,12 +45,17 @@ fn statement(statement: &Statement) -> String {
         Statement::Let(pattern, value) => format!("{} = {}", self::pattern(pattern), expression(value)),
         Statement::Do(value) => expression(value),
         Statement::Assign(place, value) => format!("{} := {}", expression(place), expression(value)),
+        Statement::Return(value) => format!("return {}", expression(value)),
+        Statement::LetElse(pattern, value, otherwise) => {
+            format!("{} = {}, else return {}", self::pattern(pattern), expression(value), expression(otherwise))
+        }
         Statement::Unless(conditions, inside) => {
             let inside: Vec<String> = inside.iter().map(self::statement).collect();
             format!("unless {}: {}", expressions(conditions), inside.join("; "))
         }
         Statement::Check { what, values, .. } => format!("check {what}: {}", expressions(values)),
         Statement::CheckPosition => "check the position".to_owned(),
+        Statement::CheckKinematics { otherwise, .. } => format!("check all, else return {}", expression(otherwise)),
     }
 }
 

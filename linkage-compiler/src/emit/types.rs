@@ -311,16 +311,49 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         #visibility struct #pose<T = f64> { #members }
     });
+    tokens.extend(kinematics(mechanism, name, types, root));
     tokens.extend(motion(mechanism, name, types, root));
     tokens.extend(branch(program, root));
     tokens
 }
 
-fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenStream) -> TokenStream {
-    let (visibility, derives) = (&mechanism.visibility, derives());
-    let motion = ident(&types.motion);
-    let [coordinates, rates, accelerations] =
-        [&types.coordinates, &types.rates, &types.accelerations].map(|name| ident(name));
+/// The results of `kinematics` and `full_kinematics`.
+fn kinematics(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenStream) -> TokenStream {
+    let visibility = &mechanism.visibility;
+    let [kinematics, full, pose, rates, accelerations] =
+        [&types.kinematics, &types.full_kinematics, &types.pose, &types.rates, &types.accelerations]
+            .map(|name| ident(name));
+    let fields = quote! {
+        #[doc = " The position."]
+        pub pose: #pose<T>,
+        #[doc = " The rates q'."]
+        pub rates: #rates<T>,
+        #[doc = " The accelerations q''."]
+        pub accelerations: #accelerations<T>,
+    };
+    let derives = quote!(#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]);
+    let title = comment(&format!(" A position of [`{name}`] with its rates and accelerations."));
+    let of_quantities = moving_quantities(mechanism, types, root);
+    let full = (!of_quantities.is_empty()).then(|| {
+        let title = comment(&format!(
+            " A position of [`{name}`] with its rates and accelerations, and the motion of points and outputs."
+        ));
+        quote! {
+            #[doc = #title]
+            #derives
+            #visibility struct #full<T: #root::__rt::Scalar = f64> { #fields #of_quantities }
+        }
+    });
+    quote! {
+        #[doc = #title]
+        #derives
+        #visibility struct #kinematics<T = f64> { #fields }
+        #full
+    }
+}
+
+/// The fields of points and outputs with their derivatives.
+fn moving_quantities(mechanism: &Mechanism, types: &TypeNames, root: &TokenStream) -> TokenStream {
     let points = (!mechanism.points.is_empty()).then(|| {
         let points = ident(&types.points);
         quote! {
@@ -335,6 +368,15 @@ fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenSt
             pub outputs: #outputs<#root::__rt::OutputMotion<T>>,
         }
     });
+    quote!(#points #outputs)
+}
+
+/// The result of `motion`.
+fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenStream) -> TokenStream {
+    let (visibility, derives) = (&mechanism.visibility, derives());
+    let [motion, coordinates, rates, accelerations] =
+        [&types.motion, &types.coordinates, &types.rates, &types.accelerations].map(|name| ident(name));
+    let of_quantities = moving_quantities(mechanism, types, root);
     let title = comment(&format!(
         " A position of [`{name}`] with its rates and accelerations, and the motion of points and outputs."
     ));
@@ -348,8 +390,7 @@ fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenSt
             pub rates: #rates<T>,
             #[doc = " The accelerations q''."]
             pub accelerations: #accelerations<T>,
-            #points
-            #outputs
+            #of_quantities
         }
     }
 }

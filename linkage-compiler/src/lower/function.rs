@@ -164,7 +164,7 @@ impl<'a> Formulas<'a> {
         let results = kernel.results.iter().filter_map(|output| Some((output.node, output.name.clone()?)));
         let named: Vec<(NodeId, String)> = results.chain(context.named.iter().cloned()).collect();
         let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, &named, is_layer);
-        let is_proven = schedule.proven();
+        let is_proven = schedule.proven(kernel.conclusive.clone());
         let mut names = Names::new(&derivation.graph, context.reserved);
         // The symbols of the user are named first, so that they keep their names.
         let own: BTreeSet<SymbolId> = kernel.steps.iter().flat_map(|step| step.introduced()).collect();
@@ -296,10 +296,22 @@ impl Finished<'_> {
                 out.push(Statement::Assign(self.expression(place), self.expression(value)));
             }
             Statement::Check { what, values, detail } => {
-                let values = self.expressions(values);
+                let is_proven = |value: &Expression| match value {
+                    Expression::Result(place) => formulas.is_proven.get(*place).copied().unwrap_or_default(),
+                    _ => false,
+                };
+                let unproven = values.into_iter().filter(|value| !is_proven(value)).collect();
+                let values = self.expressions(unproven);
                 out.extend(check(&what, values, detail));
             }
             Statement::CheckPosition => self.check_position(formulas, out),
+            Statement::CheckKinematics { determinants, otherwise } => {
+                self.check_kinematics(determinants, otherwise, formulas, out);
+            }
+            Statement::Return(value) => out.push(Statement::Return(self.expression(value))),
+            Statement::LetElse(pattern, value, otherwise) => {
+                out.push(Statement::LetElse(self.pattern(pattern), self.expression(value), otherwise));
+            }
             Statement::Unless(conditions, inside) => {
                 let mut lines = Vec::new();
                 for statement in inside {
@@ -323,6 +335,30 @@ impl Finished<'_> {
             out.extend(of_dyads);
         } else if let Some(of_dyads) = of_dyads {
             out.push(Statement::Unless(well_conditioned, vec![of_dyads]));
+        }
+    }
+
+    /// Adds the check of a position and its motion. The directions of dyads are finite: their chords are regular.
+    fn check_kinematics(
+        &self,
+        determinants: Vec<[Expression; 2]>,
+        otherwise: Expression,
+        formulas: &Formulas,
+        out: &mut Vec<Statement>,
+    ) {
+        let of_determinants =
+            determinants.into_iter().map(|pair| Expression::runtime("is_nonzero", self.expressions(pair.to_vec())));
+        let mut conditions: Vec<Expression> = of_determinants.collect();
+        let numbers = self.results.iter().zip(&formulas.dyads).zip(&formulas.is_proven);
+        let unproven = numbers.filter(|((_, dyad), is_proven)| dyad.is_none() && !**is_proven);
+        let numbers = to_check(unproven.map(|((value, _), _)| value.clone()).collect());
+        if !numbers.is_empty() {
+            // A sum is finite only if all its terms are. Where finite terms overflow, `otherwise` finds no error.
+            let sum = Expression::Sum(numbers.into_iter().map(|number| (false, number)).collect());
+            conditions.push(sum.method("is_finite", []));
+        }
+        if !conditions.is_empty() {
+            out.push(Statement::Unless(conditions, vec![Statement::Return(otherwise)]));
         }
     }
 
@@ -380,14 +416,19 @@ impl Finished<'_> {
     }
 }
 
-/// `finite(NAME, what, [values])?;`, each value once; `None` if all are zero or one.
-fn check(what: &str, values: Vec<Expression>, detail: Option<Expression>) -> Option<Statement> {
+/// Each value once, without zero and one.
+fn to_check(values: Vec<Expression>) -> Vec<Expression> {
     let mut seen = FxHashSet::default();
     let values = values.into_iter().filter(|value| match value {
         Expression::Name(name) => seen.insert(name.clone()),
         other => is_formula(other),
     });
-    let values: Vec<Expression> = values.collect();
+    values.collect()
+}
+
+/// `finite(NAME, what, [values])?;`; `None` if all values are zero or one.
+fn check(what: &str, values: Vec<Expression>, detail: Option<Expression>) -> Option<Statement> {
+    let values = to_check(values);
     if values.is_empty() {
         return None;
     }

@@ -114,14 +114,17 @@ impl<'a, 'n> Writer<'a, 'n> {
             Line::Factor { block, matrix, row_scales } => {
                 let arguments = [self.columns(matrix), Expression::List(self.all_signed(row_scales))];
                 let call = [self.error_name(), self.group(*block)].into_iter().chain(arguments);
-                let call = Expression::associated(Type::Runtime("Factorization", Vec::new()), "new", call).tried();
+                let call = Expression::associated(Type::Runtime("Factorization", Vec::new()), "new", call);
                 let name = self.names.taken.unique("factors");
-                // Without a `Solve` line the factorisation is kept as a check.
                 let solves = |line: &Line| matches!(line, Line::Solve { block: other, .. } if other == block);
-                if self.schedule.lines.iter().any(solves) {
-                    self.let_name(name.clone(), call);
-                } else {
-                    self.statements.push(Statement::Do(call));
+                let is_used = self.schedule.lines.iter().any(solves);
+                match (self.kernel.otherwise.clone(), is_used) {
+                    (None, true) => self.let_name(name.clone(), call.tried()),
+                    (None, false) => self.statements.push(Statement::Do(call.tried())),
+                    (Some(otherwise), _) => {
+                        let pattern = if is_used { Pattern::Name(name.clone()) } else { Pattern::Ignored };
+                        self.statements.push(Statement::LetElse(pattern, call.method("ok", []), otherwise));
+                    }
                 }
                 self.factors.insert(*block, name);
             }
@@ -198,14 +201,8 @@ impl<'a, 'n> Writer<'a, 'n> {
         let of = of.map(|value| self.signed(value));
         let side = Expression::name(self.branch).field(self.derivation.blocks[block].branch(self.derivation));
         let name = Pattern::Name(self.names.introduce(symbol));
-        let well_conditioned = match self.well_conditioned.get_mut(&block) {
-            Some(well_conditioned) => {
-                let name = self.names.taken.unique(&format!("is_well_conditioned_{}", block.number()));
-                Pattern::Name(well_conditioned.insert(name).clone())
-            }
-            None => Pattern::Ignored,
-        };
         let list = |values: [Expression; 2]| Expression::List(values.to_vec());
+        let otherwise = self.kernel.otherwise.clone();
         let (pattern, call) = match of {
             ChordGeometry::Triangle { links, line, distance_squared, scale } => {
                 let members = [
@@ -218,14 +215,40 @@ impl<'a, 'n> Writer<'a, 'n> {
                 ];
                 let members = members.map(|(name, value)| (name.to_owned(), value));
                 let triangle = Expression::structure(Type::Runtime("Triangle", Vec::new()), members);
-                (Pattern::Tuple(vec![name, well_conditioned]), self.group_call("elbow_chord", block, [triangle, side]))
+                match otherwise {
+                    Some(_) => (name, Expression::runtime("regular_elbow_chord", [triangle, side])),
+                    None => {
+                        let pattern = Pattern::Tuple(vec![name, self.well_conditioned(block)]);
+                        (pattern, self.group_call("elbow_chord", block, [triangle, side]))
+                    }
+                }
             }
             ChordGeometry::Circle { scales, may_cancel } => {
                 let chord = if may_cancel { "reach_chord" } else { "chord" };
                 (name, self.group_call(chord, block, [factors, size, list(scales), side]))
             }
+            ChordGeometry::RegularCircle { scale: None } => {
+                (name, Expression::runtime("regular_chord", [factors, size, side]))
+            }
+            ChordGeometry::RegularCircle { scale: Some(scale) } => {
+                (name, Expression::runtime("regular_reach_chord", [factors, size, scale, side]))
+            }
         };
-        self.let_pattern(pattern, call.tried());
+        match otherwise {
+            Some(otherwise) => self.statements.push(Statement::LetElse(pattern, call, otherwise)),
+            None => self.let_pattern(pattern, call.tried()),
+        }
+    }
+
+    /// The pattern of the flag that is true if the triangle of a dyad is well conditioned.
+    fn well_conditioned(&mut self, block: BlockId) -> Pattern {
+        match self.well_conditioned.get_mut(&block) {
+            Some(well_conditioned) => {
+                let name = self.names.taken.unique(&format!("is_well_conditioned_{}", block.number()));
+                Pattern::Name(well_conditioned.insert(name).clone())
+            }
+            None => Pattern::Ignored,
+        }
     }
 
     /// The function that Newton's method evaluates: the residuals of a block, their scales, and its Jacobian by

@@ -69,6 +69,11 @@ impl Ordering {
         (0..self.uses.len()).filter(|&index| self.uses[index] > 0).map(ValueId).collect()
     }
 
+    /// True if a value is used more than once.
+    pub(super) fn is_shared(&self, value: ValueId) -> bool {
+        self.uses[value.0] > 1
+    }
+
     /// Adds the lines that `root` depends on; `named` if the caller adds the line of `root` itself.
     pub(super) fn require(&mut self, root: ValueId, named: bool) {
         let mut stack = vec![(root, false)];

@@ -1,6 +1,8 @@
 //! Finiteness analysis: results that need no `is_finite` check, since the checks of half chords imply that they are
 //! finite.
 
+use std::ops::Range;
+
 use rustc_hash::FxHashMap;
 
 use super::schedule::{Line, Schedule};
@@ -13,11 +15,13 @@ impl Schedule {
     ///
     /// The check of a half chord requires that both factors are finite. In IEEE 754 a sum, product, square, square
     /// root, absolute value, sine or cosine is finite only if its operands are, so that these are finite, too.
+    ///
+    /// The `conclusive` results are checked, and whatever they are computed from is finite then.
     #[must_use]
-    pub fn proven(&self) -> Vec<bool> {
+    pub fn proven(&self, conclusive: Range<usize>) -> Vec<bool> {
         let results = &self.results;
         let is_chord = |line: &Line| matches!(line, Line::Chord { .. });
-        if !self.lines.iter().any(is_chord) {
+        if conclusive.is_empty() && !self.lines.iter().any(is_chord) {
             return vec![false; results.len()];
         }
         let mut proven = Proven {
@@ -41,6 +45,10 @@ impl Schedule {
             }
         }
         proven.follow(factors_of_all);
+        for result in &results[conclusive] {
+            let operands = proven.operands(proven.itself(result.value));
+            proven.follow(operands);
+        }
         for &id in self.used() {
             if matches!(self.value(id), Value::Symbol(symbol) if chords.contains(symbol)) {
                 proven.finite[id.0] = true;
@@ -71,15 +79,22 @@ impl Proven<'_> {
             if std::mem::replace(&mut self.finite[id.0], true) {
                 continue;
             }
-            match self.schedule.value(id) {
-                Value::Quotient(above, _) => stack.push(*above),
-                value @ (Value::Call(Function::Abs | Function::Sqrt | Function::Sin | Function::Cos, _)
-                | Value::Sum(_)
-                | Value::Product(_)
-                | Value::Square(_)) => value.each_part(|part| stack.push(part)),
-                _ => {}
-            }
+            stack.extend(self.operands(id));
         }
+    }
+
+    /// The operands that are finite if a value is.
+    fn operands(&self, id: ValueId) -> Vec<ValueId> {
+        let mut operands = Vec::new();
+        match self.schedule.value(id) {
+            Value::Quotient(above, _) => operands.push(*above),
+            value @ (Value::Call(Function::Abs | Function::Sqrt | Function::Sin | Function::Cos, _)
+            | Value::Sum(_)
+            | Value::Product(_)
+            | Value::Square(_)) => value.each_part(|part| operands.push(part)),
+            _ => {}
+        }
+        operands
     }
 
     fn is_finite(&self, id: ValueId) -> bool {

@@ -43,7 +43,11 @@ pub fn schedule(
     let signed = |nodes: &[NodeId]| -> Vec<Signed> { nodes.iter().map(|node| translated[node]).collect() };
     for step in steps {
         for node in step.nodes() {
-            ordering.require(translated[&node].value, matches!(step, Step::Let { .. } | Step::Turn { .. }));
+            let Signed { negative, value } = translated[&node];
+            // The name of a negative does not serve other uses of the value.
+            let is_named =
+                matches!(step, Step::Let { .. } | Step::Turn { .. }) && !(negative && ordering.is_shared(value));
+            ordering.require(value, is_named);
         }
         ordering.lines.push(match step {
             Step::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated[node] },

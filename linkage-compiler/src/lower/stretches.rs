@@ -181,7 +181,7 @@ impl Liveness {
 /// The names that a statement binds.
 fn bound_names(statement: &Statement) -> Vec<String> {
     let mut names = Vec::new();
-    if let Statement::Let(pattern, _) = statement {
+    if let Statement::Let(pattern, _) | Statement::LetElse(pattern, ..) = statement {
         pattern.each_name(&mut |name| names.push(name.to_owned()));
     }
     names

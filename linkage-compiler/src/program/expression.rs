@@ -68,6 +68,10 @@ pub enum Statement {
     Do(Expression),
     /// `place = value;`
     Assign(Expression, Expression),
+    /// `return value;`
+    Return(Expression),
+    /// `let pattern = value else { return otherwise; };`
+    LetElse(Pattern, Expression, Expression),
     /// `if !(all conditions) { … }`
     Unless(Vec<Expression>, Vec<Statement>),
     /// Returns an error if a value is not finite; `detail` is a function that finds a more precise error.
@@ -75,6 +79,8 @@ pub enum Statement {
     /// Returns an error if a number of a position is not finite; numbers that a well-conditioned triangle guarantees
     /// finite are not checked.
     CheckPosition,
+    /// Returns another value if a determinant is zero relative to its scale, or a result is not finite.
+    CheckKinematics { determinants: Vec<[Expression; 2]>, otherwise: Expression },
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -307,7 +313,11 @@ impl Statement {
     /// Visits every name that is used.
     pub fn each_name<'e>(&'e self, visit: &mut dyn FnMut(&'e str)) {
         match self {
-            Self::Let(_, value) | Self::Do(value) => value.each_name(visit),
+            Self::Let(_, value) | Self::Do(value) | Self::Return(value) => value.each_name(visit),
+            Self::LetElse(_, value, otherwise) => {
+                value.each_name(visit);
+                otherwise.each_name(visit);
+            }
             Self::Assign(place, value) => {
                 place.each_name(visit);
                 value.each_name(visit);
@@ -318,6 +328,10 @@ impl Statement {
             }
             Self::Check { values, detail, .. } => {
                 values.iter().chain(detail).for_each(|value| value.each_name(visit));
+            }
+            Self::CheckKinematics { determinants, otherwise } => {
+                determinants.iter().flatten().for_each(|value| value.each_name(visit));
+                otherwise.each_name(visit);
             }
             Self::CheckPosition => {}
         }

@@ -1,6 +1,7 @@
 //! Functions as data: a name, a doc comment, arguments, named results, and statements.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::operations::Operations;
@@ -30,6 +31,8 @@ pub struct Function<B> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
     Public,
+    /// Public, `#[inline]`: inlined together, the functions on a pose read it from registers, not from memory.
+    PublicInlined,
     /// Public, but called mostly by the runtime through traits: `#[doc(hidden)]`.
     Hidden,
     /// Private, `#[inline]`.
@@ -44,7 +47,7 @@ pub enum Access {
 
 impl Access {
     pub fn is_public(self) -> bool {
-        matches!(self, Self::Public | Self::Hidden | Self::PublicLayer)
+        matches!(self, Self::Public | Self::PublicInlined | Self::Hidden | Self::PublicLayer)
     }
 }
 
@@ -109,6 +112,10 @@ pub struct Kernel {
     pub results: Vec<Output>,
     /// The index of each angle with a given turn, in the list of turns.
     pub turns: BTreeMap<SymbolId, usize>,
+    /// The value to return instead of an error: a call that finds the error, or the results in another way.
+    pub otherwise: Option<Expression>,
+    /// Results that are checked, and are finite only if everything that they are computed from is: that needs no check.
+    pub conclusive: Range<usize>,
     /// For each result the RRR dyad, if any, whose well-conditioned triangle guarantees that it is finite.
     pub dyads: Vec<Option<BlockId>>,
 }

@@ -8,6 +8,7 @@ mod doc;
 mod equations;
 mod expression;
 mod function;
+mod kinematics;
 mod limits;
 mod names;
 mod operations;

@@ -128,6 +128,8 @@ pub struct TypeNames {
     pub points: String,
     pub outputs: String,
     pub motion: String,
+    pub kinematics: String,
+    pub full_kinematics: String,
     pub branch: String,
 }
 
@@ -146,6 +148,8 @@ impl TypeNames {
             points: format!("{shared}Points"),
             outputs: format!("{shared}Outputs"),
             motion: format!("{own}Motion"),
+            kinematics: format!("{own}Kinematics"),
+            full_kinematics: format!("{own}FullKinematics"),
             branch: format!("{own}Branch"),
         }
     }

@@ -49,6 +49,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         plan.quantities(Family::Points);
         plan.quantities(Family::Outputs);
         plan.motion();
+        plan.kinematics();
         if wants(Request::VelocityRatioDerivatives) {
             plan.ratio_derivatives();
         }

@@ -78,7 +78,7 @@ impl Plan<'_, '_> {
     }
 
     /// A pose from results: determinants, cosines and sines, numbers, and values of user functions.
-    fn pose_of_results(&self) -> Expression {
+    pub(super) fn pose_of_results(&self) -> Expression {
         let mut next = (0..).map(Expression::Result);
         let mut take = || next.next().unwrap_or_else(Expression::zero);
         let mut members = Vec::new();
@@ -159,7 +159,7 @@ impl Plan<'_, '_> {
     }
 
     /// Statements that bind `turn` to the turns nearest to a guess.
-    fn nearest_turns(&self, guess: &str, turn: &str) -> Vec<Statement> {
+    pub(super) fn nearest_turns(&self, guess: &str, turn: &str) -> Vec<Statement> {
         let near = self.position.turns.iter().map(|turn| Expression::name(guess).field(&turn.coordinate));
         let near = Expression::List(near.collect());
         let countable = Expression::runtime("countable", [Expression::mechanism(), near.clone()]);
@@ -169,7 +169,7 @@ impl Plan<'_, '_> {
     }
 
     /// The inputs of a guess, and the guesses of the unknowns without closed form.
-    fn guess(&self) -> Source {
+    pub(super) fn guess(&self) -> Source {
         let coordinates = &self.derivation.coordinates;
         let inputs = self.derivation.inputs.iter().map(|&index| (index, coordinates[index].value));
         let fields = inputs.chain(self.assembly.guesses.iter().copied());
@@ -201,11 +201,17 @@ impl Plan<'_, '_> {
     }
 
     /// The steps of a position, and the results that form a pose.
-    fn position_steps(&mut self) -> (Vec<Step>, Vec<Output>) {
+    pub(super) fn position_steps(&mut self) -> (Vec<Step>, Vec<Output>) {
         let determinants: Vec<NodeId> =
             self.pose.determinants.iter().map(|(block, _, _)| self.assembly.determinants[block]).collect();
         let circular = self.directions();
-        let circular = self.assembly.solved(&mut self.derivation.graph, &circular);
+        let mut circular = self.assembly.solved(&mut self.derivation.graph, &circular);
+        for (parts, angle) in circular.chunks_exact_mut(2).zip(self.pose.angles()) {
+            let angle = self.derivation.graph.as_symbol(angle);
+            if let Some(named) = angle.and_then(|angle| self.assembly.named_directions.get(&angle)) {
+                parts.copy_from_slice(named);
+            }
+        }
         let numbers: Vec<SymbolId> = self.pose.values.iter().map(|(_, _, symbol)| *symbol).collect();
         let numbers = self.variables(&numbers);
         let externals: Vec<NodeId> = self.pose.externals.iter().map(|(node, ..)| *node).collect();
@@ -220,7 +226,7 @@ impl Plan<'_, '_> {
     }
 
     /// For each result of a position, the RRR dyad that determines it, if any.
-    fn dyads(&self) -> Vec<Option<BlockId>> {
+    pub(super) fn dyads(&self) -> Vec<Option<BlockId>> {
         let dyad_of = |symbol: Option<SymbolId>| symbol.and_then(|s| self.assembly.of_dyads.get(&s).copied());
         let mut dyads = vec![None; self.pose.determinants.len()];
         dyads.extend(self.pose.angles().flat_map(|angle| [dyad_of(self.derivation.graph.as_symbol(angle)); 2]));

@@ -7,8 +7,7 @@ use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Shape, Source, results};
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
-use super::signatures::Family;
-use crate::derivation::{Form, Quantity, Step};
+use crate::derivation::{Form, Step};
 use crate::graph::{NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Table, UnknownId};
 
@@ -22,6 +21,7 @@ impl Plan<'_, '_> {
         let all = self.all();
         let nodes = self.variables(&self.rates(&all));
         let kernel = self.on_pose(vec![self.inputs(Order::Rate)], steps, unnamed(nodes));
+        let kernel = Kernel { conclusive: 0..all.len(), ..kernel };
         let body = Body::of(kernel, self.coordinates_of(Order::Rate, 0)).checked("velocity", self.checked(0));
         let doc = lines([
             "The rates q' of all coordinates at the input rates v'.",
@@ -190,7 +190,7 @@ impl Plan<'_, '_> {
         let all = self.all();
         let nodes = self.variables(&self.accelerations(&all));
         let sources = vec![self.coordinates(Order::Rate), self.inputs(Order::Acceleration)];
-        let kernel = self.on_pose(sources, steps, unnamed(nodes));
+        let kernel = Kernel { conclusive: 0..all.len(), ..self.on_pose(sources, steps, unnamed(nodes)) };
         let body = Body::of(kernel, self.coordinates_of(Order::Acceleration, 0));
         let body = body.checked("acceleration", self.checked(0));
         let doc = lines([
@@ -241,32 +241,18 @@ impl Plan<'_, '_> {
         nodes.extend(self.variables(&self.accelerations(&all)));
         let values: Vec<SymbolId> = self.derivation.coordinates.iter().map(|coordinate| coordinate.value).collect();
         nodes.extend(self.variables(&values));
-        let quantities = self.derivation.points.iter().chain(&self.derivation.outputs);
-        let of_each = |quantity: &Quantity| -> Vec<NodeId> {
-            [&quantity.value, &quantity.rate, &quantity.acceleration].into_iter().flatten().copied().collect()
-        };
-        let quantities: Vec<NodeId> = quantities.flat_map(of_each).collect();
+        let count = all.len();
+        let (quantities, of_quantities) = self.moving_quantities(3 * count);
         nodes.extend(quantities);
         let [rates, accelerations] = [Order::Rate, Order::Acceleration].map(|order| self.inputs(order));
         let sources = vec![self.coordinates(Order::Value), rates, accelerations];
-        let (count, total) = (all.len(), nodes.len());
-        let kernel = self.kernel(sources, steps, unnamed(nodes));
+        let kernel = Kernel { conclusive: count..2 * count, ..self.kernel(sources, steps, unnamed(nodes)) };
         let mut members = vec![
             ("position".to_owned(), Expression::name(&self.signatures.arguments.q).dereferenced()),
             ("rates".to_owned(), self.coordinates_of(Order::Rate, 0)),
             ("accelerations".to_owned(), self.coordinates_of(Order::Acceleration, count)),
         ];
-        let points = 3 * count + 6 * self.signatures.mechanism.points.len();
-        for (family, function, values, sizes) in [
-            (Family::Points, "point_motions", results(3 * count..points), &[3, 2][..]),
-            (Family::Outputs, "output_motions", results(points..total), &[3][..]),
-        ] {
-            if self.signatures.has(family) {
-                let values = Expression::List(Expression::nested(values, sizes));
-                let motions = Expression::runtime(function, [Expression::mechanism(), values]).tried();
-                members.push((format!("{}s", family.word()), motions));
-            }
-        }
+        members.extend(of_quantities);
         // A coordinate that is not finite need not make a rate so: check coordinates, too.
         let checked = [self.checked(0), self.checked(count), results(2 * count..3 * count)].concat();
         let motion = Type::Bare(self.signatures.types.motion.clone());

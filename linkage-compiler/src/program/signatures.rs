@@ -65,7 +65,11 @@ impl<'a> Signatures<'a> {
     pub fn all(&self, position: &Position) -> Vec<Function<Body>> {
         let wants = |request| self.mechanism.requests.contains(&request);
         let families = || [Family::Points, Family::Outputs].into_iter().filter(|&family| self.has(family));
-        let mut all = vec![self.motion()];
+        let mut all = vec![self.kinematics(position)];
+        if self.has_quantities() {
+            all.push(self.full_kinematics(position));
+        }
+        all.push(self.motion());
         all.extend(self.assemblies(position));
         all.extend([self.branch_of(), self.solve(), self.solve_any_branch(), self.pose_at()]);
         all.extend([self.velocity(), self.acceleration()]);
@@ -112,6 +116,11 @@ impl<'a> Signatures<'a> {
         }
     }
 
+    /// True if points or outputs are declared.
+    pub fn has_quantities(&self) -> bool {
+        self.has(Family::Points) || self.has(Family::Outputs)
+    }
+
     /// The number of functions of points and outputs: values, velocities, accelerations, with `derive jerk` jerks.
     pub fn orders(&self) -> usize {
         if self.mechanism.requests.contains(&Request::Jerk) { 4 } else { 3 }
@@ -129,7 +138,7 @@ impl<'a> Signatures<'a> {
 
     pub fn pose_at(&self) -> Function<Body> {
         let is_layer = self.mechanism.scenes_of(self.driver).next().is_some();
-        let access = if is_layer { Access::PublicLayer } else { Access::Public };
+        let access = if is_layer { Access::PublicLayer } else { Access::PublicInlined };
         Function { access, ..total("pose_at", [self.coordinates(Order::Value)], self.pose_type()) }
     }
 
@@ -163,7 +172,7 @@ impl<'a> Signatures<'a> {
     }
 
     pub fn assemble(&self) -> Function<Body> {
-        fallible("assemble", [self.inputs_by(Order::Value), self.branch()], self.pose_type())
+        public_inlined(fallible("assemble", [self.inputs_by(Order::Value), self.branch()], self.pose_type()))
     }
 
     pub fn assemble_near(&self) -> Function<Body> {
@@ -281,7 +290,7 @@ impl<'a> Signatures<'a> {
 
     pub fn velocity(&self) -> Function<Body> {
         let arguments = [self.pose(), self.inputs_by(Order::Rate)];
-        fallible("velocity", arguments, self.coordinates_type(Order::Rate))
+        public_inlined(fallible("velocity", arguments, self.coordinates_type(Order::Rate)))
     }
 
     pub fn gamma(&self) -> Function<Body> {
@@ -290,7 +299,7 @@ impl<'a> Signatures<'a> {
 
     pub fn acceleration(&self) -> Function<Body> {
         let arguments = [self.pose(), self.coordinates(Order::Rate), self.inputs_by(Order::Acceleration)];
-        fallible("acceleration", arguments, self.coordinates_type(Order::Acceleration))
+        public_inlined(fallible("acceleration", arguments, self.coordinates_type(Order::Acceleration)))
     }
 
     pub fn jerk(&self) -> Function<Body> {
@@ -303,6 +312,34 @@ impl<'a> Signatures<'a> {
         let [rates, accelerations] = [Order::Rate, Order::Acceleration].map(|order| self.inputs_by(order));
         let arguments = [self.coordinates(Order::Value), rates, accelerations];
         fallible("motion", arguments, Type::Own(self.types.motion.clone()))
+    }
+
+    /// Position, velocity and acceleration from the inputs.
+    pub fn kinematics(&self, position: &Position) -> Function<Body> {
+        let name = if position.is_closed { "kinematics" } else { "kinematics_near" };
+        fallible(name, self.moving(position), Type::Own(self.types.kinematics.clone()))
+    }
+
+    /// Position, velocity and acceleration by separate calls, where a check fails.
+    pub fn kinematics_by_parts(&self, position: &Position) -> Function<Body> {
+        let arguments = self.moving(position).map(|argument| match argument.passed {
+            Passed::Converted(of) => Argument { passed: Passed::ByValue(of), ..argument },
+            _ => argument,
+        });
+        let itself = fallible("kinematics_by_parts", arguments, Type::Own(self.types.kinematics.clone()));
+        Function { access: Access::Cold, ..itself }
+    }
+
+    /// With points and outputs.
+    pub fn full_kinematics(&self, position: &Position) -> Function<Body> {
+        let name = if position.is_closed { "full_kinematics" } else { "full_kinematics_near" };
+        fallible(name, self.moving(position), Type::Own(self.types.full_kinematics.clone()))
+    }
+
+    /// The inputs, or a guess, with a branch, rates and accelerations.
+    fn moving(&self, position: &Position) -> [Argument; 4] {
+        let from = if position.is_closed { self.inputs_by(Order::Value) } else { self.guess() };
+        [from, self.branch(), self.inputs_by(Order::Rate), self.inputs_by(Order::Acceleration)]
     }
 
     // Points and outputs.
@@ -424,6 +461,11 @@ pub fn hidden(name: impl Into<String>, arguments: impl IntoIterator<Item = Argum
 /// A private function that is inlined into functions of scenes.
 fn layer(function: Function<Body>) -> Function<Body> {
     Function { access: Access::Layer, ..function }
+}
+
+/// A public function marked `#[inline]`.
+fn public_inlined(function: Function<Body>) -> Function<Body> {
+    Function { access: Access::PublicInlined, ..function }
 }
 
 /// A private function marked `#[inline]`.

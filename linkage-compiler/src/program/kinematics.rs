@@ -1,0 +1,219 @@
+//! Position, velocity and acceleration in one kernel: the links that the position is solved for are those of the
+//! velocity and the acceleration, so that nothing is computed twice.
+
+use std::collections::BTreeSet;
+
+use super::doc::lines;
+use super::expression::{Expression, Pattern, Statement, Type};
+use super::function::{Body, Kernel, Source, results};
+use super::names::Order;
+use super::plan::{Plan, unnamed};
+use super::signatures::Family;
+use crate::derivation::{ChordGeometry, Form, Quantity, Step, merged, needed_names};
+use crate::graph::NodeId;
+use crate::ids::{BlockId, ColumnId, Table};
+
+const ERRORS: [&str; 3] =
+    ["", "# Errors", "The error that the separate calls for position, velocity and acceleration return first."];
+
+impl Plan<'_, '_> {
+    /// `kinematics`, or `kinematics_near` from a guess, and the same with points and outputs.
+    pub(super) fn kinematics(&mut self) {
+        self.kinematics_by_parts();
+        let names = &self.signatures.arguments;
+        let from = if self.position.is_closed { &names.inputs } else { &names.guess };
+        let arguments = [from, &names.branch, &names.input_rates, &names.input_accelerations];
+        let otherwise = Expression::call("kinematics_by_parts", arguments.map(Expression::name));
+        let (kernel, determinants) = self.kinematics_kernel(&otherwise);
+        let [rates, accelerations] = [kernel.conclusive.start - kernel.conclusive.len(), kernel.conclusive.start];
+        let members = [
+            ("pose", self.pose_of_results()),
+            ("rates", self.coordinates_of(Order::Rate, rates)),
+            ("accelerations", self.coordinates_of(Order::Acceleration, accelerations)),
+        ];
+        let of = Type::Bare(self.signatures.types.kinematics.clone());
+        let members = members.map(|(field, value)| (field.to_owned(), value));
+        let mut body = Body::of(kernel, Expression::structure(of, members));
+        body.before = self.before_kinematics();
+        body.calls.push("kinematics_by_parts".to_owned());
+        body.after.push(Statement::CheckKinematics { determinants, otherwise });
+        let doc = lines([
+            "The position, the rates q' and the accelerations q'' of all coordinates in one computation, from the inputs, their",
+            "rates v' and their accelerations v''.",
+        ]);
+        let doc = doc.into_iter().chain(lines(ERRORS)).collect();
+        self.add(self.signatures.kinematics(&self.position), doc, body);
+        if self.signatures.has_quantities() {
+            self.full_kinematics();
+        }
+    }
+
+    /// The kernel, whose results are the pose, the rates and the accelerations; and the determinants to check, each
+    /// with its scale.
+    fn kinematics_kernel(&mut self, otherwise: &Expression) -> (Kernel, Vec<[Expression; 2]>) {
+        let (determinants, steps) = self.kinematics_steps();
+        let (_, mut outputs) = self.position_steps();
+        let of_pose = outputs.len();
+        let columns: Table<ColumnId, ColumnId> = self.derivation.coordinates.ids().collect();
+        for symbols in [self.rates(&columns), self.accelerations(&columns)] {
+            outputs.extend(unnamed(self.variables(&symbols)));
+        }
+        let of_motion = outputs.len();
+        outputs.extend(unnamed(determinants.iter().flatten().copied()));
+        let nodes: Vec<NodeId> = outputs.iter().map(|output| output.node).collect();
+        let steps = needed_names(&self.derivation.graph, steps, &nodes);
+        let names = self.signatures.arguments.clone();
+        let by_value = |source: Source, name: &str| Source { from: Expression::name(name), ..source };
+        let sources = vec![
+            if self.position.is_closed { by_value(self.inputs(Order::Value), &names.inputs) } else { self.guess() },
+            by_value(self.inputs(Order::Rate), &names.input_rates),
+            by_value(self.inputs(Order::Acceleration), &names.input_accelerations),
+        ];
+        let turns = self.position.turns.iter().enumerate();
+        let mut dyads = self.dyads();
+        dyads.resize(of_motion, None);
+        let kernel = Kernel {
+            turns: turns.map(|(place, turn)| (turn.symbol, place)).collect(),
+            dyads,
+            otherwise: Some(otherwise.clone()),
+            conclusive: of_pose + columns.len()..of_motion,
+            ..self.kernel(sources, steps, outputs)
+        };
+        let pairs = results(of_motion..of_motion + 2 * determinants.len());
+        (kernel, pairs.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect())
+    }
+
+    /// The steps of the position, velocity and acceleration; and the determinants to check, each with its scale: those
+    /// of dyads are not zero if their chords are regular.
+    fn kinematics_steps(&mut self) -> (Vec<[NodeId; 2]>, Vec<Step>) {
+        let unknowns = self.derivation.unknowns.clone();
+        let sides = [
+            (self.derivation.velocity_side(), self.rates(&unknowns)),
+            (self.derivation.acceleration_side(), self.accelerations(&unknowns)),
+        ];
+        let moving = self.derivation.solution(&sides, Form::Entries);
+        let moving = self.assembly.solved_steps(&mut self.derivation.graph, moving);
+        let mut determinants = Vec::new();
+        let mut solving = Vec::new();
+        let dyads: BTreeSet<BlockId> = self.assembly.of_dyads.values().copied().collect();
+        for step in moving {
+            match step {
+                Step::Guard { block, .. } if dyads.contains(&block) => {}
+                Step::Guard { determinant, scale, .. } => determinants.push([determinant, scale]),
+                step => solving.push(step),
+            }
+        }
+        let assembling = self.assembly.steps.iter().cloned().map(regular).collect();
+        (determinants, merged(&self.derivation.graph, assembling, solving))
+    }
+
+    /// Statements that convert the arguments that are `impl Into`, and bind the turns of angles.
+    fn before_kinematics(&self) -> Vec<Statement> {
+        let names = &self.signatures.arguments;
+        let value = self.position.is_closed.then_some(&names.inputs);
+        let all = value.into_iter().chain([&names.input_rates, &names.input_accelerations]);
+        let of = Type::Own(self.signatures.types.inputs.clone());
+        let converted = all.map(|name| {
+            Statement::Let(Pattern::Typed(name.clone(), of.clone()), Expression::name(name).method("into", []))
+        });
+        let mut statements: Vec<Statement> = converted.collect();
+        if self.position.turns.is_empty() {
+            return statements;
+        }
+        if self.position.is_closed {
+            let branch = Expression::name(&names.branch);
+            let fields = self.position.turns.iter().map(|turn| branch.clone().field(&turn.field));
+            let turns = Expression::runtime("Turns", [Expression::List(fields.collect())]);
+            statements.push(Statement::Let(Pattern::Name(names.turn.clone()), turns));
+        } else {
+            statements.extend(self.nearest_turns(&names.guess, &names.turn));
+        }
+        statements
+    }
+
+    /// `kinematics_by_parts`: the same by separate calls, which find the error.
+    fn kinematics_by_parts(&mut self) {
+        let names = self.signatures.arguments.clone();
+        let name = |name: &String| Expression::name(name);
+        let (assemble, from) =
+            if self.position.is_closed { ("assemble", &names.inputs) } else { ("assemble_near", &names.guess) };
+        let pose = Expression::call(assemble, [name(from), name(&names.branch)]);
+        let [at_pose, at_rates] = [&names.pose, &names.rates].map(|argument| name(argument).borrowed());
+        let rates = Expression::call("velocity", [at_pose.clone(), name(&names.input_rates)]);
+        let accelerations = Expression::call("acceleration", [at_pose, at_rates, name(&names.input_accelerations)]);
+        let before = [(&names.pose, pose), (&names.rates, rates), (&names.accelerations, accelerations)];
+        let before = before.map(|(name, call)| Statement::Let(Pattern::Name(name.clone()), call.tried()));
+        let members = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
+        let members = members.map(|(field, value)| (field.to_owned(), name(value)));
+        let of = Type::Bare(self.signatures.types.kinematics.clone());
+        let body = Body { before: before.to_vec(), ..Body::plain(Expression::structure(of, members)) };
+        let doc = lines(["The same by separate calls, which say what is wrong."]);
+        self.add(self.signatures.kinematics_by_parts(&self.position), doc, body);
+    }
+
+    /// `full_kinematics`: with points and outputs.
+    fn full_kinematics(&mut self) {
+        let names = self.signatures.arguments.clone();
+        let own = self.signatures.kinematics(&self.position);
+        let arguments = own.arguments.iter().map(|argument| Expression::name(&argument.name));
+        let call = Expression::call(&own.name, arguments).tried();
+        let parts = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
+        let fields = parts.map(|(field, name)| (field.to_owned(), Pattern::Name(name.clone())));
+        let of = Type::Bare(self.signatures.types.kinematics.clone());
+        let pattern = Pattern::Struct { of, fields: fields.to_vec(), is_whole: true };
+        let by_value = |source: Source, name: &str| Source { from: Expression::name(name), ..source };
+        let sources = vec![
+            self.parameters(),
+            by_value(self.pose_source(), &names.pose),
+            by_value(self.coordinates(Order::Rate), &names.rates),
+            by_value(self.coordinates(Order::Acceleration), &names.accelerations),
+        ];
+        let (nodes, quantities) = self.moving_quantities(0);
+        let kernel = Kernel { sources, results: unnamed(nodes), is_on_pose: true, ..Kernel::default() };
+        let members = parts.map(|(field, name)| (field.to_owned(), Expression::name(name)));
+        let of = Type::Bare(self.signatures.types.full_kinematics.clone());
+        let value = Expression::structure(of, members.into_iter().chain(quantities));
+        let before = vec![Statement::Let(pattern, call)];
+        let body = Body { before, calls: vec![own.name], ..Body::of(kernel, value) };
+        let doc = lines([
+            "The position, the rates q' and the accelerations q'' of all coordinates, and the motion of points and outputs, from the",
+            "inputs, their rates v' and their accelerations v''.",
+        ]);
+        let doc = doc.into_iter().chain(lines(ERRORS)).collect();
+        self.add(self.signatures.full_kinematics(&self.position), doc, body);
+    }
+
+    /// The formulas of points and outputs with their derivatives, and the fields made of them as results from a place
+    /// on.
+    pub(super) fn moving_quantities(&self, from: usize) -> (Vec<NodeId>, Vec<(String, Expression)>) {
+        let quantities = self.derivation.points.iter().chain(&self.derivation.outputs);
+        let of_each = |quantity: &Quantity| -> Vec<NodeId> {
+            [&quantity.value, &quantity.rate, &quantity.acceleration].into_iter().flatten().copied().collect()
+        };
+        let nodes: Vec<NodeId> = quantities.flat_map(of_each).collect();
+        let points = from + 6 * self.derivation.points.len();
+        let mut members = Vec::new();
+        for (family, function, values, sizes) in [
+            (Family::Points, "point_motions", results(from..points), &[3, 2][..]),
+            (Family::Outputs, "output_motions", results(points..from + nodes.len()), &[3][..]),
+        ] {
+            if self.signatures.has(family) {
+                let values = Expression::List(Expression::nested(values, sizes));
+                let motions = Expression::runtime(function, [Expression::mechanism(), values]).tried();
+                members.push((format!("{}s", family.word()), motions));
+            }
+        }
+        (nodes, members)
+    }
+}
+
+/// A half chord that is zero or has no size is left to the separate calls.
+fn regular(step: Step) -> Step {
+    match step {
+        Step::Chord { block, symbol, factors, size, of: ChordGeometry::Circle { scales: [scale, _], may_cancel } } => {
+            let of = ChordGeometry::RegularCircle { scale: may_cancel.then_some(scale) };
+            Step::Chord { block, symbol, factors, size, of }
+        }
+        other => other,
+    }
+}
