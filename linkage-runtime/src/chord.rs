@@ -197,34 +197,31 @@ pub fn elbow_chord<T: Real, S: Side>(
 /// error; `None` for another triangle, and where there is none.
 #[inline(always)]
 pub fn regular_elbow_chord<T: Real, S: Side>(triangle: Triangle<T>, side: S) -> Option<T> {
-    let Triangle { links: [p, q], line: [x, y], scale, reach_squared, factors: [low, high], .. } = triangle;
-    let (is_open, product) = (triangle.is_open(), low * high);
-    let root = if is_open && is_in_range(product) {
-        product.sqrt()
-    } else if is_open {
-        has_inverse(reach_squared).then(|| root(low, high, reach_squared))?
-    } else {
-        flat_regular_chord(p, q, x, y, scale)?
-    };
+    let Triangle { links: [p, q], line: [x, y], scale, factors: [low, high], .. } = triangle;
+    let product = low * high;
+    let is_plain = triangle.is_open() && is_in_range(product);
+    let root = if is_plain { product.sqrt() } else { uncommon_chord(p, q, x, y, scale, low, high)? };
     Some(side.signed(root))
 }
 
-/// True if the inverse of a squared length is finite, and so is that of any part of it that is not negligible.
-fn has_inverse<T: Real>(square: T) -> bool {
-    (T::default_epsilon() * square).recip().is_finite()
-}
-
-/// The [`flat_chord`] of a triangle that is not singular, of links whose directions are finite.
+/// The [`regular_elbow_chord`] of a triangle that is nearly flat, or very large or small, without its sign.
 #[cold]
 #[inline(never)]
-fn flat_regular_chord<T: Real>(p: T, q: T, x: T, y: T, scale: T) -> Option<T> {
+fn uncommon_chord<T: Real>(p: T, q: T, x: T, y: T, scale: T, low: T, high: T) -> Option<T> {
+    let (sum, reach) = (p + q, p.abs() + q.abs());
+    let (reach_squared, distance_squared) = (sum * sum, x * x + y * y);
+    let triangle =
+        Triangle { links: [p, q], line: [x, y], scale, reach_squared, distance_squared, factors: [low, high] };
+    // Its inverse is finite, and so is that of any part of it that is not negligible.
+    let has_inverse = (T::default_epsilon() * reach * reach).recip().is_finite();
+    if triangle.is_open() {
+        return has_inverse.then(|| root(low, high, reach_squared));
+    }
     let chord = flat_chord("", "", p, q, x, y, scale).ok()?;
-    let reach = p.abs() + q.abs();
-    let (reach_squared, distance_squared) = (reach * reach, x * x + y * y);
-    let shortest = T::default_epsilon() * reach_squared;
+    let shortest = T::default_epsilon() * reach * reach;
     let are_apart = [distance_squared, p * p, q * q].into_iter().all(|square| square > shortest);
     // The determinant is half the chord.
-    (are_apart && has_inverse(reach_squared) && is_nonzero(chord * real(0.5), p * q)).then_some(chord)
+    (are_apart && has_inverse && is_nonzero(chord * real(0.5), p * q)).then_some(chord)
 }
 
 /// The [`chord`] of two positive factors, else `None`.
