@@ -1,0 +1,141 @@
+//! Position, velocity and acceleration in closed form as a person writes them for speed: link vectors instead of
+//! directions, determinants from half chords, nothing computed twice.
+//!
+//! `checked` makes the checks of the emitted code and returns what it returns, directions included; `bare` returns link
+//! vectors, and NaN and dead points go unnoticed. `at` starts from coordinates, with the sines of the emitted `motion`.
+
+pub mod chain;
+pub mod four_bar;
+pub mod jansen;
+pub mod slider_crank;
+pub mod stephenson_iii;
+
+use linkage::PositionError;
+use linkage::nalgebra::{Complex, UnitComplex};
+
+pub type Vector = [f64; 2];
+
+/// Products of squared lengths between this and its inverse neither overflow nor underflow.
+pub const SMALLEST: f64 = 1e-62;
+
+/// A group that cannot be assembled or moved, and why.
+pub type Checked<T> = Result<T, PositionError>;
+
+/// The direction of a link with this inverse of its length.
+pub fn direction([x, y]: Vector, inverse: f64) -> UnitComplex<f64> {
+    UnitComplex::new_unchecked(Complex { re: x * inverse, im: y * inverse })
+}
+
+pub fn dot([a, b]: Vector, [c, d]: Vector) -> f64 {
+    a * c + b * d
+}
+
+/// v turned by a right angle, times `by`.
+pub fn turned([x, y]: Vector, by: f64) -> Vector {
+    [-y * by, x * by]
+}
+
+pub fn plus([a, b]: Vector, [c, d]: Vector) -> Vector {
+    [a + c, b + d]
+}
+
+pub fn minus([a, b]: Vector, [c, d]: Vector) -> Vector {
+    [a - c, b - d]
+}
+
+pub fn times([x, y]: Vector, by: f64) -> Vector {
+    [x * by, y * by]
+}
+
+/// The second derivative of a vector that turns: v turned by the acceleration, minus v times the squared rate.
+pub fn bent(v: Vector, rate: f64, acceleration: f64) -> Vector {
+    minus(turned(v, acceleration), times(v, rate * rate))
+}
+
+/// Two links between joints, V + W = D, and their motion.
+#[derive(Clone, Copy)]
+pub struct Dyad {
+    pub first: Vector,
+    pub second: Vector,
+    /// The determinant V x W.
+    pub determinant: f64,
+    inverse: f64,
+}
+
+impl Dyad {
+    /// The dyad of links p and q with V left of D, for the side 1, or right of it, for the side -1.
+    #[inline(always)]
+    pub fn new<const CHECKED: bool>(group: &'static str, d: Vector, [p, q]: Vector, side: f64) -> Checked<Self> {
+        let square = dot(d, d);
+        let (sum, difference) = (p + q, p - q);
+        let reach = sum * sum;
+        let (low, high) = (reach - square, square - difference * difference);
+        let product = low * high;
+        if CHECKED
+            && !(low > reach * (1.0 / 16.0)
+                && high > square * (1.0 / 16.0)
+                && square > f64::EPSILON * reach
+                && product > SMALLEST
+                && product < 1.0 / SMALLEST)
+        {
+            return Err(unbuildable(group, low.min(high)));
+        }
+        let chord = side * product.sqrt();
+        let along = square + sum * difference;
+        let half = 0.5 / square;
+        let first = [(along * d[0] - chord * d[1]) * half, (along * d[1] + chord * d[0]) * half];
+        let determinant = -0.5 * chord;
+        if CHECKED && !(determinant.abs() > 8.0 * f64::EPSILON * (p * q).abs() && determinant.is_finite()) {
+            return Err(PositionError::Singular { mechanism: "by hand", group, regularity: 0.0 });
+        }
+        Ok(Self { first, second: minus(d, first), determinant, inverse: 1.0 / determinant })
+    }
+
+    /// The dyad of links with these vectors and this determinant, by a sine of a difference.
+    #[inline(always)]
+    pub fn at<const CHECKED: bool>(
+        group: &'static str,
+        [first, second]: [Vector; 2],
+        determinant: f64,
+        size: f64,
+    ) -> Checked<Self> {
+        if CHECKED && !(determinant.abs() > 8.0 * f64::EPSILON * size.abs() && determinant.is_finite()) {
+            return Err(PositionError::Singular { mechanism: "by hand", group, regularity: 0.0 });
+        }
+        Ok(Self { first, second, determinant, inverse: 1.0 / determinant })
+    }
+
+    /// The rates a and b with V' + W' = `d_rate`.
+    #[inline(always)]
+    pub fn rates(&self, d_rate: Vector) -> Vector {
+        [dot(d_rate, self.second) * self.inverse, -dot(d_rate, self.first) * self.inverse]
+    }
+
+    /// The second derivatives of a and b with V'' + W'' = `d_acceleration`.
+    #[inline(always)]
+    pub fn accelerations(&self, [a, b]: Vector, d_acceleration: Vector) -> Vector {
+        let centripetal = plus(times(self.first, a * a), times(self.second, b * b));
+        self.rates(plus(d_acceleration, centripetal))
+    }
+}
+
+#[cold]
+#[inline(never)]
+pub fn unbuildable(group: &'static str, gap: f64) -> PositionError {
+    PositionError::Unbuildable { mechanism: "by hand", group, gap }
+}
+
+/// A vector at an angle with this sine and cosine.
+pub fn at((sine, cosine): (f64, f64), length: f64) -> Vector {
+    [cosine * length, sine * length]
+}
+
+/// An error if one of some accelerations is not finite: a position or a rate that is not makes them so.
+#[inline(always)]
+pub fn finite<const CHECKED: bool, const N: usize>(values: [f64; N]) -> Checked<()> {
+    let sum: f64 = values.iter().sum();
+    if CHECKED && !sum.is_finite() {
+        return Err(PositionError::NotFinite { mechanism: "by hand", quantity: "acceleration" });
+    }
+    Ok(())
+}

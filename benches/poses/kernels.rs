@@ -1,0 +1,57 @@
+//! Evaluates one function of a mechanism of the bench a number of times, for `tests/instructions.rs`.
+//!
+//! `cargo bench --bench kernels -- four_bar kinematics 1000` calls it a thousand times.
+
+mod mechanisms;
+
+use std::hint::black_box;
+
+use linkage::{Elbow, Slope};
+use mechanisms::{
+    FourBar, FourBarBranch, Jansen, JansenBranch, ShortChain, ShortChainBranch, SliderCrank, SliderCrankBranch,
+    StephensonIII, StephensonIIIBranch,
+};
+
+const RATE: f64 = 41.9;
+const ACCELERATION: f64 = 3.7;
+
+fn repeat<R>(calls: usize, work: impl Fn(f64) -> R) {
+    for call in 0..calls {
+        black_box(&work(black_box(0.2 + 1e-4 * call as f64)));
+    }
+}
+
+macro_rules! functions {
+    ($m:expr, $branch:expr, $function:expr, $calls:expr) => {{
+        let (m, branch) = (&black_box($m), $branch);
+        let pose = m.assemble(0.3, branch).expect("a position");
+        let (pose, q) = (&black_box(pose), &black_box(pose.coordinates()));
+        let rates = &black_box(m.velocity(pose, RATE).expect("a velocity"));
+        match $function {
+            "kinematics" => repeat($calls, |theta| m.kinematics(theta, branch, RATE, ACCELERATION)),
+            "assemble" => repeat($calls, |theta| m.assemble(theta, branch)),
+            "velocity" => repeat($calls, |rate| m.velocity(pose, rate)),
+            "acceleration" => repeat($calls, |acceleration| m.acceleration(pose, rates, acceleration)),
+            "pose_at" => repeat($calls, |_| m.pose_at(q)),
+            "motion" => repeat($calls, |rate| m.motion(q, rate, ACCELERATION)),
+            other => panic!("no function {other}"),
+        }
+    }};
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    let [mechanism, function, calls] = arguments.as_slice() else { panic!("a mechanism, a function, a number") };
+    let (function, calls) = (function.as_str(), calls.parse().expect("a number of calls"));
+    let (left, right) = (Elbow::Left, Elbow::Right);
+    match mechanism.as_str() {
+        "four_bar" => functions!(FourBar::default(), FourBarBranch::new(left), function, calls),
+        "slider_crank" => functions!(SliderCrank::default(), SliderCrankBranch::new(Slope::Rising), function, calls),
+        "stephenson_iii" => functions!(StephensonIII::default(), StephensonIIIBranch::new(left, left), function, calls),
+        "jansen" => functions!(Jansen::default(), JansenBranch::new(left, left, right, right, left), function, calls),
+        "chain" => {
+            functions!(ShortChain::default(), ShortChainBranch::new(right, right, right, right), function, calls);
+        }
+        other => panic!("no mechanism {other}"),
+    }
+}
