@@ -5,6 +5,7 @@ mod expression;
 mod external;
 mod functions;
 mod items;
+mod motion;
 mod names;
 mod scene;
 mod text;
