@@ -15,7 +15,7 @@ use crate::graph::{ExternalId, Function as Elementary, NodeId, SymbolId};
 use crate::ids::BlockId;
 use crate::program::{
     Access, Body, Expression, Function, Given, Kernel, Operations, Pattern, PosePlan, Shape, Source, Statement, Taken,
-    Value as Returned,
+    Type, Value as Returned,
 };
 
 /// The data that the functions of one driver or scene share.
@@ -186,6 +186,7 @@ impl<'a> Formulas<'a> {
         writer.write();
         let results = writer.all_signed(&schedule.results);
         let Writer { mut statements, names, externals, well_conditioned, .. } = writer;
+        parameters_where_used(&mut statements);
         let mut taken = names.taken;
         let results = kernel.results.iter().zip(results).map(|(output, result)| match &output.name {
             Some(preferred) if is_formula(&result) => {
@@ -200,6 +201,26 @@ impl<'a> Formulas<'a> {
         let operations = schedule.operations();
         Self { statements, results, is_proven, dyads, well_conditioned, taken, externals, operations }
     }
+}
+
+/// Moves the statement that reads the parameters to their first use: what is computed before, such as the sines of the
+/// inputs, then has the registers for itself.
+fn parameters_where_used(statements: &mut Vec<Statement>) {
+    let is_parameters =
+        |statement: &Statement| matches!(statement, Statement::Let(Pattern::Struct { of: Type::Itself, .. }, _));
+    let Some(place) = statements.iter().position(is_parameters) else { return };
+    let parameters = statements.remove(place);
+    let mut bound = BTreeSet::new();
+    if let Statement::Let(pattern, _) = &parameters {
+        pattern.each_name(&mut |name| bound.extend([name.to_owned()]));
+    }
+    let uses = |statement: &Statement| {
+        let mut is_used = false;
+        statement.each_name(&mut |name| is_used |= bound.contains(name));
+        is_used
+    };
+    let place = statements.iter().position(uses).unwrap_or(statements.len());
+    statements.insert(place, parameters);
 }
 
 /// True if a value is neither a name nor zero nor one.
