@@ -165,6 +165,7 @@ fn tokens_after_an_attribute_are_reported() {
 
 #[test]
 fn attributes_without_effect_are_rejected() {
+    // All of these attributes are input under test, `allow` too.
     for (attribute, statement, message) in [
         ("#[cfg(test)]", "param", "does not work on a part"),
         ("#[cfg(test)]", "equation", "does not work on a part"),

@@ -160,8 +160,9 @@ fn stops_that_contradict_each_other_are_an_error_in_every_unit() {
     }
 }
 
-/// A block on a belt, with mass 1 and friction 1/2. Where rounding error gives the rate of a slip the wrong sign, the
-/// slip goes on only if it grows: not if push and belt rest again, where friction alone would turn it round.
+/// A block on a belt, with mass 1 and friction 1/2. Its slip has just begun, and its rate is so small that a rounding
+/// error may have reversed its sign. The slip goes on if the acceleration increases it. If push and belt rest again, only
+/// friction acts, which would reverse the slip: it ends.
 #[test]
 fn slip_that_has_just_begun_goes_on_where_it_grows() {
     let block = |push: f64, belt: f64, rate: f64| ReducedEquations::<f64, D<1>, D<1>> {

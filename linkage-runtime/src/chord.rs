@@ -14,9 +14,9 @@ use crate::{PositionError, Real, real};
 const TOUCHING_ULPS: f64 = 1.0;
 
 /// A distance of at most this many ulps of the sum of the magnitudes of its terms counts as zero. The joints of the
-/// test mechanisms are accurate to three ulp of that sum times their condition number (`tests/forty_digits`). With 0,
-/// joints that coincide up to rounding error count as apart; with more, positions that still have correct digits are
-/// rejected.
+/// test mechanisms are accurate to three ulp of that sum times their condition number (`tests/forty_digits`). With 0, two
+/// joints at one place would count as apart, because their positions are rounded; with more, positions that still have
+/// correct digits are rejected.
 const COINCIDENT_ULPS: f64 = 8.0;
 
 /// ±sqrt((n - h) (n + h)), with the sign of `side`: the half chord of a circle of radius n at the distance h from its
@@ -49,7 +49,8 @@ pub fn chord<T: Real, S: Side>(
     Ok(side.signed(root))
 }
 
-/// Computes the [`chord`] where n is a distance between joints, or another sum that may cancel to rounding error.
+/// Computes the [`chord`] where n is a distance between joints, or another sum that may be zero but for the rounding of
+/// its terms.
 ///
 /// # Errors
 /// Those of [`chord`].
@@ -125,8 +126,7 @@ fn is_in_range<T: Real>(product: T) -> bool {
     product > tiny && product < T::one() / tiny
 }
 
-/// If a factor, a difference of two squares, is less than this fraction of the larger one, it is computed without
-/// rounding error.
+/// If a factor, a difference of two squares, is less than this fraction of the larger one, it is computed exactly.
 const CANCELLATION: f64 = 1.0 / 16.0;
 
 /// The triangle of two links of lengths p and q whose outer joints are (x, y) apart, D^2 = x^2 + y^2. Only the
@@ -161,10 +161,10 @@ impl<T: Real> Triangle<T> {
 
 /// ±sqrt(((p + q)^2 - D^2) (D^2 - (p - q)^2)), with the sign of `side`: twice the half chord of a triangle.
 ///
-/// The flag returned is true if the triangle is far from flat and of moderate size. The directions of the links then
-/// follow without overflow and underflow: with s = p + q, D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16, so that neither
-/// link is shorter than s/32; and since D^2 / s^2, s^2 D^2 and 1 / s are in range, so are the links' components, which
-/// are less than 2 s even after rounding errors.
+/// The flag returned is true if the triangle is far from flat and of moderate size. The directions of the links are
+/// then computed without overflow and underflow. Let s = p + q. From D^2 < s^2 15/16 and (p - q)^2 < D^2 15/16 it follows
+/// that neither link is shorter than s/32. D^2 / s^2, s^2 D^2 and 1 / s are in range. So are the links' components: they
+/// are at most s, and rounding does not double them.
 ///
 /// Near a dead point a factor is a difference of nearly equal squares. It is then computed in extended precision, so
 /// that the chord is accurate to a few ulp however flat the triangle is: T. J. Dekker, "A floating-point technique for
@@ -193,8 +193,8 @@ pub fn elbow_chord<T: Real, S: Side>(
     Ok((side.signed(root), is_plain))
 }
 
-/// The [`elbow_chord`] of a triangle whose links have finite directions and whose determinant is not zero to rounding
-/// error; `None` for another triangle, and where there is none.
+/// The [`elbow_chord`] of a triangle whose links have finite directions and whose determinant is larger than its
+/// rounding error. `None` for any other triangle, and if there is no triangle.
 #[inline(always)]
 pub fn regular_elbow_chord<T: Real, S: Side>(triangle: Triangle<T>, side: S) -> Option<T> {
     let Triangle { links: [p, q], line: [x, y], scale, factors: [low, high], .. } = triangle;
@@ -237,7 +237,7 @@ pub fn regular_chord<T: Real, S: Side>(factors: [T; 2], radius: T, side: S) -> O
     Some(side.signed(root))
 }
 
-/// The [`reach_chord`] of two positive factors and a distance `radius` that exceeds its rounding error, else `None`.
+/// The [`reach_chord`] of two positive factors and a distance `radius` larger than its rounding error, else `None`.
 /// `scale` is the sum of the magnitudes of the terms of the distance.
 #[inline]
 pub fn regular_reach_chord<T: Real, S: Side>(factors: [T; 2], radius: T, scale: T, side: S) -> Option<T> {
@@ -293,10 +293,10 @@ fn flat_chord<T: Real>(
     if p.is_zero() || q.is_zero() { Err(PositionError::Undetermined { mechanism, group }) } else { Ok(root) }
 }
 
-/// (p + q)^2 - D^2 and D^2 - (p - q)^2, without rounding error. A result below one ulp of the squares is set to zero,
+/// (p + q)^2 - D^2 and D^2 - (p - q)^2, computed exactly. A result below one ulp of the squares is set to zero,
 /// because lengths such as 33.3 and 66.7 are themselves rounded to that precision.
 ///
-/// In a scalar without fused multiply-add, such as double-double, the rounding errors of the squares remain.
+/// A scalar without fused multiply-add, such as double-double, gives rounded squares: the result is then not exact.
 fn exact_factors<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
     let (low, high) = (beyond(two_sum(p, q), [x, y]), -beyond(two_sum(p, -q), [x, y]));
     let touching = |factor: T, size: T| if factor.abs() <= T::default_epsilon() * size { T::zero() } else { factor };

@@ -166,6 +166,7 @@ impl<R: Rng> Mutator<R> {
     }
 
     fn attribute(&mut self, statements: &mut Vec<Vec<TokenTree>>) {
+        // Input of the macro; none applies to this file.
         const ATTRIBUTES: [&str; 7] = [
             "#[doc = \"said of it\"]",
             "#[doc = \"said\" twice]",

@@ -17,7 +17,7 @@ linkage::linkage! {
             center r@v;
         }
         /// The doc comment of a type.
-        scene Loaded { #[allow(unused)] gravity (0, -9.81); }
+        scene Loaded { #[allow(unused)] gravity (0, -9.81); } // `allow` is under test.
     }
 }
 
