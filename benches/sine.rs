@@ -1,11 +1,12 @@
-//! The time of `Real::sine_cosine` and `sines_cosines` compared with the library's `sin_cos`, timed alternately.
+//! The time of `Real::sine_cosine`, `sines_cosines`, `arctangent2` and `hypotenuse` compared with the library's
+//! functions, timed alternately.
 //!
 //! `cargo bench --bench sine`
 
 use std::hint::black_box;
 use std::time::Instant;
 
-use linkage_runtime::{Real, real};
+use linkage_runtime::{Real, lane, real};
 
 /// Angles per pass: these and their sines fit into the first-level cache.
 const ANGLES: usize = 1024;
@@ -94,6 +95,40 @@ fn rows<T: Real>(name: &str, range: f64) {
     );
 }
 
+/// Latency and throughput of a function of two numbers.
+fn pair_rows<T: Real>(name: &str, ours: impl Fn(T, T) -> T, library: impl Fn(T, T) -> T) {
+    let (a, mut b) = (angles::<T>(7.0), angles::<T>(4.3));
+    b.reverse();
+    let mut values = vec![T::zero(); ANGLES];
+    let mut others = values.clone();
+    row(
+        &format!("{name}: chain"),
+        || {
+            black_box(pair_chain(black_box(&a), black_box(&b), &ours));
+        },
+        || {
+            black_box(pair_chain(black_box(&a), black_box(&b), &library));
+        },
+    );
+    row(
+        &format!("{name}: independent"),
+        || pairs(black_box(&a), black_box(&b), black_box(&mut values), &ours),
+        || pairs(black_box(&a), black_box(&b), black_box(&mut others), &library),
+    );
+}
+
+#[inline(always)]
+fn pair_chain<T: Real>(a: &[T], b: &[T], of: impl Fn(T, T) -> T) -> T {
+    a.iter().zip(b).fold(T::zero(), |last, (&a, &b)| of(a + last, b))
+}
+
+#[inline(always)]
+fn pairs<T: Real>(a: &[T], b: &[T], values: &mut [T], of: impl Fn(T, T) -> T) {
+    for ((&a, &b), value) in a.iter().zip(b).zip(values) {
+        *value = of(a, b);
+    }
+}
+
 fn group_row<const N: usize>(range: f64) {
     let angles = angles::<f64>(range);
     let (mut s, mut c) = (vec![0.0; ANGLES], vec![0.0; ANGLES]);
@@ -115,4 +150,13 @@ fn main() {
     group_row::<4>(7.0);
     group_row::<8>(7.0);
     rows::<f32>("f32", 7.0);
+    pair_rows::<f64>("f64, atan2", Real::arctangent2, f64::atan2);
+    pair_rows::<f64>("f64, atan2, unchecked", lane::arctangent2, f64::atan2);
+    pair_rows::<f32>("f32, atan2", Real::arctangent2, f32::atan2);
+    pair_rows::<f32>("f32, atan2, unchecked", lane::arctangent2, f32::atan2);
+    // Its last result would grow in a chain.
+    let halved = |x: f64, y: f64| 0.5 * x.hypotenuse(y);
+    pair_rows::<f64>("f64, hypot", halved, |x, y| 0.5 * x.hypot(y));
+    let halved = |x: f32, y: f32| 0.5 * x.hypotenuse(y);
+    pair_rows::<f32>("f32, hypot", halved, |x, y| 0.5 * x.hypot(y));
 }

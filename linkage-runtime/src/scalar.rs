@@ -1,48 +1,64 @@
 //! Scalar types of emitted code.
 
-use core::any::Any;
-
 use nalgebra::{Complex, RealField, Unit, UnitComplex};
 
-use crate::sine;
+use crate::native::native;
+use crate::{hypotenuse, lane, sine};
 
 /// A real scalar that is `Copy`: `f32`, `f64`, dual numbers. It is implemented for all such types.
 pub trait Real: RealField + Copy {
-    /// The sine and cosine of an angle in radians: for `f64` up to 1e5 inlined and within 0.85 ulp, else
-    /// the scalar's own.
+    /// The sine and cosine of an angle in radians: for `f64` up to 1e5 and `f32` up to 1e4 inlined and within
+    /// 0.85 ulp, else the scalar's own.
     #[inline(always)]
     #[must_use]
     fn sine_cosine(self) -> (Self, Self) {
-        // The type is known at compile time, so that this test costs nothing.
-        let Some(&x) = (&self as &dyn Any).downcast_ref::<f64>() else { return self.sin_cos() };
-        sine::sin_cos(x).map_or_else(|| beyond(self), |(sine, cosine)| (real(sine), real(cosine)))
+        if lane::is_moderate(self) { lane::sine_cosine(self) } else { beyond(self) }
     }
 
     /// The sine alone, equal to that of `sine_cosine`.
     #[inline(always)]
     #[must_use]
     fn sine(self) -> Self {
-        let Some(&x) = (&self as &dyn Any).downcast_ref::<f64>() else { return self.sin() };
-        sine::sin(x).map_or_else(|| beyond(self).0, real)
+        if !lane::is_moderate(self) {
+            return beyond(self).0;
+        }
+        native!(self => sine::sine).unwrap_or_else(|| self.sin())
     }
 
     /// The cosine alone, equal to that of `sine_cosine`.
     #[inline(always)]
     #[must_use]
     fn cosine(self) -> Self {
-        let Some(&x) = (&self as &dyn Any).downcast_ref::<f64>() else { return self.cos() };
-        sine::cos(x).map_or_else(|| beyond(self).1, real)
+        if !lane::is_moderate(self) {
+            return beyond(self).1;
+        }
+        native!(self => sine::cosine).unwrap_or_else(|| self.cos())
     }
 
     /// The sines and cosines of several angles, equal to those of `sine_cosine`, computed by vector instructions.
     #[inline(always)]
     #[must_use]
     fn sines_cosines<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-        let Some(x) = (&angles as &dyn Any).downcast_ref::<[f64; N]>() else { return angles.map(Self::sin_cos) };
-        sine::sines_cosines(x).map_or_else(
-            || angles.map(Self::sine_cosine),
-            |values| values.map(|(sine, cosine)| (real(sine), real(cosine))),
-        )
+        if !angles.iter().fold(true, |within, angle| within & lane::is_moderate(*angle)) {
+            return angles.map(Self::sine_cosine);
+        }
+        native!(angles => sine::several, N).unwrap_or_else(|| angles.map(Self::sin_cos))
+    }
+
+    /// The angle of (x, y) with the x axis, from -pi to pi, where `self` is y: for `f64` and `f32` inlined and within
+    /// 0.75 ulp, else the scalar's own, which also serves zero and extreme arguments.
+    #[inline(always)]
+    #[must_use]
+    fn arctangent2(self, x: Self) -> Self {
+        if lane::has_arctangent2(self, x) { lane::arctangent2(self, x) } else { extreme_angle(self, x) }
+    }
+
+    /// The length of (x, y), where `self` is x: for `f64` and `f32` inlined and within 1.25 ulp, with the same digits in
+    /// every unit, else the scalar's own, which also serves zero, infinity and NaN.
+    #[inline(always)]
+    #[must_use]
+    fn hypotenuse(self, y: Self) -> Self {
+        if lane::has_hypotenuse(self, y) { lane::hypotenuse(self, y) } else { extreme_length(self, y) }
     }
 }
 
@@ -53,6 +69,20 @@ impl<T: RealField + Copy> Real for T {}
 #[inline(never)]
 fn beyond<T: Real>(angle: T) -> (T, T) {
     angle.sin_cos()
+}
+
+/// The standard library's atan2.
+#[cold]
+#[inline(never)]
+fn extreme_angle<T: Real>(y: T, x: T) -> T {
+    y.atan2(x)
+}
+
+/// The length of scaled sides, or the standard library's hypot.
+#[cold]
+#[inline(never)]
+fn extreme_length<T: Real>(x: T, y: T) -> T {
+    native!((x, y) => hypotenuse::scaled).flatten().unwrap_or_else(|| x.hypot(y))
 }
 
 /// Traits to import for the functions of a scalar that is an associated type.

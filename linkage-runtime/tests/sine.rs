@@ -5,10 +5,14 @@
 
 #![cfg(feature = "std")]
 
+mod pairs;
+
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use linkage_runtime::Real;
 use num_dual::{Dual2_64, Dual64};
+
+use pairs::{float_ulps, random, reference, ulps};
 
 /// The largest documented error, in units of the last place.
 const ULPS: f64 = 0.85;
@@ -16,82 +20,8 @@ const ULPS: f64 = 0.85;
 /// The largest |x| that is not left to the standard library.
 const LIMIT: f64 = 1e5;
 
-/// An unevaluated sum, the second below half an ulp of the first.
-type Pair = [f64; 2];
-
-/// a + b exactly (Knuth).
-fn two_sum(a: f64, b: f64) -> Pair {
-    let sum = a + b;
-    let part = sum - a;
-    [sum, (a - (sum - part)) + (b - part)]
-}
-
-/// a b exactly (Dekker, halves by Veltkamp).
-fn two_product(a: f64, b: f64) -> Pair {
-    let halves = |x: f64| {
-        let scaled = 134_217_729.0 * x;
-        let high = scaled - (scaled - x);
-        [high, x - high]
-    };
-    let product = a * b;
-    let ([a, c], [b, d]) = (halves(a), halves(b));
-    [product, c * d - (((product - a * b) - c * b) - a * d)]
-}
-
-fn plus([a, low]: Pair, b: f64) -> Pair {
-    let [sum, error] = two_sum(a, b);
-    two_sum(sum, error + low)
-}
-
-fn times([a, c]: Pair, [b, d]: Pair) -> Pair {
-    let [product, error] = two_product(a, b);
-    two_sum(product, error + (a * d + c * b))
-}
-
-fn over([a, c]: Pair, b: f64) -> Pair {
-    let quotient = a / b;
-    let [product, error] = two_product(quotient, b);
-    two_sum(quotient, ((a - product) - error + c) / b)
-}
-
-/// The terms of the exponential series from r^n / n!, every other one, with alternating signs: the first omitted one is
-/// below 2^-112.
-fn series(first: Pair, square: Pair, n: u32) -> Pair {
-    let mut terms = vec![first];
-    for m in (n..27).step_by(2) {
-        let [a, c] = over(times(terms[terms.len() - 1], square), f64::from((m + 1) * (m + 2)));
-        terms.push([-a, -c]);
-    }
-    terms.iter().rev().fold([0.0; 2], |sum, &[a, c]| plus(plus(sum, c), a))
-}
-
-/// sin x and cos x for |x| <= 1e5. pi/2 is accurate to 2^-160 and its multiples are exact, so that no rounding error
-/// exceeds 2^-140 there, where r is above 2^-61; each of the fourteen terms of the series has a rounding error of
-/// 2^-102. The relative error is below 2^-79.
-fn reference(x: f64) -> [Pair; 2] {
-    let half_pi = [FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
-    let k = (x / FRAC_PI_2).round();
-    let r = half_pi.iter().flat_map(|&part| two_product(-k, part)).fold([x, 0.0], plus);
-    let square = times(r, r);
-    let (sine, cosine) = (series(r, square, 1), series([1.0, 0.0], square, 0));
-    let minus = |[a, c]: Pair| [-a, -c];
-    match k.rem_euclid(4.0) {
-        0.0 => [sine, cosine],
-        1.0 => [cosine, minus(sine)],
-        2.0 => [minus(sine), minus(cosine)],
-        _ => [minus(cosine), sine],
-    }
-}
-
-/// The error in units of the last place of the exact value.
-fn ulps(found: f64, [value, rest]: Pair) -> f64 {
-    let size = value.abs();
-    // Just below a power of two an ulp is half as large.
-    let below = size.next_down();
-    let place =
-        if size.to_bits().trailing_zeros() >= 52 && value * rest < 0.0 { size - below } else { size.next_up() - size };
-    ((found - value) - rest).abs() / place
-}
+/// The largest |x| of floats.
+const FLOAT_LIMIT: f32 = 1e4;
 
 /// The largest errors, with the arguments.
 #[derive(Default)]
@@ -120,16 +50,6 @@ impl Largest {
         println!("{what}: sine {sine:.4} ulp at {at:?}, cosine {cosine:.4} ulp at {there:?}");
         assert!(sine <= ULPS && cosine <= ULPS, "{what}: {sine} and {cosine} ulp");
     }
-}
-
-/// Numbers in [0, 1) (Steele, Lea and Flood, SplitMix).
-fn random(seed: u64) -> impl Iterator<Item = f64> {
-    (1..).map(move |n: u64| {
-        let mut bits = seed.wrapping_add(n.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((bits ^ (bits >> 31)) >> 11) as f64 * 2f64.powi(-53)
-    })
 }
 
 /// Samples evenly over the first eighth of a turn, at random in a few turns and over the whole range, and about every
@@ -218,6 +138,84 @@ fn together_as_alone() {
     }
 }
 
+/// The largest errors of floats, against the library's doubles.
+fn sweep_floats(bits: impl Iterator<Item = u32>) -> [(f32, f32); 2] {
+    let mut largest = [(0.0, 0.0); 2];
+    for x in bits.map(f32::from_bits) {
+        let (sine, cosine) = x.sine_cosine();
+        let (s, c) = f64::from(x).sin_cos();
+        for ((found, exact), (error, at)) in [(sine, s), (cosine, c)].into_iter().zip(&mut largest) {
+            let here = float_ulps(found, exact);
+            if here > *error {
+                (*error, *at) = (here, x);
+            }
+        }
+        let expected = [sine.to_bits(), cosine.to_bits()];
+        let (negative, same) = (-x).sine_cosine();
+        assert_eq!([(-negative).to_bits(), same.to_bits()], expected, "{x:e}");
+        assert_eq!([x.sine().to_bits(), x.cosine().to_bits()], expected, "{x:e}");
+    }
+    largest
+}
+
+/// Floats by their bits, from 0 to `most`.
+fn floats(most: f32, stride: usize) -> impl Iterator<Item = u32> {
+    (0..=most.to_bits()).step_by(stride)
+}
+
+#[test]
+fn floats_within_the_promise() {
+    for most in [std::f32::consts::FRAC_PI_4, FLOAT_LIMIT] {
+        let largest = sweep_floats(floats(most, 4001));
+        println!("to {most}: {largest:?}");
+        assert!(largest.iter().all(|(error, _)| f64::from(*error) <= ULPS), "{most}: {largest:?}");
+    }
+    // Next to multiples of pi/2.
+    let near = (0..6366).map(|k| (f64::from(k) * FRAC_PI_2) as f32);
+    let largest = sweep_floats(near.flat_map(|x| [x, x.next_up(), x.next_down().max(0.0)]).map(f32::to_bits));
+    println!("about multiples of pi/2: {largest:?}");
+    assert!(largest.iter().all(|(error, _)| f64::from(*error) <= ULPS), "{largest:?}");
+}
+
+#[test]
+#[ignore = "every float up to the limit: half a minute in release"]
+fn every_float() {
+    for (least, most) in [(0.0, std::f32::consts::FRAC_PI_4), (std::f32::consts::FRAC_PI_4, 10.0), (10.0, FLOAT_LIMIT)]
+    {
+        let largest = sweep_floats(f32::to_bits(least)..=most.to_bits());
+        println!("{least} to {most}: {largest:?}");
+        assert!(largest.iter().all(|(error, _)| f64::from(*error) <= ULPS), "{largest:?}");
+    }
+}
+
+#[test]
+fn floats_together_and_at_the_limits() {
+    let bits = |(sine, cosine): (f32, f32)| [sine.to_bits(), cosine.to_bits()];
+    let mut angles: Vec<f32> = random(8).take(400).map(|part| (1e4 * (2.0 * part - 1.0)) as f32).collect();
+    angles.extend([0.0, -0.0, 1e-30, FLOAT_LIMIT, -FLOAT_LIMIT]);
+    for _ in 0..2 {
+        for angles in angles.windows(7) {
+            let angles: [f32; 7] = angles.try_into().unwrap();
+            assert_eq!(f32::sines_cosines(angles).map(bits), angles.map(|x| bits(x.sine_cosine())), "{angles:?}");
+        }
+        // One of them beyond the limit.
+        angles[200] = 2.0 * FLOAT_LIMIT;
+    }
+    for x in [FLOAT_LIMIT.next_up(), 1e9, f32::MAX] {
+        assert_eq!(bits(x.sine_cosine()), bits(x.sin_cos()));
+        assert_eq!(bits((x.sine(), x.cosine())), bits(x.sin_cos()));
+    }
+    for x in [f32::INFINITY, f32::NAN] {
+        assert!(x.sine_cosine().0.is_nan() && x.sine().is_nan() && x.cosine().is_nan());
+    }
+    for zero in [0.0f32, -0.0] {
+        assert_eq!([zero.sine_cosine().0.to_bits(), zero.sine().to_bits()], [zero.to_bits(); 2]);
+    }
+    for x in [f32::from_bits(1), f32::MIN_POSITIVE, 1e-20, 1e-5] {
+        assert_eq!([x.sine_cosine(), (-x).sine_cosine()], [(x, 1.0), (-x, 1.0)]);
+    }
+}
+
 /// Every other scalar has its own sine and cosine.
 #[test]
 fn other_scalars() {
@@ -228,7 +226,6 @@ fn other_scalars() {
             assert_eq!(T::sines_cosines([x, -x]), [x.sin_cos(), (-x).sin_cos()]);
         }
     }
-    check(|x| x as f32);
     check(|x| Dual64::new(x, 0.3));
     check(|x| Dual2_64::new(x, 0.3, -0.7));
 }

@@ -1,0 +1,52 @@
+//! The root of a sum of two squares, for `f64` and `f32`, without branches. The largest error found by
+//! `tests/arctangent.rs` in 6e7 arguments is 1.20 ulp.
+
+use nalgebra::ComplexField;
+
+use crate::native::Native;
+
+/// A scalar with a hypotenuse of this module.
+pub(crate) trait Length: Native + ComplexField {
+    /// The least and largest sum of squares that is computed here: it does not overflow, and a square that underflows
+    /// does not matter.
+    const RANGE: [Self; 2];
+
+    /// A power of two and its inverse, which bring other numbers into the range.
+    const SCALES: [Self; 2];
+}
+
+impl Length for f64 {
+    // 2^-960 and 2^1020
+    const RANGE: [Self; 2] = [Self::from_bits(0x03f0_0000_0000_0000), Self::from_bits(0x7fb0_0000_0000_0000)];
+    // 2^600 and 2^-600
+    const SCALES: [Self; 2] = [Self::from_bits(0x6570_0000_0000_0000), Self::from_bits(0x1a70_0000_0000_0000)];
+}
+
+impl Length for f32 {
+    // 2^-90 and 2^120
+    const RANGE: [Self; 2] = [Self::from_bits(0x1280_0000), Self::from_bits(0x7b80_0000)];
+    // 2^80 and 2^-80
+    const SCALES: [Self; 2] = [Self::from_bits(0x6780_0000), Self::from_bits(0x1780_0000)];
+}
+
+/// True if `hypotenuse` is right: the sum of squares is in `RANGE`.
+#[inline(always)]
+pub(crate) fn is_regular<F: Length>((x, y): (F, F)) -> bool {
+    let [least, most] = F::RANGE;
+    let square = x * x + y * y;
+    (square >= least) & (square <= most)
+}
+
+/// sqrt(x^2 + y^2), if `is_regular`.
+#[inline(always)]
+pub(crate) fn hypotenuse<F: Length>((x, y): (F, F)) -> F {
+    (x * x + y * y).sqrt()
+}
+
+/// The hypotenuse of scaled sides, scaled back, if that `is_regular`: the same digits in every unit.
+pub(crate) fn scaled<F: Length>((x, y): (F, F)) -> Option<F> {
+    let [large, small] = F::SCALES;
+    let (scale, back) = if x * x + y * y < F::ONE { (large, small) } else { (small, large) };
+    let sides = (x * scale, y * scale);
+    is_regular(sides).then(|| hypotenuse(sides) * back)
+}
