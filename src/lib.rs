@@ -25,7 +25,7 @@ pub use linkage_report::{Document, sheet};
 pub use linkage_runtime::{
     AnyBranch, Assembly, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion, PathError,
     PerInput, PerUnknown, PointMotion, PositionError, Real, Slider, Slope, Solution, accuracy, continuation,
-    derivation, limits, nalgebra, position, real, singularity,
+    derivation, lanes, limits, nalgebra, position, real, singularity,
 };
 
 /// An example without a `scene`, a crank and slider: the rate function solves for the position, with the last

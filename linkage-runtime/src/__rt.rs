@@ -13,6 +13,7 @@ pub use crate::chord::{
     Triangle, chord, elbow_chord, reach_chord, regular_chord, regular_elbow_chord, regular_reach_chord, solvable,
 };
 pub use crate::error::{finite, finite_matrix};
+pub use crate::lanes::{Batch, Lanes, Values};
 pub use crate::limits::{Bound, Search, limits};
 pub use crate::linear::{Factorization, is_nonzero, product_of_pivots, regular};
 pub use crate::motion::{
@@ -22,8 +23,8 @@ pub use crate::position::newton_group;
 pub use crate::scalar::unit;
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
-    AnyBranch, Assembly, Column, D, Elbow, Group, Limits, Matrix, Mechanism, OutputMotion, PointMotion, PositionError,
-    Real, Slider, Slope, Solution, newton, newton_any_branch, real,
+    AnyBranch, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion, PointMotion,
+    PositionError, Real, Slider, Slope, Solution, lane, newton, newton_any_branch, real,
 };
 
 /// The types of emitted derivations.

@@ -123,7 +123,7 @@ fn relative<T: Real>(magnitude: T, scale: T) -> f64 {
 fn is_in_range<T: Real>(product: T) -> bool {
     let epsilon = T::default_epsilon();
     let tiny = epsilon * epsilon * epsilon * epsilon;
-    product > tiny && product < T::one() / tiny
+    (product > tiny) & (product < T::one() / tiny)
 }
 
 /// If a factor, a difference of two squares, is less than this fraction of the larger one, it is computed exactly.
@@ -153,9 +153,9 @@ impl<T: Real> Triangle<T> {
     fn is_open(&self) -> bool {
         let Self { reach_squared, distance_squared, factors: [low, high], .. } = *self;
         let part = real::<T>(CANCELLATION);
-        low > part * reach_squared
-            && high > part * distance_squared
-            && distance_squared > T::default_epsilon() * reach_squared
+        (low > part * reach_squared)
+            & (high > part * distance_squared)
+            & (distance_squared > T::default_epsilon() * reach_squared)
     }
 }
 
@@ -191,6 +191,14 @@ pub fn elbow_chord<T: Real, S: Side>(
         flat_chord(mechanism, group, p, q, x, y, scale)?
     };
     Ok((side.signed(root), is_plain))
+}
+
+/// The [`regular_elbow_chord`] without branches; false if that computes it in another way or has none.
+#[inline(always)]
+pub fn elbow_chord_in_lane<T: Real, S: Side>(triangle: Triangle<T>, side: S) -> (T, bool) {
+    let [low, high] = triangle.factors;
+    let product = low * high;
+    (product.sqrt() * sign(side), triangle.is_open() & is_in_range(product))
 }
 
 /// The [`elbow_chord`] of a triangle whose links have finite directions and whose determinant is larger than its
@@ -237,12 +245,37 @@ pub fn regular_chord<T: Real, S: Side>(factors: [T; 2], radius: T, side: S) -> O
     Some(side.signed(root))
 }
 
+/// The [`regular_chord`] without branches; false if that computes it in other units or has none.
+#[inline(always)]
+pub fn chord_in_lane<T: Real, S: Side>([low, high]: [T; 2], side: S) -> (T, bool) {
+    let radicand = low * high;
+    (radicand.sqrt() * sign(side), is_in_range(radicand))
+}
+
+/// The [`regular_reach_chord`] without branches; false if that computes it in other units or has none.
+#[inline(always)]
+pub fn reach_chord_in_lane<T: Real, S: Side>(factors: [T; 2], radius: T, scale: T, side: S) -> (T, bool) {
+    let (chord, is_regular) = chord_in_lane(factors, side);
+    (chord, is_regular & is_apart(radius, scale))
+}
+
+/// 1 or -1: a factor, since a choice of the side would divide the loop.
+#[inline(always)]
+fn sign<T: Real, S: Side>(side: S) -> T {
+    side.signed(T::one())
+}
+
+/// True if a distance is larger than its rounding error; `scale` is the sum of the magnitudes of its terms.
+#[inline(always)]
+fn is_apart<T: Real>(radius: T, scale: T) -> bool {
+    radius > real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scale
+}
+
 /// The [`reach_chord`] of two positive factors and a distance `radius` larger than its rounding error, else `None`.
 /// `scale` is the sum of the magnitudes of the terms of the distance.
 #[inline]
 pub fn regular_reach_chord<T: Real, S: Side>(factors: [T; 2], radius: T, scale: T, side: S) -> Option<T> {
-    let is_apart = radius > real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scale;
-    if is_apart { regular_chord(factors, radius, side) } else { None }
+    if is_apart(radius, scale) { regular_chord(factors, radius, side) } else { None }
 }
 
 /// The chord of a triangle that is nearly flat, does not exist, or is very large or small.

@@ -4,6 +4,7 @@
 //! - [`position`]: damped Newton's method, which returns an error if it does not converge;
 //! - [`mod@limits`]: the range of an input on one assembly branch;
 //! - [`continuation`]: path following through dead points and change points;
+//! - [`lanes`]: many positions at once;
 //! - [`accuracy`]: position solvers selected by type, with their accuracy and time;
 //! - [`PositionError`], [`PathError`], [`InputError`]: the errors, with mechanism, residual and distance from a
 //!   singularity;
@@ -20,6 +21,7 @@ pub mod __rt;
 #[doc(hidden)]
 pub mod __shared;
 pub mod accuracy;
+mod arctangent;
 mod branch;
 mod chord;
 mod column;
@@ -27,13 +29,18 @@ pub mod continuation;
 pub mod derivation;
 mod dim;
 mod error;
+mod hypotenuse;
 #[doc(hidden)]
 pub mod jacobian;
+#[doc(hidden)]
+pub mod lane;
+pub mod lanes;
 pub mod limits;
 mod linear;
 mod matrix;
 mod mechanism;
 mod motion;
+mod native;
 mod newton;
 pub mod position;
 mod scalar;

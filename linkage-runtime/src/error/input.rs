@@ -55,6 +55,17 @@ pub enum InputError {
         /// The distance beyond the stop, in the unit of the stopped quantity.
         gap: f64,
     },
+    /// A column of a batch has another number of lanes than the others.
+    ColumnLength {
+        /// The mechanism.
+        mechanism: &'static str,
+        /// The column.
+        column: &'static str,
+        /// Its length.
+        length: usize,
+        /// The number of lanes.
+        expected: usize,
+    },
 }
 
 impl fmt::Display for InputError {
@@ -80,6 +91,9 @@ impl fmt::Display for InputError {
                 write!(f, "{scene} starts with a {quantity} of {coordinate} that differs by {gap:.1e} from its drive")
             }
             Self::BeyondStop { scene, stop, gap } => write!(f, "{scene} starts {gap:.1e} beyond the {stop}"),
+            Self::ColumnLength { mechanism, column, length, expected } => {
+                write!(f, "the column {column} of a batch of {mechanism} has {length} entries instead of {expected}")
+            }
         }
     }
 }
