@@ -225,6 +225,7 @@ use proc_macro::TokenStream;
 /// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), where eta are the terms without third derivatives, for any number of inputs; `point_jerks`, `output_jerks` |
 /// | `velocity_ratio_derivatives` | `velocity_ratio_derivatives(&pose)`: d2u/dv dv, for each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
 /// | `sensitivity` | `sensitivity(&pose)`: du/dp = -J^-1 `Psi_p` at fixed inputs, one column for each parameter; `point_sensitivities`, `output_sensitivities`: the total derivatives dl/dp = `l_p` + `l_u` du/dp |
+/// | `lanes` | `batch(design, v, branch, v', v'')`: many positions at once, from columns or single numbers; `NAMEColumns` names the columns to find, and `Batch::run` fills them with the bits of `kinematics` and `full_kinematics`. Groups without closed form, user functions, and the functions tan, asin, acos, atan, exp and ln are computed one position after the other |
 ///
 /// ```
 /// linkage::linkage! {
@@ -565,7 +566,7 @@ use proc_macro::TokenStream;
 /// | `jacobian`, `jacobian_unknowns`, `jacobian_inputs` | `Psi_q`, J and A |
 /// | `determinant`, `block_determinants` | det J; the determinants of its blocks in the order of solution |
 /// | `gamma(&pose, &q')`, `solve_jacobian(&pose, &r)` | the quadratic velocity term; J^-1 r |
-/// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and those of points and outputs | with a `derive` statement |
+/// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and those of points and outputs, `batch` | with a `derive` statement |
 /// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` prints it as a document |
 ///
 /// These functions return `PositionError`. `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates

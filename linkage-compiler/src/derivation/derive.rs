@@ -82,8 +82,8 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     };
     for request in &mechanism.requests {
         match request {
-            // Limits are derived from the assembly when they are emitted.
-            Request::Limits => {}
+            // Limits are derived from the assembly when they are emitted; lanes have the formulas of `kinematics`.
+            Request::Limits | Request::Lanes => {}
             Request::Jerk => derivation.derive_jerk(),
             Request::VelocityRatioDerivatives => derivation.derive_ratio_derivatives(),
             Request::Sensitivity => derivation.derive_sensitivity(mechanism),

@@ -32,10 +32,9 @@ fn operand(value: &Expression, at_least: Binding) -> TokenStream {
 /// The precedence of an expression.
 fn binding(value: &Expression) -> Binding {
     match value {
-        Expression::Sum(_) | Expression::Closure { .. } => Binding::Sum,
-        Expression::Product(_) | Expression::Quotient(_) => Binding::Product,
+        Expression::Sum(_) | Expression::All(_) | Expression::Closure { .. } => Binding::Sum,
+        Expression::Product(_) | Expression::Quotient(_) | Expression::Square(_) => Binding::Product,
         Expression::Number(number) if parts_of_pi(*number).is_some() => Binding::Product,
-        Expression::Square(base) if matches!(**base, Expression::Name(_)) => Binding::Product,
         // -a * b parses as (-a) * b, which is equal and costs the same.
         Expression::Negative(inside) => match binding(inside) {
             Binding::Product => Binding::Product,
@@ -61,12 +60,10 @@ fn written(value: &Expression) -> TokenStream {
             let (above, below) = (operand(&parts[0], Binding::Product), operand(&parts[1], Binding::Prefix));
             quote!(#above / #below)
         }
+        // The operand is a name or a number: lowering gives all others a line.
         Expression::Square(base) => {
-            let written = operand(base, Binding::Atom);
-            match **base {
-                Expression::Name(_) => quote!(#written * #written),
-                _ => quote!(#written.powi(2)),
-            }
+            let (left, right) = (operand(base, Binding::Product), operand(base, Binding::Prefix));
+            quote!(#left * #right)
         }
         Expression::Negative(inside) => {
             let inside = operand(inside, Binding::Product);
@@ -78,6 +75,7 @@ fn written(value: &Expression) -> TokenStream {
             let others = arguments.iter().skip(1);
             quote!(#first.#name(#(#others),*))
         }
+        Expression::All(conditions) => quote!(#(#conditions)&*),
         Expression::Text(text) => string(text).into_token_stream(),
         Expression::Count(count) => literal(*count).into_token_stream(),
         Expression::Constant(path) if path.starts_with("Self::") => parsed(path),
@@ -205,7 +203,9 @@ impl ToTokens for Statement {
                 several => quote!(if !(#(#several)&&*) { #(#inside)* }),
             },
             // Lowering has replaced these by calls.
-            Self::Check { .. } | Self::CheckPosition | Self::CheckKinematics { .. } => TokenStream::new(),
+            Self::Check { .. } | Self::CheckPosition | Self::CheckKinematics { .. } | Self::LetAccepted(..) => {
+                TokenStream::new()
+            }
         });
     }
 }
@@ -241,6 +241,7 @@ impl ToTokens for Type {
         tokens.extend(match self {
             Self::Scalar => quote!(T),
             Self::Text => quote!(&'static str),
+            Self::Flag => quote!(bool),
             Self::Itself => quote!(Self),
             Self::Own(name) => {
                 let name = ident(name);
@@ -346,6 +347,8 @@ fn method(function: Function) -> &'static str {
     match function {
         Function::Sin => "sine",
         Function::Cos => "cosine",
+        Function::Atan2 => "arctangent2",
+        Function::Hypot => "hypotenuse",
         _ => function.operation().name,
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
         Access::Hidden => quote!(#[doc(hidden)] pub),
         Access::PublicLayer => quote!(#[inline(always)] #[must_use] pub),
         Access::Inlined => quote!(#[inline]),
-        Access::Layer => quote!(#[inline(always)]),
+        Access::Layer | Access::Lane => quote!(#[inline(always)]),
         Access::Cold => quote!(#[cold]),
     };
     let body = match body {

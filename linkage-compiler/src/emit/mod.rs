@@ -5,6 +5,7 @@ mod expression;
 mod external;
 mod functions;
 mod items;
+mod lanes;
 mod motion;
 mod names;
 mod scene;
@@ -17,7 +18,7 @@ use quote::quote;
 
 use crate::derivation::Derivation;
 use crate::lower::Code;
-use crate::model::Mechanism;
+use crate::model::{Mechanism, Request};
 use crate::program::{self, Function, Operations, Program};
 use names::string;
 pub use text::text;
@@ -47,7 +48,12 @@ pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
 pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let mut tokens = types::of_driver(program, derivation, root);
-    let (of_pose, implemented) = (traits::of_pose(program, derivation), traits::of_driver(program, derivation));
+    let (of_pose, mut implemented) = (traits::of_pose(program, derivation), traits::of_driver(program, derivation));
+    if mechanism.requests.contains(&Request::Lanes) {
+        let [columns, lanes] = lanes::of_driver(program, derivation);
+        tokens.extend(columns);
+        implemented.extend(lanes);
+    }
     let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");
     tokens.extend(block(&driver.name, kinematics, &program.functions, root, &quote!(#of_pose #implemented)));

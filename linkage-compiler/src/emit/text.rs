@@ -22,7 +22,7 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
         let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
         let access = match function.access {
             Access::Public | Access::PublicInlined | Access::Hidden | Access::PublicLayer => "",
-            Access::Inlined | Access::Layer => "inlined ",
+            Access::Inlined | Access::Layer | Access::Lane => "inlined ",
             Access::Cold => "cold ",
         };
         let or_error = if function.is_fallible { " or an error" } else { "" };
@@ -55,6 +55,7 @@ fn statement(statement: &Statement) -> String {
         }
         Statement::Check { what, values, .. } => format!("check {what}: {}", expressions(values)),
         Statement::CheckPosition => "check the position".to_owned(),
+        Statement::LetAccepted(to, _) => format!("{} = all checks", pattern(to)),
         Statement::CheckKinematics { otherwise, .. } => format!("check all, else return {}", expression(otherwise)),
     }
 }
@@ -115,6 +116,7 @@ fn expression(value: &Expression) -> String {
         Expression::Elementary(function, arguments) => {
             format!("{}({})", function.operation().name, expressions(arguments))
         }
+        Expression::All(conditions) => conditions.iter().map(expression).collect::<Vec<_>>().join(" and "),
         Expression::Text(text) => format!("\"{text}\""),
         Expression::Count(count) => count.to_string(),
         Expression::Constant(path) => (*path).to_owned(),

@@ -74,7 +74,7 @@ fn coordinates_of(derived: &Derived, derivation: &Derivation) -> Vec<TokenStream
                 return Some(quote!(self.#field));
             }
             let field = ident(angles.get(&coordinate.value)?);
-            Some(quote!(self.#field.angle()))
+            Some(quote!(self.#field.im.arctangent2(self.#field.re)))
         })
         .collect()
 }

@@ -2,8 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rustc_hash::FxHashSet;
-
+use super::finished::Finished;
 use super::lines::{Writer, direction_name};
 use super::names::Names;
 use super::schedule::Schedule;
@@ -44,6 +43,8 @@ pub struct Code {
     pub uses: BTreeSet<String>,
     /// The user functions that it calls.
     pub externals: BTreeSet<ExternalId>,
+    /// True if its formulas need no iteration, no pivoting and no function of the user or of a library.
+    pub is_branch_free: bool,
 }
 
 /// Lowers a function.
@@ -92,7 +93,8 @@ fn body(body: Body, is_layer: bool, context: &Context) -> Code {
     let before = needed(before, &mut uses);
     let mut statements: Vec<Statement> = before.into_iter().chain(computed).chain(after).collect();
     let value = unnamed(&mut statements, value);
-    Code { statements, value, operations, uses, externals: formulas.externals }
+    let Formulas { externals, is_branch_free, .. } = formulas;
+    Code { statements, value, operations, uses, externals, is_branch_free }
 }
 
 /// Returns the value of the last `let` instead of its name, if the function returns that name.
@@ -127,15 +129,18 @@ fn needed(statements: Vec<Statement>, uses: &mut BTreeSet<String>) -> Vec<Statem
 }
 
 /// A lowered kernel.
-struct Formulas<'a> {
+pub(super) struct Formulas<'a> {
     statements: Vec<Statement>,
     results: Vec<Expression>,
     /// For each result, true if it is finite if the checks before it pass.
-    is_proven: Vec<bool>,
-    dyads: Vec<Option<BlockId>>,
+    pub(super) is_proven: Vec<bool>,
+    pub(super) dyads: Vec<Option<BlockId>>,
     /// The names of the flags that are true if the triangle of a dyad is well conditioned.
-    well_conditioned: Vec<String>,
-    taken: Taken<'a>,
+    pub(super) well_conditioned: Vec<String>,
+    /// The checks of a kernel that only flags failed ones.
+    pub(super) flags: Vec<Expression>,
+    is_branch_free: bool,
+    pub(super) taken: Taken<'a>,
     externals: BTreeSet<ExternalId>,
     operations: Operations,
 }
@@ -149,6 +154,8 @@ impl<'a> Formulas<'a> {
             is_proven: Vec::new(),
             dyads: Vec::new(),
             well_conditioned: Vec::new(),
+            flags: Vec::new(),
+            is_branch_free: true,
             taken: Taken::new(context.reserved),
             externals: BTreeSet::new(),
             operations: Operations::default(),
@@ -185,7 +192,7 @@ impl<'a> Formulas<'a> {
         writer.well_conditioned = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
         writer.write();
         let results = writer.all_signed(&schedule.results);
-        let Writer { mut statements, names, externals, well_conditioned, .. } = writer;
+        let Writer { mut statements, names, externals, well_conditioned, flags, .. } = writer;
         parameters_where_used(&mut statements);
         let mut taken = names.taken;
         let results = kernel.results.iter().zip(results).map(|(output, result)| match &output.name {
@@ -198,8 +205,19 @@ impl<'a> Formulas<'a> {
         });
         let results = results.collect();
         let (dyads, well_conditioned) = (kernel.dyads.clone(), well_conditioned.into_values().flatten().collect());
-        let operations = schedule.operations();
-        Self { statements, results, is_proven, dyads, well_conditioned, taken, externals, operations }
+        let (operations, is_branch_free) = (schedule.operations(), schedule.is_branch_free());
+        Self {
+            statements,
+            results,
+            is_proven,
+            dyads,
+            well_conditioned,
+            flags,
+            is_branch_free,
+            taken,
+            externals,
+            operations,
+        }
     }
 }
 
@@ -224,7 +242,7 @@ fn parameters_where_used(statements: &mut Vec<Statement>) {
 }
 
 /// True if a value is neither a name nor zero nor one.
-fn is_formula(value: &Expression) -> bool {
+pub(super) fn is_formula(value: &Expression) -> bool {
     match value {
         Expression::Name(_) => false,
         Expression::Number(number) => !number.is_zero() && !number.is_one(),
@@ -298,166 +316,4 @@ fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Sch
         };
         statements.push(Statement::Let(pattern, value));
     }
-}
-
-/// Replaces indices of results and local values by their expressions and names.
-struct Finished<'a> {
-    results: &'a [Expression],
-    locals: &'a [String],
-}
-
-impl Finished<'_> {
-    fn statement(&self, statement: Statement, formulas: &Formulas, out: &mut Vec<Statement>) {
-        match statement {
-            Statement::Let(pattern, value) => {
-                out.push(Statement::Let(self.pattern(pattern), self.expression(value)));
-            }
-            Statement::Do(value) => out.push(Statement::Do(self.expression(value))),
-            Statement::Assign(place, value) => {
-                out.push(Statement::Assign(self.expression(place), self.expression(value)));
-            }
-            Statement::Check { what, values, detail } => {
-                let is_proven = |value: &Expression| match value {
-                    Expression::Result(place) => formulas.is_proven.get(*place).copied().unwrap_or_default(),
-                    _ => false,
-                };
-                let unproven = values.into_iter().filter(|value| !is_proven(value)).collect();
-                let values = self.expressions(unproven);
-                out.extend(check(&what, values, detail));
-            }
-            Statement::CheckPosition => self.check_position(formulas, out),
-            Statement::CheckKinematics { determinants, otherwise } => {
-                self.check_kinematics(determinants, otherwise, formulas, out);
-            }
-            Statement::Return(value) => out.push(Statement::Return(self.expression(value))),
-            Statement::LetElse(pattern, value, otherwise) => {
-                out.push(Statement::LetElse(self.pattern(pattern), self.expression(value), otherwise));
-            }
-            Statement::Unless(conditions, inside) => {
-                let mut lines = Vec::new();
-                for statement in inside {
-                    self.statement(statement, formulas, &mut lines);
-                }
-                out.push(Statement::Unless(self.expressions(conditions), lines));
-            }
-        }
-    }
-
-    /// Adds the checks of a position; numbers of dyads are checked only if a triangle is not well conditioned.
-    fn check_position(&self, formulas: &Formulas, out: &mut Vec<Statement>) {
-        let unproven = self.results.iter().zip(&formulas.dyads).zip(&formulas.is_proven);
-        let unproven = unproven.filter(|(_, is_proven)| !**is_proven).map(|(value, _)| value);
-        let (of_dyads, others): (Vec<_>, Vec<_>) = unproven.partition(|(_, dyad)| dyad.is_some());
-        let [of_dyads, others] = [of_dyads, others]
-            .map(|values| check("the position", values.into_iter().map(|(value, _)| value.clone()).collect(), None));
-        out.extend(others);
-        let well_conditioned: Vec<Expression> = formulas.well_conditioned.iter().map(Expression::name).collect();
-        if well_conditioned.is_empty() {
-            out.extend(of_dyads);
-        } else if let Some(of_dyads) = of_dyads {
-            out.push(Statement::Unless(well_conditioned, vec![of_dyads]));
-        }
-    }
-
-    /// Adds the check of a position and its motion. The directions of dyads are finite: their chords are regular.
-    fn check_kinematics(
-        &self,
-        determinants: Vec<[Expression; 2]>,
-        otherwise: Expression,
-        formulas: &Formulas,
-        out: &mut Vec<Statement>,
-    ) {
-        let of_determinants =
-            determinants.into_iter().map(|pair| Expression::runtime("is_nonzero", self.expressions(pair.to_vec())));
-        let mut conditions: Vec<Expression> = of_determinants.collect();
-        let numbers = self.results.iter().zip(&formulas.dyads).zip(&formulas.is_proven);
-        let unproven = numbers.filter(|((_, dyad), is_proven)| dyad.is_none() && !**is_proven);
-        let numbers = to_check(unproven.map(|((value, _), _)| value.clone()).collect());
-        if !numbers.is_empty() {
-            // A sum is finite only if all its terms are. Where finite terms overflow, `otherwise` finds no error.
-            let sum = Expression::Sum(numbers.into_iter().map(|number| (false, number)).collect());
-            conditions.push(sum.method("is_finite", []));
-        }
-        if !conditions.is_empty() {
-            out.push(Statement::Unless(conditions, vec![Statement::Return(otherwise)]));
-        }
-    }
-
-    fn expressions(&self, values: Vec<Expression>) -> Vec<Expression> {
-        values.into_iter().map(|value| self.expression(value)).collect()
-    }
-
-    fn expression(&self, value: Expression) -> Expression {
-        use Expression as E;
-        match value {
-            E::Result(place) => self.results[place].clone(),
-            E::Local(place) => E::Name(self.locals[place].clone()),
-            E::Sum(terms) => {
-                E::Sum(terms.into_iter().map(|(negative, term)| (negative, self.expression(term))).collect())
-            }
-            E::Product(factors) => E::Product(self.expressions(factors)),
-            E::Quotient(parts) => E::Quotient(Box::new(parts.map(|part| self.expression(part)))),
-            E::Square(value) => E::Square(Box::new(self.expression(*value))),
-            E::Negative(value) => E::Negative(Box::new(self.expression(*value))),
-            E::Elementary(function, arguments) => E::Elementary(function, self.expressions(arguments)),
-            E::Field(value, name) => E::Field(Box::new(self.expression(*value)), name),
-            E::Index(value, place) => E::Index(Box::new(self.expression(*value)), place),
-            E::List(values) => E::List(self.expressions(values)),
-            E::Repeated(value, count) => E::Repeated(Box::new(self.expression(*value)), count),
-            E::Tuple(values) => E::Tuple(self.expressions(values)),
-            E::Struct(of, members, rest) => {
-                let members = members.into_iter().map(|(name, value)| (name, self.expression(value))).collect();
-                E::Struct(of, members, rest.map(|rest| Box::new(self.expression(*rest))))
-            }
-            E::Runtime(name, arguments) => E::Runtime(name, self.expressions(arguments)),
-            E::Associated(of, name, arguments) => E::Associated(of, name, self.expressions(arguments)),
-            E::Method(value, name, arguments) => {
-                E::Method(Box::new(self.expression(*value)), name, self.expressions(arguments))
-            }
-            E::Try(value) => E::Try(Box::new(self.expression(*value))),
-            E::Borrowed(value) => E::Borrowed(Box::new(self.expression(*value))),
-            E::Dereferenced(value) => E::Dereferenced(Box::new(self.expression(*value))),
-            E::Closure { arguments, statements, value, moves } => {
-                E::Closure { arguments, statements, value: Box::new(self.expression(*value)), moves }
-            }
-            E::Block(statements, value) => E::Block(statements, Box::new(self.expression(*value))),
-            finished @ (E::Name(_) | E::Number(_) | E::Text(_) | E::Count(_) | E::Constant(_)) => finished,
-        }
-    }
-
-    fn pattern(&self, pattern: Pattern) -> Pattern {
-        let all = |patterns: Vec<Pattern>| patterns.into_iter().map(|pattern| self.pattern(pattern)).collect();
-        match pattern {
-            Pattern::Local(place) => Pattern::Name(self.locals[place].clone()),
-            Pattern::Mutable(inside) => Pattern::Mutable(Box::new(self.pattern(*inside))),
-            Pattern::List(patterns) => Pattern::List(all(patterns)),
-            Pattern::Tuple(patterns) => Pattern::Tuple(all(patterns)),
-            finished => finished,
-        }
-    }
-}
-
-/// Each value once, without zero and one.
-fn to_check(values: Vec<Expression>) -> Vec<Expression> {
-    let mut seen = FxHashSet::default();
-    let values = values.into_iter().filter(|value| match value {
-        Expression::Name(name) => seen.insert(name.clone()),
-        other => is_formula(other),
-    });
-    values.collect()
-}
-
-/// `finite(NAME, what, [values])?;`; `None` if all values are zero or one.
-fn check(what: &str, values: Vec<Expression>, detail: Option<Expression>) -> Option<Statement> {
-    let values = to_check(values);
-    if values.is_empty() {
-        return None;
-    }
-    let check = [Expression::mechanism(), Expression::text(what), Expression::List(values)];
-    let check = Expression::runtime("finite", check);
-    let check = match detail {
-        Some(detail) => check.method("or_else", [detail]),
-        None => check,
-    };
-    Some(Statement::Do(check.tried()))
 }

@@ -6,10 +6,10 @@ use super::names::Names;
 use super::schedule::{Circular, Line, Schedule};
 use super::stretches;
 use super::value::{Signed, Value, ValueId};
-use crate::derivation::{ChordGeometry, Derivation};
+use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function, SymbolId};
-use crate::ids::{BlockId, Id};
-use crate::program::{Expression, Kernel, Pattern, Statement, Type, call_of};
+use crate::ids::BlockId;
+use crate::program::{Expression, Failure, Kernel, Pattern, Statement, Type, call_of};
 
 /// Converts the lines of one schedule.
 pub(super) struct Writer<'a, 'n> {
@@ -25,6 +25,8 @@ pub(super) struct Writer<'a, 'n> {
     pub(super) externals: BTreeSet<ExternalId>,
     /// For each dyad with unproven results, the name of the flag that is true if its triangle is well conditioned.
     pub(super) well_conditioned: BTreeMap<BlockId, Option<String>>,
+    /// The checks, if a failed one is only flagged.
+    pub(super) flags: Vec<Expression>,
     /// The factorisations, by block.
     factors: BTreeMap<BlockId, String>,
 }
@@ -46,6 +48,7 @@ impl<'a, 'n> Writer<'a, 'n> {
             statements: Vec::new(),
             externals: BTreeSet::new(),
             well_conditioned: BTreeMap::new(),
+            flags: Vec::new(),
             factors: BTreeMap::new(),
         }
     }
@@ -54,6 +57,31 @@ impl<'a, 'n> Writer<'a, 'n> {
         let schedule: &'a Schedule = self.schedule;
         for line in &schedule.lines {
             self.line(line);
+        }
+        if self.is_flagged() {
+            for &id in schedule.used() {
+                self.flag_range(schedule.value(id));
+            }
+        }
+    }
+
+    /// True if a failed check is only flagged.
+    pub(super) fn is_flagged(&self) -> bool {
+        matches!(self.kernel.failure, Failure::Flag)
+    }
+
+    /// Flags arguments for which the form of a function without branches has another value.
+    fn flag_range(&mut self, value: &'a Value) {
+        let Value::Call(function, arguments) = value else { return };
+        let check = match function {
+            Function::Sin | Function::Cos => "lane::is_moderate",
+            Function::Atan2 => "lane::has_arctangent2",
+            Function::Hypot => "lane::has_hypotenuse",
+            _ => return,
+        };
+        let check = Expression::runtime(check, self.all_signed(arguments));
+        if !self.flags.contains(&check) {
+            self.flags.push(check);
         }
     }
 
@@ -75,9 +103,20 @@ impl<'a, 'n> Writer<'a, 'n> {
                 }
             }
             Line::SineCosine(one) => {
-                let call = self.signed(one.angle).method("sine_cosine", []);
+                let angle = self.signed(one.angle);
+                let call = match self.is_flagged() {
+                    true => Expression::runtime("lane::sine_cosine", [angle]),
+                    false => angle.method("sine_cosine", []),
+                };
                 let pair = self.pair(one);
                 self.let_pattern(pair, call);
+            }
+            Line::SinesCosines(several) if self.is_flagged() => {
+                for one in several {
+                    let call = Expression::runtime("lane::sine_cosine", [self.signed(one.angle)]);
+                    let pair = self.pair(one);
+                    self.let_pattern(pair, call);
+                }
             }
             Line::SinesCosines(several) => {
                 let angles: Vec<Expression> = several.iter().map(|one| self.signed(one.angle)).collect();
@@ -118,12 +157,12 @@ impl<'a, 'n> Writer<'a, 'n> {
                 let name = self.names.taken.unique("factors");
                 let solves = |line: &Line| matches!(line, Line::Solve { block: other, .. } if other == block);
                 let is_used = self.schedule.lines.iter().any(solves);
-                match (self.kernel.otherwise.clone(), is_used) {
-                    (None, true) => self.let_name(name.clone(), call.tried()),
-                    (None, false) => self.statements.push(Statement::Do(call.tried())),
-                    (Some(otherwise), _) => {
+                match (&self.kernel.failure, is_used) {
+                    (Failure::Error | Failure::Flag, true) => self.let_name(name.clone(), call.tried()),
+                    (Failure::Error | Failure::Flag, false) => self.statements.push(Statement::Do(call.tried())),
+                    (Failure::Return(otherwise), _) => {
                         let pattern = if is_used { Pattern::Name(name.clone()) } else { Pattern::Ignored };
-                        self.statements.push(Statement::LetElse(pattern, call.method("ok", []), otherwise));
+                        self.statements.push(Statement::LetElse(pattern, call.method("ok", []), otherwise.clone()));
                     }
                 }
                 self.factors.insert(*block, name);
@@ -140,6 +179,10 @@ impl<'a, 'n> Writer<'a, 'n> {
             }
             Line::Solvable { block, determinant, numerators, scales } => {
                 let determinant = self.signed(*determinant);
+                if self.is_flagged() {
+                    self.flags.push(Expression::runtime("lane::is_solvable", [determinant]));
+                    return;
+                }
                 let [numerators, scales] = [numerators, scales].map(|values| Expression::List(self.all_signed(values)));
                 let call = self.group_call("solvable", *block, [determinant, numerators, scales]);
                 self.statements.push(Statement::Do(call.tried()));
@@ -189,68 +232,6 @@ impl<'a, 'n> Writer<'a, 'n> {
         self.names.get(self.schedule, value).filter(|_| is_known).map(str::to_owned)
     }
 
-    fn chord(
-        &mut self,
-        (block, symbol): (BlockId, SymbolId),
-        factors: [Signed; 2],
-        size: Signed,
-        of: ChordGeometry<Signed>,
-    ) {
-        let factors = Expression::List(factors.map(|value| self.signed(value)).to_vec());
-        let size = self.signed(size);
-        let of = of.map(|value| self.signed(value));
-        let side = Expression::name(self.branch).field(self.derivation.blocks[block].branch(self.derivation));
-        let name = Pattern::Name(self.names.introduce(symbol));
-        let list = |values: [Expression; 2]| Expression::List(values.to_vec());
-        let otherwise = self.kernel.otherwise.clone();
-        let (pattern, call) = match of {
-            ChordGeometry::Triangle { links, line, distance_squared, scale } => {
-                let members = [
-                    ("links", list(links)),
-                    ("line", list(line)),
-                    ("scale", scale),
-                    ("reach_squared", size),
-                    ("distance_squared", distance_squared),
-                    ("factors", factors),
-                ];
-                let members = members.map(|(name, value)| (name.to_owned(), value));
-                let triangle = Expression::structure(Type::Runtime("Triangle", Vec::new()), members);
-                match otherwise {
-                    Some(_) => (name, Expression::runtime("regular_elbow_chord", [triangle, side])),
-                    None => {
-                        let pattern = Pattern::Tuple(vec![name, self.well_conditioned(block)]);
-                        (pattern, self.group_call("elbow_chord", block, [triangle, side]))
-                    }
-                }
-            }
-            ChordGeometry::Circle { scales, may_cancel } => {
-                let chord = if may_cancel { "reach_chord" } else { "chord" };
-                (name, self.group_call(chord, block, [factors, size, list(scales), side]))
-            }
-            ChordGeometry::RegularCircle { scale: None } => {
-                (name, Expression::runtime("regular_chord", [factors, size, side]))
-            }
-            ChordGeometry::RegularCircle { scale: Some(scale) } => {
-                (name, Expression::runtime("regular_reach_chord", [factors, size, scale, side]))
-            }
-        };
-        match otherwise {
-            Some(otherwise) => self.statements.push(Statement::LetElse(pattern, call, otherwise)),
-            None => self.let_pattern(pattern, call.tried()),
-        }
-    }
-
-    /// The pattern of the flag that is true if the triangle of a dyad is well conditioned.
-    fn well_conditioned(&mut self, block: BlockId) -> Pattern {
-        match self.well_conditioned.get_mut(&block) {
-            Some(well_conditioned) => {
-                let name = self.names.taken.unique(&format!("is_well_conditioned_{}", block.number()));
-                Pattern::Name(well_conditioned.insert(name).clone())
-            }
-            None => Pattern::Ignored,
-        }
-    }
-
     /// The function that Newton's method evaluates: the residuals of a block, their scales, and its Jacobian by
     /// columns.
     fn evaluation(&mut self, unknowns: &[SymbolId], system: &'a Schedule) -> Expression {
@@ -275,7 +256,7 @@ impl<'a, 'n> Writer<'a, 'n> {
     }
 
     /// A call of a runtime function that names the mechanism and the group in its errors.
-    fn group_call(
+    pub(super) fn group_call(
         &self,
         function: &'static str,
         block: BlockId,
@@ -298,7 +279,7 @@ impl<'a, 'n> Writer<'a, 'n> {
         self.let_pattern(Pattern::Name(name), value);
     }
 
-    fn let_pattern(&mut self, pattern: Pattern, value: Expression) {
+    pub(super) fn let_pattern(&mut self, pattern: Pattern, value: Expression) {
         self.statements.push(Statement::Let(pattern, value));
     }
 
@@ -409,13 +390,32 @@ impl<'a, 'n> Writer<'a, 'n> {
             Value::Symbol(symbol) => (false, Expression::Name(self.names.symbol(*symbol))),
             Value::Constant(number) => (false, Expression::Number(*number)),
             Value::Sum(terms) => (false, self.sum(terms)),
-            Value::Call(function, arguments) => (false, Expression::Elementary(*function, self.all_signed(arguments))),
+            Value::Call(function, arguments) => {
+                let arguments = self.all_signed(arguments);
+                let in_lane = lane_form(*function).filter(|_| self.is_flagged());
+                let call = match in_lane {
+                    Some(name) => Expression::runtime(name, arguments),
+                    None => Expression::Elementary(*function, arguments),
+                };
+                (false, call)
+            }
             // Directions and user functions have lines of their own, which name them.
             Value::Direction(function, _) => (false, Expression::name(function.operation().name)),
             Value::External(external, _) => {
                 (false, Expression::name(self.derivation.graph.external_name(external).unwrap_or_default()))
             }
         }
+    }
+}
+
+/// The form without branches of a function that has one of its own.
+fn lane_form(function: Function) -> Option<&'static str> {
+    match function {
+        Function::Sin => Some("lane::sine"),
+        Function::Cos => Some("lane::cosine"),
+        Function::Atan2 => Some("lane::arctangent2"),
+        Function::Hypot => Some("lane::hypotenuse"),
+        _ => None,
     }
 }
 

@@ -6,7 +6,9 @@
 //! results that are always finite (`proven`). Then lines get names (`names`) and become statements (`lines`), and long
 //! sequences are divided into blocks (`stretches`).
 
+mod chords;
 mod factors;
+mod finished;
 mod function;
 mod joined;
 mod lines;

@@ -18,6 +18,8 @@ const SIDE_BY_SIDE: usize = 4;
 pub(super) struct Ordering {
     pub(super) values: Vec<Value>,
     uses: Vec<usize>,
+    /// The values that are squared: x * x needs a name.
+    squared: Vec<bool>,
     /// The nesting depth of a value; zero if it has a name, `None` before it is ordered.
     height: Vec<Option<usize>>,
     pub(super) lines: Vec<Line>,
@@ -29,7 +31,8 @@ pub(super) struct Ordering {
 
 impl Ordering {
     pub(super) fn new(graph: &Graph, values: Vec<Value>, roots: &[Signed]) -> Self {
-        let (mut uses, mut height) = (vec![0; values.len()], vec![None; values.len()]);
+        let (mut uses, mut squared) = (vec![0; values.len()], vec![false; values.len()]);
+        let mut height = vec![None; values.len()];
         let (mut circular, mut externals) = (BTreeMap::new(), FxHashMap::default());
         let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
         while let Some(id) = stack.pop() {
@@ -57,11 +60,12 @@ impl Ordering {
                         *place = Some(id);
                     }
                 }
+                Value::Square(base) => squared[base.0] = true,
                 _ => {}
             }
             value.each_part(|part| stack.push(part));
         }
-        Self { height, values, uses, lines: Vec::new(), circular, externals }
+        Self { height, values, uses, squared, lines: Vec::new(), circular, externals }
     }
 
     /// Every value that the roots depend on, ascending.
@@ -105,7 +109,7 @@ impl Ordering {
                     height = height.max(inside + 1);
                 }
             });
-            let deserves = self.uses[id.0] > 1 || height > DEEPEST_INLINE;
+            let deserves = self.uses[id.0] > 1 || self.squared[id.0] || height > DEEPEST_INLINE;
             self.height[id.0] = Some(if self.pair(id) || self.call(id) {
                 0
             } else if deserves {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::function::{Code, Context, function};
 use crate::derivation::Derivation;
-use crate::program::{Body, Derived, Function, Operations, Program, SceneProgram};
+use crate::program::{Access, Body, Derived, Function, Operations, Program, SceneProgram};
 
 /// Lowers all functions of a driver and of its scenes.
 #[must_use]
@@ -16,7 +16,8 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
     };
     let reserved = signatures.arguments.reserved();
     let mut context = context(derivation, &derived, &reserved, &signatures.arguments, BTreeMap::new());
-    let functions = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
+    let functions: Vec<_> = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
+    let functions = without_branches(functions);
     let functions = ordered(functions, &signatures.all(&position));
     let works = context.works.iter().map(|(name, work)| (signatures.types.function(name), *work));
     let works: BTreeMap<String, Operations> = works.collect();
@@ -31,6 +32,16 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
     });
     let scenes = scenes.collect();
     Program { signatures, position, functions, scenes, derived: Some(derived) }
+}
+
+/// Removes the functions for a lane that have branches, and those after them: lanes are then computed one by one.
+fn without_branches(functions: Vec<Function<Code>>) -> Vec<Function<Code>> {
+    let has_branches = |function: &Function<Code>| {
+        function.access == Access::Lane && function.body.as_ref().is_some_and(|code| !code.is_branch_free)
+    };
+    let end = functions.iter().position(has_branches).unwrap_or(functions.len());
+    let is_kept = |(place, function): &(usize, Function<Code>)| *place < end || function.access != Access::Lane;
+    functions.into_iter().enumerate().filter(is_kept).map(|(_, function)| function).collect()
 }
 
 /// Sorts functions from the order of planning (callees first) to the order of their signatures; private ones come last.

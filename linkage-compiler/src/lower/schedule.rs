@@ -2,7 +2,7 @@
 
 use super::value::{Signed, Value, ValueId};
 use crate::derivation::ChordGeometry;
-use crate::graph::{ExternalId, SymbolId};
+use crate::graph::{ExternalId, Function, SymbolId};
 use crate::ids::BlockId;
 
 /// One line of straight-line code.
@@ -113,6 +113,29 @@ impl Schedule {
     #[must_use]
     pub fn used(&self) -> &[ValueId] {
         &self.used
+    }
+
+    /// True if a loop over it can be vectorised: no iteration, no pivoting, no function of the user or of a library.
+    pub(super) fn is_branch_free(&self) -> bool {
+        let is_plain = |line: &Line| {
+            !matches!(
+                line,
+                Line::External { .. }
+                    | Line::Factor { .. }
+                    | Line::Solve { .. }
+                    | Line::Pivots { .. }
+                    | Line::Newton { .. }
+            )
+        };
+        let is_inlined = |id: &ValueId| match self.value(*id) {
+            Value::Call(function, _) => matches!(
+                function,
+                Function::Sin | Function::Cos | Function::Atan2 | Function::Hypot | Function::Sqrt | Function::Abs
+            ),
+            Value::External(..) => false,
+            _ => true,
+        };
+        self.lines.iter().all(is_plain) && self.used().iter().all(is_inlined)
     }
 
     /// The symbols that are used.

@@ -16,14 +16,17 @@ pub enum Request {
     VelocityRatioDerivatives,
     /// du/dp, and the derivatives of points and outputs.
     Sensitivity,
+    /// Many positions at once.
+    Lanes,
 }
 
 impl Request {
-    const ALL: [(&str, Self); 4] = [
+    const ALL: [(&str, Self); 5] = [
         ("limits", Self::Limits),
         ("jerk", Self::Jerk),
         ("velocity_ratio_derivatives", Self::VelocityRatioDerivatives),
         ("sensitivity", Self::Sensitivity),
+        ("lanes", Self::Lanes),
     ];
 }
 

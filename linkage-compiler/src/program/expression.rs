@@ -21,6 +21,8 @@ pub enum Expression {
     Square(Box<Expression>),
     Negative(Box<Expression>),
     Elementary(Function, Vec<Expression>),
+    /// `a & b`: all conditions, none of them left out.
+    All(Vec<Expression>),
 
     // Data.
     Text(String),
@@ -81,6 +83,9 @@ pub enum Statement {
     CheckPosition,
     /// Returns another value if a determinant is zero relative to its scale, or a result is not finite.
     CheckKinematics { determinants: Vec<[Expression; 2]>, otherwise: Expression },
+    /// Binds true if these determinants are not zero relative to their scales, the results are finite, and all checks of
+    /// the kernel passed.
+    LetAccepted(Pattern, Vec<[Expression; 2]>),
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -107,6 +112,8 @@ pub enum Type {
     Scalar,
     /// `&'static str`
     Text,
+    /// `bool`
+    Flag,
     /// `Self`
     Itself,
     /// A type of the mechanism over the scalar: `Name<T>`.
@@ -251,6 +258,7 @@ impl Expression {
             Self::Sum(terms) => terms.iter().for_each(|(_, term)| term.each_name(visit)),
             Self::Product(all)
             | Self::Elementary(_, all)
+            | Self::All(all)
             | Self::List(all)
             | Self::Tuple(all)
             | Self::Runtime(_, all)
@@ -332,6 +340,9 @@ impl Statement {
             Self::CheckKinematics { determinants, otherwise } => {
                 determinants.iter().flatten().for_each(|value| value.each_name(visit));
                 otherwise.each_name(visit);
+            }
+            Self::LetAccepted(_, determinants) => {
+                determinants.iter().flatten().for_each(|value| value.each_name(visit));
             }
             Self::CheckPosition => {}
         }

@@ -41,11 +41,18 @@ pub enum Access {
     Layer,
     /// Public, and a [`Layer`](Self::Layer) for scenes.
     PublicLayer,
+    /// Private, `#[inline(always)]`: called in a loop that the compiler vectorises.
+    Lane,
     /// Private, called only after an error: `#[cold]`.
     Cold,
 }
 
 impl Access {
+    /// True if the callers are not functions of the program.
+    pub fn is_called_from_outside(self) -> bool {
+        self.is_public() || self == Self::Lane
+    }
+
     pub fn is_public(self) -> bool {
         matches!(self, Self::Public | Self::PublicInlined | Self::Hidden | Self::PublicLayer)
     }
@@ -112,12 +119,23 @@ pub struct Kernel {
     pub results: Vec<Output>,
     /// The index of each angle with a given turn, in the list of turns.
     pub turns: BTreeMap<SymbolId, usize>,
-    /// The value to return instead of an error: a call that finds the error, or the results in another way.
-    pub otherwise: Option<Expression>,
+    pub failure: Failure,
     /// Results that are checked, and are finite only if everything that they are computed from is: that needs no check.
     pub conclusive: Range<usize>,
     /// For each result the RRR dyad, if any, whose well-conditioned triangle guarantees that it is finite.
     pub dyads: Vec<Option<BlockId>>,
+}
+
+/// The consequence of a failed check in a kernel.
+#[derive(Debug, Clone, Default)]
+pub enum Failure {
+    /// It returns the error.
+    #[default]
+    Error,
+    /// It returns this value: a call that finds the error, or the results in another way.
+    Return(Expression),
+    /// It computes all the same, without branches, and says at the end whether all checks passed.
+    Flag,
 }
 
 /// A result of a kernel.

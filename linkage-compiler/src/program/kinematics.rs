@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
-use super::function::{Body, Kernel, Source, results};
+use super::function::{Body, Failure, Kernel, Source, results};
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
@@ -24,16 +24,9 @@ impl Plan<'_, '_> {
         let from = if self.position.is_closed { &names.inputs } else { &names.guess };
         let arguments = [from, &names.branch, &names.input_rates, &names.input_accelerations];
         let otherwise = Expression::call("kinematics_by_parts", arguments.map(Expression::name));
-        let (kernel, determinants) = self.kinematics_kernel(&otherwise);
-        let [rates, accelerations] = [kernel.conclusive.start - kernel.conclusive.len(), kernel.conclusive.start];
-        let members = [
-            ("pose", self.pose_of_results()),
-            ("rates", self.coordinates_of(Order::Rate, rates)),
-            ("accelerations", self.coordinates_of(Order::Acceleration, accelerations)),
-        ];
-        let of = Type::Bare(self.signatures.types.kinematics.clone());
-        let members = members.map(|(field, value)| (field.to_owned(), value));
-        let mut body = Body::of(kernel, Expression::structure(of, members));
+        let (kernel, determinants) = self.kinematics_kernel(Failure::Return(otherwise.clone()));
+        let value = self.kinematics_of_results(&kernel);
+        let mut body = Body::of(kernel, value);
         body.before = self.before_kinematics();
         body.calls.push("kinematics_by_parts".to_owned());
         body.after.push(Statement::CheckKinematics { determinants, otherwise });
@@ -48,9 +41,21 @@ impl Plan<'_, '_> {
         }
     }
 
+    /// The pose, the rates and the accelerations from the results of the kernel.
+    pub(super) fn kinematics_of_results(&self, kernel: &Kernel) -> Expression {
+        let [rates, accelerations] = [kernel.conclusive.start - kernel.conclusive.len(), kernel.conclusive.start];
+        let members = [
+            ("pose", self.pose_of_results()),
+            ("rates", self.coordinates_of(Order::Rate, rates)),
+            ("accelerations", self.coordinates_of(Order::Acceleration, accelerations)),
+        ];
+        let of = Type::Bare(self.signatures.types.kinematics.clone());
+        Expression::structure(of, members.map(|(field, value)| (field.to_owned(), value)))
+    }
+
     /// The kernel, whose results are the pose, the rates and the accelerations; and the determinants to check, each
     /// with its scale.
-    fn kinematics_kernel(&mut self, otherwise: &Expression) -> (Kernel, Vec<[Expression; 2]>) {
+    pub(super) fn kinematics_kernel(&mut self, failure: Failure) -> (Kernel, Vec<[Expression; 2]>) {
         let (determinants, steps) = self.kinematics_steps();
         let (_, mut outputs) = self.position_steps();
         let of_pose = outputs.len();
@@ -75,7 +80,7 @@ impl Plan<'_, '_> {
         let kernel = Kernel {
             turns: turns.map(|(place, turn)| (turn.symbol, place)).collect(),
             dyads,
-            otherwise: Some(otherwise.clone()),
+            failure,
             conclusive: of_pose + columns.len()..of_motion,
             ..self.kernel(sources, steps, outputs)
         };
@@ -117,18 +122,24 @@ impl Plan<'_, '_> {
             Statement::Let(Pattern::Typed(name.clone(), of.clone()), Expression::name(name).method("into", []))
         });
         let mut statements: Vec<Statement> = converted.collect();
-        if self.position.turns.is_empty() {
-            return statements;
-        }
         if self.position.is_closed {
-            let branch = Expression::name(&names.branch);
-            let fields = self.position.turns.iter().map(|turn| branch.clone().field(&turn.field));
-            let turns = Expression::runtime("Turns", [Expression::List(fields.collect())]);
-            statements.push(Statement::Let(Pattern::Name(names.turn.clone()), turns));
-        } else {
+            statements.extend(self.turns_of_branch());
+        } else if !self.position.turns.is_empty() {
             statements.extend(self.nearest_turns(&names.guess, &names.turn));
         }
         statements
+    }
+
+    /// The statement that binds the turns of a branch, if it has any.
+    pub(super) fn turns_of_branch(&self) -> Vec<Statement> {
+        if self.position.turns.is_empty() {
+            return Vec::new();
+        }
+        let names = &self.signatures.arguments;
+        let branch = Expression::name(&names.branch);
+        let fields = self.position.turns.iter().map(|turn| branch.clone().field(&turn.field));
+        let turns = Expression::runtime("Turns", [Expression::List(fields.collect())]);
+        vec![Statement::Let(Pattern::Name(names.turn.clone()), turns)]
     }
 
     /// `kinematics_by_parts`: the same by separate calls, which find the error.
@@ -161,15 +172,8 @@ impl Plan<'_, '_> {
         let fields = parts.map(|(field, name)| (field.to_owned(), Pattern::Name(name.clone())));
         let of = Type::Bare(self.signatures.types.kinematics.clone());
         let pattern = Pattern::Struct { of, fields: fields.to_vec(), is_whole: true };
-        let by_value = |source: Source, name: &str| Source { from: Expression::name(name), ..source };
-        let sources = vec![
-            self.parameters(),
-            by_value(self.pose_source(), &names.pose),
-            by_value(self.coordinates(Order::Rate), &names.rates),
-            by_value(self.coordinates(Order::Acceleration), &names.accelerations),
-        ];
-        let (nodes, quantities) = self.moving_quantities(0);
-        let kernel = Kernel { sources, results: unnamed(nodes), is_on_pose: true, ..Kernel::default() };
+        let kernel = self.quantities_kernel(Failure::Error);
+        let (_, quantities) = self.moving_quantities(0);
         let members = parts.map(|(field, name)| (field.to_owned(), Expression::name(name)));
         let of = Type::Bare(self.signatures.types.full_kinematics.clone());
         let value = Expression::structure(of, members.into_iter().chain(quantities));
@@ -181,6 +185,20 @@ impl Plan<'_, '_> {
         ]);
         let doc = doc.into_iter().chain(lines(ERRORS)).collect();
         self.add(self.signatures.full_kinematics(&self.position), doc, body);
+    }
+
+    /// The formulas of points and outputs with their derivatives on a pose.
+    pub(super) fn quantities_kernel(&mut self, failure: Failure) -> Kernel {
+        let names = &self.signatures.arguments;
+        let by_value = |source: Source, name: &str| Source { from: Expression::name(name), ..source };
+        let sources = vec![
+            self.parameters(),
+            by_value(self.pose_source(), &names.pose),
+            by_value(self.coordinates(Order::Rate), &names.rates),
+            by_value(self.coordinates(Order::Acceleration), &names.accelerations),
+        ];
+        let (nodes, _) = self.moving_quantities(0);
+        Kernel { sources, results: unnamed(nodes), is_on_pose: true, failure, ..Kernel::default() }
     }
 
     /// The formulas of points and outputs with their derivatives, and the fields made of them as results from a place

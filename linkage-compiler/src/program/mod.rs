@@ -9,6 +9,7 @@ mod equations;
 mod expression;
 mod function;
 mod kinematics;
+mod lanes;
 mod limits;
 mod names;
 mod operations;
@@ -27,7 +28,7 @@ use std::collections::BTreeSet;
 pub use branch::{AngleTurn, Position};
 pub use doc::count;
 pub use expression::{Expression, Pattern, Statement, Type};
-pub use function::{Access, Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value};
+pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Value};
 pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};
@@ -76,7 +77,7 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
     let mut kept = Vec::new();
     for function in functions.into_iter().rev() {
         let (name, known) = (&function.name, signatures.types.function(&function.name));
-        if function.access.is_public() || called.contains(name) || called.contains(&known) {
+        if function.access.is_called_from_outside() || called.contains(name) || called.contains(&known) {
             called.extend(calls(&function));
             kept.push(function);
         }

@@ -130,6 +130,8 @@ pub struct TypeNames {
     pub motion: String,
     pub kinematics: String,
     pub full_kinematics: String,
+    /// The columns of many positions.
+    pub columns: String,
     pub branch: String,
 }
 
@@ -150,6 +152,7 @@ impl TypeNames {
             motion: format!("{own}Motion"),
             kinematics: format!("{own}Kinematics"),
             full_kinematics: format!("{own}FullKinematics"),
+            columns: format!("{own}Columns"),
             branch: format!("{own}Branch"),
         }
     }

@@ -50,6 +50,9 @@ impl<'d, 'a> Plan<'d, 'a> {
         plan.quantities(Family::Outputs);
         plan.motion();
         plan.kinematics();
+        if wants(Request::Lanes) {
+            plan.lanes();
+        }
         if wants(Request::VelocityRatioDerivatives) {
             plan.ratio_derivatives();
         }

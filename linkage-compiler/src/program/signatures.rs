@@ -387,7 +387,7 @@ impl<'a> Signatures<'a> {
         Argument { name: self.arguments.pose.clone(), passed: Passed::ByReference(self.pose_type()) }
     }
 
-    fn branch(&self) -> Argument {
+    pub(super) fn branch(&self) -> Argument {
         let of = Type::Bare(self.types.branch.clone());
         Argument { name: self.arguments.branch.clone(), passed: Passed::ByValue(of) }
     }

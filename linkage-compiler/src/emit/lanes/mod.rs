@@ -1,0 +1,180 @@
+//! Many positions at once: the type of the columns to find, the function that takes the given ones, and the
+//! implementation of the runtime's trait.
+
+mod columns;
+mod given;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::expression::{argument, literal};
+use super::names::ident;
+use crate::derivation::Derivation;
+use crate::lower::Code;
+use crate::program::{Access, Family, Program};
+use columns::{Column, Columns};
+use given::Given;
+
+/// The type of the columns; `batch` and the implementation of `Lanes`.
+pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>) -> [TokenStream; 2] {
+    let columns = Columns::of(program, derivation);
+    [columns.emitted(program), implemented(program, &columns)]
+}
+
+fn implemented(program: &Program<Code>, columns: &Columns) -> TokenStream {
+    let (name, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
+    let given = Given::of(program);
+    let (batch, design) = (given.batch(name, &branch), given.design());
+    let ([parameters, start], given_names) = (given.counts(), &given.names);
+    let found_names = columns.all().map(|column| column.name.as_str());
+    let [given_count, found_count, coordinates] =
+        [given_names.len(), columns.all().count(), columns.coordinates.len()].map(literal);
+    let in_lane = in_lane(program, columns, &given);
+    let [of_given, of_branch, of_lane, of_found] =
+        ["given", "branch", "lane", "found"].map(|name| argument(name, in_lane.is_some()));
+    let (in_lane, exact) = (in_lane.unwrap_or_else(|| quote!(false)), exact(program, columns, &given));
+    quote! {
+        impl<T: __rt::Real> #name<T> {
+            #batch
+        }
+        impl<T: __rt::Real> __rt::Lanes for #name<T> {
+            type Scalar = T;
+            type Branch = #branch;
+            type Given = __rt::D<#given_count>;
+            type Found = __rt::D<#found_count>;
+            const NAME: &'static str = Self::NAME;
+            const GIVEN: &'static [&'static str] = &[#(#given_names),*];
+            const FOUND: &'static [&'static str] = &[#(#found_names),*];
+            const PARAMETERS: usize = #parameters;
+            const START: usize = #start;
+            const COORDINATES: usize = #coordinates;
+            #design
+            #[inline(always)]
+            fn lane<const W: usize, const QUANTITIES: bool>(
+                &self,
+                #of_given: &[[T; W]; #given_count],
+                #of_branch: #branch,
+                #of_lane: usize,
+                #of_found: &mut [[T; W]; #found_count],
+            ) -> bool {
+                #in_lane
+            }
+            fn exact<const W: usize, const QUANTITIES: bool>(
+                &self,
+                given: &[[T; W]; #given_count],
+                branch: #branch,
+                lane: usize,
+                found: &mut [[T; W]; #found_count],
+            ) -> __rt::Result<(), __rt::PositionError> {
+                #exact
+            }
+        }
+    }
+}
+
+/// The body of the function for one lane without branches; `None` if there are no such formulas.
+fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<TokenStream> {
+    let has =
+        |name: &str| program.functions.iter().any(|function| function.access == Access::Lane && function.name == name);
+    if !has("kinematics_in_lane") {
+        return None;
+    }
+    let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound());
+    let store_coordinates = stored(&columns.coordinates, 0);
+    let quantities = match columns.quantities.is_empty() {
+        false if !has("quantities_in_lane") => quote!(false),
+        true => {
+            let (angles, flags) = angles_in_lane(columns);
+            quote!(#angles is_accepted #(& #flags)*)
+        }
+        false => {
+            let ((angles, flags), store_quantities) = (angles_in_lane(columns), quantities_in_lane(columns));
+            quote! {
+                #angles
+                let (quantities, are_accepted) = self.quantities_in_lane(pose, rates, accelerations);
+                #store_quantities
+                is_accepted & are_accepted #(& #flags)*
+            }
+        }
+    };
+    Some(quote! {
+        #bound
+        let (kinematics, is_accepted) = self.kinematics_in_lane(start, branch, rates, accelerations);
+        let #kinematics { pose, rates, accelerations } = kinematics;
+        #store_coordinates
+        if QUANTITIES { #quantities } else { is_accepted }
+    })
+}
+
+/// The angles of a lane without branches, and the names of the flags that are true if they are right.
+fn angles_in_lane(columns: &Columns) -> (TokenStream, Vec<Ident>) {
+    let directions: Vec<&TokenStream> = columns.angles.iter().filter_map(|angle| angle.direction.as_ref()).collect();
+    let flags: Vec<Ident> = (1..=directions.len()).map(|number| ident(&format!("has_angle_{number}"))).collect();
+    let values = columns.angles.iter().map(|angle| match &angle.direction {
+        Some(of) => quote!(__rt::lane::arctangent2(#of.im, #of.re)),
+        None => angle.value.clone(),
+    });
+    let store = stored_values(values, columns.coordinates.len());
+    let statements = quote! {
+        #store
+        #(let #flags = __rt::lane::has_arctangent2(#directions.im, #directions.re);)*
+    };
+    (statements, flags)
+}
+
+/// Statements that store the points and outputs of a lane.
+fn quantities_in_lane(columns: &Columns) -> TokenStream {
+    let values = (0..columns.quantities.len()).map(literal).map(|place| quote!(quantities[#place]));
+    stored_values(values, columns.coordinates.len() + columns.angles.len())
+}
+
+/// The body of the function for one lane that calls `kinematics` or `full_kinematics`.
+fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStream {
+    let (types, bound) = (&program.signatures.types, given.bound());
+    let [kinematics, full_kinematics] = [&types.kinematics, &types.full_kinematics].map(|name| ident(name));
+    let (names, start) = match program.position.is_closed {
+        true => (["kinematics", "full_kinematics"], quote!(start)),
+        false => (["kinematics_near", "full_kinematics_near"], quote!(&start)),
+    };
+    let [function, full_function] = names.map(ident);
+    let plain = quote! {
+        let #kinematics { pose, rates, accelerations } = self.#function(#start, branch, rates, accelerations)?;
+    };
+    let families = [(Family::Points, "points"), (Family::Outputs, "outputs")];
+    let families = families.into_iter().filter(|(family, _)| program.signatures.has(*family));
+    let families: Vec<Ident> = families.map(|(_, word)| ident(word)).collect();
+    let full = match families.as_slice() {
+        [] => plain.clone(),
+        families => quote! {
+            let #full_kinematics { pose, rates, accelerations, #(#families),* } =
+                self.#full_function(#start, branch, rates, accelerations)?;
+        },
+    };
+    let store_coordinates = stored(&columns.coordinates, 0);
+    let store_angles = stored(&columns.angles, columns.coordinates.len());
+    let store_quantities = stored(&columns.quantities, columns.coordinates.len() + columns.angles.len());
+    quote! {
+        #bound
+        if QUANTITIES {
+            #full
+            #store_coordinates
+            #store_angles
+            #store_quantities
+        } else {
+            #plain
+            #store_coordinates
+        }
+        __rt::Ok(())
+    }
+}
+
+/// Statements that store columns from a place on.
+fn stored(columns: &[Column], from: usize) -> TokenStream {
+    stored_values(columns.iter().map(|column| column.value.clone()), from)
+}
+
+fn stored_values(values: impl Iterator<Item = TokenStream>, from: usize) -> TokenStream {
+    let places = (from..).map(literal);
+    let statements = places.zip(values).map(|(place, value)| quote!(found[#place][lane] = #value;));
+    statements.collect()
+}
