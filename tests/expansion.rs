@@ -127,6 +127,8 @@ snapshots! {
     every_operation: functions("every_function", "EveryFunction", &["outputs"]);
     scene: functions("slider_crank_scenes", "Steady", &["drive_forces", "effects"]);
     trait_implementation: implementation("scotch_yoke", "ScotchYoke", "Mechanism");
+    columns: structures(expand(source::tokens_of("scotch_yoke")), &["ScotchYokeColumns"]);
+    lanes: implementation("scotch_yoke", "ScotchYoke", "Lanes");
     derivation_constant: derivation("scotch_yoke", &["mechanism", "inputs", "residual", "blocks", "ratios"]);
     stub_on_error: stub();
 }
@@ -149,6 +151,20 @@ fn expansion_is_repeatable() {
         let once = linkage_compiler::expand(source::tokens_of(file), &root).to_string();
         let again = linkage_compiler::expand(source::tokens_of(file), &root).to_string();
         assert_eq!(once, again, "{file}");
+    }
+}
+
+/// Without `derive lanes` nothing of them is emitted, and with it all else stays as it is.
+#[test]
+fn lanes_are_emitted_if_asked_for() {
+    let with = source::tokens_of("scotch_yoke");
+    let without = source::with_statements(with.clone(), |statement| !statement.starts_with("derive"));
+    let text = unparse(expand(without.clone()));
+    assert!(!["Lanes", "Columns", "lane", "batch"].iter().any(|word| text.contains(word)), "{text}");
+    let (with, without) = (surface(with), surface(without));
+    assert!(with.len() == without.len() + 1 && with.contains_key("ScotchYokeColumns"), "{:?}", with.keys());
+    for (name, members) in without {
+        assert!(members.is_subset(&with[&name]), "{name}");
     }
 }
 

@@ -83,8 +83,9 @@ struct Calls<'a> {
 impl Calls<'_> {
     fn count(&mut self, name: &str) {
         let name = if name == "elbow_chord" { "chord" } else { name };
-        let others = ["sines_cosines", "sine", "cosine", "sin", "cos", "sin_cos", "atan2", "sqrt", "hypot", "acos"];
-        let known: Vec<&str> = ["sine_cosine", "chord"].into_iter().chain(others).collect();
+        let circular = ["sines_cosines", "sine", "cosine", "sin", "cos", "sin_cos"];
+        let others = ["arctangent2", "sqrt", "hypotenuse", "acos"];
+        let known: Vec<&str> = ["sine_cosine", "chord"].into_iter().chain(circular).chain(others).collect();
         match known.iter().position(|known| *known == name) {
             Some(place) if self.within => self.calls[place.min(2)] += 1,
             _ => {}

@@ -73,6 +73,7 @@ snapshots! {
     kinematics_by_newton: "double_butterfly" "DoubleButterfly" ["kinematics_near"];
     motion: "four_bar" "FourBar" ["motion"];
     motion_with_a_user_function: "cam_rocker" "CamRocker" ["motion"];
+    lanes: "inverted_slider_crank" "InvertedSliderCrank" ["kinematics_in_lane", "quantities_in_lane"];
 }
 
 // Points and outputs.

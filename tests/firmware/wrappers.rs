@@ -63,14 +63,34 @@ fn wrapped(item: &Item) -> Vec<String> {
         let name = &path.segments.last().unwrap().ident;
         ["Mechanism", "Assembly", "Scene"].iter().any(|known| name == known)
     };
+    if called.is_some_and(|path| path.segments.last().unwrap().ident == "Lanes") {
+        return vec![run_of_a_batch(&in_doubles(implementation.self_ty.to_token_stream()))];
+    }
     if called.is_some_and(|path| !is_of_runtime(path)) {
         return Vec::new();
     }
     let functions = implementation.items.iter().filter_map(|item| match item {
+        // Those that take and sort columns only move numbers.
+        ImplItem::Fn(function) if function.sig.ident == "batch" || function.sig.ident == "list" => None,
         ImplItem::Fn(function) if called.is_some() || matches!(function.vis, Visibility::Public(_)) => Some(function),
         _ => None,
     });
     functions.map(|function| wrapper(implementation, called, &function.sig)).collect()
+}
+
+/// A wrapper of the computation of many positions of a mechanism.
+fn run_of_a_batch(of: &TokenStream) -> String {
+    let name = quote::format_ident!("{}_run", of.to_string().split('<').next().unwrap_or_default().trim());
+    let text = quote! {
+        pub fn #name(
+            batch: &::linkage::lanes::Batch<'_, #of>,
+            found: &mut [Option<&mut [f64]>],
+            accepted: &mut [bool],
+        ) -> Result<usize, ::linkage::InputError> {
+            batch.run(found, accepted)
+        }
+    };
+    format!("#[inline(never)] {text}\n")
 }
 
 fn wrapper(implementation: &ItemImpl, called: Option<&syn::Path>, signature: &syn::Signature) -> String {

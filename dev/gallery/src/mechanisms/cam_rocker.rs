@@ -22,5 +22,7 @@ linkage! {
         /// The pitch curve, about the axis of the cam.
         point Pitch = (Roller + (distance, 0))@(-theta);
         output mu = beta - phi;
+
+        derive lanes;
     }
 }

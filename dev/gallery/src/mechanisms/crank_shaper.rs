@@ -23,5 +23,7 @@ linkage! {
         point E = pivot + lever@psi;
         point Ram = (x, height);
         output swing = psi - 90deg;
+
+        derive lanes;
     }
 }

@@ -21,5 +21,7 @@ linkage! {
         /// The slot's mouth, where pin and slot meet.
         point Mouth = Wheel + (crank / tan(pi / slots))@(psi + 180deg);
         output depth = crank / tan(pi / slots) - s;
+
+        derive lanes;
     }
 }

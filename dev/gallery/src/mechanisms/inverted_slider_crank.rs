@@ -21,5 +21,7 @@ linkage! {
         /// Foot of the slide on the arm.
         point B = D + c@theta4;
         output slide_angle = theta4 + gamma;
+
+        derive lanes;
     }
 }

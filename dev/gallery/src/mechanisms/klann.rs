@@ -32,5 +32,7 @@ linkage! {
         point Hip = Upper + upper@upper_angle;
         point Foot = knee + knee_foot@(leg + knee_bend);
         output height = y(Foot);
+
+        derive lanes;
     }
 }

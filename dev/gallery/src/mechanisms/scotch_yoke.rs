@@ -12,5 +12,7 @@ linkage! {
 
         point Slider = (x, 0);
         output lift = r - x;
+
+        derive lanes;
     }
 }

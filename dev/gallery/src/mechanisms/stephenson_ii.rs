@@ -25,5 +25,7 @@ linkage! {
         point D = B + q@beta;
         point E = G + r@rho;
         output turn = tau - theta;
+
+        derive lanes;
     }
 }
