@@ -1,0 +1,70 @@
+//! Chunks as reducers see them: with cases and the reasons of rejected rows.
+
+use linkage_runtime::PositionError;
+use linkage_runtime::lanes::Lanes;
+
+use crate::{Chunk, Place, Sweep};
+
+/// A chunk of a sweep. It has the columns that the reducers asked for.
+#[derive(Debug)]
+pub struct Block<'a, M: Lanes> {
+    sweep: &'a Sweep<M>,
+    chunk: &'a Chunk<M>,
+}
+
+/// A case: consecutive rows, for example all positions of one design.
+#[derive(Debug, Clone, Copy)]
+pub struct Case<'a, T, const N: usize> {
+    /// The number of the case.
+    pub number: u64,
+    /// The number of its first row.
+    pub first_row: u64,
+    /// Its columns, in the order asked for.
+    pub columns: [&'a [T]; N],
+    /// False for each row without a position; its found columns are NaN.
+    pub accepted: &'a [bool],
+}
+
+impl<'a, M: Lanes> Block<'a, M> {
+    pub(crate) fn new(sweep: &'a Sweep<M>, chunk: &'a Chunk<M>) -> Self {
+        Self { sweep, chunk }
+    }
+
+    /// The rows.
+    #[must_use]
+    pub fn chunk(&self) -> &'a Chunk<M> {
+        self.chunk
+    }
+
+    /// The accepted numbers of a column with their rows in the sweep; none if it was not asked for.
+    pub fn accepted(&self, place: Place) -> impl Iterator<Item = (u64, M::Scalar)> + 'a {
+        let values = self.chunk.column(place).unwrap_or_default().iter().zip(self.chunk.accepted());
+        let rows = values.zip(self.chunk.first_row()..);
+        rows.filter_map(|((value, is_accepted), row)| is_accepted.then_some((row, *value)))
+    }
+
+    /// The rejected rows in the sweep, with their reasons.
+    pub fn rejected(&self) -> impl Iterator<Item = (u64, Option<PositionError>)> + 'a {
+        let Self { sweep, chunk } = *self;
+        let count = if chunk.rejected() == 0 { 0 } else { chunk.rows() };
+        let rows = chunk.accepted().iter().take(count).zip(chunk.first_row()..).enumerate();
+        rows.filter(|(_, (is_accepted, _))| !**is_accepted).map(move |(index, (_, row))| {
+            (row, sweep.reason(|column| chunk.at(Place::Given(column)).get(index).copied()))
+        })
+    }
+
+    /// The cases with these columns; a column that was not asked for is empty.
+    pub fn cases<const N: usize>(&self, places: [Place; N]) -> impl Iterator<Item = Case<'a, M::Scalar, N>> + 'a {
+        let chunk = self.chunk;
+        let columns = places.map(|place| chunk.column(place).unwrap_or_default());
+        // A chunk has whole cases, so that the rows of one are those of a slice.
+        let rows = self.sweep.rows_per_case();
+        let length = usize::try_from(rows).unwrap_or(usize::MAX);
+        chunk.accepted().chunks(length).enumerate().map(move |(index, accepted)| {
+            let first_row = chunk.first_row() + index as u64 * rows;
+            let from = index * length;
+            let columns = columns.map(|column| column.get(from..from + accepted.len()).unwrap_or_default());
+            Case { number: first_row / rows, first_row, columns, accepted }
+        })
+    }
+}
