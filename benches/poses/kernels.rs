@@ -6,10 +6,11 @@ mod mechanisms;
 
 use std::hint::black_box;
 
+use linkage::lanes::Lanes;
 use linkage::{Elbow, Slope};
 use mechanisms::{
-    FourBar, FourBarBranch, Jansen, JansenBranch, ShortChain, ShortChainBranch, SliderCrank, SliderCrankBranch,
-    StephensonIII, StephensonIIIBranch,
+    FourBar, FourBarBranch, FourBarInputs, Jansen, JansenBranch, JansenInputs, ShortChain, ShortChainBranch,
+    SliderCrank, SliderCrankBranch, StephensonIII, StephensonIIIBranch,
 };
 
 const RATE: f64 = 41.9;
@@ -39,12 +40,34 @@ macro_rules! functions {
     }};
 }
 
+/// Eight lanes a call, without vector instructions that not every machine has.
+macro_rules! lanes {
+    ($Mechanism:ident, $Inputs:ident, $branch:expr, $calls:expr) => {{
+        let angles: [f64; 8] = std::array::from_fn(|lane| 0.2 + 0.03 * lane as f64);
+        let start = $Inputs { theta: angles.as_slice() };
+        let batch = $Mechanism::batch($Mechanism::default(), start, $branch, RATE.into(), ACCELERATION.into());
+        let (batch, mut accepted) = (batch.expect("one column"), [false; 8]);
+        let mut columns = [[0.0; 8]; 40];
+        let mut asked = columns.iter_mut().map(|column| Some(column.as_mut_slice()));
+        let mut list: Vec<_> = (0..$Mechanism::<f64>::FOUND.len())
+            .map(|place| if place < $Mechanism::<f64>::COORDINATES { asked.next().flatten() } else { None })
+            .collect();
+        for _ in 0..$calls {
+            assert_eq!(black_box(&batch).run(&mut list, &mut accepted), Ok(0));
+        }
+    }};
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
     let [mechanism, function, calls] = arguments.as_slice() else { panic!("a mechanism, a function, a number") };
     let (function, calls) = (function.as_str(), calls.parse().expect("a number of calls"));
     let (left, right) = (Elbow::Left, Elbow::Right);
     match mechanism.as_str() {
+        "four_bar" if function == "lanes" => lanes!(FourBar, FourBarInputs, FourBarBranch::new(left), calls),
+        "jansen" if function == "lanes" => {
+            lanes!(Jansen, JansenInputs, JansenBranch::new(left, left, right, right, left), calls);
+        }
         "four_bar" => functions!(FourBar::default(), FourBarBranch::new(left), function, calls),
         "slider_crank" => functions!(SliderCrank::default(), SliderCrankBranch::new(Slope::Rising), function, calls),
         "stephenson_iii" => functions!(StephensonIII::default(), StephensonIIIBranch::new(left, left), function, calls),

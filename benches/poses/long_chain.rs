@@ -4,6 +4,7 @@ use linkage::linkage;
 
 linkage! {
     /// Sixteen four-bars, the rocker of each the crank of the next.
+    #[derive(Clone)]
     pub mechanism Chain {
         param a0 = 1, b0 = 3, c0 = 2, d0 = 3;
         param a1 = 1, b1 = 3, c1 = 2, d1 = 3;
@@ -55,5 +56,7 @@ linkage! {
         loop a13@s12 + b13@t13 = d13@0 + c13@s13;
         loop a14@s13 + b14@t14 = d14@0 + c14@s14;
         loop a15@s14 + b15@t15 = d15@0 + c15@s15;
+
+        derive lanes;
     }
 }

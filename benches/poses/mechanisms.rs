@@ -4,12 +4,15 @@ use linkage::linkage;
 
 linkage! {
     /// Four-bar linkage.
+    #[derive(Clone)]
     pub mechanism FourBar {
         param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
         input theta;
         unknown theta3, theta4;
 
         loop l2@theta + l3@theta3 + l4@theta4 = l1@0;
+
+        derive lanes;
     }
 }
 
@@ -38,6 +41,7 @@ linkage! {
 
 linkage! {
     /// A leg of Theo Jansen's walking machine.
+    #[derive(Clone)]
     pub mechanism Jansen {
         param a = 38, b = 41.5, c = 39.3, d = 40.1, e = 55.8,
             f = 39.4, g = 36.7, h = 65.7, i = 49, j = 50, k = 61.9, l = 7.8, m = 15;
@@ -50,6 +54,8 @@ linkage! {
         loop m@theta + k@angle_k = pivot + c@angle_c;
         loop d@angle_d + f@angle_f = c@angle_c + g@angle_g;
         loop g@angle_g + h@angle_h = i@angle_i;
+
+        derive lanes;
     }
 }
 
