@@ -2,6 +2,10 @@
 
 use std::fmt::Write;
 
+mod ticks;
+
+use ticks::{label, nice, ticks};
+
 /// The size of a plot and its margins, in pixels.
 const SIZE: [f64; 2] = [360.0, 250.0];
 const LEFT: f64 = 50.0;
@@ -125,24 +129,6 @@ impl Plot {
         svg.push_str("</svg>");
         svg
     }
-}
-
-/// The grid step, 1, 2 or 5 times a power of ten, for about so many lines in a range.
-fn nice([low, high]: [f64; 2], count: f64) -> f64 {
-    let rough = (high - low) / count;
-    let power = 10_f64.powf(rough.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-    *steps.iter().find(|step| **step >= rough).unwrap_or(&steps[3])
-}
-
-fn ticks([low, high]: [f64; 2], step: f64) -> impl Iterator<Item = f64> {
-    let [first, last] = [(low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64];
-    (first..=last).map(move |count| count as f64 * step)
-}
-
-fn label(at: f64, step: f64) -> String {
-    let digits = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
-    format!("{at:.digits$}").replace('-', "−")
 }
 
 /// A section of a page: its name, and pictures with captions.
