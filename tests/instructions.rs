@@ -109,7 +109,7 @@ fn functions_take_what_the_table_says() {
     let mechanisms = ["four_bar", "slider_crank", "stephenson_iii", "jansen", "chain"];
     let functions = ["kinematics", "assemble", "velocity", "acceleration", "pose_at", "motion"];
     let single = mechanisms.iter().flat_map(|mechanism| functions.map(|function| [*mechanism, function]));
-    // Of eight lanes: twice as many if the loop over them is not vectorised.
+    // Of eight lanes: more if the loop over them is not vectorised.
     for [mechanism, function] in single.chain([["four_bar", "lanes"], ["jansen", "lanes"]]) {
         let count = a_call(&program, [mechanism, function]);
         let name = format!("{mechanism}\t{function}\t");
