@@ -80,18 +80,16 @@ pub trait Lanes: Sized {
         lane: usize,
         found: &mut Found<Self, [Self::Scalar; W]>,
     ) -> bool;
-    /// Computes one lane of a block by the function for one position: `kinematics`, or `full_kinematics` if
-    /// `QUANTITIES`.
+    /// Computes one lane by the function for one position: `kinematics`, or `full_kinematics` if `QUANTITIES`. Without
+    /// them angles, points and outputs are zero.
     ///
     /// # Errors
     /// Those of that function.
-    fn exact<const W: usize, const QUANTITIES: bool>(
+    fn exact<const QUANTITIES: bool>(
         &self,
-        given: &Given<Self, [Self::Scalar; W]>,
+        given: &Given<Self, Self::Scalar>,
         branch: Self::Branch,
-        lane: usize,
-        found: &mut Found<Self, [Self::Scalar; W]>,
-    ) -> Result<(), PositionError>;
+    ) -> Result<Found<Self, Self::Scalar>, PositionError>;
 }
 
 /// Positions to compute at once: the given columns and the branch.
@@ -215,10 +213,7 @@ impl<'a, M: Lanes> Batch<'a, M> {
                 InputError::OutOfRange { of: Some(M::NAME), quantity: "the lane", value, least: 0.0, most }.into()
             );
         }
-        let given = self.block::<1>(lane);
-        let mut found = <M::Found as Dim>::array(|_| [M::Scalar::zero(); 1]);
-        M::design(&given, 0).exact::<1, QUANTITIES>(&given, self.branch, 0, &mut found)?;
-        Ok(<M::Found as Dim>::map(found, |[value]| value))
+        exact::<M, QUANTITIES>(self.block::<1>(lane), self.branch)
     }
 
     /// The given numbers of `W` lanes from one on; where there is no such lane, those of another.
@@ -298,18 +293,26 @@ impl<'a, M: Lanes> Batch<'a, M> {
         lane: usize,
         values: &mut Found<M, [M::Scalar; W]>,
     ) -> bool {
-        // The condition always holds; with it the compiler sees that no index is out of range.
-        let is_found =
-            lane < W && M::design(given, lane).exact::<W, QUANTITIES>(given, self.branch, lane, values).is_ok();
-        if !is_found {
-            for column in values.as_mut() {
-                if let Some(value) = column.get_mut(lane) {
-                    *value = real(f64::NAN);
-                }
+        let alone = <M::Given as Dim>::map(*given, |block| [block.get(lane).copied().unwrap_or_else(M::Scalar::zero)]);
+        let found = exact::<M, QUANTITIES>(alone, self.branch);
+        let is_found = found.is_ok();
+        let found = found.unwrap_or_else(|_| <M::Found as Dim>::array(|_| real(f64::NAN)));
+        for (column, value) in values.as_mut().iter_mut().zip(found) {
+            if let Some(place) = column.get_mut(lane) {
+                *place = value;
             }
         }
         is_found
     }
+}
+
+/// One lane by the function for one position.
+fn exact<M: Lanes, const QUANTITIES: bool>(
+    given: Given<M, [M::Scalar; 1]>,
+    branch: M::Branch,
+) -> Result<Found<M, M::Scalar>, PositionError> {
+    let design = M::design(&given, 0);
+    design.exact::<QUANTITIES>(&<M::Given as Dim>::map(given, |[value]| value), branch)
 }
 
 /// Runs a loop with the vector instructions that the machine has.

@@ -72,14 +72,8 @@ impl<T: Real> Lanes for Crank<T> {
         square > T::zero() && values.into_iter().fold(T::zero(), |sum, value| sum + value).is_finite()
     }
 
-    fn exact<const W: usize, const QUANTITIES: bool>(
-        &self,
-        given: &Given<Self, [T; W]>,
-        (): (),
-        lane: usize,
-        found: &mut Found<Self, [T; W]>,
-    ) -> Result<(), PositionError> {
-        let (values, square) = self.motion(given[3][lane], given[4][lane], given[5][lane]);
+    fn exact<const QUANTITIES: bool>(&self, given: &Given<Self, T>, (): ()) -> Result<Found<Self, T>, PositionError> {
+        let (values, square) = self.motion(given[3], given[4], given[5]);
         let (mechanism, group) = (Self::NAME, "s");
         if square < T::zero() {
             let gap = linkage_runtime::nalgebra::try_convert(-square / (self.l * self.l)).unwrap_or(f64::NAN);
@@ -91,10 +85,7 @@ impl<T: Real> Lanes for Crank<T> {
         if !values.iter().all(|value| value.is_finite()) {
             return Err(PositionError::NotFinite { mechanism, quantity: "a coordinate" });
         }
-        for (column, value) in found.iter_mut().zip(values) {
-            column[lane] = value;
-        }
-        Ok(())
+        Ok(values)
     }
 }
 

@@ -57,12 +57,12 @@ impl Given {
         [literal(self.parameters.len()), literal(self.start.len())]
     }
 
-    /// Statements that bind the start, the rates and the accelerations of one lane.
-    pub fn bound(&self) -> TokenStream {
+    /// Statements that bind the start, the rates and the accelerations of one lane; `index` follows the column.
+    pub fn bound(&self, index: &TokenStream) -> TokenStream {
         let Self { parameters, start, inputs, of_start, of_inputs, .. } = self;
         let (p, s, v) = (parameters.len(), start.len(), inputs.len());
-        let at_start = at(p..p + s);
-        let [at_rates, at_accelerations] = [p + s, p + s + v].map(|from| at(from..from + v));
+        let at_start = at(p..p + s, index);
+        let [at_rates, at_accelerations] = [p + s, p + s + v].map(|from| at(from..from + v, index));
         quote! {
             let start = #of_start { #(#start: #at_start),* };
             let rates = #of_inputs { #(#inputs: #at_rates),* };
@@ -73,7 +73,7 @@ impl Given {
     /// The functions of the trait between parameters and columns.
     pub fn design(&self) -> TokenStream {
         let (parameters, count) = (&self.parameters, literal(self.names.len()));
-        let (at_parameters, places) = (at(0..parameters.len()), (0..parameters.len()).map(literal));
+        let (at_parameters, places) = (at(0..parameters.len(), &quote!([lane])), (0..parameters.len()).map(literal));
         let mark = parameters.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData));
         let [given, lane] = ["given", "lane"].map(|name| argument(name, !parameters.is_empty()));
         quote! {
@@ -119,7 +119,7 @@ impl Given {
 }
 
 /// The numbers of one lane in these given columns.
-fn at(places: Range<usize>) -> Vec<TokenStream> {
+fn at(places: Range<usize>, index: &TokenStream) -> Vec<TokenStream> {
     let places = places.map(literal);
-    places.map(|place| quote!(given[#place][lane])).collect()
+    places.map(|place| quote!(given[#place] #index)).collect()
 }

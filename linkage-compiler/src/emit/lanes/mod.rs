@@ -59,14 +59,14 @@ fn implemented(program: &Program<Code>, columns: &Columns) -> TokenStream {
             ) -> bool {
                 #in_lane
             }
-            fn exact<const W: usize, const QUANTITIES: bool>(
+            fn exact<const QUANTITIES: bool>(
                 &self,
-                given: &[[T; W]; #given_count],
+                given: &[T; #given_count],
                 branch: #branch,
-                lane: usize,
-                found: &mut [[T; W]; #found_count],
-            ) -> __rt::Result<(), __rt::PositionError> {
+            ) -> __rt::Result<[T; #found_count], __rt::PositionError> {
+                let mut found = [T::zero(); #found_count];
                 #exact
+                __rt::Ok(found)
             }
         }
     }
@@ -79,8 +79,8 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
     if !has("kinematics_in_lane") {
         return None;
     }
-    let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound());
-    let store_coordinates = stored(&columns.coordinates, 0);
+    let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound(&quote!([lane])));
+    let store_coordinates = stored_in_lane(columns.coordinates.iter().map(|column| column.value.clone()), 0);
     let quantities = match columns.quantities.is_empty() {
         false if !has("quantities_in_lane") => quote!(false),
         true => {
@@ -114,7 +114,7 @@ fn angles_in_lane(columns: &Columns) -> (TokenStream, Vec<Ident>) {
         Some(of) => quote!(__rt::lane::arctangent2(#of.im, #of.re)),
         None => angle.value.clone(),
     });
-    let store = stored_values(values, columns.coordinates.len());
+    let store = stored_in_lane(values, columns.coordinates.len());
     let statements = quote! {
         #store
         #(let #flags = __rt::lane::has_arctangent2(#directions.im, #directions.re);)*
@@ -125,12 +125,12 @@ fn angles_in_lane(columns: &Columns) -> (TokenStream, Vec<Ident>) {
 /// Statements that store the points and outputs of a lane.
 fn quantities_in_lane(columns: &Columns) -> TokenStream {
     let values = (0..columns.quantities.len()).map(literal).map(|place| quote!(quantities[#place]));
-    stored_values(values, columns.coordinates.len() + columns.angles.len())
+    stored_in_lane(values, columns.coordinates.len() + columns.angles.len())
 }
 
 /// The body of the function for one lane that calls `kinematics` or `full_kinematics`.
 fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStream {
-    let (types, bound) = (&program.signatures.types, given.bound());
+    let (types, bound) = (&program.signatures.types, given.bound(&TokenStream::new()));
     let [kinematics, full_kinematics] = [&types.kinematics, &types.full_kinematics].map(|name| ident(name));
     let (names, start) = match program.position.is_closed {
         true => (["kinematics", "full_kinematics"], quote!(start)),
@@ -150,9 +150,11 @@ fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStre
                 self.#full_function(#start, branch, rates, accelerations)?;
         },
     };
-    let store_coordinates = stored(&columns.coordinates, 0);
-    let store_angles = stored(&columns.angles, columns.coordinates.len());
-    let store_quantities = stored(&columns.quantities, columns.coordinates.len() + columns.angles.len());
+    let store =
+        |columns: &[Column], from| stored(columns.iter().map(|column| column.value.clone()), from, &TokenStream::new());
+    let store_coordinates = store(&columns.coordinates, 0);
+    let store_angles = store(&columns.angles, columns.coordinates.len());
+    let store_quantities = store(&columns.quantities, columns.coordinates.len() + columns.angles.len());
     quote! {
         #bound
         if QUANTITIES {
@@ -164,17 +166,17 @@ fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStre
             #plain
             #store_coordinates
         }
-        __rt::Ok(())
     }
 }
 
-/// Statements that store columns from a place on.
-fn stored(columns: &[Column], from: usize) -> TokenStream {
-    stored_values(columns.iter().map(|column| column.value.clone()), from)
+/// Statements that store the columns of a lane of a block from a place on.
+fn stored_in_lane(values: impl Iterator<Item = TokenStream>, from: usize) -> TokenStream {
+    stored(values, from, &quote!([lane]))
 }
 
-fn stored_values(values: impl Iterator<Item = TokenStream>, from: usize) -> TokenStream {
+/// Statements that store columns from a place on; `index` follows the place.
+fn stored(values: impl Iterator<Item = TokenStream>, from: usize, index: &TokenStream) -> TokenStream {
     let places = (from..).map(literal);
-    let statements = places.zip(values).map(|(place, value)| quote!(found[#place][lane] = #value;));
+    let statements = places.zip(values).map(|(place, value)| quote!(found[#place] #index = #value;));
     statements.collect()
 }
