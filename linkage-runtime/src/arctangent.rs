@@ -115,7 +115,7 @@ pub(crate) fn arctangent2<F: Arctangent>((y, x): (F, F)) -> F {
     let is_steep = rise > run;
     let (small, large) = if is_steep { (run, rise) } else { (rise, run) };
     let is_middle = small > F::MIDDLE * large;
-    // The rounding errors of difference and sum are exact: `large` is the larger.
+    // Difference and sum are rounded; what they lose is computed exactly, since `large` is the larger.
     let (difference, sum) = (large - small, large + small);
     let difference_rest = (large - difference) - small;
     let sum_rest = (large - sum) + small;
