@@ -76,10 +76,10 @@ fn memory() -> String {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let rows = option("--rows")?.unwrap_or(2_000_000);
+    let rows = option("--rows")?.unwrap_or(20_000_000);
     let threads = usize::try_from(option("--threads")?.unwrap_or(2))?;
 
-    let sweeps = [sweep(rows.min(2_000_000), 1)?, sweep(rows.min(2_000_000), 2)?];
+    let sweeps = [sweep(rows.min(20_000_000), 1)?, sweep(rows.min(20_000_000), 2)?];
     let mut speeds = [const { Vec::new() }; 2];
     let mut first = None;
     for _ in 0..ROUNDS {

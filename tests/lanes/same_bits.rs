@@ -17,7 +17,7 @@ use rand::{Rng, SeedableRng};
 /// Lanes of one batch: not a multiple of the width of a block.
 const LANES: usize = 1003;
 
-/// Pairs of batches of each mechanism and scalar. `LANE_BATCHES=2000` is the full size: 1e8 lanes, half of them in `f32`.
+/// Pairs of batches of each mechanism and scalar. `LANE_BATCHES=2100` is the full size: 1e8 lanes, half of them in `f32`.
 fn batches() -> usize {
     env::var("LANE_BATCHES").ok().and_then(|text| text.parse().ok()).unwrap_or(4)
 }
