@@ -3,7 +3,7 @@
 #![cfg(feature = "drawing")]
 
 use linkage::Elbow::Left;
-use linkage::Slope::Rising;
+use linkage::Slider::Far;
 use linkage::drawing::{Animation, DrawingError};
 use linkage::nalgebra::{Point2, Rotation2, Vector2, point, vector};
 use roxmltree::{Document, Node};
@@ -199,7 +199,7 @@ fn sliders_stay_on_their_guides() {
     let frames: Vec<Frame> = (0..=STEPS)
         .map(|step| {
             let theta2 = f64::from(step * 360 / STEPS).to_radians();
-            let pose = m.assemble(theta2, OffsetSliderCrankBranch::new(Rising)).unwrap();
+            let pose = m.assemble(theta2, OffsetSliderCrankBranch::new(Far)).unwrap();
             let points = m.points(&pose).unwrap();
             vec![("O", points.o), ("A", points.a), ("B", points.b), ("Foot", point![0.0, m.c])]
         })

@@ -83,13 +83,84 @@ fn branches_mean_what_they_say() {
             m.assemble(angle, VTwinBranch { phi_front_s_front, phi_rear_s_rear: Slider::Far }).unwrap().s_front
         });
         assert!(lengths[0] > lengths[1], "{lengths:?}");
-        // One angle: its equation, the second row, grows with it.
-        let m = OffsetSliderCrank::default();
-        let slopes = [Slope::Rising, Slope::Falling].map(|theta3| {
-            let pose = m.assemble(angle, OffsetSliderCrankBranch::new(theta3)).unwrap();
-            m.jacobian_unknowns(&pose)[(1, 0)]
+        // One angle: the left side of its equation minus the right increases with it.
+        let m = guides::Lever::default();
+        let slopes = [Slope::Rising, Slope::Falling].map(|slope| {
+            let pose = m.assemble(angle / 4.0, guides::LeverBranch::new(slope)).unwrap();
+            m.jacobian_unknowns(&pose)[(0, 0)]
         });
         assert!(slopes[0] > 0.0 && slopes[1] < 0.0, "{slopes:?}");
+    }
+}
+
+/// One slider-crank, with its guide along several lines, and its terms on either side of the equation.
+mod guides {
+    use linkage::linkage;
+
+    macro_rules! slider_cranks {
+        ($($name:ident { $($closure:tt)* })*) => {
+            linkage! {$(
+                pub mechanism $name {
+                    param r = 20, l = 50, e = 3, phi = 30deg;
+                    input theta;
+                    unknown psi, s;
+                    loop $($closure)*;
+                    output _phi = phi;
+                }
+            )*}
+        };
+    }
+
+    slider_cranks! {
+        East { r@theta + l@psi = (s, e) }
+        West { r@(theta + 180deg) + l@psi = s@180deg + e@(-90deg) }
+        North { (0, 0) = r@(theta + 90deg) + l@psi - s@90deg - e@180deg }
+        South { s@(-90deg) - (-e, 0) = r@(theta - 90deg) - l@(psi + 180deg) }
+        Double { r@theta + l@psi = 2 * (s, e / 2) }
+        Slanted { r@(theta + phi) + l@psi = s@phi + e@(phi + 90deg) }
+    }
+
+    linkage! {
+        /// A lever that lifts its end to a height.
+        pub mechanism Lever {
+            param l = 2;
+            input height;
+            unknown psi;
+            equation l * sin(psi) = height;
+        }
+    }
+}
+
+/// A slider-crank has one branch type however its guide lies: far is the larger of its two lengths.
+#[test]
+fn a_slider_is_far_or_near_along_any_guide() {
+    let lengths = |angle: f64| {
+        let m = guides::East::default();
+        let root = (m.l.powi(2) - (m.e - m.r * angle.sin()).powi(2)).sqrt();
+        [root, -root].map(|along| m.r * angle.cos() + along)
+    };
+    macro_rules! check {
+        ($($Name:ident $Branch:ident $factor:literal;)*) => {
+            for angle in (0..360).step_by(7).map(|degrees| f64::from(degrees).to_radians()) {
+                for (psi_s, length) in [Slider::Far, Slider::Near].into_iter().zip(lengths(angle)) {
+                    $(
+                        let (m, branch) = (guides::$Name::default(), guides::$Branch { psi_s });
+                        let pose = m.assemble(angle, branch).unwrap();
+                        approx::assert_relative_eq!($factor * pose.s, length, max_relative = 1e-14);
+                        assert_eq!(m.branch_of(&pose), branch, stringify!($Name));
+                        assert_eq!(m.branch_of(&m.pose_at(&pose.coordinates())), branch, stringify!($Name));
+                    )*
+                }
+            }
+        };
+    }
+    check! {
+        East EastBranch 1.0;
+        West WestBranch 1.0;
+        North NorthBranch 1.0;
+        South SouthBranch 1.0;
+        Double DoubleBranch 2.0;
+        Slanted SlantedBranch 1.0;
     }
 }
 
@@ -264,7 +335,7 @@ fn links_that_do_not_reach_are_named() {
     // A rod shorter than the offset.
     let m = OffsetSliderCrank { b: 1.0, ..OffsetSliderCrank::default() };
     assert!(matches!(
-        m.assemble(0.0, OffsetSliderCrankBranch::new(Slope::Rising)),
+        m.assemble(0.0, OffsetSliderCrankBranch::new(Slider::Far)),
         Err(PositionError::Unbuildable { group: "theta3", .. })
     ));
 }

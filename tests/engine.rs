@@ -4,7 +4,7 @@ use linkage_oracle::close;
 use std::f64::consts::PI;
 
 use linkage::nalgebra::{Point2, Vector2, vector};
-use linkage::{Mode, Slope};
+use linkage::{Mode, Slider};
 
 #[path = "../examples/quadrature/mod.rs"]
 mod gauss;
@@ -106,7 +106,7 @@ fn the_cycle_by_hand() {
     let scene = Running::default();
     let engine = &scene.mechanism;
     let at = |degrees: f64| {
-        let pose = engine.assemble(degrees.to_radians(), EngineBranch { psi: Slope::Rising }).unwrap();
+        let pose = engine.assemble(degrees.to_radians(), EngineBranch { psi_z: Slider::Far }).unwrap();
         engine.outputs(&pose).unwrap()
     };
     close("swept", at(180.0).volume - at(0.0).volume, PI / 2.0 * engine.bore.powi(2) * engine.r, 1e-18);

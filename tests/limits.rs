@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::limits::{Limit, Limits};
-use linkage::{Elbow, PositionError, Slider, Slope, linkage};
+use linkage::{Elbow, PositionError, Slider, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -144,7 +144,7 @@ fn sliders_in_closed_form() {
     exact(negative.lower, -4.0, "phi1, phi2");
     exact(negative.upper, -2.0, "phi1, phi2");
     let compressor = Compressor::from(SliderCrank::default());
-    let branch = CompressorBranch { phi2: Slope::Rising };
+    let branch = CompressorBranch { phi2_z3: Slider::Far };
     assert_eq!(compressor.limits(0.3, branch).unwrap(), Limits { lower: Limit::Unlimited, upper: Limit::Unlimited });
     // A rod shorter than the crank: sin(phi1) = l/r.
     let short = Compressor::from(SliderCrank::new(2.0, 1.0));
@@ -231,7 +231,7 @@ fn one_input_at_a_time() {
 /// A length whose first group stops in closed form, unless the second stops before.
 #[test]
 fn of_exact_and_bracketed_the_nearer() {
-    let branch = TableBranch { alpha: Slope::Rising, beta_gamma: Elbow::Left };
+    let branch = TableBranch { alpha_reach: Slider::Far, beta_gamma: Elbow::Left };
     let m = Table::default();
     let found = m.limits(0.5, branch).unwrap();
     exact(found.lower, -2.0, "alpha");
@@ -377,7 +377,7 @@ fn a_gap_between_equal_determinants_is_seen() {
     let arm = 4.0 + 1.0 / 128.0;
     // From here the steps to the exact limit are of 1/64, and none is at 0.
     let start = arm - 360.0 / 64.0;
-    let branch = UnevenBranch { alpha: Slope::Rising, beta_gamma: Elbow::Left };
+    let branch = UnevenBranch { alpha_reach: Slider::Far, beta_gamma: Elbow::Left };
     // The joints of the struts are too near each other while |height| is less than the width.
     let width: f64 = 1.0 / 300.0;
     let nearest = (36.0 + arm * arm - 12.0 * (arm * arm - width * width).sqrt()).sqrt();

@@ -5,7 +5,7 @@
 use approx::assert_abs_diff_eq;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-use linkage::{Dim, Mechanism, PositionError, Slope, singularity};
+use linkage::{Dim, Mechanism, PositionError, Slider, singularity};
 use nalgebra::{DMatrix, vector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -92,8 +92,8 @@ fn slider_crank_driven_by_its_crank() {
     }
     let m = Compressor::default();
     for degrees in 0..360 {
-        for slope in [Slope::Rising, Slope::Falling] {
-            let pose = m.assemble(f64::from(degrees).to_radians(), CompressorBranch { phi2: slope }).unwrap();
+        for slider in [Slider::Far, Slider::Near] {
+            let pose = m.assemble(f64::from(degrees).to_radians(), CompressorBranch { z3_phi2: slider }).unwrap();
             assert!(!singularity::report(&m, &pose).unwrap().is_singular());
         }
     }

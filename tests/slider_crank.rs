@@ -3,7 +3,7 @@
 //! Modelling Syst. 2 (1996): its dimensions and masses, at the crank's constant speed.
 
 use linkage::nalgebra::{Vector2, vector};
-use linkage::{Slope, linkage};
+use linkage::{Slider, linkage};
 use linkage_oracle::close;
 
 linkage! {
@@ -77,7 +77,7 @@ fn motion_through_a_turn() {
     for step in 0..=24_u32 {
         let theta = f64::from(step) * std::f64::consts::PI / 12.0;
         let [psi, x, psi1, x1, psi2, x2, determinant] = row(step as usize);
-        let pose = crank.assemble(theta, CrankBranch { psi: Slope::Rising }).unwrap();
+        let pose = crank.assemble(theta, CrankBranch { psi_x: Slider::Far }).unwrap();
         let q = pose.coordinates();
         close("psi", q.psi, psi, 2e-14);
         close("x", q.x, x, 2e-14 * 0.45);

@@ -182,7 +182,7 @@ fn ten_turns_both_ways() {
     assert!((here.coords + turned.coords).amax() < 1e-14, "{here} {turned}");
 
     let m = Halves::default();
-    let branch = HalvesBranch::new(Slope::Rising, Slope::Rising);
+    let branch = HalvesBranch::new(Slope::Rising, Slider::Near);
     let [start, turned] =
         [0, 1].map(|psi_turn| m.assemble(0.3, HalvesBranch { psi_turn, ..branch }).unwrap().coordinates());
     assert!((turned.cam - start.cam - m.lift * TAU).abs() < 1e-14 && (turned.q - start.q - m.b * TAU).abs() < 1e-14);

@@ -7,7 +7,7 @@ mod mechanisms;
 use std::hint::black_box;
 
 use linkage::lanes::Lanes;
-use linkage::{Elbow, Slope};
+use linkage::{Elbow, Slider};
 use mechanisms::{
     FourBar, FourBarBranch, FourBarInputs, Jansen, JansenBranch, JansenInputs, ShortChain, ShortChainBranch,
     SliderCrank, SliderCrankBranch, StephensonIII, StephensonIIIBranch,
@@ -69,7 +69,7 @@ fn main() {
             lanes!(Jansen, JansenInputs, JansenBranch::new(left, left, right, right, left), calls);
         }
         "four_bar" => functions!(FourBar::default(), FourBarBranch::new(left), function, calls),
-        "slider_crank" => functions!(SliderCrank::default(), SliderCrankBranch::new(Slope::Rising), function, calls),
+        "slider_crank" => functions!(SliderCrank::default(), SliderCrankBranch::new(Slider::Far), function, calls),
         "stephenson_iii" => functions!(StephensonIII::default(), StephensonIIIBranch::new(left, left), function, calls),
         "jansen" => functions!(Jansen::default(), JansenBranch::new(left, left, right, right, left), function, calls),
         "chain" => {

@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use by_hand::chain::Loop;
 use linkage::nalgebra::SVector;
-use linkage::{Elbow, PositionError, Slope};
+use linkage::{Elbow, PositionError, Slider};
 use long_chain::{Chain, ChainBranch, ChainCoordinates, ChainKinematics, ChainMotion};
 use mechanisms::{
     FourBar, FourBarBranch, FourBarCoordinates, FourBarKinematics, FourBarMotion, Jansen, JansenBranch,
@@ -140,7 +140,7 @@ fn main() {
     compare!(
         "Slider-crank",
         SliderCrank,
-        SliderCrankBranch::new(Slope::Rising),
+        SliderCrankBranch::new(Slider::Far),
         |m: &SliderCrank, theta| by_hand::slider_crank::checked(m, theta, RATE, ACCELERATION, 1.0),
         |m: &SliderCrank, theta| by_hand::slider_crank::bare(m, theta, RATE, ACCELERATION, 1.0),
         |m: &SliderCrank, q: &SliderCrankCoordinates| by_hand::slider_crank::at(m, q, RATE, ACCELERATION),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use linkage::{Error, Slope};
+use linkage::{Error, Slider};
 
 use crate::gauss::nodes;
 use crate::machine::{CYCLE, EngineBranch, KINKS, Running};
@@ -26,7 +26,7 @@ pub fn work(scene: &Running<f64>, [from, to]: [f64; 2]) -> Result<[f64; 2], Erro
         let place = |part: u32| pair[0] + (pair[1] - pair[0]) * f64::from(part) / parts;
         for part in 0..parts as u32 {
             for [phi, weight] in nodes([place(part), place(part + 1)]) {
-                let pose = engine.assemble(phi, EngineBranch { psi: Slope::Rising })?;
+                let pose = engine.assemble(phi, EngineBranch { psi_z: Slider::Far })?;
                 let rate = engine.velocity(&pose, 1.0)?;
                 let outputs = engine.outputs(&pose)?;
                 work[0] += weight * (outputs.pressure - scene.ambient) * -rate.z * PI / 4.0 * engine.bore.powi(2);

@@ -3,7 +3,7 @@
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, Vector2, point, vector};
 use linkage::simulation::simulate;
-use linkage::{PositionError, Slope};
+use linkage::{PositionError, Slider};
 
 use crate::loads::Loads;
 use crate::machine::{CYCLE, Engine, EngineBranch, EngineCoordinates};
@@ -57,7 +57,7 @@ fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
 
 /// A still picture of the engine.
 fn station(engine: &Engine<f64>, (stroke, degrees): (&str, f64)) -> Result<String, Box<dyn std::error::Error>> {
-    let pose = engine.assemble(degrees.to_radians(), EngineBranch { psi: Slope::Rising })?;
+    let pose = engine.assemble(degrees.to_radians(), EngineBranch { psi_z: Slider::Far })?;
     let mut picture = Animation::new(stroke, SECONDS);
     picture.frame(frame(engine, &pose.coordinates())?);
     draw(&mut picture, engine);
@@ -142,7 +142,7 @@ pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::erro
     let stations = strokes
         .into_iter()
         .map(|(stroke, angle)| {
-            let pose = engine.assemble(angle.to_radians(), EngineBranch { psi: Slope::Rising })?;
+            let pose = engine.assemble(angle.to_radians(), EngineBranch { psi_z: Slider::Far })?;
             let pressure = engine.outputs(&pose)?.pressure / 1e6;
             Ok((station(engine, (stroke, angle))?, format!("{stroke}: {angle:.0}°, {pressure:.2} MPa.")))
         })

@@ -3,7 +3,6 @@
 use std::error::Error;
 
 use linkage::Slider::Far;
-use linkage::Slope::Rising;
 use linkage::nalgebra::{center, vector};
 
 use crate::figure::{Course, Figure, along, at};
@@ -29,7 +28,7 @@ pub fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
 fn offset_slider_crank() -> Result<Figure, Box<dyn Error>> {
     let m = OffsetSliderCrank::default();
     let mut figure = assembled!("Offset slider-crank", OffsetSliderCrank,
-        m on OffsetSliderCrankBranch::new(Rising), from 60.0,
+        m on OffsetSliderCrankBranch::new(Far), from 60.0,
         |pose, points| [("M", center(&points.a, &points.b))]);
     figure.picture.crank(&["O", "A"]).link(&["A", "M", "B"]).slider("B").ground("O").trace("M");
     Ok(figure.words(
@@ -54,7 +53,7 @@ fn inverted_slider_crank() -> Result<Figure, Box<dyn Error>> {
 fn whitworth() -> Result<Figure, Box<dyn Error>> {
     let m = Whitworth::default();
     let mut figure = assembled!("Whitworth's quick return", Whitworth,
-    m on WhitworthBranch::new(Far, Rising), from 60.0,
+    m on WhitworthBranch::new(Far, Far), from 60.0,
     |pose, points| [
         ("Tip", along(points.e, points.c, m.arm + m.crank + m.offset + 12.0)),
         ("M", center(&points.e, &points.ram)),
@@ -70,7 +69,7 @@ fn whitworth() -> Result<Figure, Box<dyn Error>> {
 fn crank_shaper() -> Result<Figure, Box<dyn Error>> {
     let m = CrankShaper::default();
     let mut figure = assembled!("Crank shaper", CrankShaper,
-        m on CrankShaperBranch::new(Far, Rising), from 60.0,
+        m on CrankShaperBranch::new(Far, Far), from 60.0,
         |pose, points| [("M", center(&points.e, &points.ram))]);
     figure.picture.link(&["C", "E"]).crank(&["O", "Pin"]).sleeve("Pin", ["C", "E"]);
     figure.picture.link(&["E", "M", "Ram"]).slider("Ram").ground("O").ground("C").trace("M");

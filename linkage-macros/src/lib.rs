@@ -254,7 +254,7 @@ use proc_macro::TokenStream;
 /// assert!(piston.jerk(&pose, &rates, &accelerations, 0.0)?.x.abs() < 1e-14);
 /// // With a rod half as long as the crank, the crank turns at most 30 degrees from the line of the slider.
 /// let short = Piston::new(2.0, 1.0);
-/// let limits = short.limits(0.1, PistonBranch { psi: linkage::Slope::Rising })?;
+/// let limits = short.limits(0.1, PistonBranch { psi_x: linkage::Slider::Far })?;
 /// assert!((limits.upper.input().unwrap() - std::f64::consts::FRAC_PI_6).abs() < 1e-15);
 /// # Ok::<(), linkage::Error>(())
 /// ```

@@ -4,13 +4,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use linkage::{PositionError, Slope, singularity};
+use linkage::{PositionError, Slider, singularity};
 
 use linkage_oracle::precise::{Scalar, big};
 
 use linkage_gallery::slider_crank::*;
 
-const SLOPES: [Slope; 2] = [Slope::Rising, Slope::Falling];
+const SLIDERS: [Slider; 2] = [Slider::Far, Slider::Near];
 
 #[test]
 fn velocity_at_the_singularity() {
@@ -21,8 +21,8 @@ fn velocity_at_the_singularity() {
         let answers = [ratio(-phi1), ratio(-phi1 + 4.0 * std::f64::consts::PI)];
         println!("phi1 = {phi1}: quotients {answers:?}");
         assert!(answers.iter().all(|answer| answer.is_finite()) && (answers[0] - answers[1]).abs() > 0.1);
-        for phi2 in SLOPES {
-            let pose = m.assemble(phi1, CompressorBranch { phi2 }).unwrap();
+        for slider in SLIDERS {
+            let pose = m.assemble(phi1, CompressorBranch { z3_phi2: slider }).unwrap();
             assert!(m.residual(&pose).amax() <= 1e-15 && pose.phi2.re.abs() <= 1e-15, "{pose:?}");
             assert!(matches!(m.velocity_ratios(&pose), Err(PositionError::Singular { group: "phi2", .. })));
             assert!(singularity::report(&m, &pose).unwrap().is_singular());
@@ -38,9 +38,9 @@ fn positions_near_it() {
     for digits in 1..8 {
         let phi1 = FRAC_PI_2 - 10_f64.powi(-digits);
         let cosine = big(phi1).sin_cos().1;
-        for phi2 in SLOPES {
-            let pose = m.assemble(phi1, CompressorBranch { phi2 }).unwrap();
-            let expected = if phi2 == SLOPES[0] { big(2.0 * m.z1) * &cosine } else { big(0.0) };
+        for slider in SLIDERS {
+            let pose = m.assemble(phi1, CompressorBranch { z3_phi2: slider }).unwrap();
+            let expected = if slider == Slider::Far { big(2.0 * m.z1) * &cosine } else { big(0.0) };
             let attainable = singularity::accuracy(&m, &pose).unwrap().unknowns();
             let error = (big(pose.z3) - expected).double().abs();
             worst = worst.max(error / attainable.largest());

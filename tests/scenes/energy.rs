@@ -56,7 +56,7 @@ fn energy_balances() {
         let rates = LoadedFourBarInputs { theta2: rate[0] };
         balance!(loaded, q, rates, t);
         balance!(driven, q, rates, t);
-        let q = turning.mechanism.assemble(v[0], CrankBranch { psi: linkage::Slope::Rising }).unwrap().coordinates();
+        let q = turning.mechanism.assemble(v[0], CrankBranch { psi_z: linkage::Slider::Far }).unwrap().coordinates();
         let rates = CrankInputs { phi: rate[0] };
         balance!(turning, q, rates, t);
         let rates = PistonInputs { z: rate[0] };

@@ -110,7 +110,7 @@ fn slider_crank_by_either_driver() {
     impl Positions<1> for OfCrank {
         fn bodies<T: Real>(&self, v: [T; 1]) -> Vec<Placed<T>> {
             let (m, scene) = (Crank::from(Machine::default()).map(constant::<T>), Turning::default());
-            let pose = m.assemble(v[0], CrankBranch { psi: linkage::Slope::Rising }).unwrap();
+            let pose = m.assemble(v[0], CrankBranch { psi_z: linkage::Slider::Far }).unwrap();
             let (points, q) = (m.points(&pose).unwrap(), pose.coordinates());
             let quarter = constant::<T>(0.25);
             vec![
@@ -122,12 +122,12 @@ fn slider_crank_by_either_driver() {
 
         fn scalars<T: Real>(&self, v: [T; 1]) -> Vec<T> {
             let m = Crank::from(Machine::default()).map(constant::<T>);
-            vec![m.assemble(v[0], CrankBranch { psi: linkage::Slope::Rising }).unwrap().coordinates().z]
+            vec![m.assemble(v[0], CrankBranch { psi_z: linkage::Slider::Far }).unwrap().coordinates().z]
         }
     }
     let (turning, steady, pushed) = (Turning::default(), Steady::default(), Pushed::default());
     at_random(|v: [f64; 1], rate: [f64; 1], t| {
-        let q = turning.mechanism.assemble(v[0], CrankBranch { psi: linkage::Slope::Rising }).unwrap().coordinates();
+        let q = turning.mechanism.assemble(v[0], CrankBranch { psi_z: linkage::Slider::Far }).unwrap().coordinates();
         let mut expected = virtual_work(&OfCrank, v, rate, [0.0, -turning.g]);
         let light = virtual_work(&OfCrank, v, rate, [0.0, 0.0]);
         let mass = turning.mass_matrix(&q).unwrap()[0];

@@ -10,7 +10,7 @@ use super::plane::{Vector, turned};
 use super::step::Step;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, ColumnId};
-use crate::structure::Group;
+use crate::structure::{Group, Slide};
 
 /// The steps that solve all groups, and their results.
 #[derive(Debug, Clone, Default)]
@@ -53,14 +53,14 @@ pub enum Choice {
 }
 
 impl Choice {
-    /// The choice of a group with two solutions.
+    /// The choice of a group with two solutions. The angle of a dyad with a slider has those of the slider.
     #[must_use]
-    pub fn of(group: Group) -> Option<Self> {
-        match group {
-            Group::Rrr => Some(Self::Elbow),
-            Group::Rrp | Group::Rpr => Some(Self::Slider),
-            Group::Angle => Some(Self::Slope),
-            Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Irreducible(_) => None,
+    pub fn of(group: Group, slide: Option<Slide>) -> Option<Self> {
+        match (group, slide) {
+            (Group::Rrr, _) => Some(Self::Elbow),
+            (Group::Rrp | Group::Rpr, _) | (Group::Angle, Some(_)) => Some(Self::Slider),
+            (Group::Angle, None) => Some(Self::Slope),
+            (Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Irreducible(_), _) => None,
         }
     }
 
@@ -145,7 +145,7 @@ impl Derivation {
         for id in self.blocks.ids() {
             let block = self.blocks[id].clone();
             let closed = self.assemble(id, &block, &mut assembly);
-            if let (Some(determinant), Some(choice)) = (closed, Choice::of(block.group)) {
+            if let (Some(determinant), Some(choice)) = (closed, Choice::of(block.group, block.slide)) {
                 let is_opposite = self.graph.leads_negative(determinant);
                 assembly.chords.push(Chord { block: id, choice, is_opposite });
             }
@@ -168,7 +168,9 @@ impl Derivation {
         let mut group = Solver { graph: &mut self.graph, block: id, equations, assembly };
         match (block.group, rows.as_slice(), symbols.as_slice()) {
             (Group::Linear, &[row], &[unknown]) => group.linear(row, unknown),
-            (Group::Angle, &[row], &[phi]) => group.angle(row, phi),
+            (Group::Angle, &[row], &[phi]) => {
+                group.angle(row, phi, block.slide.is_none_or(|slide| slide.is_far_rising))
+            }
             (Group::Sliders, &[x, y], &[s, t]) => group.sliders([x, y], s, t),
             (Group::Rrr, &[x, y], &[a, b]) => {
                 // The first angle may be measured relative to the other link.

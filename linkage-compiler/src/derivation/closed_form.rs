@@ -182,7 +182,8 @@ impl Solver<'_> {
         Some(slope)
     }
 
-    pub(super) fn angle(&mut self, row: NodeId, phi: SymbolId) -> Option<NodeId> {
+    /// `is_rising` if the row increases with the angle on the branch of the positive root.
+    pub(super) fn angle(&mut self, row: NodeId, phi: SymbolId, is_rising: bool) -> Option<NodeId> {
         let zero = self.graph.zero();
         let ([part, _], [rest, _]) = self.parted([row, zero], phi);
         let slope = self.graph.partial(&[part], phi)[0];
@@ -193,7 +194,8 @@ impl Solver<'_> {
         let square = square_of(self.graph, n);
         let scales = [self.scale(&[a, b]), self.scale_without(&[phi])];
         let of = self.reach(n, scales);
-        let g = self.chord(factors, n, of);
+        let chord = self.chord(factors, n, of);
+        let g = if is_rising { chord } else { self.graph.negate(chord) };
         // (cos, sin) . (a, b) = h and (cos, sin) x (a, b) = g
         let direction = with_products(self.graph, [a, b], square, h, g);
         if self.graph.is_zero(a) || self.graph.is_zero(b) {

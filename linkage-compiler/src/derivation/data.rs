@@ -4,7 +4,7 @@ use super::linear::{Row, Solutions};
 use super::scene::Scene;
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{BlockId, ColumnId, InputId, PairId, ParameterId, RowId, Table, UnknownId};
-use crate::structure::Group;
+use crate::structure::{Group, Slide};
 
 /// A coordinate with the symbols of its rate, acceleration and jerk.
 #[derive(Debug, Clone)]
@@ -51,6 +51,8 @@ pub struct Block {
     pub equations: Vec<RowId>,
     pub unknowns: Vec<UnknownId>,
     pub group: Group,
+    /// The slider, if it is the angle of a dyad whose length another block has.
+    pub slide: Option<Slide>,
     /// The determinant, if the block has at most two unknowns.
     pub determinant: Option<Determinant>,
 }
@@ -111,16 +113,22 @@ pub struct Derivation {
 }
 
 impl Block {
-    /// The name of its field in the branch: the names of its unknowns.
+    /// The name of its field in the branch: the names of the unknowns of its dyad.
     #[must_use]
     pub fn branch(&self, derivation: &Derivation) -> String {
-        self.names(derivation).replace(", ", "_")
+        let mut unknowns = self.unknowns.clone();
+        unknowns.extend(self.slide.map(|slide| slide.length));
+        unknowns.sort_unstable();
+        named(&unknowns, derivation).join("_")
     }
 
     /// The names of its unknowns, which identify it in errors.
     #[must_use]
     pub fn names(&self, derivation: &Derivation) -> String {
-        let name = |&place: &UnknownId| derivation.coordinates[derivation.unknowns[place]].name.as_str();
-        self.unknowns.iter().map(name).collect::<Vec<_>>().join(", ")
+        named(&self.unknowns, derivation).join(", ")
     }
+}
+
+fn named<'a>(unknowns: &[UnknownId], derivation: &'a Derivation) -> Vec<&'a str> {
+    unknowns.iter().map(|&place| derivation.coordinates[derivation.unknowns[place]].name.as_str()).collect()
 }

@@ -122,13 +122,13 @@ fn with_names(graph: &mut Graph, parts: Table<BlockId, Unnamed>) -> Table<BlockI
     let values = parts.iter().filter_map(|(_, _, determinant)| Some(determinant.as_ref()?.0));
     let is_single = values.filter(|&value| is_variable(graph, value)).count() == 1;
     let named = parts.ids().zip(parts).map(|(id, (block, group, determinant))| {
-        let structure::Block { equations, unknowns } = block;
+        let structure::Block { equations, unknowns, slide } = block;
         let determinant = determinant.map(|(value, scale)| {
             let is_only = is_single && is_variable(graph, value);
             let name = if is_only { "determinant".to_owned() } else { format!("determinant_{}", id.number()) };
             Determinant { value, symbol: graph.symbol(name), scale }
         });
-        Block { equations, unknowns, group, determinant }
+        Block { equations, unknowns, group, slide, determinant }
     });
     named.collect()
 }

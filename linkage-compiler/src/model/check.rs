@@ -10,7 +10,7 @@ use super::scope::Scope;
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
 use crate::ids::{RowId, Table, UnknownId};
-use crate::structure::{self, StructurallySingular};
+use crate::structure::StructurallySingular;
 
 /// Reports declarations that are not used.
 pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
@@ -126,7 +126,7 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
             }
         }
         if before && diagnostics.is_empty() {
-            match structure::order(&mechanism.incidence(driver), driver.unknowns.len()) {
+            match mechanism.order_of_solution(driver) {
                 Ok(blocks) => orders.push((id, blocks)),
                 Err(singular) => singularity(mechanism, driver, &singular, diagnostics),
             }

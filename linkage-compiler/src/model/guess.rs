@@ -10,7 +10,6 @@ use super::name::Name;
 use super::scope::Scope;
 use crate::diagnostics::nearest;
 use crate::ids::{CoordinateId, InputId, Table};
-use crate::structure;
 use crate::syntax::{Statement, StatementKind};
 
 /// Completes a mechanism with mistakes: undeclared coordinates, the order of solution if it is known, and unique field
@@ -93,7 +92,7 @@ fn order(mechanism: &mut Mechanism, rows: usize) {
     for id in mechanism.drivers.ids() {
         let driver = &mechanism.drivers[id];
         let is_known = read == rows && rows == driver.unknowns.len();
-        let blocks = is_known.then(|| structure::order(&mechanism.incidence(driver), driver.unknowns.len()).ok());
+        let blocks = is_known.then(|| mechanism.order_of_solution(driver).ok());
         mechanism.drivers[id].blocks = blocks.flatten().unwrap_or_default();
     }
 }

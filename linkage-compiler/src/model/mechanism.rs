@@ -12,10 +12,10 @@ use super::scene::{Body, Scene};
 use crate::diagnostics::Region;
 use crate::graph::{ExternalId, Graph, NodeId, SymbolId};
 use crate::ids::{
-    BlockId, BodyId, ColumnId, CoordinateId, DriverId, InputId, ParameterId, RowId, SceneId, SceneParameterId, Table,
-    UnknownId,
+    BlockId, BodyId, ColumnId, CoordinateId, DriverId, Id, InputId, ParameterId, RowId, SceneId, SceneParameterId,
+    Table, UnknownId,
 };
-use crate::structure::Block;
+use crate::structure::{self, Block, StructurallySingular};
 
 /// A mechanism with resolved names.
 pub struct Mechanism {
@@ -190,6 +190,26 @@ impl Mechanism {
             unknowns.sort_unstable();
             unknowns
         })
+    }
+
+    /// The blocks of a driver in the order of solution.
+    ///
+    /// # Errors
+    /// [`StructurallySingular`] if some unknowns appear in too few equations.
+    pub fn order_of_solution(&self, driver: &Driver) -> Result<Table<BlockId, Block>, StructurallySingular> {
+        let incidence = self.incidence(driver);
+        let mut blocks = structure::order(&incidence, driver.unknowns.len())?;
+        let symbols = driver.unknowns.clone().map(|coordinate| self.coordinates[coordinate].symbol);
+        let (mut graph, rows) = (self.graph.clone(), self.rows());
+        structure::find_slides(&mut blocks, &incidence, &self.loops(), &mut graph, &rows, &symbols);
+        Ok(blocks)
+    }
+
+    /// The two rows of each `loop`.
+    fn loops(&self) -> Vec<[RowId; 2]> {
+        let mut rows = (0..).map(RowId::new);
+        let mut next = |constraint: &Constraint| -> Vec<RowId> { rows.by_ref().take(constraint.rows.len()).collect() };
+        self.constraints.iter().filter_map(|constraint| next(constraint).try_into().ok()).collect()
     }
 
     /// The coordinates in the order of q: as declared if the driver is a choice, else u before v.

@@ -84,13 +84,17 @@ impl Position {
             let symbols = block.unknowns.iter().map(|&place| mechanism.coordinates[driver.unknowns[place]].symbol);
             let symbols: Vec<SymbolId> = symbols.collect();
             let group = Group::of(&mut graph, &equations, &symbols);
-            if Choice::of(group).is_some() {
+            let choice = Choice::of(group, block.slide);
+            if choice.is_some() {
                 let angles = graph.in_directions(&equations);
                 solved.extend(symbols.into_iter().filter(|symbol| angles.contains(symbol)));
             }
             is_closed &= !matches!(group, Group::Scalar | Group::Pair | Group::Irreducible(_));
-            let names: Vec<&str> = block.unknowns.iter().map(|&place| name(place)).collect();
-            sides.extend(Choice::of(group).map(|choice| (names.join("_"), choice)));
+            let mut dyad = block.unknowns.clone();
+            dyad.extend(block.slide.map(|slide| slide.length));
+            dyad.sort_unstable();
+            let names: Vec<&str> = dyad.into_iter().map(name).collect();
+            sides.extend(choice.map(|choice| (names.join("_"), choice)));
         }
         let turns = match is_closed {
             true => Self::guessed_turns(mechanism, driver, &mut graph, &sides, &solved),

@@ -7,10 +7,12 @@
 
 mod group;
 mod matching;
+mod slide;
 
 pub use group::Group;
 use matching::Matching;
 pub use matching::StructurallySingular;
+pub use slide::{Slide, find_slides};
 
 use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
 
@@ -21,6 +23,8 @@ pub struct Block {
     pub equations: Vec<RowId>,
     /// In ascending order.
     pub unknowns: Vec<UnknownId>,
+    /// The slider, if it is the angle of a dyad whose length another block has.
+    pub slide: Option<Slide>,
 }
 
 /// The solution method for the linear systems of a block.
@@ -64,7 +68,7 @@ pub fn order(
             let mut unknowns: Vec<UnknownId> =
                 equations.iter().filter_map(|&equation| matching.unknown(equation)).collect();
             unknowns.sort_unstable();
-            Block { equations, unknowns }
+            Block { equations, unknowns, slide: None }
         })
         .collect())
 }
@@ -157,7 +161,7 @@ mod tests {
     }
 
     fn block(equations: &[usize], unknowns: &[usize]) -> Block {
-        Block { equations: ids(equations), unknowns: ids(unknowns) }
+        Block { equations: ids(equations), unknowns: ids(unknowns), slide: None }
     }
 
     fn is_odd_permutation(places: &[usize]) -> bool {
