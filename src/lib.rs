@@ -23,8 +23,8 @@ pub use linkage_report::drawing;
 pub use linkage_report::{Document, sheet};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
-    AnyBranch, Assembly, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion, PathError,
-    PerInput, PerUnknown, PointMotion, PositionError, Real, Slider, Slope, Solution, accuracy, continuation,
+    AnyBranch, Assembled, Assembly, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion,
+    PathError, PerInput, PerUnknown, PointMotion, PositionError, Real, Slider, Slope, Solution, accuracy, continuation,
     derivation, lanes, limits, nalgebra, position, real, singularity,
 };
 

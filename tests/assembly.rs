@@ -1,6 +1,6 @@
 //! Position in closed form: inputs without a position, data that must not matter, and the meaning of a branch.
 
-use linkage::{Elbow, PositionError, Slider, Slope};
+use linkage::{Assembled, Elbow, PositionError, Slider, Slope};
 
 use linkage_gallery::four_bar::*;
 use linkage_gallery::introductory::*;
@@ -25,6 +25,13 @@ fn both_branches_of_a_four_bar() {
         assert_eq!(m.branch_of(&left), branch(Elbow::Left));
         assert_eq!(m.branch_of(&right), branch(Elbow::Right));
         assert_eq!(left.determinant.to_bits(), (-right.determinant).to_bits());
+        // A rough position, of the middles of intervals of 20 degrees, finds the branch.
+        for (pose, side) in [(&left, Elbow::Left), (&right, Elbow::Right)] {
+            let rough = |angle: f64| (angle.to_degrees() / 20.0).round() * 20.0_f64.to_radians();
+            let FourBarCoordinates { theta3, theta4, .. } = pose.coordinates();
+            let rough = FourBarCoordinates { theta2, theta3: rough(theta3), theta4: rough(theta4) };
+            assert_eq!(m.branch_near(&rough), branch(side), "{rough:?}");
+        }
         for pose in [left, right] {
             assert!(m.residual(&pose).amax() <= 8.0 * f64::EPSILON * m.residual_scales(&pose).sum());
         }
@@ -168,19 +175,20 @@ fn a_slider_is_far_or_near_along_any_guide() {
 #[test]
 fn branches_that_exist() {
     let m = SixBar::default();
-    let found: Vec<_> = m.branches(1.0).map(|position| position.unwrap()).collect();
+    let found: Vec<_> = m.branches(1.0).unwrap().collect();
     assert_eq!(found.len(), SixBarBranch::all().filter(|&branch| m.assemble(1.0, branch).is_ok()).count());
-    for (branch, pose) in &found {
+    for Assembled { branch, pose } in &found {
         assert_eq!(m.branch_of(pose), *branch);
+        assert_eq!(m.branch_near(&pose.coordinates()), *branch);
         let other = m.assemble(1.0, *branch).unwrap();
         assert_eq!((other.theta2, other.theta5), (pose.theta2, pose.theta5));
     }
     // The second group reaches from one elbow of the first alone.
     let short = SixBar { f: 3.0, g: 11.0, ..m };
-    let first: Vec<_> = short.branches(1.0).map(|position| position.unwrap().0.theta2_theta3).collect();
+    let first: Vec<_> = short.branches(1.0).unwrap().map(|found| found.branch.theta2_theta3).collect();
     assert_eq!(first, [Elbow::Right, Elbow::Right]);
-    assert!(FourBar::new(80.0, 20.0, 10.0, 10.0).branches(0.3).next().is_none());
-    assert!(matches!(FourBar::default().branches(f64::NAN).next(), Some(Err(PositionError::NotFinite { .. }))));
+    assert!(FourBar::new(80.0, 20.0, 10.0, 10.0).branches(0.3).unwrap().next().is_none());
+    assert!(matches!(FourBar::default().branches(f64::NAN).err(), Some(PositionError::NotFinite { .. })));
 }
 
 /// A dyad, then Kepler's equation, which has no closed form, then an angle that follows from it.

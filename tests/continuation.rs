@@ -239,7 +239,7 @@ fn single_precision() {
 #[test]
 fn strokes_of_a_slider() {
     let m = OffsetSliderCrank::default();
-    let pose = m.branches(1.0).find_map(Result::ok).unwrap().1;
+    let pose = m.branches(1.0).unwrap().next().unwrap().pose;
     let mut path = Path::new(&m, &pose.coordinates(), Direction::Increasing).unwrap();
     let mut ends = Vec::new();
     while path.position().theta2 < 1.0 + TAU {

@@ -5,7 +5,7 @@
 use approx::assert_abs_diff_eq;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-use linkage::{Dim, Mechanism, PositionError, Slider, singularity};
+use linkage::{Assembled, Dim, Mechanism, PositionError, Slider, singularity};
 use nalgebra::{DMatrix, vector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -145,7 +145,7 @@ fn dyad_with_a_slider() {
 #[test]
 fn six_bar_with_its_second_dyad_stretched() {
     let m = SixBar::default();
-    let pose = m.branches(0.4).next().unwrap().unwrap().1.coordinates();
+    let pose = m.branches(0.4).unwrap().next().unwrap().pose.coordinates();
     let p = vector![m.d + m.e * (pose.theta3 - m.delta).cos(), m.e * (pose.theta3 - m.delta).sin()];
     let along = vector![m.h, 0.0] - p;
     let angle = along.y.atan2(along.x);
@@ -258,7 +258,7 @@ fn against_brute_force() {
 #[test]
 fn scale_free() {
     let m = SixBar::default();
-    let q = m.branches(1.0).next().unwrap().unwrap().1.coordinates();
+    let q = m.branches(1.0).unwrap().next().unwrap().pose.coordinates();
     let found = singularity::report(&m, &m.pose_at(&q)).unwrap();
     let attainable = singularity::accuracy(&m, &m.pose_at(&q)).unwrap();
     for k in [-200, -3, 1, 200] {
@@ -284,8 +284,7 @@ fn attainable_accuracy() {
     let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
     for step in 0..2000 {
         let theta2 = PI - f64::from(step) * 1e-3;
-        for found in m.branches(theta2) {
-            let (_, pose) = found.unwrap();
+        for Assembled { pose, .. } in m.branches(theta2).unwrap() {
             let here = singularity::accuracy(&m, &pose).unwrap();
             assert!(here.residual <= ROUNDING_ERROR, "{here:?}");
             let q = pose.coordinates();

@@ -131,7 +131,7 @@ macro_rules! assembled {
         let course = Course::around(f64::to_radians($degrees), |input| $m.assemble(input, branch).is_ok());
         let mut figure = Figure::new($name, $mechanism::<f64>::DERIVATION, course);
         for input in course.inputs() {
-            figure.branches.get_or_insert([$branch::all().count(), $m.branches(input).count()]);
+            figure.branches.get_or_insert([$branch::all().count(), $m.branches(input)?.count()]);
             let $pose = $m.assemble(input, branch)?;
             assert_eq!($m.branch_of(&$pose), branch, "{} at {input}", $name);
             frame!(figure, $mechanism, $m, &$pose, $points => $more);

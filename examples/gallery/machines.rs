@@ -57,7 +57,7 @@ fn pantograph() -> Result<Figure, Box<dyn Error>> {
         let radius = 0.7 + 0.3 * (3.0 * angle).cos();
         let (x, y) = (4.6 + radius * angle.cos(), 0.4 + radius * angle.sin());
         let inputs = PantographInputs { x, y };
-        figure.branches.get_or_insert([PantographBranch::all().count(), m.branches(inputs).count()]);
+        figure.branches.get_or_insert([PantographBranch::all().count(), m.branches(inputs)?.count()]);
         let pose = m.assemble(inputs, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         let points = m.points(&pose)?;

@@ -51,7 +51,7 @@ fn five_bar() -> Result<Figure, Box<dyn Error>> {
     for part in course.inputs() {
         let theta1 = std::f64::consts::TAU * part + 1.0;
         let inputs = FiveBarInputs { theta1, theta4: 2.0 - 2.0 * theta1 };
-        figure.branches.get_or_insert([FiveBarBranch::all().count(), m.branches(inputs).count()]);
+        figure.branches.get_or_insert([FiveBarBranch::all().count(), m.branches(inputs)?.count()]);
         let pose = m.assemble(inputs, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         let [b, c] = [pose.theta1.complex() * m.a, pose.theta4.complex() * m.d];

@@ -28,7 +28,7 @@ fn watt_line() -> Result<Figure, Box<dyn Error>> {
     for (step, &theta) in inputs.iter().enumerate() {
         let rises = inputs[(step + 1) % inputs.len()] > inputs[step.saturating_sub(1)];
         let branch = if rises { there } else { back };
-        figure.branches.get_or_insert([WattLineBranch::all().count(), m.branches(theta).count()]);
+        figure.branches.get_or_insert([WattLineBranch::all().count(), m.branches(theta)?.count()]);
         let pose = m.assemble(theta, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         frame!(figure, WattLine, m, &pose, points => []);

@@ -80,7 +80,7 @@ fn coupled_wheels(name: &'static str, [above, below]: [Elbow; 2]) -> Result<Figu
     let mut figure = Figure::new(name, CoupledWheels::DERIVATION, course);
     for theta in course.inputs() {
         let branch = CoupledWheelsBranch::new(if theta.sin() > 0.0 { above } else { below });
-        figure.branches.get_or_insert([CoupledWheelsBranch::all().count(), m.branches(theta).count()]);
+        figure.branches.get_or_insert([CoupledWheelsBranch::all().count(), m.branches(theta)?.count()]);
         let pose = m.assemble(theta, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         frame!(figure, CoupledWheels, m, &pose, points => []);
@@ -99,7 +99,7 @@ fn geneva() -> Result<Figure, Box<dyn Error>> {
         // From the middle of one dwell to the middle of the next.
         let theta = PI + TAU * part;
         let turned = (theta - TAU).clamp(-engaged, engaged);
-        figure.branches.get_or_insert([GenevaBranch::all().count(), m.branches(turned).count()]);
+        figure.branches.get_or_insert([GenevaBranch::all().count(), m.branches(turned)?.count()]);
         let pose = m.assemble(turned, branch)?;
         assert_eq!(m.branch_of(&pose), branch);
         frame!(figure, Geneva, m, &pose, points => [("Crank", polar(m.crank, theta).into())]);

@@ -23,8 +23,8 @@ pub use crate::position::newton_group;
 pub use crate::scalar::unit;
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
-    AnyBranch, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion, PointMotion,
-    PositionError, Real, Slider, Slope, Solution, lane, newton, newton_any_branch, real,
+    AnyBranch, Assembled, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion,
+    PointMotion, PositionError, Real, Slider, Slope, Solution, lane, newton, newton_any_branch, real,
 };
 
 /// The types of emitted derivations.

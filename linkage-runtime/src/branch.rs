@@ -64,16 +64,30 @@ choices! {
     }
 }
 
-/// Assembles each of these branches and returns the positions with their branches. A branch with no position, or with
-/// infinitely many, is left out.
+/// A position with its branch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Assembled<B, P> {
+    /// The branch.
+    pub branch: B,
+    /// The position on it.
+    pub pose: P,
+}
+
+/// Assembles each of these branches. A branch with no position, or with infinitely many, is left out.
+///
+/// # Errors
+/// Any other error of a branch, before the first position.
 pub fn existing<B: Copy, P>(
-    branches: impl Iterator<Item = B>,
+    branches: impl Iterator<Item = B> + Clone,
     mut assemble: impl FnMut(B) -> Result<P, PositionError>,
-) -> impl Iterator<Item = Result<(B, P), PositionError>> {
-    branches.filter_map(move |branch| match assemble(branch) {
-        Err(PositionError::Unbuildable { .. } | PositionError::Undetermined { .. }) => None,
-        position => Some(position.map(|position| (branch, position))),
-    })
+) -> Result<impl Iterator<Item = Assembled<B, P>>, PositionError> {
+    for branch in branches.clone() {
+        match assemble(branch) {
+            Ok(_) | Err(PositionError::Unbuildable { .. } | PositionError::Undetermined { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(branches.filter_map(move |branch| Some(Assembled { branch, pose: assemble(branch).ok()? })))
 }
 
 /// Returns the side from the sign bit of a root: at a dead point, where the root is zero, from the sign of that zero.

@@ -48,7 +48,7 @@ mod sine;
 pub mod singularity;
 mod turn;
 
-pub use branch::{Elbow, Side, Slider, Slope};
+pub use branch::{Assembled, Elbow, Side, Slider, Slope};
 pub use column::Column;
 pub use dim::{D, Dim};
 pub use error::{InputError, PathError, PositionError};

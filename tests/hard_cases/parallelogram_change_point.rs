@@ -121,7 +121,7 @@ fn both_tangents() {
     let mut path = Path::new(&m, &at(2.0), Direction::Increasing).unwrap();
     let event = path.find_map(|step| step.unwrap().event).unwrap();
     let Event::ChangePoint { groups, tangents } = event else { panic!("{event:?}") };
-    assert!(groups.iter().eq(["rod, follower"]));
+    assert!(groups.iter().eq(["rod, follower (B-C-D)"]));
     assert!(tangents.len() == 2 && tangents.is_complete());
     let [kept, other] = [tangents[0], tangents[1]];
     assert!(kept.rod.abs() < 1e-12 && kept.follower > 0.0 && (kept.follower - kept.theta).abs() < 1e-12);
@@ -142,7 +142,7 @@ fn policies() {
     // Half a turn further, at the next change point, it returns to the parallelogram.
     assert!(is_parallel(&switched.advance_to(7.0).unwrap().position));
     let mut stopped = start(AtChangePoint::Stop);
-    let error = PathError::ChangePoint { mechanism: "CoupledWheels", group: "rod, follower" };
+    let error = PathError::ChangePoint { mechanism: "CoupledWheels", group: "rod, follower (B-C-D)" };
     assert_eq!(stopped.advance_to(4.0), Err(error));
     assert!((stopped.position().theta - PI).abs() < 1e-15);
     assert_eq!(stopped.advance(), Err(error));

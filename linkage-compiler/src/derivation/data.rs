@@ -1,5 +1,6 @@
 //! The data of a derivation: coordinates, blocks, points, outputs, scenes, and the results of `derive` statements.
 
+use super::joints::Joints;
 use super::linear::{Row, Solutions};
 use super::scene::Scene;
 use crate::graph::{Graph, NodeId, SymbolId};
@@ -53,6 +54,8 @@ pub struct Block {
     pub group: Group,
     /// The slider, if it is the angle of a dyad whose length another block has.
     pub slide: Option<Slide>,
+    /// The joints of two links.
+    pub joints: Option<Joints>,
     /// The determinant, if the block has at most two unknowns.
     pub determinant: Option<Determinant>,
 }
@@ -122,7 +125,15 @@ impl Block {
         named(&unknowns, derivation).join("_")
     }
 
-    /// The names of its unknowns, which identify it in errors.
+    /// Its name in errors: the names of its unknowns, and the joints of a dyad.
+    #[must_use]
+    pub fn title(&self, derivation: &Derivation) -> String {
+        let joints = self.joints.as_ref().and_then(Joints::names);
+        let joints = joints.map_or_else(String::new, |names| format!(" ({})", names.join("-")));
+        self.names(derivation) + &joints
+    }
+
+    /// The names of its unknowns.
     #[must_use]
     pub fn names(&self, derivation: &Derivation) -> String {
         named(&self.unknowns, derivation).join(", ")

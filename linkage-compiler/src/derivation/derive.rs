@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::angles::angles;
 use super::data::{Block, Coordinate, Derivation, Determinant, Quantity};
 use super::jacobian::{along_rates, jacobian, places_of};
+use super::joints::Joints;
 use super::linear::Row;
 use super::{ratios, scale};
 use crate::algebra::{self, simplify};
@@ -90,7 +91,21 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         }
     }
     derivation.derive_scenes(mechanism, driver);
+    derivation.find_joints(mechanism);
     derivation
+}
+
+impl Derivation {
+    /// Finds the joints of the dyads of two links.
+    fn find_joints(&mut self, mechanism: &Mechanism) {
+        let (unknowns, coordinates) = (&self.unknowns, &self.coordinates);
+        for block in self.blocks.iter_mut().filter(|block| block.group == Group::Rrr) {
+            if let &[first, second] = block.unknowns.as_slice() {
+                let angles = [first, second].map(|unknown| coordinates[unknowns[unknown]].value);
+                block.joints = Joints::of(mechanism, &mut self.graph, angles);
+            }
+        }
+    }
 }
 
 /// The determinant of a block in closed form, and its scale.
@@ -128,7 +143,7 @@ fn with_names(graph: &mut Graph, parts: Table<BlockId, Unnamed>) -> Table<BlockI
             let name = if is_only { "determinant".to_owned() } else { format!("determinant_{}", id.number()) };
             Determinant { value, symbol: graph.symbol(name), scale }
         });
-        Block { equations, unknowns, group, slide, determinant }
+        Block { equations, unknowns, group, slide, joints: None, determinant }
     });
     named.collect()
 }

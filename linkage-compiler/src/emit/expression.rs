@@ -286,7 +286,7 @@ impl ToTokens for Type {
             }
             Self::Branches { branch, pose } => {
                 let (branch, pose) = (ident(branch), ident(pose));
-                quote!(impl __rt::Iterator<Item = __rt::Result<(#branch, #pose<T>), __rt::PositionError>> + '_)
+                quote!(impl __rt::Iterator<Item = __rt::Assembled<#branch, #pose<T>>> + '_)
             }
         });
     }

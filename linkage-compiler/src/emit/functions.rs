@@ -27,7 +27,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
     });
     let arguments = itself.into_iter().chain(arguments);
     let attributes = match access {
-        Access::Public if !is_fallible && !matches!(returns, Type::Branches { .. }) => quote!(#[must_use] pub),
+        Access::Public if !is_fallible => quote!(#[must_use] pub),
         Access::Public => quote!(pub),
         Access::PublicInlined if !is_fallible => quote!(#[inline] #[must_use] pub),
         Access::PublicInlined => quote!(#[inline] pub),
@@ -47,7 +47,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
             quote!(#(#statements)* #value)
         }
         // `!` does not implement `Iterator`, so that a stub returns an empty one.
-        None if matches!(returns, Type::Branches { .. }) => quote!(::core::iter::empty()),
+        None if matches!(returns, Type::Branches { .. }) => quote!(__rt::Ok(::core::iter::empty())),
         None => quote!(::core::unreachable!()),
     };
     let result = if *is_fallible { quote!(__rt::Result<#returns, __rt::#error>) } else { quote!(#returns) };

@@ -234,7 +234,7 @@ impl<'a> Members<'a> {
 /// `Group` values: the name of each group, its equations and its unknowns.
 fn groups(derivation: &Derivation) -> Vec<TokenStream> {
     let group = |block: &Block| {
-        let name = string(&block.names(derivation));
+        let name = string(&block.title(derivation));
         let equations = block.equations.iter().map(|equation| literal(equation.index()));
         let unknowns = block.unknowns.iter().map(|unknown| literal(unknown.index()));
         quote!(__rt::Group { name: #name, equations: &[#(#equations),*], unknowns: &[#(#unknowns),*] })

@@ -12,7 +12,7 @@ use crate::derivation::Derivation;
 use crate::graph::{Number, Texts};
 use crate::lower::Code;
 use crate::model::{Coordinate, Kind, Mechanism, Name, Parameter, Request};
-use crate::program::{Derived, Order, Position, Program, TypeNames};
+use crate::program::{Derived, Order, Position, Program, Side, TypeNames};
 
 /// `new` is emitted only up to this number of parameters; longer argument lists are hard to read at the call.
 pub(super) const MOST_ARGUMENTS: usize = 7;
@@ -433,15 +433,14 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
         comment(&format!(" The assembly mode of [`{driver}`]: one of the two solutions of each group that has two."));
     let choices: Vec<(Ident, TokenStream)> = sides
         .iter()
-        .map(|(side, choice)| {
-            let choice = ident(choice.name());
-            (ident(side), quote!(#root::__rt::#choice))
+        .map(|side| {
+            let choice = ident(side.choice.name());
+            (ident(&side.field), quote!(#root::__rt::#choice))
         })
         .collect();
     let names: Vec<&Ident> = choices.iter().map(|(side, _)| side).collect();
-    let members = sides.iter().zip(&choices).map(|((text, choice), (side, of))| {
-        let [first, second] = choice.variants().map(str::to_lowercase);
-        let docs = comment(&format!(" The solution of the group of `{text}`: {first} or {second}."));
+    let members = sides.iter().zip(&choices).map(|(Side { meaning, .. }, (side, of))| {
+        let docs = comment(&format!(" {meaning}"));
         quote!(#[doc = #docs] pub #side: #of)
     });
     let turn_members = turns.iter().map(|turn| {
@@ -481,7 +480,7 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
             quote!((bits >> #place) & 1)
         }
     });
-    let each = sides.iter().zip(&choices).zip(bits).map(|(((_, choice), (side, of)), bit)| {
+    let each = sides.iter().zip(&choices).zip(bits).map(|((Side { choice, .. }, (side, of)), bit)| {
         let [first, second] = choice.variants().map(ident);
         quote!(#side: if #bit == 0 { #of::#first } else { #of::#second })
     });
@@ -505,7 +504,7 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
         let text = comment(text);
         quote! {
             #[doc = #text]
-            pub fn all() -> impl ::core::iter::Iterator<Item = Self> {
+            pub fn all() -> impl ::core::iter::Iterator<Item = Self> + ::core::clone::Clone {
                 #every
             }
         }

@@ -272,7 +272,7 @@ impl<'a, 'n> Writer<'a, 'n> {
     }
 
     fn group(&self, block: BlockId) -> Expression {
-        Expression::text(self.derivation.blocks[block].names(self.derivation))
+        Expression::text(self.derivation.blocks[block].title(self.derivation))
     }
 
     fn let_name(&mut self, name: String, value: Expression) {

@@ -7,6 +7,7 @@ use quote::ToTokens;
 use syn::spanned::Spanned;
 use syn::{Attribute, Path};
 
+use super::chain::Chain;
 use super::expression::Lowering;
 use super::kind::Kind;
 use super::mechanism::{Constraint, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
@@ -54,6 +55,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
         parameters: Table::default(),
         coordinates: Table::default(),
         constraints: Vec::new(),
+        loops: Vec::new(),
         drivers: Table::default(),
         points: Vec::new(),
         outputs: Vec::new(),
@@ -76,6 +78,11 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
     lowering.finish_scenes(reading, &mut result);
     result.requests = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
     lowering.report_fault(result.name.span());
+    if complete && lowering.diagnostics.is_empty() {
+        let chains = lowering.chains(&statements);
+        result.loops = chains.loops;
+        result.points.iter_mut().zip(chains.points).for_each(|(point, chain)| point.chain = chain);
+    }
     let Lowering { graph, scope, kinds, undeclared_kinds, supposed, externals, extreme, diagnostics, .. } = lowering;
     (result.graph, result.extreme) = (graph, extreme);
     result.externals = externals;
@@ -259,7 +266,7 @@ impl Lowering<'_> {
                     let vector = self.vector(*value);
                     let (x, y) = vector.unwrap_or_else(|| (self.graph.zero(), self.graph.zero()));
                     self.scope.define(name, vector.map_or(Value::Poison, |(x, y)| Value::Vector(x, y)));
-                    result.points.push(Point { name: Name::new(name), attributes, x, y });
+                    result.points.push(Point { name: Name::new(name), attributes, x, y, chain: Chain::default() });
                 }
                 StatementKind::Output { name, value } => {
                     let scalar = self.scalar(*value);
@@ -273,8 +280,13 @@ impl Lowering<'_> {
                     let (name, zero) = (Name::new(name), self.graph.zero());
                     match read {
                         Value::Scalar(value) => result.outputs.push(Output { name, attributes, value }),
-                        Value::Vector(x, y) => result.points.push(Point { name, attributes, x, y }),
-                        Value::Poison => result.points.push(Point { name, attributes, x: zero, y: zero }),
+                        Value::Vector(x, y) => {
+                            result.points.push(Point { name, attributes, x, y, chain: Chain::default() });
+                        }
+                        Value::Poison => {
+                            let chain = Chain::default();
+                            result.points.push(Point { name, attributes, x: zero, y: zero, chain });
+                        }
                     }
                 }
                 StatementKind::Body(body) => self.body(body, result),

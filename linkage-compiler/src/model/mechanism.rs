@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
 
+use super::chain::Chain;
 use super::kind::Kind;
 use super::name::Name;
 use super::request::Request;
@@ -29,6 +30,8 @@ pub struct Mechanism {
     pub parameters: Table<ParameterId, Parameter>,
     pub coordinates: Table<CoordinateId, Coordinate>,
     pub constraints: Vec<Constraint>,
+    /// The vectors of both sides of each `loop`.
+    pub loops: Vec<[Chain; 2]>,
     pub drivers: Table<DriverId, Driver>,
     pub points: Vec<Point>,
     pub outputs: Vec<Output>,
@@ -116,6 +119,8 @@ pub struct Point {
     pub attributes: Vec<Attribute>,
     pub x: NodeId,
     pub y: NodeId,
+    /// The vectors that lead to it.
+    pub chain: Chain,
 }
 
 /// A named scalar quantity.
@@ -201,12 +206,12 @@ impl Mechanism {
         let mut blocks = structure::order(&incidence, driver.unknowns.len())?;
         let symbols = driver.unknowns.clone().map(|coordinate| self.coordinates[coordinate].symbol);
         let (mut graph, rows) = (self.graph.clone(), self.rows());
-        structure::find_slides(&mut blocks, &incidence, &self.loops(), &mut graph, &rows, &symbols);
+        structure::find_slides(&mut blocks, &incidence, &self.rows_of_loops(), &mut graph, &rows, &symbols);
         Ok(blocks)
     }
 
     /// The two rows of each `loop`.
-    fn loops(&self) -> Vec<[RowId; 2]> {
+    fn rows_of_loops(&self) -> Vec<[RowId; 2]> {
         let mut rows = (0..).map(RowId::new);
         let mut next = |constraint: &Constraint| -> Vec<RowId> { rows.by_ref().take(constraint.rows.len()).collect() };
         self.constraints.iter().filter_map(|constraint| next(constraint).try_into().ok()).collect()

@@ -1,6 +1,7 @@
 //! Semantic analysis: names resolved, expressions in the graph, all checks made. Later stages report only mistakes that
 //! appear in derivatives, see `derivation::check`.
 
+mod chain;
 mod check;
 mod expression;
 mod guess;
@@ -12,6 +13,7 @@ mod request;
 mod scene;
 mod scope;
 
+pub use chain::{Chain, Link};
 pub use kind::Kind;
 pub use lower::resolve;
 pub use mechanism::{

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::names::Taken;
 use super::pose::PosePlan;
-use crate::derivation::{Assembly, Choice, Chord, Derivation, Step};
+use crate::derivation::{Assembly, Choice, Chord, Derivation, Joint, Step};
 use crate::graph::{Graph, SymbolId};
 use crate::ids::UnknownId;
 use crate::model::{Driver, Kind, Mechanism};
@@ -16,11 +16,69 @@ pub struct Position {
     /// True if every group has a closed form.
     pub is_closed: bool,
     /// The groups that have two solutions.
-    pub sides: Vec<(String, Choice)>,
+    pub sides: Vec<Side>,
     /// The solved angles that a pose stores as numbers; empty unless every group has a closed form.
     pub turns: Vec<AngleTurn>,
     /// The number of groups.
     pub blocks: usize,
+}
+
+/// The choice between the two solutions of a group.
+#[derive(Debug, Clone)]
+pub struct Side {
+    /// Its field in the branch.
+    pub field: String,
+    pub choice: Choice,
+    /// The two solutions, in words of the drawing.
+    pub meaning: String,
+}
+
+impl Side {
+    /// The choice of a group, by the names of its unknowns.
+    fn of_unknowns(field: String, choice: Choice) -> Self {
+        let [first, second] = choice.variants().map(str::to_lowercase);
+        let meaning = format!("The solution of the group of `{field}`: {first} or {second}.");
+        Self { field, choice, meaning }
+    }
+
+    fn of(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation, chord: &Chord) -> Self {
+        let block = &derivation.blocks[chord.block];
+        let side = Self::of_unknowns(block.branch(derivation), chord.choice);
+        let coordinate = |unknown: UnknownId| &mechanism.coordinates[driver.unknowns[unknown]];
+        let name = |unknown: UnknownId| coordinate(unknown).name.text.as_str();
+        let meaning = match (chord.choice, &block.joints, block.unknowns.as_slice()) {
+            (Choice::Elbow, Some(joints), &[first, second]) => {
+                let [first, second] = [first, second].map(name);
+                let graph = &derivation.graph;
+                let outer = |joint: &Joint, link: &str| match joint {
+                    Joint::Point(point) => format!("`{point}`"),
+                    Joint::Fixed([x, y]) => format!("({}, {})", graph.text(*x), graph.text(*y)),
+                    Joint::Unnamed => format!("the far end of the link at `{link}`"),
+                };
+                let middle = match &joints.middle {
+                    Joint::Point(point) => format!("`{point}`"),
+                    _ => format!("The joint of `{first}` and `{second}`"),
+                };
+                let [from, to] = [(0, first), (1, second)].map(|(place, link)| outer(&joints.outer[place], link));
+                format!("{middle} is left or right of the line from {from} to {to}.")
+            }
+            (Choice::Slider, _, unknowns) => {
+                let is_length = |&unknown: &UnknownId| coordinate(unknown).kind != Kind::Angle;
+                let lengths = unknowns.iter().copied().filter(is_length);
+                match block.slide.map(|slide| slide.length).into_iter().chain(lengths).next() {
+                    Some(length) => {
+                        format!("Far is the larger, near the smaller of the two solutions for `{}`.", name(length))
+                    }
+                    None => return side,
+                }
+            }
+            (Choice::Slope, _, &[angle]) => {
+                format!("The left side of its equation minus the right is rising or falling with `{}`.", name(angle))
+            }
+            _ => return side,
+        };
+        Self { meaning, ..side }
+    }
 }
 
 /// The turn of a solved angle.
@@ -37,13 +95,19 @@ impl Position {
     /// The largest number of groups with two solutions for which `all` and `branches` are emitted: 2^16 branches.
     const MOST_BRANCHING: usize = 16;
 
-    pub fn new(derivation: &Derivation, pose: &PosePlan, assembly: &Assembly, steps: &[Step]) -> Self {
-        let group = |chord: &Chord| derivation.blocks[chord.block].branch(derivation);
-        let sides: Vec<_> = assembly.chords.iter().map(|chord| (group(chord), chord.choice)).collect();
+    pub fn new(
+        (mechanism, driver): (&Mechanism, &Driver),
+        derivation: &Derivation,
+        pose: &PosePlan,
+        assembly: &Assembly,
+        steps: &[Step],
+    ) -> Self {
+        let side = |chord| Side::of(mechanism, driver, derivation, chord);
+        let sides: Vec<Side> = assembly.chords.iter().map(side).collect();
         let nothing = BTreeSet::new();
         let mut taken = Taken::new(&nothing);
-        for (side, _) in &sides {
-            taken.unique(side);
+        for side in &sides {
+            taken.unique(&side.field);
         }
         let solved = steps.iter().filter_map(|step| match step {
             Step::Turn { symbol, .. } => Some(*symbol),
@@ -71,7 +135,7 @@ impl Position {
             let places: Vec<UnknownId> = driver.unknowns.ids().collect();
             let sides = places.chunks_exact(2).map(|group| {
                 let choice = if are_angles(group) { Choice::Elbow } else { Choice::Slider };
-                ([name(group[0]), name(group[1])].join("_"), choice)
+                Side::of_unknowns([name(group[0]), name(group[1])].join("_"), choice)
             });
             let sides: Vec<_> = sides.collect();
             return Self { is_closed: true, blocks: sides.len(), sides, turns: Vec::new() };
@@ -94,7 +158,7 @@ impl Position {
             dyad.extend(block.slide.map(|slide| slide.length));
             dyad.sort_unstable();
             let names: Vec<&str> = dyad.into_iter().map(name).collect();
-            sides.extend(choice.map(|choice| (names.join("_"), choice)));
+            sides.extend(choice.map(|choice| Side::of_unknowns(names.join("_"), choice)));
         }
         let turns = match is_closed {
             true => Self::guessed_turns(mechanism, driver, &mut graph, &sides, &solved),
@@ -108,7 +172,7 @@ impl Position {
         mechanism: &Mechanism,
         driver: &Driver,
         graph: &mut Graph,
-        sides: &[(String, Choice)],
+        sides: &[Side],
         solved: &BTreeSet<SymbolId>,
     ) -> Vec<AngleTurn> {
         let mut formulas = mechanism.kinematic_formulas();
@@ -122,8 +186,8 @@ impl Position {
         let needed: BTreeSet<SymbolId> = graph.needed_as_numbers(&formulas).into_iter().collect();
         let nothing = BTreeSet::new();
         let mut taken = Taken::new(&nothing);
-        for (side, _) in sides {
-            taken.unique(side);
+        for side in sides {
+            taken.unique(&side.field);
         }
         let order = mechanism.coordinate_order(driver);
         let coordinates = order.into_iter().map(|index| &mechanism.coordinates[index]);

@@ -92,7 +92,7 @@ impl Plan<'_, '_> {
         }
         let (mut steps, mut factors, mut laws) = (Vec::new(), Vec::new(), Vec::new());
         for (id, block) in self.derivation.blocks.clone().enumerated() {
-            let names = block.names(self.derivation);
+            let names = block.title(self.derivation);
             let Some(determinant) = block.determinant else {
                 let symbol = self.derivation.graph.symbol(format!("pivots_{}", id.number()));
                 steps.push(Step::Pivots { symbol, matrix: self.derivation.block_matrix(block) });

@@ -31,7 +31,7 @@ impl Plan<'_, '_> {
         let kernel = self.kernel(vec![source], Vec::new(), nodes);
 
         let bounds = bounds.iter().enumerate().map(|(number, bound)| {
-            let group = Expression::text(self.derivation.blocks[bound.block].names(self.derivation));
+            let group = Expression::text(self.derivation.blocks[bound.block].title(self.derivation));
             let group = Expression::Tuple(vec![Expression::Count(bound.block.index()), group]);
             let result = |place: usize| Expression::Result(4 * number + place);
             let mut arguments = vec![group, Expression::List((0..3).map(result).collect())];

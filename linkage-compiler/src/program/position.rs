@@ -27,6 +27,7 @@ impl Plan<'_, '_> {
             self.branches();
         }
         self.branch_of();
+        self.branch_near();
     }
 
     fn pose_at(&mut self) {
@@ -100,7 +101,13 @@ impl Plan<'_, '_> {
         let (steps, results) = self.position_steps();
         let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
         let steps = needed_names(&self.derivation.graph, steps, &nodes);
-        self.position = Position::new(self.derivation, &self.pose, &self.assembly, &steps);
+        self.position = Position::new(
+            (self.signatures.mechanism, self.signatures.driver),
+            self.derivation,
+            &self.pose,
+            &self.assembly,
+            &steps,
+        );
         let Arguments { inputs, turn, guess, .. } = self.signatures.arguments.clone();
         let source = if !self.position.is_closed {
             self.guess()
@@ -249,11 +256,11 @@ impl Plan<'_, '_> {
             value: Box::new(assemble),
             moves: true,
         };
-        let mut body = Body::plain(Expression::runtime("existing", [all, assemble]));
+        let mut body = Body::result(Expression::runtime("existing", [all, assemble]));
         let converted = Expression::name(&inputs).method("into", []);
         body.before = vec![Statement::Let(Pattern::Name(inputs), converted)];
         let doc = lines([
-            "Every position that exists at these inputs, each with its branch.",
+            "Every position that exists at these inputs, with its branch: `for found in mechanism.branches(v)? { .. }`.",
             "",
             "# Errors",
             "`PositionError::NotFinite` if a number is not finite. Branches on which a group cannot be assembled or is undetermined",
@@ -262,17 +269,31 @@ impl Plan<'_, '_> {
         self.add(self.signatures.branches(), doc, body);
     }
 
+    fn branch_near(&mut self) {
+        let Arguments { guess, .. } = self.signatures.arguments.clone();
+        let pose = Expression::call("pose_at", [Expression::name(&guess)]).borrowed();
+        let doc = without_result(lines([
+            "The branch of a rough position, such as one read off a drawing: its coordinates need not satisfy the loop equations.",
+        ]));
+        let body = Body::plain(Expression::call("branch_of", [pose]));
+        self.add(
+            self.signatures.branch_near(),
+            doc,
+            Body { calls: ["pose_at", "branch_of"].map(str::to_owned).to_vec(), ..body },
+        );
+    }
+
     fn branch_of(&mut self) {
         let Arguments { pose, branch, turn, .. } = self.signatures.arguments.clone();
         // Without a closed form the turns come from the guess.
         let turns = if self.position.is_closed { self.position.turns.as_slice() } else { &[] };
         let of = Type::Bare(self.signatures.types.branch.clone());
         let on = Expression::name(&pose);
-        let sides = self.assembly.chords.iter().zip(&self.position.sides).filter_map(|(chord, (side, _))| {
+        let sides = self.assembly.chords.iter().zip(&self.position.sides).filter_map(|(chord, side)| {
             let (_, field, _) = self.pose.determinants.iter().find(|(block, ..)| *block == chord.block)?;
             let determinant = on.clone().field(field);
             let determinant = if chord.is_opposite { Expression::Negative(Box::new(determinant)) } else { determinant };
-            Some((side.clone(), Expression::runtime("side_of", [determinant])))
+            Some((side.field.clone(), Expression::runtime("side_of", [determinant])))
         });
         let zeros = turns.iter().map(|turn| (turn.field.clone(), Expression::Count(0)));
         let members = Expression::structure(of.clone(), sides.chain(zeros));

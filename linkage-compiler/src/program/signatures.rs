@@ -71,7 +71,7 @@ impl<'a> Signatures<'a> {
         }
         all.push(self.motion());
         all.extend(self.assemblies(position));
-        all.extend([self.branch_of(), self.solve(), self.solve_any_branch(), self.pose_at()]);
+        all.extend([self.branch_of(), self.branch_near(), self.solve(), self.solve_any_branch(), self.pose_at()]);
         all.extend([self.velocity(), self.acceleration()]);
         if wants(Request::Jerk) {
             all.push(self.jerk());
@@ -188,11 +188,15 @@ impl<'a> Signatures<'a> {
 
     pub fn branches(&self) -> Function<Body> {
         let of = Type::Branches { branch: self.types.branch.clone(), pose: self.types.pose.clone() };
-        total("branches", [self.inputs_by(Order::Value)], of)
+        fallible("branches", [self.inputs_by(Order::Value)], of)
     }
 
     pub fn branch_of(&self) -> Function<Body> {
         total("branch_of", [self.pose()], Type::Bare(self.types.branch.clone()))
+    }
+
+    pub fn branch_near(&self) -> Function<Body> {
+        total("branch_near", [self.guess()], Type::Bare(self.types.branch.clone()))
     }
 
     /// The limits of one input.

@@ -101,6 +101,11 @@ impl Expressions {
     }
 
     #[must_use]
+    pub fn get(&self, id: ExpressionId) -> &Expression {
+        &self.nodes[id.0].0
+    }
+
+    #[must_use]
     pub fn region(&self, id: ExpressionId) -> Region {
         self.nodes[id.0].1
     }

@@ -1,0 +1,130 @@
+//! The vectors of a loop or of a point, one after the other as the user wrote them: the joints of a linkage lie between
+//! them.
+
+use std::collections::BTreeMap;
+
+use super::expression::Lowering;
+use super::scope::Value;
+use crate::graph::NodeId;
+use crate::syntax::{Expression, ExpressionId, Operator, Statement, StatementKind};
+
+/// One vector of a chain.
+#[derive(Debug, Clone, Copy)]
+pub struct Link {
+    pub vector: [NodeId; 2],
+    /// True if the vector is subtracted.
+    pub is_reversed: bool,
+    /// The angle of `r@angle`.
+    pub angle: Option<NodeId>,
+    /// The length of `r@angle`.
+    pub length: Option<NodeId>,
+}
+
+/// Vectors in a row, from a point or from the origin.
+#[derive(Debug, Clone, Default)]
+pub struct Chain {
+    /// The position of the point that it starts from.
+    pub start: Option<[NodeId; 2]>,
+    pub links: Vec<Link>,
+}
+
+/// The longest chain; a longer one has no named joints.
+const LONGEST: usize = 256;
+
+/// The chains of the `let`s of vectors; None for the name of a point, from which chains start.
+type Named = BTreeMap<String, Option<Chain>>;
+
+/// The chains of all loops and points in the order of declaration; empty where an expression is no sum of vectors.
+#[derive(Debug, Default)]
+pub(super) struct Chains {
+    pub(super) loops: Vec<[Chain; 2]>,
+    pub(super) points: Vec<Chain>,
+}
+
+impl Lowering<'_> {
+    /// Finds the chains once all expressions have values.
+    pub(super) fn chains(&mut self, statements: &[Statement]) -> Chains {
+        let (mut chains, mut named) = (Chains::default(), Named::new());
+        for statement in statements {
+            match &statement.kind {
+                StatementKind::Let { name, value } => {
+                    let chain = self.chain(*value, &named).unwrap_or_default();
+                    named.insert(name.to_string(), Some(chain));
+                }
+                StatementKind::Point { name, value } => {
+                    chains.points.push(self.chain(*value, &named).unwrap_or_default());
+                    named.insert(name.to_string(), None);
+                }
+                StatementKind::Loop { left, right } => {
+                    chains.loops.push([left, right].map(|&side| self.chain(side, &named).unwrap_or_default()));
+                }
+                _ => {}
+            }
+        }
+        chains
+    }
+
+    fn chain(&mut self, id: ExpressionId, named: &Named) -> Option<Chain> {
+        let mut chain = Chain::default();
+        self.add_links(id, false, named, &mut chain)?;
+        (chain.links.len() <= LONGEST).then_some(chain)
+    }
+
+    /// Adds the vectors of an expression to a chain; None if one is not understood.
+    fn add_links(&mut self, id: ExpressionId, is_reversed: bool, named: &Named, chain: &mut Chain) -> Option<()> {
+        let expressions = self.expressions;
+        let vector = match self.value(id) {
+            Value::Vector(x, y) => [x, y],
+            // `= 0`, the zero vector.
+            Value::Scalar(zero) if self.graph.is_zero(zero) => return Some(()),
+            _ => return None,
+        };
+        if vector.iter().all(|&part| self.graph.is_zero(part)) {
+            return Some(());
+        }
+        let mut link = Link { vector, is_reversed, angle: None, length: None };
+        match expressions.get(id) {
+            Expression::Sum(operands) => {
+                for &(operator, operand) in operands {
+                    self.add_links(operand, is_reversed != (operator == Operator::Inverse), named, chain)?;
+                }
+                return (chain.links.len() <= LONGEST).then_some(());
+            }
+            Expression::Negate(inner) => return self.add_links(*inner, !is_reversed, named, chain),
+            Expression::Name(name) => match named.get(&name.to_string())? {
+                Some(Chain { start, links }) => {
+                    if let Some(start) = start {
+                        start_from(chain, *start, is_reversed)?;
+                    }
+                    let links = links.iter();
+                    chain
+                        .links
+                        .extend(links.map(|&link| Link { is_reversed: link.is_reversed != is_reversed, ..link }));
+                    return Some(());
+                }
+                None => return start_from(chain, vector, is_reversed),
+            },
+            &Expression::At(length, angle) => {
+                link.length = self.as_scalar(length);
+                link.angle = self.as_scalar(angle);
+            }
+            _ => {}
+        }
+        chain.links.push(link);
+        Some(())
+    }
+
+    fn as_scalar(&mut self, id: ExpressionId) -> Option<NodeId> {
+        match self.value(id) {
+            Value::Scalar(node) => Some(node),
+            Value::Vector(..) | Value::Poison => None,
+        }
+    }
+}
+
+/// Lets a chain start from a point: only one, and not subtracted.
+fn start_from(chain: &mut Chain, point: [NodeId; 2], is_reversed: bool) -> Option<()> {
+    let is_first = chain.start.is_none() && !is_reversed;
+    chain.start = Some(point);
+    is_first.then_some(())
+}
