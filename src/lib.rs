@@ -20,12 +20,12 @@ pub use linkage_dynamics::{
 #[cfg(feature = "drawing")]
 pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]
-pub use linkage_report::{Document, sheet};
+pub use linkage_report::{Document, Table, sheet};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
     AnyBranch, Assembled, Assembly, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion,
     PathError, PerInput, PerUnknown, PointMotion, PositionError, Real, Slider, Slope, Solution, accuracy, continuation,
-    derivation, lanes, limits, nalgebra, position, real, singularity,
+    derivation, extremes, lanes, limits, nalgebra, position, real, singularity, skeleton,
 };
 
 /// An example without a `scene`, a crank and slider: the rate function solves for the position, with the last

@@ -225,6 +225,7 @@ use proc_macro::TokenStream;
 /// | `jerk` | `jerk(&pose, &q', &q'', v''')` from J u''' = -(A v''' + eta), where eta are the terms without third derivatives, for any number of inputs; `point_jerks`, `output_jerks` |
 /// | `velocity_ratio_derivatives` | `velocity_ratio_derivatives(&pose)`: d2u/dv dv, for each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
 /// | `sensitivity` | `sensitivity(&pose)`: du/dp = -J^-1 `Psi_p` at fixed inputs, one column for each parameter; `point_sensitivities`, `output_sensitivities`: the total derivatives dl/dp = `l_p` + `l_u` du/dp |
+/// | `drawing` | the joints and parts of a drawing, guessed from the vectors of loops and points (the trait `Skeleton`): `Animation::turn(&mechanism, branch)` and `Drawing::of(&mechanism, &pose)` of the module `drawing` then need no more |
 /// | `lanes` | `batch(design, v, branch, v', v'')`: many positions at once, from columns or single numbers; `NAMEColumns` names the columns to find, and `Batch::run` fills them with the bits of `kinematics` and `full_kinematics`. Groups without closed form, user functions, and the functions tan, asin, acos, atan, exp and ln are computed one position after the other |
 ///
 /// ```

@@ -2,7 +2,8 @@
 //!
 //! - [`Document`]: a derivation as plain text and as LaTeX;
 //! - [`sheet`]: a derivation as HTML, with numbers and pictures;
-//! - [`drawing`]: a linkage as SVG.
+//! - [`drawing`]: a linkage as SVG;
+//! - [`Table`]: a motion as columns and as CSV.
 
 #![warn(missing_docs)]
 
@@ -10,5 +11,7 @@ mod document;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 pub mod sheet;
+mod table;
 
 pub use document::Document;
+pub use table::Table;

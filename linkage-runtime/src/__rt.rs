@@ -21,6 +21,7 @@ pub use crate::motion::{
 };
 pub use crate::position::newton_group;
 pub use crate::scalar::unit;
+pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
     AnyBranch, Assembled, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion,

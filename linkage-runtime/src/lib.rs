@@ -29,6 +29,7 @@ pub mod continuation;
 pub mod derivation;
 mod dim;
 mod error;
+pub mod extremes;
 mod hypotenuse;
 #[doc(hidden)]
 pub mod jacobian;
@@ -46,6 +47,7 @@ pub mod position;
 mod scalar;
 mod sine;
 pub mod singularity;
+pub mod skeleton;
 mod turn;
 
 pub use branch::{Assembled, Elbow, Side, Slider, Slope};

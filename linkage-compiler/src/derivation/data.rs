@@ -3,6 +3,7 @@
 use super::joints::Joints;
 use super::linear::{Row, Solutions};
 use super::scene::Scene;
+use super::skeleton::Skeleton;
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{BlockId, ColumnId, InputId, PairId, ParameterId, RowId, Table, UnknownId};
 use crate::structure::{Group, Slide};
@@ -111,6 +112,8 @@ pub struct Derivation {
     pub eta: Option<Table<RowId, NodeId>>,
     pub ratio_derivatives: Option<RatioDerivatives>,
     pub sensitivity: Option<Sensitivity>,
+    /// The parts of a drawing.
+    pub skeleton: Option<Skeleton>,
     /// The scenes of this driver.
     pub scenes: Vec<Scene>,
 }

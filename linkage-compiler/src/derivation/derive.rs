@@ -7,6 +7,7 @@ use super::data::{Block, Coordinate, Derivation, Determinant, Quantity};
 use super::jacobian::{along_rates, jacobian, places_of};
 use super::joints::Joints;
 use super::linear::Row;
+use super::skeleton::Skeleton;
 use super::{ratios, scale};
 use crate::algebra::{self, simplify};
 use crate::graph::{Graph, NodeId, SymbolId};
@@ -78,6 +79,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         eta: None,
         ratio_derivatives: None,
         sensitivity: None,
+        skeleton: None,
         scenes: Vec::new(),
         graph,
     };
@@ -85,6 +87,9 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         match request {
             // Limits are derived from the assembly when they are emitted; lanes have the formulas of `kinematics`.
             Request::Limits | Request::Lanes => {}
+            Request::Drawing => {
+                derivation.skeleton = Some(Skeleton::of(mechanism, driver, &mut derivation.graph));
+            }
             Request::Jerk => derivation.derive_jerk(),
             Request::VelocityRatioDerivatives => derivation.derive_ratio_derivatives(),
             Request::Sensitivity => derivation.derive_sensitivity(mechanism),

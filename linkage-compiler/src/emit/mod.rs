@@ -1,6 +1,7 @@
 //! Printers of a lowered program: as Rust with the user's names and with formulas in doc comments, and as text.
 
 mod document;
+mod drawing;
 mod expression;
 mod external;
 mod functions;
@@ -53,6 +54,9 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         let [columns, lanes] = lanes::of_driver(program, derivation);
         tokens.extend(columns);
         implemented.extend(lanes);
+    }
+    if mechanism.requests.contains(&Request::Drawing) {
+        implemented.extend(drawing::of_driver(program, derivation));
     }
     let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");

@@ -18,15 +18,18 @@ pub enum Request {
     Sensitivity,
     /// Many positions at once.
     Lanes,
+    /// The joints and parts of a drawing.
+    Drawing,
 }
 
 impl Request {
-    const ALL: [(&str, Self); 5] = [
+    const ALL: [(&str, Self); 6] = [
         ("limits", Self::Limits),
         ("jerk", Self::Jerk),
         ("velocity_ratio_derivatives", Self::VelocityRatioDerivatives),
         ("sensitivity", Self::Sensitivity),
         ("lanes", Self::Lanes),
+        ("drawing", Self::Drawing),
     ];
 }
 

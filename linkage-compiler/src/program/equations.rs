@@ -33,6 +33,16 @@ impl Plan<'_, '_> {
         self.add(self.signatures.residual_scales(), without_result(doc), body);
     }
 
+    pub(super) fn joints(&mut self) {
+        let joints = self.derivation.skeleton.clone().unwrap_or_default().joints;
+        let nodes: Vec<NodeId> = joints.iter().flat_map(|(_, at)| *at).collect();
+        let mut doc = lines(["x and y of each joint, as in a drawing."]);
+        let laws = joints.iter().flat_map(|(name, [x, y])| [(format!("{name}.x"), *x), (format!("{name}.y"), *y)]);
+        doc.extend(fenced(laws.map(|(name, node)| self.law(name, node))));
+        let body = self.vector_of(&nodes);
+        self.add(self.signatures.joints(joints.len()), without_result(doc), body);
+    }
+
     fn vector_of(&self, nodes: &[NodeId]) -> Body {
         let entries: Vec<_> = nodes.iter().enumerate().map(|(row, &node)| (row, 0, node)).collect();
         self.matrix_function(&entries, nodes.len(), 1)

@@ -53,6 +53,9 @@ impl<'d, 'a> Plan<'d, 'a> {
         if wants(Request::Lanes) {
             plan.lanes();
         }
+        if wants(Request::Drawing) {
+            plan.joints();
+        }
         if wants(Request::VelocityRatioDerivatives) {
             plan.ratio_derivatives();
         }

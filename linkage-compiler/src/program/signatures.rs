@@ -92,6 +92,10 @@ impl<'a> Signatures<'a> {
             all.push(self.sensitivity());
             all.extend(families().map(|family| self.quantity_sensitivities(family)));
         }
+        if wants(Request::Drawing) {
+            // The number of joints is that of the finished mechanism.
+            all.push(self.joints(0));
+        }
         all.extend([
             self.residual(),
             self.residual_scales(),
@@ -210,6 +214,11 @@ impl<'a> Signatures<'a> {
             _ => format!("limits_of_{}", self.mechanism.coordinates[self.driver.inputs[place]].name.field),
         };
         fallible(name, [from, self.branch()], Type::Runtime("Limits", Vec::new()))
+    }
+
+    /// x and y of each joint.
+    pub fn joints(&self, count: usize) -> Function<Body> {
+        total("joints", [self.pose()], Type::Vector(2 * count))
     }
 
     // Equations and their derivatives.

@@ -16,6 +16,7 @@ mod animation;
 mod axes;
 mod film;
 mod frame;
+mod mechanism;
 mod names;
 mod pen;
 mod render;
@@ -89,6 +90,8 @@ pub enum DrawingError {
     Moves(String),
     /// The point of a slider rests, or leaves its straight line.
     NotStraight(String),
+    /// The mechanism has no position at an input.
+    NoPosition(String),
 }
 
 impl fmt::Display for DrawingError {
@@ -105,6 +108,7 @@ impl fmt::Display for DrawingError {
             }
             Self::NotRigid(link) => write!(f, "the link `{link}` changes its shape between frames"),
             Self::Moves(point) => write!(f, "the ground pivot `{point}` moves between frames"),
+            Self::NoPosition(why) => f.write_str(why),
             Self::NotStraight(point) => write!(f, "the slider `{point}` does not move along a straight line"),
         }
     }

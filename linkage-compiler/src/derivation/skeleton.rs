@@ -1,0 +1,271 @@
+//! The parts of a drawing, guessed from the vectors of loops and points: bars, sliders, pivots on the ground.
+
+use std::collections::BTreeSet;
+
+use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::model::{Chain, Driver, Link, Mechanism};
+
+/// The joints and the parts of a drawing.
+#[derive(Debug, Clone, Default)]
+pub struct Skeleton {
+    /// The name and the position of each joint.
+    pub joints: Vec<(String, [NodeId; 2])>,
+    pub parts: Vec<Part>,
+}
+
+/// A part of a drawing, by indices of joints.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Part {
+    /// A pivot on the ground.
+    Ground(usize),
+    /// A rigid link through joints; `is_driven` if it turns with an input about a pivot on the ground.
+    Bar { joints: Vec<usize>, is_driven: bool },
+    /// A block on a fixed guide.
+    Slider(usize),
+    /// A block at `pin` that slides on an arm through `on`, towards `towards` if a joint is fixed there.
+    Sleeve { pin: usize, on: usize, towards: Option<usize> },
+    /// The path of a point.
+    Trace(usize),
+}
+
+/// A vector between two joints.
+struct Edge {
+    ends: [usize; 2],
+    link: Link,
+}
+
+/// Joints that turn as one body.
+struct Body {
+    angle: NodeId,
+    joints: BTreeSet<usize>,
+}
+
+impl Skeleton {
+    pub(super) fn of(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph) -> Self {
+        let symbols = |ids: &mut dyn Iterator<Item = crate::ids::CoordinateId>| -> BTreeSet<SymbolId> {
+            ids.map(|id| mechanism.coordinates[id].symbol).collect()
+        };
+        let moving = symbols(&mut mechanism.coordinates.ids());
+        let driving = symbols(&mut driver.inputs.iter().copied());
+        let mut tracer = Tracer { mechanism, graph, moving, joints: Vec::new(), same: Vec::new(), edges: Vec::new() };
+        for [left, right] in &mechanism.loops {
+            if !left.links.is_empty() || !right.links.is_empty() {
+                let [one, other] = [left, right].map(|side| tracer.trace(side)).map(|joint| tracer.find(joint));
+                tracer.same[one.max(other)] = one.min(other);
+            }
+        }
+        for point in &mechanism.points {
+            tracer.trace(&point.chain);
+        }
+        tracer.finish(&driving)
+    }
+}
+
+struct Tracer<'a> {
+    mechanism: &'a Mechanism,
+    graph: &'a mut Graph,
+    /// The symbols of the coordinates.
+    moving: BTreeSet<SymbolId>,
+    joints: Vec<[NodeId; 2]>,
+    /// For each joint, itself, or an earlier joint where the loop equations put it.
+    same: Vec<usize>,
+    edges: Vec<Edge>,
+}
+
+impl Tracer<'_> {
+    fn find(&self, mut joint: usize) -> usize {
+        while self.same[joint] != joint {
+            joint = self.same[joint];
+        }
+        joint
+    }
+
+    fn joint(&mut self, at: [NodeId; 2]) -> usize {
+        if let Some(known) = self.joints.iter().position(|joint| *joint == at) {
+            return known;
+        }
+        self.joints.push(at);
+        self.same.push(self.joints.len() - 1);
+        self.joints.len() - 1
+    }
+
+    /// Adds the joints and vectors of a chain; returns its last joint.
+    fn trace(&mut self, chain: &Chain) -> usize {
+        let zero = self.graph.zero();
+        let mut last = self.joint(chain.start.unwrap_or([zero; 2]));
+        for &link in &chain.links {
+            let sign = if link.is_reversed { Number::MINUS_ONE } else { Number::ONE };
+            let from = self.joints[last];
+            let to = [0, 1].map(|axis| self.graph.sum(&[(Number::ONE, from[axis]), (sign, link.vector[axis])]));
+            let next = self.joint(to);
+            self.edges.push(Edge { ends: [last, next], link });
+            last = next;
+        }
+        last
+    }
+
+    fn moves(&self, nodes: &[NodeId]) -> bool {
+        self.graph.symbols_of(nodes).iter().any(|symbol| self.moving.contains(symbol))
+    }
+
+    /// The bodies of the links whose length is constant.
+    fn bodies(&mut self) -> Vec<Body> {
+        let mut bodies: Vec<Body> = Vec::new();
+        for edge in std::mem::take(&mut self.edges) {
+            let Some(angle) = edge.link.angle.filter(|&angle| self.moves(&[angle]) && !self.changes(&edge.link)) else {
+                self.edges.push(edge);
+                continue;
+            };
+            let ends = edge.ends.map(|end| self.find(end));
+            let mut body = Body { angle, joints: BTreeSet::from(ends) };
+            let mut rest = Vec::new();
+            for other in bodies {
+                let is_rigid = self.is_constant_apart(angle, other.angle);
+                match is_rigid && !other.joints.is_disjoint(&body.joints) {
+                    true => body.joints.extend(other.joints),
+                    false => rest.push(other),
+                }
+            }
+            rest.push(body);
+            bodies = rest;
+        }
+        bodies
+    }
+
+    /// True if the length of a link depends on a coordinate.
+    fn changes(&mut self, link: &Link) -> bool {
+        match (link.length, link.angle) {
+            (Some(length), _) => self.moves(&[length]),
+            (None, Some(angle)) => {
+                // (x, y)@angle: the parts of the vector without the angle.
+                let turning = self.graph.symbols_of(&[angle]);
+                let symbols = self.graph.symbols_of(&link.vector);
+                symbols.iter().any(|symbol| self.moving.contains(symbol) && !turning.contains(symbol))
+            }
+            (None, None) => self.moves(&link.vector),
+        }
+    }
+
+    fn is_constant_apart(&mut self, one: NodeId, other: NodeId) -> bool {
+        let difference = self.graph.subtract(one, other);
+        !self.moves(&[difference])
+    }
+
+    fn finish(mut self, driving: &BTreeSet<SymbolId>) -> Skeleton {
+        let bodies = self.bodies();
+        let is_fixed: Vec<bool> = (0..self.joints.len())
+            .map(|joint| {
+                let mut same = (0..self.joints.len()).filter(|&other| self.find(other) == joint);
+                same.any(|other| !self.moves(&self.joints[other]))
+            })
+            .collect();
+        let mut parts = Vec::new();
+        let mut pivots: BTreeSet<usize> = BTreeSet::new();
+        for body in &bodies {
+            let fixed = body.joints.iter().copied().find(|&joint| is_fixed[joint]);
+            let is_input = self.graph.symbols_of(&[body.angle]).iter().any(|symbol| driving.contains(symbol));
+            pivots.extend(fixed);
+            let first = fixed.into_iter();
+            let joints = first.chain(body.joints.iter().copied().filter(|&joint| Some(joint) != fixed)).collect();
+            parts.push(Part::Bar { joints, is_driven: is_input && fixed.is_some() });
+        }
+        for edge in std::mem::take(&mut self.edges) {
+            let [from, to] = edge.ends.map(|end| self.find(end));
+            if !self.changes(&edge.link) {
+                continue;
+            }
+            match edge.link.angle.filter(|&angle| self.moves(&[angle])) {
+                Some(angle) => {
+                    let arm = bodies.iter().find(|body| {
+                        let difference = self.graph.subtract(angle, body.angle);
+                        body.joints.contains(&from) && !self.moves(&[difference])
+                    });
+                    let towards = arm.and_then(|arm| arm.joints.iter().copied().find(|&joint| joint != from));
+                    pivots.extend(is_fixed[from].then_some(from));
+                    parts.push(Part::Sleeve { pin: to, on: from, towards });
+                }
+                None => {
+                    let along = edge.link.vector.map(|part| self.moves(&[part]));
+                    let block = [(from, to), (to, from)].into_iter().find(|(end, _)| is_fixed[*end]);
+                    // A vector of two unknown components is no guide.
+                    if let (Some((_, block)), false) = (block, edge.link.angle.is_none() && along == [true, true]) {
+                        if !parts.contains(&Part::Slider(block)) && !is_fixed[block] {
+                            parts.push(Part::Slider(block));
+                        }
+                    }
+                }
+            }
+        }
+        // A declared point of one body that turns about no pivot is a point of interest.
+        for point in &self.mechanism.points {
+            let Some(place) = self.joints.iter().position(|joint| *joint == [point.x, point.y]) else { continue };
+            let place = self.find(place);
+            let mut holding = bodies.iter().filter(|body| body.joints.contains(&place));
+            if let (Some(body), None) = (holding.next(), holding.next())
+                && !body.joints.iter().any(|&joint| is_fixed[joint])
+                && !parts.contains(&Part::Slider(place))
+            {
+                parts.push(Part::Trace(place));
+            }
+        }
+        let grounds = pivots.into_iter().map(Part::Ground);
+        parts.splice(0..0, grounds);
+        let joints = self.named();
+        Skeleton { joints, parts }.compact()
+    }
+
+    /// The name of each joint: that of a point there, `O` for the origin, or else a number.
+    fn named(&mut self) -> Vec<(String, [NodeId; 2])> {
+        let points = &self.mechanism.points;
+        let mut taken: BTreeSet<&str> = points.iter().map(|point| point.name.text.as_str()).collect();
+        let zero = [self.graph.zero(); 2];
+        let mut numbers = (1..).map(|number: usize| number.to_string());
+        let mut named = Vec::new();
+        for place in 0..self.joints.len() {
+            let here = (0..self.joints.len()).filter(|&other| self.find(other) == self.find(place));
+            let here: Vec<[NodeId; 2]> = here.map(|other| self.joints[other]).collect();
+            let point = points.iter().find(|point| here.contains(&[point.x, point.y]));
+            let name = match point {
+                Some(point) => point.name.text.clone(),
+                None if here.contains(&zero) && taken.insert("O") => "O".to_owned(),
+                None => numbers.next().unwrap_or_default(),
+            };
+            // Of several formulas for a joint at rest, the constant one.
+            let constant = here.iter().find(|joint| !self.moves(&joint[..]));
+            named.push((name, *constant.unwrap_or(&self.joints[place])));
+        }
+        named
+    }
+}
+
+impl Skeleton {
+    /// Keeps the joints that a part needs.
+    fn compact(self) -> Self {
+        let mut used: Vec<usize> = self.parts.iter().flat_map(Part::joints).collect();
+        used.sort_unstable();
+        used.dedup();
+        let place = |joint: usize| used.binary_search(&joint).unwrap_or_default();
+        let parts = self.parts.into_iter().map(|part| part.map(place)).collect();
+        Self { joints: used.iter().map(|&joint| self.joints[joint].clone()).collect(), parts }
+    }
+}
+
+impl Part {
+    fn joints(&self) -> Vec<usize> {
+        match self {
+            Self::Ground(joint) | Self::Slider(joint) | Self::Trace(joint) => vec![*joint],
+            Self::Bar { joints, .. } => joints.clone(),
+            Self::Sleeve { pin, on, towards } => [*pin, *on].into_iter().chain(*towards).collect(),
+        }
+    }
+
+    fn map(self, f: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Ground(joint) => Self::Ground(f(joint)),
+            Self::Slider(joint) => Self::Slider(f(joint)),
+            Self::Trace(joint) => Self::Trace(f(joint)),
+            Self::Bar { joints, is_driven } => Self::Bar { joints: joints.into_iter().map(f).collect(), is_driven },
+            Self::Sleeve { pin, on, towards } => Self::Sleeve { pin: f(pin), on: f(on), towards: towards.map(f) },
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! The joints and parts of a drawing of a mechanism.
+
+use crate::{Column, Dim, Mechanism};
+
+/// A part of a drawing. Joints are given by their index in [`Skeleton::JOINTS`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Part {
+    /// A pivot on the ground.
+    Ground(usize),
+    /// A rigid link.
+    Bar {
+        /// Its joints; a pivot on the ground comes first.
+        joints: &'static [usize],
+        /// True if it turns with an input about a pivot on the ground.
+        is_driven: bool,
+    },
+    /// A block that moves on a fixed guide.
+    Slider(usize),
+    /// A block that slides on a turning arm.
+    Sleeve {
+        /// The joint at the block.
+        pin: usize,
+        /// The joint at which the arm starts.
+        on: usize,
+        /// Another joint of the arm, if it has one.
+        towards: Option<usize>,
+    },
+    /// A point whose path is drawn.
+    Trace(usize),
+}
+
+/// A mechanism that knows its drawing.
+///
+/// `linkage!` implements it on request, by `derive drawing;`. The parts are guessed from the vectors of loops and points:
+/// a vector of constant length at a moving angle is a bar, one of variable length a slider or a sleeve; vectors that turn
+/// together and share a joint are one link.
+#[diagnostic::on_unimplemented(message = "`{Self}` has no drawing", note = "write `derive drawing;` in its `linkage!`")]
+pub trait Skeleton: Mechanism {
+    /// Twice the number of joints.
+    type Parts: Dim;
+    /// The names of the joints: of the declared points, `O` for the origin, numbers for the others.
+    const JOINTS: &'static [&'static str];
+    /// The parts.
+    const PARTS: &'static [Part];
+
+    /// x and y of each joint.
+    fn joints(&self, pose: &Self::Pose) -> Column<Self::Scalar, Self::Parts>;
+}
