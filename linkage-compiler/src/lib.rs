@@ -25,7 +25,7 @@ use quote::quote;
 use budget::Budget;
 use derivation::Derivation;
 use diagnostics::Diagnostics;
-use model::Mechanism;
+use model::{Mechanism, Request};
 use program::Operations;
 
 /// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
@@ -44,13 +44,15 @@ pub struct Facade {
     pub path: TokenStream,
     /// True if its feature `dynamics` is on: scenes need it.
     pub has_dynamics: bool,
+    /// True if its feature `serde` is on: `derive serde` needs it.
+    pub has_serde: bool,
 }
 
 impl Facade {
     /// The crate at this path with all features on.
     #[must_use]
     pub fn complete(path: &TokenStream) -> Self {
-        Self { path: path.clone(), has_dynamics: true }
+        Self { path: path.clone(), has_dynamics: true, has_serde: true }
     }
 }
 
@@ -66,6 +68,10 @@ pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> To
         let mut mechanism = model::resolve(tree, budget, &mut diagnostics);
         if !facade.has_dynamics {
             report_scenes(&mut mechanism, &mut diagnostics);
+        }
+        if !facade.has_serde && mechanism.requests.remove(&Request::Serde) {
+            let advice = "`derive serde` needs the feature `serde` of `linkage`: enable it in Cargo.toml";
+            diagnostics.error(mechanism.name.span(), advice);
         }
         if budget.is_spent() {
             diagnostics.truncate(before);

@@ -7,6 +7,7 @@ use linkage_runtime::{InputError, PathError, PositionError};
 /// The reason why forces, accelerations or a motion cannot be computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum MotionError {
     /// The reduced mass matrix is not positive definite: an input could accelerate without a force.
     NoInertia {

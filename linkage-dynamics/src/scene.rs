@@ -169,6 +169,7 @@ type ContactsOf<S> = Column<Contact<<S as Scene>::Scalar, <S as Scene>::U, <S as
 
 /// The prescribed motion of an input at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Prescribed<T> {
     /// The value of the input.
     pub value: T,
@@ -200,6 +201,7 @@ pub struct Unreduced<T: Real, U: Dim, V: Dim> {
 
 /// The energy of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy<T> {
     /// The kinetic energy of the bodies listed under `inertia`.
     pub kinetic: T,
@@ -209,6 +211,7 @@ pub struct Energy<T> {
 
 /// The power of a scene: dE/dt = `applied` - `dissipated`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Power<T> {
     /// The power of forces, torques and drives.
     pub applied: T,

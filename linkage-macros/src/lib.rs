@@ -226,6 +226,7 @@ use proc_macro::TokenStream;
 /// | `velocity_ratio_derivatives` | `velocity_ratio_derivatives(&pose)`: d2u/dv dv, for each unknown a symmetric matrix L with u'' = W v'' + v' . L v' (velocity coefficients and their derivatives in S. Doughty, "Mechanics of Machines"); `point_ratio_derivatives`, `output_ratio_derivatives` |
 /// | `sensitivity` | `sensitivity(&pose)`: du/dp = -J^-1 `Psi_p` at fixed inputs, one column for each parameter; `point_sensitivities`, `output_sensitivities`: the total derivatives dl/dp = `l_p` + `l_u` du/dp |
 /// | `drawing` | the joints and parts of a drawing, guessed from the vectors of loops and points (the trait `Skeleton`): `Animation::turn(&mechanism, branch)` and `Drawing::of(&mechanism, &pose)` of the module `drawing` then need no more |
+/// | `serde` | with the feature `serde`: `Serialize` and `Deserialize` of parameters, coordinates, rates, accelerations, inputs, points, outputs, motion and branch, with your names as fields |
 /// | `lanes` | `batch(design, v, branch, v', v'')`: many positions at once, from columns or single numbers; `NAMEColumns` names the columns to find, and `Batch::run` fills them with the bits of `kinematics` and `full_kinematics`. Groups without closed form, user functions, and the functions tan, asin, acos, atan, exp and ln are computed one position after the other |
 ///
 /// ```
@@ -668,6 +669,6 @@ pub fn linkage(input: TokenStream) -> TokenStream {
     // The macro of the facade passes its own path as the first token.
     let mut tokens = proc_macro2::TokenStream::from(input).into_iter();
     let root = tokens.next().into_iter().collect();
-    let facade = Facade { path: root, has_dynamics: cfg!(feature = "dynamics") };
+    let facade = Facade { path: root, has_dynamics: cfg!(feature = "dynamics"), has_serde: cfg!(feature = "serde") };
     linkage_compiler::expand_within(tokens.collect(), &facade, &Budget::default()).into()
 }

@@ -27,6 +27,8 @@ pub use crate::{
     AnyBranch, Assembled, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion,
     PointMotion, PositionError, Real, Slider, Slope, Solution, lane, newton, newton_any_branch, real,
 };
+#[cfg(feature = "serde")]
+pub use serde;
 
 /// The types of emitted derivations.
 pub mod derivation {

@@ -21,6 +21,7 @@ macro_rules! choices {
     ($($(#[$docs:meta])* $name:ident { $(#[$plus_docs:meta])* $plus:ident, $(#[$minus_docs:meta])* $minus:ident })*) => {$(
         $(#[$docs])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub enum $name {
             $(#[$plus_docs])*
             $plus,
@@ -66,6 +67,7 @@ choices! {
 
 /// A position with its branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Assembled<B, P> {
     /// The branch.
     pub branch: B,

@@ -15,6 +15,14 @@ use crate::{D, Dim, Real};
 #[derive(Clone, Copy)]
 pub struct Column<X: Copy + Debug, R: Dim>(R::Array<X>);
 
+/// As a sequence.
+#[cfg(feature = "serde")]
+impl<X: Copy + Debug + serde::Serialize, R: Dim> serde::Serialize for Column<X, R> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self)
+    }
+}
+
 impl<X: Copy + Debug, R: Dim> Column<X, R> {
     /// Builds the column whose entry at index i is `entry(i)`.
     #[inline]

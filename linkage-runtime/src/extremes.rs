@@ -29,6 +29,7 @@ const STEPS: u32 = 360;
 
 /// A value, and the input at which it is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extreme<T = f64> {
     /// The input.
     pub input: T,
@@ -38,6 +39,7 @@ pub struct Extreme<T = f64> {
 
 /// The smallest and the largest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extremes<T = f64> {
     /// The smallest value.
     pub least: Extreme<T>,

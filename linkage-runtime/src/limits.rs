@@ -11,6 +11,7 @@ use crate::{PositionError, Real, real};
 
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Limits<T> {
     /// The end towards smaller inputs.
     pub lower: Limit<T>,
@@ -20,6 +21,7 @@ pub struct Limits<T> {
 
 /// An end of an interval of inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Limit<T> {
     /// No limit: an angle can turn fully, a length can have any value. If groups were searched, no limit was found
     /// within a turn, or within four times the sum of the lengths of all links.

@@ -7,6 +7,7 @@ use crate::{PositionError, Real};
 
 /// The motion of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PointMotion<T: Scalar = f64> {
     /// The position.
     pub position: Point2<T>,
@@ -18,6 +19,7 @@ pub struct PointMotion<T: Scalar = f64> {
 
 /// The motion of a scalar quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutputMotion<T = f64> {
     /// The value.
     pub value: T,

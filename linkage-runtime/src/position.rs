@@ -14,6 +14,7 @@ use crate::{Column, D, Dim, Matrix, Mechanism, PerUnknown, PositionError, Real};
 
 /// A position on the branch of its guess, with the effort and the residual of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solution<Q> {
     /// The position.
     pub coordinates: Q,
@@ -25,6 +26,7 @@ pub struct Solution<Q> {
 
 /// A position on any branch, with the effort and the residual of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AnyBranch<Q> {
     /// The position.
     pub coordinates: Q,

@@ -88,6 +88,7 @@ crate::__by_fields!([M: Mechanism] Singularity<M> { determinant, rank, sigma_min
 
 /// The distance of one group of unknowns from a singularity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GroupMeasure<T> {
     /// The unknowns by name.
     pub name: &'static str,
@@ -105,6 +106,7 @@ pub struct GroupMeasure<T> {
 
 /// An unknown that could take the place of an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Exchange<T> {
     /// The unknown that would drive.
     pub unknown: &'static str,

@@ -64,7 +64,7 @@ fn moving_quantities(mechanism: &Mechanism, types: &TypeNames, root: &TokenStrea
 
 /// The result of `motion`.
 pub(super) fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenStream) -> TokenStream {
-    let (visibility, derives) = (&mechanism.visibility, derives());
+    let (visibility, derives) = (&mechanism.visibility, derives(mechanism, root));
     let [motion, coordinates, rates, accelerations] =
         [&types.motion, &types.coordinates, &types.rates, &types.accelerations].map(|name| ident(name));
     let of_quantities = moving_quantities(mechanism, types, root);

@@ -6,7 +6,7 @@ use syn::Attribute;
 
 use super::expression::literal;
 use super::names::ident;
-use super::types::{MOST_ARGUMENTS, default_of, docs, field, other_scalar};
+use super::types::{MOST_ARGUMENTS, default_of, docs, field, other_scalar, serde_of_parameters};
 use crate::model::Parameter;
 use crate::program::SceneSignatures;
 
@@ -25,6 +25,7 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenSt
     let title = docs(&scene.attributes, &format!("[`{of}`] with the effects of the scene `{name}`."));
     let forwarded = scene.attributes.iter().chain(&mechanism.attributes);
     let forwarded: Vec<&Attribute> = forwarded.filter(|attribute| !attribute.path().is_ident("doc")).collect();
+    let serde = serde_of_parameters(mechanism, &forwarded, root);
     let count = literal(fields.len());
     let texts: Vec<&String> = parameters.iter().map(|parameter| &parameter.name.text).collect();
     let new = (fields.len() < MOST_ARGUMENTS).then(|| {
@@ -50,6 +51,7 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenSt
     quote! {
         #title
         #(#forwarded)*
+        #serde
         #visibility struct #name<T = f64> {
             #[doc = " The mechanism, with the kinematics."]
             pub #inner: #of<T>,

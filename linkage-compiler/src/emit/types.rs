@@ -2,7 +2,7 @@
 //! branch.
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 use syn::Attribute;
 
 use super::expression::{self, literal};
@@ -34,8 +34,38 @@ pub(super) fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
 }
 
 /// `#[derive(..)]` for types of plain data.
-pub(super) fn derives() -> TokenStream {
-    quote!(#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)])
+pub(super) fn derives(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
+    let serde = serde(mechanism, root);
+    quote! {
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+        #serde
+    }
+}
+
+/// `Serialize` and `Deserialize` on request.
+fn serde(mechanism: &Mechanism, root: &TokenStream) -> Option<TokenStream> {
+    let path = serde_alias(mechanism).to_string();
+    mechanism.requests.contains(&Request::Serde).then(|| {
+        quote! {
+            #[derive(#root::__rt::serde::Serialize, #root::__rt::serde::Deserialize)]
+            #[serde(crate = #path)]
+        }
+    })
+}
+
+/// `Serialize` and `Deserialize` of parameters on request, unless the user derives them.
+pub(super) fn serde_of_parameters(
+    mechanism: &Mechanism,
+    attributes: &[&Attribute],
+    root: &TokenStream,
+) -> Option<TokenStream> {
+    let is_own = attributes.iter().any(|attribute| attribute.meta.to_token_stream().to_string().contains("Serialize"));
+    serde(mechanism, root).filter(|_| !is_own)
+}
+
+/// The name of the crate `serde` beside the types: its derives take a path as text, which `$crate` cannot be.
+fn serde_alias(mechanism: &Mechanism) -> Ident {
+    ident(&format!("__{}_serde", mechanism.name))
 }
 
 /// The fields of a struct, all of type `T`; a struct without fields has a `PhantomData<T>`.
@@ -83,8 +113,12 @@ pub(super) fn other_scalar(mechanism: &Mechanism) -> Ident {
 
 /// The types that all drivers of a mechanism share.
 pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
-    let (visibility, name, derives) = (&mechanism.visibility, &mechanism.name, derives());
+    let (visibility, name, derives) = (&mechanism.visibility, &mechanism.name, derives(mechanism, root));
     let mut tokens = TokenStream::new();
+    if mechanism.requests.contains(&Request::Serde) {
+        let alias = serde_alias(mechanism);
+        tokens.extend(quote!(use #root::__rt::serde as #alias;));
+    }
     if mechanism.is_driven_by_choice() {
         tokens.extend(parameters(mechanism, name, &mechanism.attributes, root));
         for driver in &mechanism.drivers {
@@ -209,7 +243,7 @@ fn by_name(
     docs: &dyn Fn(&Coordinate) -> TokenStream,
     root: &TokenStream,
 ) -> TokenStream {
-    let (visibility, derives, title) = (&mechanism.visibility, derives(), comment(title));
+    let (visibility, derives, title) = (&mechanism.visibility, derives(mechanism, root), comment(title));
     let fields = Fields::of(members.iter().map(|member| &member.name));
     let (names, texts, count) = (&fields.names, &fields.texts, fields.count());
     let phantom = fields.phantom();
@@ -385,9 +419,11 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
             }
         }
     });
+    let serde = serde_of_parameters(mechanism, &attributes.iter().collect::<Vec<_>>(), root);
     quote! {
         #title
         #(#attributes)*
+        #serde
         #visibility struct #name<T = f64> { #(#members,)* #phantom }
         impl<T> ::core::convert::From<[T; #count]> for #name<T> {
             fn from([#(#names),*]: [T; #count]) -> Self {
@@ -428,7 +464,7 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     let (driver, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
     let Position { sides, turns, is_closed, .. } = &program.position;
     let turns = if *is_closed { turns.as_slice() } else { &[] };
-    let derives = derives();
+    let derives = derives(program.signatures.mechanism, root);
     let title =
         comment(&format!(" The assembly mode of [`{driver}`]: one of the two solutions of each group that has two."));
     let choices: Vec<(Ident, TokenStream)> = sides

@@ -20,16 +20,19 @@ pub enum Request {
     Lanes,
     /// The joints and parts of a drawing.
     Drawing,
+    /// Types that can be written and read.
+    Serde,
 }
 
 impl Request {
-    const ALL: [(&str, Self); 6] = [
+    const ALL: [(&str, Self); 7] = [
         ("limits", Self::Limits),
         ("jerk", Self::Jerk),
         ("velocity_ratio_derivatives", Self::VelocityRatioDerivatives),
         ("sensitivity", Self::Sensitivity),
         ("lanes", Self::Lanes),
         ("drawing", Self::Drawing),
+        ("serde", Self::Serde),
     ];
 }
 

@@ -7,6 +7,7 @@ use linkage_runtime::{Column, Dim, Real};
 
 /// The change of a contact at an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Change {
     /// Friction begins to stick.
     Sticks,

@@ -77,6 +77,7 @@ pub enum ContactLaw<T> {
 
 /// The state of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mode {
     /// Friction holds s: s' = 0.
     Stick,

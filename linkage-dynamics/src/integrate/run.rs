@@ -23,6 +23,7 @@ const MAX_SHORTENED: u32 = 5;
 
 /// The cost of an integration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Counts {
     /// Evaluations of the rate, failed ones included.
     pub evaluations: usize,

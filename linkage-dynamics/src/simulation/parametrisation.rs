@@ -61,6 +61,7 @@ pub enum AtSingularity {
 
 /// The singularities passed by a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Passages {
     /// Changes of the independent coordinates, returns to the inputs included.
     pub exchanges: usize,

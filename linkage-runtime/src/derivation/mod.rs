@@ -10,6 +10,7 @@ pub use scene::{Effect, SceneDerivation};
 
 /// A formula. Its [`Display`](fmt::Display) is the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Formula {
     /// One line of Unicode: `−l₃·l₄·sin(θ₃ − θ₄)`.
     pub text: &'static str,
@@ -21,6 +22,7 @@ pub struct Formula {
 
 /// A parameter or coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Symbol {
     /// The name in the `linkage!` language: `theta3`.
     pub name: &'static str,
@@ -30,6 +32,7 @@ pub struct Symbol {
 
 /// `left` = `right`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Equation {
     /// The left side.
     pub left: Formula,
@@ -39,6 +42,7 @@ pub struct Equation {
 
 /// An entry of a [`FormulaMatrix`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Entry {
     /// The row, counted from 0.
     pub row: usize,
@@ -50,6 +54,7 @@ pub struct Entry {
 
 /// A matrix of formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FormulaMatrix {
     /// The name.
     pub name: Formula,
@@ -66,6 +71,7 @@ pub struct FormulaMatrix {
 /// The method that solves the linear system of a [`Block`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum BlockMethod {
     /// The inverse by formula: the adjugate divided by the determinant.
     ClosedForm,
@@ -75,6 +81,7 @@ pub enum BlockMethod {
 
 /// Unknowns that are solved for together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Block {
     /// The unknowns.
     pub unknowns: &'static [Formula],
@@ -92,6 +99,7 @@ pub struct Block {
 
 /// A point or output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Quantity {
     /// The name in the `linkage!` language.
     pub name: &'static str,
@@ -108,6 +116,7 @@ pub struct Quantity {
 
 /// The derivatives of the unknowns with respect to the parameters while the inputs are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sensitivity {
     /// ∂Ψ/∂p, the columns in the order of the parameters.
     pub jacobian: FormulaMatrix,
@@ -117,6 +126,7 @@ pub struct Sensitivity {
 
 /// The operation counts of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Operations {
     /// Calls of elementary functions such as sine.
     pub functions: usize,
@@ -130,6 +140,7 @@ pub struct Operations {
 
 /// An emitted function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Kernel {
     /// The name of the function.
     pub function: &'static str,
@@ -140,6 +151,7 @@ pub struct Kernel {
 /// The kinematics of a mechanism, derived from its constraint equations Ψ(u, v) = 0, where u are the unknowns and v the
 /// inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Derivation {
     /// The mechanism, or the driver of one.
     pub mechanism: &'static str,

@@ -4,6 +4,7 @@ use super::{Equation, Kernel, Symbol};
 
 /// The equations of motion of a scene, from its bodies and effects: M(v)·v̈ = Q(v, v̇, t).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SceneDerivation {
     /// The name of the scene.
     pub scene: &'static str,
@@ -24,6 +25,7 @@ pub struct SceneDerivation {
 
 /// The contribution of a body or an effect to the generalised forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Effect {
     /// The name in error messages: "spring on theta3".
     pub name: &'static str,

@@ -5,6 +5,7 @@ use core::fmt;
 /// An invalid number or setting. Measures are nondimensional or in the unit of the number given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum InputError {
     /// A number outside the range that it may have.
     OutOfRange {

@@ -8,6 +8,7 @@ use super::{InputError, PositionError};
 /// of a mechanism changes none of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PathError {
     /// The input cannot reach the requested value: on this branch it reverses at a dead point.
     DeadPoint {

@@ -8,6 +8,7 @@ use super::InputError;
 /// nondimensional: scaling all lengths of a mechanism changes none of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PositionError {
     /// The constraint Jacobian J is singular: the input cannot drive the mechanism.
     Singular {
