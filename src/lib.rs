@@ -7,6 +7,8 @@ compile_error!("enable the feature `std` of `linkage`, or `libm` where there is 
 
 #[cfg(any(feature = "std", feature = "libm"))]
 mod error;
+#[cfg(all(any(doc, doctest), feature = "std", feature = "dynamics", feature = "drawing", feature = "sheet"))]
+pub mod manual;
 
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use error::Error;
@@ -66,9 +68,7 @@ pub use linkage_runtime::{
 #[cfg(all(feature = "dynamics", any(feature = "std", feature = "libm")))]
 pub use linkage_dynamics::integrate;
 
-/// Defines mechanisms by their loop equations.
-///
-/// The manual of the language is the documentation of the [procedural macro](__private::linkage).
+#[doc = include_str!("manual/language.md")]
 #[macro_export]
 macro_rules! linkage {
     ($($mechanisms:tt)*) => {

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
 use linkage::extremes::{over_range, over_turn};
-use linkage::{Elbow, Error, InputError, OutputMotion, PositionError, Slider, Table, linkage};
+use linkage::{Elbow, InputError, OutputMotion, PositionError, Slider, Table, linkage};
 
 linkage! {
     pub mechanism FourBar {
@@ -34,7 +34,7 @@ fn the_transmission_angle_of_four_bars() {
     {
         let m = FourBar { l1, l2, l3, l4 };
         let branch = FourBarBranch::new(Elbow::Left);
-        let mu = over_turn(|v| Ok::<_, PositionError>(m.full_kinematics(v, branch, 1.0, 0.0)?.outputs.mu)).unwrap();
+        let mu = over_turn(|v| Ok(m.full_kinematics(v, branch, 1.0, 0.0)?.outputs.mu)).unwrap();
         let angle = |diagonal: f64| ((l3 * l3 + l4 * l4 - diagonal * diagonal) / (2.0 * l3 * l4)).acos();
         let expected = [angle(l1 - l2), angle(l1 + l2)];
         // theta4 - theta3 is the angle between the links, seen from their other ends; its sign and turn are arbitrary.
@@ -55,7 +55,7 @@ fn the_transmission_angle_of_four_bars() {
 fn the_stroke_of_a_slider() {
     let m = SliderCrank::default();
     let branch = SliderCrankBranch { psi_s: Slider::Far };
-    let stroke = over_turn(|v| Ok::<_, PositionError>(m.full_kinematics(v, branch, 1.0, 0.0)?.outputs.stroke)).unwrap();
+    let stroke = over_turn(|v| Ok(m.full_kinematics(v, branch, 1.0, 0.0)?.outputs.stroke)).unwrap();
     let end = |reach: f64| (reach * reach - m.e * m.e).sqrt();
     for (found, reach) in [(stroke.largest, m.l + m.r), (stroke.least, m.l - m.r)] {
         assert_relative_eq!(found.value, end(reach), max_relative = 2.0 * f64::EPSILON);
@@ -71,11 +71,7 @@ fn two_extremes_within_a_step() {
     let (c, a) = (0.501_3_f64, 4e-4);
     let cubic = |x: f64| {
         let u = x - c;
-        Ok::<_, Error>(OutputMotion {
-            value: (u * u - 3.0 * a * a) * u,
-            velocity: 3.0 * (u * u - a * a),
-            acceleration: 6.0 * u,
-        })
+        Ok(OutputMotion { value: (u * u - 3.0 * a * a) * u, velocity: 3.0 * (u * u - a * a), acceleration: 6.0 * u })
     };
     let found = over_range([c - 1.9 * a, c + 1.9 * a], cubic).unwrap();
     assert_relative_eq!(found.largest.value, 2.0 * a * a * a, max_relative = 1e-12);
@@ -87,7 +83,7 @@ fn two_extremes_within_a_step() {
         let u = (x - c) / a;
         let bell = 1.0 / (1.0 + u * u);
         let (first, second) = (-2.0 * u * bell * bell, (6.0 * u * u - 2.0) * bell * bell * bell);
-        Ok::<_, Error>(OutputMotion { value: bell, velocity: first / a, acceleration: second / (a * a) })
+        Ok(OutputMotion { value: bell, velocity: first / a, acceleration: second / (a * a) })
     };
     let found = over_range([0.0, 1.0], bump).unwrap();
     assert_eq!((found.largest.input, found.largest.value), (c, 1.0));
@@ -97,7 +93,7 @@ fn two_extremes_within_a_step() {
 fn errors_are_those_of_the_quantity() {
     let m = FourBar { l2: 300.0, ..FourBar::default() };
     let branch = FourBarBranch::new(Elbow::Left);
-    let found = over_turn(|v| Ok::<_, PositionError>(m.full_kinematics(v, branch, 1.0, 0.0)?.outputs.mu));
+    let found = over_turn(|v| Ok(m.full_kinematics(v, branch, 1.0, 0.0)?.outputs.mu));
     assert!(matches!(found, Err(PositionError::Unbuildable { .. })), "{found:?}");
 }
 

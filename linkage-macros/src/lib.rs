@@ -555,8 +555,9 @@ use proc_macro::TokenStream;
 /// | `motion(&q, v', v'')` | the same at given coordinates of a position: `FourBarMotion<T>` with `position`, `rates`, `accelerations`, `points` and `outputs` |
 /// | `assemble(v, branch)` | position in closed form, group by group, on the given branch; emitted if every block has a closed form |
 /// | `assemble_near(&guess, branch)` | if some blocks have no closed form: replaces `assemble`, with Newton's method from the guess for these blocks. If turns of angles matter (see below): in addition to `assemble`, with each angle in the turn nearest to the guess |
-/// | `branches(v)` | every position that exists at these inputs, each with its branch, angles at their principal values; branches on which a group is undetermined are omitted |
+/// | `branches(v)` | every position that exists at these inputs, with its branch, `for found in four_bar.branches(v)? { .. }`; angles at their principal values; branches on which a group is undetermined are omitted |
 /// | `FourBarBranch`, `branch_of(&pose)` | the branch, that is the assembly mode: one of two solutions for each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` sets all turns to 0, `all()` lists the branches with turns 0 |
+/// | `branch_near(&rough)` | the branch of a rough position, such as one read off a drawing |
 /// | `solve(&guess)` | position by Newton's method on the branch of the guess, with its iterations and residual |
 /// | `solve_any_branch(&guess)` | position by Newton's method on any branch, with a flag that is true on the branch of the guess |
 /// | `FourBarPose<T>`, `pose_at(&q)` | a position prepared for the functions below, which then compute no sines: directions of angles, determinants, inputs and angles as numbers where needed, values of user functions; `coordinates()` converts it back |
@@ -568,7 +569,7 @@ use proc_macro::TokenStream;
 /// | `jacobian`, `jacobian_unknowns`, `jacobian_inputs` | `Psi_q`, J and A |
 /// | `determinant`, `block_determinants` | det J; the determinants of its blocks in the order of solution |
 /// | `gamma(&pose, &q')`, `solve_jacobian(&pose, &r)` | the quadratic velocity term; J^-1 r |
-/// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and those of points and outputs, `batch` | with a `derive` statement |
+/// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and those of points and outputs, `joints`, `batch` | with a `derive` statement |
 /// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` prints it as a document |
 ///
 /// These functions return `PositionError`. `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates
@@ -579,7 +580,7 @@ use proc_macro::TokenStream;
 /// their unknowns enter the loop equation (RRR, RRP, RPR, two sliders) and named in the emitted documentation and in
 /// `DERIVATION`. Dyads, single angles and linear unknowns have closed-form positions. An RRR dyad has an `Elbow` left
 /// or right of the line between its outer joints, seen from that of the unknown named first; a link with a slider has
-/// the `Slider` far or near; a single angle has a rising or falling `Slope` of its equation. Two sliders and linear
+/// the `Slider` far or near, however its guide lies; a single angle has a rising or falling `Slope` of its equation. Two sliders and linear
 /// unknowns have one solution. An error names a singular block, or one that cannot be assembled, by its unknowns.
 ///
 /// # Turns of angles

@@ -22,7 +22,7 @@
 //! ```
 
 use crate::jacobian::root;
-use crate::{OutputMotion, Real, real};
+use crate::{OutputMotion, PositionError, Real, real};
 
 /// The steps in which a turn or a range is searched.
 const STEPS: u32 = 360;
@@ -51,7 +51,9 @@ pub struct Extremes<T = f64> {
 ///
 /// # Errors
 /// Those of `quantity`.
-pub fn over_turn<T: Real, E>(quantity: impl FnMut(T) -> Result<OutputMotion<T>, E>) -> Result<Extremes<T>, E> {
+pub fn over_turn<T: Real>(
+    quantity: impl FnMut(T) -> Result<OutputMotion<T>, PositionError>,
+) -> Result<Extremes<T>, PositionError> {
     over_range([T::zero(), T::two_pi()], quantity)
 }
 
@@ -63,10 +65,10 @@ pub fn over_turn<T: Real, E>(quantity: impl FnMut(T) -> Result<OutputMotion<T>, 
 ///
 /// # Errors
 /// Those of `quantity`.
-pub fn over_range<T: Real, E>(
+pub fn over_range<T: Real>(
     [from, to]: [T; 2],
-    mut quantity: impl FnMut(T) -> Result<OutputMotion<T>, E>,
-) -> Result<Extremes<T>, E> {
+    mut quantity: impl FnMut(T) -> Result<OutputMotion<T>, PositionError>,
+) -> Result<Extremes<T>, PositionError> {
     let first = quantity(from)?;
     let start = Extreme { input: from, value: first.value };
     let mut found = Extremes { least: start, largest: start };
@@ -83,8 +85,9 @@ pub fn over_range<T: Real, E>(
         {
             // The derivative comes nearer to zero and leaves again: between, it may have two zeros.
             let ends = [last.1.acceleration, here.1.acceleration];
-            let nearest =
-                root([last.0, input], ends, ulp(last.0, input), |input| Ok(Some(quantity(input)?.acceleration)))?;
+            let nearest = root([last.0, input], ends, ulp(last.0, input), |input| {
+                quantity(input).map(|at| Some(at.acceleration))
+            })?;
             if let Some(nearest) = nearest {
                 let middle = (nearest, quantity(nearest)?);
                 if has_opposite_signs(last.1.velocity, middle.1.velocity) {
@@ -118,13 +121,13 @@ impl<T: Real> Extremes<T> {
     }
 
     /// Includes the zero of the derivative between two inputs.
-    fn zero_between<E>(
+    fn zero_between(
         &mut self,
         (low, at_low): (T, OutputMotion<T>),
         (high, at_high): (T, OutputMotion<T>),
-        mut quantity: impl FnMut(T) -> Result<OutputMotion<T>, E>,
-    ) -> Result<(), E> {
-        let mut slope = |input: T| Ok(Some(quantity(input)?.velocity));
+        mut quantity: impl FnMut(T) -> Result<OutputMotion<T>, PositionError>,
+    ) -> Result<(), PositionError> {
+        let mut slope = |input: T| quantity(input).map(|at| Some(at.velocity));
         let zero = root([low, high], [at_low.velocity, at_high.velocity], ulp(low, high), &mut slope)?;
         if let Some(input) = zero {
             let value = quantity(input)?.value;

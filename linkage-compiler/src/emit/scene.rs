@@ -6,7 +6,7 @@ use syn::Attribute;
 
 use super::expression::literal;
 use super::names::ident;
-use super::types::{MOST_ARGUMENTS, default_of, docs, field, other_scalar, serde_of_parameters};
+use super::types::{MOST_ARGUMENTS, default_of, docs, docs_of_parameter, field, other_scalar, serde_of_parameters};
 use crate::model::Parameter;
 use crate::program::SceneSignatures;
 
@@ -18,7 +18,7 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenSt
         scene.parameters.iter().map(|&place| &mechanism.scene_parameters[place]).collect();
     let fields: Vec<Ident> = parameters.iter().map(|parameter| field(&parameter.name)).collect();
     let members = parameters.iter().zip(&fields).map(|(parameter, field)| {
-        let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
+        let docs = docs_of_parameter(mechanism, parameter);
         let other = parameter.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
         quote!(#docs #(#other)* pub #field: T)
     });

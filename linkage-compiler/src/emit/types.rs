@@ -33,6 +33,16 @@ pub(super) fn docs(attributes: &[Attribute], text: &str) -> TokenStream {
     }
 }
 
+/// The user's doc comment of a parameter, or its name and kind; then its default.
+pub(super) fn docs_of_parameter(mechanism: &Mechanism, parameter: &Parameter) -> TokenStream {
+    let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
+    let default = parameter.default.map(|default| {
+        let text = comment(&format!(" Default: {}.", mechanism.graph.text(default)));
+        quote!(#[doc = ""] #[doc = #text])
+    });
+    quote!(#docs #default)
+}
+
 /// `#[derive(..)]` for types of plain data.
 pub(super) fn derives(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     let serde = serde(mechanism, root);
@@ -390,7 +400,7 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
     let (phantom, mark, other) = (fields.phantom(), fields.mark(), other_scalar(mechanism));
     let [all, scalar] = ["parameters", "scalar"].map(|name| fields.argument(name));
     let members = mechanism.parameters.iter().zip(names).map(|(parameter, field)| {
-        let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
+        let docs = docs_of_parameter(mechanism, parameter);
         let other = parameter.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
         quote!(#docs #(#other)* pub #field: T)
     });
@@ -467,6 +477,12 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     let derives = derives(program.signatures.mechanism, root);
     let title =
         comment(&format!(" The assembly mode of [`{driver}`]: one of the two solutions of each group that has two."));
+    let example = (1..=MOST_ARGUMENTS).contains(&sides.len()).then(|| {
+        let sides: Vec<String> =
+            sides.iter().map(|Side { choice, .. }| format!("{}::{}", choice.name(), choice.variants()[0])).collect();
+        let text = comment(&format!(" For instance `{branch}::new({})`.", sides.join(", ")));
+        quote!(#[doc = ""] #[doc = #text])
+    });
     let choices: Vec<(Ident, TokenStream)> = sides
         .iter()
         .map(|side| {
@@ -549,6 +565,7 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     let default = sides.is_empty().then(|| quote!(, ::core::default::Default));
     quote! {
         #[doc = #title]
+        #example
         #derives
         #[derive(::core::cmp::Eq, ::core::hash::Hash #default)]
         #visibility struct #branch { #(#members,)* #(#turn_members),* }

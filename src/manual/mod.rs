@@ -1,0 +1,86 @@
+//! The manual: pages to read, without items.
+//!
+//! | page | contents |
+//! |---|---|
+//! | [`first_mechanism`] | from a drawing to numbers |
+//! | [`first_picture`] | a picture and an animation in three lines |
+//! | [`first_sheet`] | the derivation as a document |
+//! | [`first_simulation`] | bodies, forces and a motion in time |
+//! | [`linkage!`](crate::linkage!) | the language |
+//! | [`emitted`] | the types and functions of a mechanism |
+//! | [`cam_laws`] | your own functions |
+//! | [`scenes`] | all effects of a scene; dry friction and stops |
+//! | [`dead_points`], [`change_points`] | motions through positions where the input cannot drive, and where motions cross |
+//! | [`errors`] | messages of the macro, errors at run time |
+//! | [`speed`], [`accuracy`], [`stability`] | times, errors and hard cases, as measured |
+
+/// From a drawing to numbers: a four-bar.
+///
+#[doc = include_str!("four_bar.svg")]
+///
+#[doc = include_str!("first_mechanism.md")]
+pub mod first_mechanism {}
+
+/// A picture, an animation, and how to change what they guess.
+///
+#[doc = include_str!("coupler_curve.svg")]
+///
+#[doc = include_str!("first_picture.md")]
+pub mod first_picture {}
+
+/// The derivation as a document: formulas, numbers and a picture in one file.
+///
+#[doc = include_str!("first_sheet.md")]
+pub mod first_sheet {}
+
+/// Bodies, forces, and a motion in time.
+///
+#[doc = include_str!("first_simulation.md")]
+pub mod first_simulation {}
+
+/// The types and functions that `mechanism FourBar { .. }` becomes.
+///
+#[doc = include_str!("emitted.md")]
+pub mod emitted {}
+
+/// Your own functions: cam laws, tables, errors of gears, with their derivatives.
+///
+#[doc = include_str!("cam_laws.md")]
+pub mod cam_laws {}
+
+/// Inertia and forces: a scene, its functions, its simulation, dry friction and stops.
+///
+#[doc = include_str!("scenes.md")]
+pub mod scenes {}
+
+/// Motions through dead points, where the input cannot drive.
+///
+#[doc = include_str!("dead_points.md")]
+pub mod dead_points {}
+
+/// Motions through change points, where motions cross.
+///
+#[doc = include_str!("parallelogram.svg")]
+///
+#[doc = include_str!("change_points.md")]
+pub mod change_points {}
+
+/// Mistakes while compiling, and results that do not exist.
+///
+#[doc = include_str!("errors.md")]
+pub mod errors {}
+
+/// Times of positions, motions, effects and the macro itself, each printed by a bench of the repository.
+///
+#[doc = include_str!("speed.md")]
+pub mod speed {}
+
+/// Errors against arithmetic of 45 digits, and what accuracy costs.
+///
+#[doc = include_str!("accuracy.md")]
+pub mod accuracy {}
+
+/// Positions in which a group has no position, infinitely many, or nearly none.
+///
+#[doc = include_str!("stability.md")]
+pub mod stability {}
