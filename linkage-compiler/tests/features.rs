@@ -1,16 +1,16 @@
-//! Expansion for a `linkage` crate without its feature `dynamics`.
+//! Expansion for a `linkage` crate without its features `dynamics` and `serde`.
 
 use linkage_compiler::Facade;
 use linkage_compiler::budget::Budget;
 use proc_macro2::TokenStream;
 
-/// A crank with a scene, or with none.
-fn expanded(scene: &str, has_dynamics: bool) -> String {
+/// A crank with a further statement, expanded with all features or with none.
+fn expanded(statement: &str, has_features: bool) -> String {
     let crank = format!(
         "mechanism Crank {{ param r = 1, m = 2; input phi; unknown x; equation x = r * cos(phi); \
-         body rod {{ mass m; center (x, 0); }} {scene} }}"
+         body rod {{ mass m; center (x, 0); }} {statement} }}"
     );
-    let facade = Facade { path: "::linkage".parse().unwrap(), has_dynamics };
+    let facade = Facade { path: "::linkage".parse().unwrap(), has_dynamics: has_features, has_serde: has_features };
     let tokens: TokenStream = crank.parse().unwrap();
     linkage_compiler::expand_within(tokens, &facade, &Budget::default()).to_string()
 }
@@ -26,4 +26,12 @@ fn a_scene_needs_the_feature() {
 
     let accepted = expanded("scene Turning { inertia; }", true);
     assert!(!accepted.contains("compile_error") && accepted.contains("struct Turning"));
+}
+
+#[test]
+fn serde_needs_the_feature() {
+    let without = expanded("derive serde;", false);
+    assert!(without.contains("`derive serde` needs the feature `serde` of `linkage`"), "{without}");
+    assert!(without.contains("struct Crank") && !without.contains("Serialize"), "{without}");
+    assert!(expanded("derive serde;", true).contains("Serialize"));
 }

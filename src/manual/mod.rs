@@ -13,6 +13,8 @@
 //! | [`dead_points`], [`change_points`] | motions through positions where the input cannot drive, and where motions cross |
 //! | [`errors`] | messages of the macro, errors at run time |
 //! | [`speed`], [`accuracy`], [`stability`] | times, errors and hard cases, as measured |
+//! | [`examples`] | the examples of the repository, with what they measure |
+//! | [`crates`] | the crates of the workspace, their features, tests and fuzzing |
 
 /// From a drawing to numbers: a four-bar.
 ///
@@ -84,3 +86,13 @@ pub mod accuracy {}
 ///
 #[doc = include_str!("stability.md")]
 pub mod stability {}
+
+/// The crates of the workspace, and their features.
+///
+#[doc = include_str!("crates.md")]
+pub mod crates {}
+
+/// The examples of the repository, with what they measure.
+///
+#[doc = include_str!("examples.md")]
+pub mod examples {}
