@@ -11,6 +11,9 @@ use linkage::drawing::Drawing;
 use linkage::nalgebra::{SMatrix, SVector, Vector2};
 use linkage::{PositionError, linkage, position};
 
+#[path = "output/mod.rs"]
+mod output;
+
 linkage! {
     /// The sheet's four-bar A-B-C-D: crank l2, coupler l3, l4 from C to D, frame l1.
     #[derive(Debug, Clone, PartialEq)]
@@ -149,7 +152,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     let path = std::env::args().nth(1).unwrap_or_else(|| "target/maple_sheet.svg".to_owned());
-    std::fs::write(&path, picture(&four_bar, &points)?)?;
+    let path = output::write(path, &picture(&four_bar, &points)?)?;
     println!("\nPicture: {path}");
     Ok(())
 }

@@ -8,6 +8,9 @@ use linkage::drawing::Drawing;
 use linkage::sheet::Sheet;
 use linkage::{Document, linkage};
 
+#[path = "output/mod.rs"]
+mod output;
+
 linkage! {
     /// The sheet's four-bar A-B-C-D: crank l2, coupler l3, l4 from C to D, frame l1.
     #[derive(Debug, Clone, PartialEq)]
@@ -76,7 +79,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let html = sheet.to_html();
     let path = std::env::args().nth(1).unwrap_or_else(|| "target/sheet.html".to_owned());
-    std::fs::write(&path, &html)?;
+    let path = output::write(path, &html)?;
     println!("{}", FourBar::DERIVATION.to_text());
     println!("Sheet: {path}, {} kB", html.len() / 1000);
 

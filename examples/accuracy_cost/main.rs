@@ -12,6 +12,8 @@ mod dominance;
 mod methods;
 mod comparison;
 mod oracle;
+#[path = "../output/mod.rs"]
+mod output;
 mod page;
 #[path = "../price/mod.rs"]
 mod price;
@@ -68,10 +70,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     if cfg!(debug_assertions) {
         println!("The times are for unoptimised code: run with --release.");
     }
-    std::fs::write("target/accuracy_cost.svg", chart::svg(&comparisons))?;
+    output::write("target/accuracy_cost.svg", &chart::svg(&comparisons))?;
     let html = page::html(&comparisons);
-    std::fs::write("target/accuracy_cost.html", &html)?;
-    println!("Tables: target/accuracy_cost.html, {} kB, and .svg", html.len() / 1000);
+    let path = output::write("target/accuracy_cost.html", &html)?;
+    println!("Tables: {path}, {} kB, and .svg", html.len() / 1000);
     check(&comparisons);
     Ok(())
 }

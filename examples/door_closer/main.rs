@@ -8,6 +8,8 @@ mod closing;
 #[path = "../quadrature/mod.rs"]
 mod gauss;
 mod machine;
+#[path = "../output/mod.rs"]
+mod output;
 mod pictures;
 #[path = "../plot/mod.rs"]
 mod plot;
@@ -22,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{name:32} {value}");
     }
     let path = std::env::args().nth(1).unwrap_or_else(|| "target/door_closer.html".to_owned());
-    std::fs::write(&path, pictures::page(&run, &rows)?)?;
+    let path = output::write(path, &pictures::page(&run, &rows)?)?;
     println!("Pictures: {path}");
     Ok(())
 }

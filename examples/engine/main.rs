@@ -10,6 +10,8 @@ mod gauss;
 mod indicated;
 mod loads;
 mod machine;
+#[path = "../output/mod.rs"]
+mod output;
 mod pictures;
 #[path = "../plot/mod.rs"]
 mod plot;
@@ -29,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{name:44} {value}");
     }
     let path = std::env::args().nth(1).unwrap_or_else(|| "target/engine.html".to_owned());
-    std::fs::write(&path, pictures::page(&run, &rows)?)?;
+    let path = output::write(path, &pictures::page(&run, &rows)?)?;
     println!("Pictures: {path}");
     Ok(())
 }

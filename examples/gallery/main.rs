@@ -7,6 +7,8 @@ use std::error::Error;
 
 #[macro_use]
 mod figure;
+#[path = "../output/mod.rs"]
+mod output;
 mod page;
 
 mod cams;
@@ -35,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     ];
     let html = page::html(&families)?;
     let path = std::env::args().nth(1).unwrap_or_else(|| "target/gallery.html".to_owned());
-    std::fs::write(&path, &html)?;
+    let path = output::write(path, &html)?;
 
     let figures: Vec<&Figure> = families.iter().flat_map(|family| &family.figures).collect();
     println!("Gallery: {path}, {} pictures, {} kB", figures.len(), html.len() / 1000);

@@ -13,6 +13,8 @@ mod fates;
 mod gait;
 mod legs;
 mod machine;
+#[path = "../output/mod.rs"]
+mod output;
 mod page;
 mod study;
 #[path = "../plot/ticks.rs"]
@@ -42,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{}  {:60} {}", leg.letter, leg.name, page::gait(&leg.walker.gait));
     }
     let html = page::html(&study, &legs, &rows)?;
-    std::fs::write(&path, &html)?;
+    let path = output::write(path, &html)?;
     println!("Page: {path}, {} kB", html.len() / 1000);
     Ok(())
 }

@@ -13,6 +13,8 @@ mod formulations;
 mod four_bars;
 mod integrators;
 mod list;
+#[path = "../output/mod.rs"]
+mod output;
 mod page;
 #[path = "../price/mod.rs"]
 mod price;

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::list::{ACCELERATIONS, List, METHODS, PROJECTED, REAL_TIME, Setting, WEAKLY, Work};
 use super::problem::Problem;
-use super::{chart, fixed_steps, four_bars, integrators, page, problems, reading};
+use super::{chart, fixed_steps, four_bars, integrators, output, page, problems, reading};
 
 /// The squeezer, the windows, the four-bar with a spring and the turning one.
 pub struct Problems {
@@ -90,11 +90,10 @@ pub fn write(works: [Vec<Work>; 4]) -> Result<(), Box<dyn Error>> {
     if cfg!(debug_assertions) {
         println!("The times are for unoptimised code: run with --release.");
     }
-    std::fs::create_dir_all("target")?;
-    std::fs::write("target/simulation_cost.svg", chart::svg(&lists))?;
+    output::write("target/simulation_cost.svg", &chart::svg(&lists))?;
     let html = page::html(&lists, &reading);
-    std::fs::write("target/simulation_cost.html", &html)?;
-    println!("Tables: target/simulation_cost.html, {} kB, and .svg", html.len() / 1000);
+    let path = output::write("target/simulation_cost.html", &html)?;
+    println!("Tables: {path}, {} kB, and .svg", html.len() / 1000);
     Ok(())
 }
 

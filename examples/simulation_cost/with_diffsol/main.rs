@@ -15,6 +15,8 @@ mod four_bars;
 mod integrators;
 #[path = "../list.rs"]
 mod list;
+#[path = "../../output/mod.rs"]
+mod output;
 #[path = "../page.rs"]
 mod page;
 #[path = "../../price/mod.rs"]
