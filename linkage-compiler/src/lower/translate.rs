@@ -51,8 +51,10 @@ impl<'a> Builder<'a> {
             {
                 Value::Direction(*function, angle[0])
             }
-            _ if let Some(symbol) = self.given.values.get(&id) => Value::Symbol(*symbol),
-            _ => return self.graph.constant_value(id).map(|value| self.constant(Number::Float(value))),
+            _ => match self.given.values.get(&id) {
+                Some(symbol) => Value::Symbol(*symbol),
+                None => return self.graph.constant_value(id).map(|value| self.constant(Number::Float(value))),
+            },
         };
         Some(self.positive(value))
     }

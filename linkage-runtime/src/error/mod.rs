@@ -4,8 +4,6 @@ mod input;
 mod path;
 mod position;
 
-use core::hint::cold_path;
-
 use nalgebra::SMatrix;
 
 pub use input::InputError;
@@ -55,6 +53,11 @@ pub fn all_finite<'a, T: Real>(
     if sum.is_none_or(|sum| sum.is_finite()) {
         return Ok(());
     }
-    cold_path();
-    if values.clone().all(T::is_finite) { Ok(()) } else { Err(PositionError::NotFinite { mechanism, quantity }) }
+    if each_is_finite(values) { Ok(()) } else { Err(PositionError::NotFinite { mechanism, quantity }) }
+}
+
+/// A function of its own, because a call of a cold one makes its branch unlikely.
+#[cold]
+fn each_is_finite<'a, T: Real>(mut values: impl Iterator<Item = &'a T>) -> bool {
+    values.all(T::is_finite)
 }
