@@ -2,12 +2,11 @@
 
 use std::fmt::Write;
 
-use linkage::drawing::DrawingError;
-
 use crate::Family;
 use crate::figure::{Course, Figure};
 
-pub fn html(families: &[Family]) -> Result<String, DrawingError> {
+/// The page of these families and of the pictures of all their figures, in order.
+pub fn html(families: &[Family], pictures: &[String]) -> String {
     let count: usize = families.iter().map(|family| family.figures.len()).sum();
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -18,15 +17,16 @@ pub fn html(families: &[Family]) -> Result<String, DrawingError> {
          </header>\n<main>\n",
         include_str!("style.css")
     );
+    let mut pictures = pictures.iter();
     for family in families {
         push(&mut html, format_args!("<section>\n<h2>{}</h2>\n<div class=\"grid\">\n", escape(family.name)));
-        for figure in &family.figures {
-            push(&mut html, format_args!("{}", self::figure(figure)?));
+        for (figure, picture) in family.figures.iter().zip(&mut pictures) {
+            push(&mut html, format_args!("{}", self::figure(figure, picture)));
         }
         html.push_str("</div>\n</section>\n");
     }
     html.push_str("</main>\n</body>\n</html>\n");
-    Ok(html)
+    html
 }
 
 fn push(html: &mut String, text: std::fmt::Arguments) {
@@ -34,7 +34,7 @@ fn push(html: &mut String, text: std::fmt::Arguments) {
     let _ = html.write_fmt(text);
 }
 
-fn figure(figure: &Figure) -> Result<String, DrawingError> {
+fn figure(figure: &Figure, picture: &str) -> String {
     let Figure { name, about, source, .. } = figure;
     let derivation = figure.derivation;
     let inputs: Vec<String> = derivation.inputs.iter().map(|input| input.formula.to_string()).collect();
@@ -53,17 +53,17 @@ fn figure(figure: &Figure) -> Result<String, DrawingError> {
         Some([all, here]) if all == here => all.to_string(),
         Some([all, here]) => format!("{all}, {here} of them in the first frame"),
     };
-    Ok(format!(
+    format!(
         "<figure>\n{}\n<figcaption>\n<h3>{}</h3>\n<p>{}</p>\n<dl>\
          <div><dt>Input</dt><dd><i>{}</i>, {}</dd></div><div><dt>Branches</dt><dd>{branches}</dd></div>\
          <div><dt>Groups</dt><dd><ol>{groups}</ol></dd></div></dl>\n<p class=\"source\">{}</p>\n</figcaption>\n</figure>\n",
-        figure.picture.to_svg()?,
+        picture,
         escape(name),
         escape(about),
         escape(&inputs.join(", ")),
         course(figure.course),
         escape(source),
-    ))
+    )
 }
 
 fn course(course: Course) -> String {

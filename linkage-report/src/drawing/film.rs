@@ -114,6 +114,19 @@ impl Film {
         &self.frames
     }
 
+    /// All points at equal steps of time from the first frame to the last, at most this number of them; between frames they
+    /// move evenly, as in the picture.
+    pub(super) fn moments(&self, most: usize) -> Vec<Vec<Vector2<f64>>> {
+        let last = self.frames.len() - 1;
+        let steps = most.min(last).max(1);
+        let moment = |step: usize| {
+            let (before, part) = (last * step / steps, (last * step % steps) as f64 / steps as f64);
+            let after = &self.frames[(before + 1).min(last)];
+            self.frames[before].iter().zip(after).map(|(from, to)| from + (to - from) * part).collect()
+        };
+        (0..=steps.min(last)).map(moment).collect()
+    }
+
     /// The positions of one point in all frames.
     pub(super) fn track(&self, index: usize) -> Vec<Vector2<f64>> {
         self.frames.iter().map(|frame| frame[index]).collect()

@@ -18,6 +18,7 @@ mod film;
 mod frame;
 mod mechanism;
 mod names;
+mod obstacles;
 mod pen;
 mod render;
 mod shapes;

@@ -6,7 +6,7 @@ use svg::node::element::{Circle, Description, Group, Line, Path, Polyline, Recta
 
 use super::axes::{label, ticks};
 use super::frame::{Frame, LEFT, TOP, WIDTH};
-use super::names::{Obstacles, foot, offset};
+use super::names::{Name, Shape, foot, offsets};
 use super::{Drawing, Mark, Quantity};
 
 const STYLE: &str = "
@@ -53,32 +53,31 @@ pub(super) fn svg(drawing: &Drawing) -> String {
         let points: Vec<String> = path.iter().map(|at| frame.pixel(*at)).map(|p| format!("{},{}", p.x, p.y)).collect();
         document = document.add(Polyline::new().set("class", "path").set("points", points.join(" ")));
     }
-    let mut obstacles = Obstacles::new(Vec::new(), Vec::new());
+    let mut shapes = Vec::new();
     for (from, to) in &drawing.bars {
         let ends = [from, to].map(|name| frame.pixel(drawing.at(name).unwrap_or_default()));
-        obstacles.segments.push(ends);
+        shapes.push(Shape::line(ends, 2.0));
         document = document.add(line(ends, "bar"));
     }
     for arrow in &drawing.arrows {
         let ends = [frame.pixel(drawing.at(&arrow.from).unwrap_or_default()), frame.pixel(drawing.tip(arrow))];
-        obstacles.segments.push(ends);
+        shapes.push(Shape::line(ends, 1.5));
         document = document.add(vector(ends, arrow.quantity));
     }
     for place in &drawing.places {
         let at = frame.pixel(place.at);
         if place.mark == Mark::Ground {
-            // The triangle is an obstacle for names like a bar.
-            obstacles.segments.extend(foot(at));
+            shapes.extend(foot(at));
         }
         document = document.add(mark(at, place.mark));
     }
-    obstacles.points = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
-    for (index, place) in drawing.places.iter().enumerate() {
-        let offset_of_name =
-            offset(&place.name, |_| true, std::slice::from_ref(&obstacles), |obstacles| obstacles.points[index]);
-        let at = obstacles.points[index] + offset_of_name;
-        obstacles.place_name(&place.name, at);
-        document = document.add(text(&place.name, "name", at + Vector2::new(0.0, 5.0), "middle"));
+    let places: Vec<Vector2<f64>> = drawing.places.iter().map(|place| frame.pixel(place.at)).collect();
+    shapes.extend(places.iter().copied().map(Shape::joint));
+    let names = drawing.places.iter().zip(&places).map(|(place, at)| Name { text: &place.name, at: vec![*at] });
+    let names: Vec<Name> = names.collect();
+    for (name, offset) in names.iter().zip(offsets(&names, &[shapes], |_| true)) {
+        let at = name.at[0] + offset[0];
+        document = document.add(text(name.text, "name", at + Vector2::new(0.0, 5.0), "middle"));
     }
     let mut x = LEFT;
     for (class, words) in legend {

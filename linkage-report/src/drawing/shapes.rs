@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use super::pen::Pen;
 
 /// Half the width of a link.
-const HALF_LINK: f64 = 7.0;
+pub(super) const HALF_LINK: f64 = 7.0;
 /// Half the length and half the width of a sliding block.
 pub(super) const BLOCK: [f64; 2] = [15.0, 9.0];
 /// Distance and length of the strokes of a hatching.

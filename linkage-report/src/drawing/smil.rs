@@ -8,7 +8,8 @@ use svg::node::element::{AnimateTransform, Description, Group, Path, Rectangle, 
 use super::DrawingError;
 use super::animation::{Animation, Part};
 use super::film::{Body, Film, SIZE};
-use super::names::{Obstacles, foot, offset};
+use super::names::{self, Name, Shape};
+use super::obstacles;
 use super::pen::{Pen, short};
 use super::shapes::{BLOCK, block, ground, hatching, link, spring, turning, wheel};
 
@@ -19,8 +20,8 @@ const STYLE: &str = include_str!("animation.css");
 /// The colours of links, used in turn.
 const COLOURS: [&str; 4] = ["a", "b", "c", "d"];
 
-/// The number of frames in which names must be clear of other shapes.
-const SAMPLES: usize = 12;
+/// The moments, besides the first, at which names must be clear of other shapes.
+const MOMENTS: usize = 72;
 
 /// A shape and its motion.
 struct Item {
@@ -29,6 +30,15 @@ struct Item {
     drawn: Group,
     /// The lengths of a spring, which is drawn along x; empty for other shapes.
     lengths: Vec<f64>,
+    /// The name of a joint.
+    name: Option<Label>,
+}
+
+/// A name beside its point.
+struct Label {
+    text: String,
+    /// Its places relative to the point, at equal steps of time.
+    offsets: Vec<Vector2<f64>>,
 }
 
 /// The picture under construction.
@@ -162,7 +172,7 @@ impl Stage<'_> {
                     return Err(DrawingError::NotFinite(format!("the stretch of the spring from `{from}` to `{to}`")));
                 }
                 let drawn = Group::new().add(path("spring", spring(lengths[0])));
-                self.items.push(Item { body: film.body(from, [from, to]), drawn, lengths });
+                self.items.push(Item { body: film.body(from, [from, to]), drawn, lengths, name: None });
             }
         }
         Ok(())
@@ -174,7 +184,7 @@ impl Stage<'_> {
 
     fn item(&mut self, body: Body, class: &str, paths: impl IntoIterator<Item = Path>) {
         let drawn = paths.into_iter().fold(Group::new().set("class", class), Group::add);
-        self.items.push(Item { body, drawn, lengths: Vec::new() });
+        self.items.push(Item { body, drawn, lengths: Vec::new(), name: None });
     }
 
     fn colour(&mut self) -> &'static str {
@@ -207,56 +217,63 @@ impl Stage<'_> {
             }
         }
         let named: Vec<usize> = (0..met.len()).filter(|point| met[*point] > 1 || traced[*point]).collect();
-        let offsets = self.name_offsets(&named, self.obstacles(animation, &named)?);
-        for (&point, at) in named.iter().zip(offsets) {
+        let moments = film.moments(MOMENTS);
+        let mut shapes = Vec::new();
+        for places in &moments {
+            let joints = named.iter().map(|&point| Shape::joint(places[point]));
+            let arrows = self.arrows.iter().map(|&ends| Shape::line(ends, 1.0));
+            shapes.push(joints.chain(arrows).chain(obstacles::shapes(animation, film, places)?).collect());
+        }
+        let name = |&point: &usize| Name {
+            text: film.names()[point].as_str(),
+            at: moments.iter().map(|places| places[point]).collect(),
+        };
+        let inside = |at: Vector2<f64>| at >= Vector2::repeat(8.0) && at <= SIZE - Vector2::repeat(8.0);
+        let names: Vec<Name> = named.iter().map(name).collect();
+        let offsets = names::offsets(&names, &shapes, inside);
+        for ((&point, name), offsets) in named.iter().zip(names).zip(offsets) {
             let class = if traced[point] { "dot" } else { "joint" };
-            let drawn = Group::new()
-                .add(path(class, Pen::default().circle(Vector2::zeros(), 4.5).close().path()))
-                .add(Text::new(film.names()[point].as_str()).set("x", short(at.x, 1)).set("y", short(at.y + 4.5, 1)));
-            self.items.push(Item { body: Body::sliding(film.track(point)), drawn, lengths: Vec::new() });
+            let drawn = Group::new().add(path(class, Pen::default().circle(Vector2::zeros(), 4.5).close().path()));
+            let name = Some(Label { text: name.text.to_owned(), offsets });
+            self.items.push(Item { body: Body::sliding(film.track(point)), drawn, lengths: Vec::new(), name });
         }
         Ok(())
     }
+}
 
-    /// The positions of names relative to their points. Long names are placed first: they are the hardest.
-    fn name_offsets(&self, named: &[usize], mut obstacles: Vec<Obstacles>) -> Vec<Vector2<f64>> {
-        let inside = |at: Vector2<f64>| at >= Vector2::repeat(6.0) && at <= SIZE - Vector2::repeat(6.0);
-        let name = |place: usize| self.film.names()[named[place]].as_str();
-        let mut order: Vec<usize> = (0..named.len()).collect();
-        order.sort_by_key(|place| std::cmp::Reverse(name(*place).len()));
-        let mut offsets = vec![Vector2::zeros(); named.len()];
-        for place in order {
-            offsets[place] = offset(name(place), inside, &obstacles, |frame| frame.points[place]);
-            for frame in &mut obstacles {
-                frame.place_name(name(place), frame.points[place] + offsets[place]);
-            }
-        }
-        offsets
+impl Label {
+    /// The name, which walks around its point in this number of seconds, or stays at its first place.
+    fn text(&self, seconds: Option<f64>) -> Text {
+        let first = self.offsets[0];
+        let text = Text::new(self.text.as_str()).set("x", short(first.x, 1)).set("y", short(first.y + 4.5, 1));
+        // Whole pixels, and only the moments between which it walks, keep the file small.
+        let walk = |offset: &Vector2<f64>| format!("{} {}", short(offset.x - first.x, 0), short(offset.y - first.y, 0));
+        let last = self.offsets.len() - 1;
+        let is_kept = |&at: &usize| {
+            at == 0
+                || at == last
+                || self.offsets[at - 1] != self.offsets[at]
+                || self.offsets[at] != self.offsets[at + 1]
+        };
+        let kept: Vec<usize> = (0..=last).filter(is_kept).collect();
+        let values = kept.iter().map(|&at| walk(&self.offsets[at])).collect();
+        let times: Vec<String> = kept.iter().map(|&at| short(at as f64 / last as f64, 3)).collect();
+        let walk = animate("translate", values, seconds).map(|walk| walk.set("keyTimes", times.join(";")));
+        walk.into_iter().fold(text, Text::add)
     }
+}
 
-    /// The obstacles for names, in some of the frames.
-    fn obstacles(&self, animation: &Animation, named: &[usize]) -> Result<Vec<Obstacles>, DrawingError> {
-        let frames = self.film.frames();
-        let mut obstacles = Vec::new();
-        for frame in frames.iter().step_by(frames.len().div_ceil(SAMPLES)) {
-            let points = named.iter().map(|point| frame[*point]).collect();
-            let mut shapes = Obstacles::new(self.arrows.clone(), points);
-            for part in &animation.parts {
-                let points: Vec<Vector2<f64>> =
-                    part.joints().map(|name| Ok(frame[self.film.index(name)?])).collect::<Result<_, DrawingError>>()?;
-                match part {
-                    Part::Ground(_) => shapes.segments.extend(points.iter().flat_map(|at| foot(*at))),
-                    Part::Link { .. } => {
-                        let next = points.iter().cycle().skip(1);
-                        shapes.segments.extend(points.iter().zip(next).map(|(from, to)| [*from, *to]));
-                    }
-                    _ => shapes.segments.extend(points.windows(2).map(|ends| [ends[0], ends[1]])),
-                }
-            }
-            obstacles.push(shapes);
-        }
-        Ok(obstacles)
-    }
+/// The animation through values at equal steps of time; none of a picture at rest or of values that do not change.
+fn animate(kind: &str, values: Vec<String>, seconds: Option<f64>) -> Option<AnimateTransform> {
+    let moves = values.iter().any(|value| *value != values[0]);
+    seconds.filter(|_| moves).map(|seconds| {
+        AnimateTransform::new()
+            .set("attributeName", "transform")
+            .set("type", kind)
+            .set("dur", format!("{}s", short(seconds, 3)))
+            .set("repeatCount", "indefinite")
+            .set("values", values.join(";"))
+    })
 }
 
 impl Item {
@@ -264,17 +281,10 @@ impl Item {
     fn group(&self, seconds: Option<f64>) -> Group {
         let first = self.body.places[0];
         let mut drawn = self.drawn.clone();
-        let animate = |kind: &str, values: Vec<String>| {
-            let moves = values.iter().any(|value| *value != values[0]);
-            seconds.filter(|_| moves).map(|seconds| {
-                AnimateTransform::new()
-                    .set("attributeName", "transform")
-                    .set("type", kind)
-                    .set("dur", format!("{}s", short(seconds, 3)))
-                    .set("repeatCount", "indefinite")
-                    .set("values", values.join(";"))
-            })
-        };
+        if let Some(name) = &self.name {
+            drawn = drawn.add(name.text(seconds));
+        }
+        let animate = |kind: &str, values: Vec<String>| animate(kind, values, seconds);
         if let Some(&length) = self.lengths.first() {
             let stretch = self.lengths.iter().map(|now| format!("{} 1", short(now / length, 3))).collect();
             drawn = animate("scale", stretch).into_iter().fold(drawn, Group::add);
