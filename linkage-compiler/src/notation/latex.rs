@@ -1,7 +1,7 @@
 //! LaTeX's mathematical mode; `atan2` and `hypot` need `amsmath`.
 
 use super::formula::Formula;
-use super::name::{Name, Word, greek, is_number, latin, matrix_name, primes};
+use super::name::{Name, Word, greek, is_number, latin, matrix_name, numbered_greek, primes};
 use super::style::{Argument, Binding, Marks, Style, function_name, is_circular};
 use crate::graph::Function;
 
@@ -153,6 +153,10 @@ fn word(out: &mut String, name: &str, accent: &str) {
 }
 
 fn part(out: &mut String, word: &str) {
+    if let Some((name, number)) = numbered_greek(word) {
+        part(out, name);
+        return out.extend(["_{", number, "}"]);
+    }
     match greek(word) {
         Some((name, _)) => match latin(name) {
             Some(letter) => out.push_str(&format!("\\mathrm{{{letter}}}")),

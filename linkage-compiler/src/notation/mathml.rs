@@ -1,7 +1,7 @@
 //! Presentation MathML, in the subset MathML Core. Every formula is one element.
 
 use super::formula::Formula;
-use super::name::{Name, Word, greek, is_number, matrix_name, primes};
+use super::name::{Name, Word, greek, is_number, matrix_name, numbered_greek, primes};
 use super::style::{Argument, Binding, Marks, Style, function_name, is_circular};
 use crate::graph::Function;
 
@@ -229,6 +229,12 @@ fn word(out: &mut String, name: &str, Shape { dots, above }: Shape<'_>) {
 }
 
 fn part(out: &mut String, word: &str) {
+    if let Some((name, number)) = numbered_greek(word) {
+        out.push_str("<msub>");
+        part(out, name);
+        part(out, number);
+        return out.push_str("</msub>");
+    }
     if let Some((_, letter)) = greek(word) {
         return out.push_str(&format!("<mi>{letter}</mi>"));
     }

@@ -169,6 +169,12 @@ pub(super) fn greek(word: &str) -> Option<(&'static str, char)> {
     GREEK.binary_search_by_key(&word, |&(name, _)| name).ok().map(|place| GREEK[place])
 }
 
+/// A Greek letter with a number, such as `theta3`, as its name and its number.
+pub(super) fn numbered_greek(word: &str) -> Option<(&str, &str)> {
+    let name = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    (name.len() < word.len() && greek(name).is_some()).then(|| word.split_at(name.len()))
+}
+
 /// The Latin letter for a Greek letter without a LaTeX command.
 pub(super) fn latin(greek: &str) -> Option<char> {
     LOOK_LATIN.iter().find(|(name, _)| *name == greek).map(|(_, letter)| *letter)

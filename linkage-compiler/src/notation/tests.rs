@@ -34,6 +34,8 @@ fn named(name: &str) -> Name<'_> {
 fn names_have_greek_letters_subscripts_and_dots() {
     for (name, expected) in [
         (Name::Plain("theta3"), ["θ₃", r"\theta_3"]),
+        (Name::Plain("x_theta3"), ["x_θ₃", r"x_{\theta_{3}}"]),
+        (Name::Plain("x_beta12_C"), ["x_β₁₂_C", r"x_{\beta_{12},C}"]),
         (Name::Rate("s"), ["ṡ", r"\dot{s}"]),
         (Name::Acceleration("s"), ["s̈", r"\ddot{s}"]),
         (Name::Ratio { of: "theta3", by: "theta2" }, ["∂θ₃/∂θ₂", r"\frac{\partial \theta_3}{\partial \theta_2}"]),

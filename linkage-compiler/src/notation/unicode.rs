@@ -1,7 +1,7 @@
 //! Formulas as one line of plain text.
 
 use super::formula::Formula;
-use super::name::{Name, Word, greek, is_number, matrix_name, primes};
+use super::name::{Name, Word, greek, is_number, matrix_name, numbered_greek, primes};
 use super::style::{Argument, Binding, Marks, Style, function_name, is_circular};
 use crate::graph::Function;
 
@@ -133,10 +133,12 @@ fn word(out: &mut String, name: &str, dots: Option<char>) {
             shifted(out, subscript, Shift::Down);
         } else {
             out.push('_');
-            match greek(subscript) {
+            let (letter, number) = numbered_greek(subscript).unwrap_or((subscript, ""));
+            match greek(letter) {
                 Some((_, letter)) => out.push(letter),
                 None => out.push_str(subscript),
             }
+            shifted(out, number, Shift::Down);
         }
     }
 }
