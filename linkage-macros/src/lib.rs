@@ -570,7 +570,7 @@ use proc_macro::TokenStream;
 /// | `determinant`, `block_determinants` | det J; the determinants of its blocks in the order of solution |
 /// | `gamma(&pose, &q')`, `solve_jacobian(&pose, &r)` | the quadratic velocity term; J^-1 r |
 /// | `limits`, `jerk`, `velocity_ratio_derivatives`, `sensitivity` and those of points and outputs, `joints`, `batch` | with a `derive` statement |
-/// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution, the operations of each function; `sheet` prints it as a document |
+/// | `DERIVATION` | the derivation as data: every formula as Unicode text, LaTeX and MathML, the order of solution with the closed form of each block, the operations of each function; `sheet` prints it as a document |
 ///
 /// These functions return `PositionError`. `T` is any real scalar: `f32`, `f64`, dual numbers. Emitted code allocates
 /// nothing, cannot panic and does not need the standard library.

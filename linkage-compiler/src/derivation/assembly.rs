@@ -1,6 +1,7 @@
 //! Position group by group: the steps that solve all groups, and their results.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
@@ -16,6 +17,8 @@ use crate::structure::{Group, Slide};
 #[derive(Debug, Clone, Default)]
 pub struct Assembly {
     pub steps: Vec<Step>,
+    /// The steps of each block that has a closed form.
+    pub closed: BTreeMap<BlockId, Range<usize>>,
     /// The determinants of the blocks that have a formula.
     pub determinants: BTreeMap<BlockId, NodeId>,
     /// The blocks that have two solutions, in the order of solution.
@@ -144,7 +147,11 @@ impl Derivation {
         let mut assembly = Assembly::default();
         for id in self.blocks.ids() {
             let block = self.blocks[id].clone();
+            let start = assembly.steps.len();
             let closed = self.assemble(id, &block, &mut assembly);
+            if closed.is_some() {
+                assembly.closed.insert(id, start..assembly.steps.len());
+            }
             if let (Some(determinant), Some(choice)) = (closed, Choice::of(block.group, block.slide)) {
                 let is_opposite = self.graph.leads_negative(determinant);
                 assembly.chords.push(Chord { block: id, choice, is_opposite });

@@ -7,22 +7,23 @@ use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
 use super::names::string;
-use crate::derivation::{Derivation, Formulas, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
+use crate::derivation::{ClosedForm, Derivation, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{BlockId, CoordinateId, Id, InputId, Table, UnknownId};
 use crate::model::{self, Driver, Mechanism};
 use crate::notation::{Formula, Name, Printer};
-use crate::program::Operations;
+use crate::program::{Derived, Operations};
 
 /// The constant `DERIVATION` of a driver.
 pub(super) fn constant(
     mechanism: &Mechanism,
     driver: &Driver,
     derivation: &Derivation,
-    formulas: &Formulas,
+    derived: &Derived,
     kernels: &[(String, Operations)],
     root: &TokenStream,
 ) -> TokenStream {
+    let Derived { formulas, closed_forms, .. } = derived;
     let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
     let names = names(mechanism, derivation, &inputs, &unknowns);
     let graph = &derivation.graph;
@@ -41,8 +42,11 @@ pub(super) fn constant(
     let by_unknowns = derivation.jacobian_unknowns();
     let jacobian_unknowns = document.matrix(Name::Plain("J"), None, &by_unknowns, unknowns.len());
     let jacobian_inputs = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
-    let blocks: Vec<_> =
-        formulas.inverses.enumerated().map(|(number, inverse)| document.block(number, inverse.as_ref())).collect();
+    let blocks: Vec<_> = formulas
+        .inverses
+        .enumerated()
+        .map(|(number, inverse)| document.block(number, &closed_forms[number], inverse.as_ref()))
+        .collect();
     let determinant = option(formulas.determinant.map(|node| document.equation(Name::Determinant(None), node)));
     let ratios = document.derivatives(&unknowns, &by_inputs, &formulas.ratios);
     let is_requested = derivation.ratio_derivatives.is_some();
@@ -331,7 +335,7 @@ impl<'a> Document<'a> {
         quote!(FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &[#(#entries),*] })
     }
 
-    fn block(&mut self, id: BlockId, inverse: Option<&Inverse>) -> TokenStream {
+    fn block(&mut self, id: BlockId, position: &ClosedForm, inverse: Option<&Inverse>) -> TokenStream {
         let block = &self.derivation.blocks[id];
         let number = (self.derivation.blocks.len() > 1).then_some(id.number());
         let unknowns =
@@ -344,11 +348,21 @@ impl<'a> Document<'a> {
         let determinant = option(determinant.map(|value| self.equation(Name::Determinant(number), value)));
         let inverse = inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len()));
         let inverse = option(inverse);
+        let root = option(position.root.map(|(root, choice)| {
+            let (root, branches) = (self.formula(root), choice.variants());
+            quote!(Root { formula: #root, branches: [#(#branches),*] })
+        }));
+        let position = list(position.equations.iter().map(|&[left, right]| {
+            let [left, right] = [left, right].map(|side| self.formula(side));
+            quote!(Equation { left: #left, right: #right })
+        }));
         quote! {
             Block {
                 unknowns: #unknowns,
                 equations: &[#(#equations),*],
                 group: #group,
+                position: #position,
+                root: #root,
                 method: BlockMethod::#method,
                 determinant: #determinant,
                 inverse: #inverse,

@@ -64,7 +64,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
         let works = works(&program.functions);
-        tokens.extend(document::constant(mechanism, driver, derivation, &derived.formulas, &works, root));
+        tokens.extend(document::constant(mechanism, driver, derivation, derived, &works, root));
     }
     let order = mechanism.coordinate_order(driver);
     let fields: Vec<Ident> = order.iter().map(|&index| types::field(&mechanism.coordinates[index].name)).collect();

@@ -35,8 +35,9 @@ pub use pose::{Given, PosePlan};
 pub use scene::{SceneProgram, SceneSignatures};
 pub use signatures::{Family, Signatures};
 
-use crate::derivation::{Derivation, Formulas};
+use crate::derivation::{ClosedForm, Derivation, Formulas};
 use crate::graph::NodeId;
+use crate::ids::{BlockId, Table};
 use crate::model::{Driver, Mechanism};
 use plan::Plan;
 use scene::ScenePlan;
@@ -55,6 +56,8 @@ pub struct Program<'a, B> {
 pub struct Derived {
     pub pose: PosePlan,
     pub formulas: Formulas,
+    /// The closed form of the position of each block.
+    pub closed_forms: Table<BlockId, ClosedForm>,
     /// The expressions that have names.
     pub named: Vec<(NodeId, String)>,
 }
@@ -69,6 +72,7 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
         }
         scenes.extend(ScenePlan::of(&mut plan, scene, number).map(ScenePlan::into_program));
     }
+    let closed_forms = plan.derivation.closed_forms(&plan.assembly);
     let Plan { signatures, position, functions, pose, formulas, named, .. } = plan;
     // A private function is kept only if a function of a scene or a later function calls it.
     let calls =
@@ -84,7 +88,7 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
     }
     kept.reverse();
     let functions = kept;
-    Program { signatures, position, functions, scenes, derived: Some(Derived { pose, formulas, named }) }
+    Program { signatures, position, functions, scenes, derived: Some(Derived { pose, formulas, closed_forms, named }) }
 }
 
 /// The program of a mechanism with mistakes: functions without bodies.

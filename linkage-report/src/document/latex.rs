@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use super::outline::{GeneralEquation, Pen};
-use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel};
+use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel, Root};
 
 /// A matrix with more rows or columns than this is written as a list of its entries.
 const LARGEST_MATRIX: usize = 6;
@@ -76,11 +76,14 @@ impl Pen for Latex<'_> {
     fn block(&mut self, n: usize, block: &Block) -> fmt::Result {
         let equations: Vec<_> = block.equations.iter().map(|equation| format!("({})", equation + 1)).collect();
         let equations = equations.join(", ");
+        writeln!(self.out, "\\paragraph{{Block {n}, {}}} Equations {equations}.\\par", block.group)
+    }
+
+    fn branches(&mut self, Root { formula, branches: [positive, negative] }: &Root) -> fmt::Result {
+        let root = formula.latex;
         writeln!(
             self.out,
-            "\\paragraph{{Block {n}, {}}} Equations {equations}, solved {}.\\par",
-            block.group,
-            block.method.words()
+            "${root}$ is positive on the branch \\texttt{{{positive}}}, negative on \\texttt{{{negative}}}.\\par"
         )
     }
 

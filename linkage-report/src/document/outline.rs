@@ -3,7 +3,7 @@
 use core::fmt;
 
 use linkage_runtime::derivation::{
-    Block, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, SceneDerivation,
+    Block, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation,
 };
 
 /// An equation of matrices that holds for every mechanism, in all notations.
@@ -111,6 +111,8 @@ pub(crate) mod words {
     pub(crate) const LEAD_JACOBIAN: &str =
         "The derivatives of the constraint equations with respect to the unknowns and the inputs:";
     pub(crate) const LEAD_DETERMINANT: &str = "All blocks together:";
+    pub(crate) const LEAD_POSITION: &str = "The position, each formula in terms of those before it:";
+    pub(crate) const LEAD_NEWTON: &str = "The position has no closed form: Newton's method finds it.";
     pub(crate) const LEAD_RATIOS: &str = "Differentiated once, the constraint equations give";
     pub(crate) const LEAD_VELOCITY: &str = "so that";
     pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the constraint equations give";
@@ -140,6 +142,8 @@ pub(super) trait Pen {
     fn matrix(&mut self, matrix: &FormulaMatrix) -> fmt::Result;
     /// The n-th block, counted from 1.
     fn block(&mut self, n: usize, block: &Block) -> fmt::Result;
+    /// The signs of a root on both branches.
+    fn branches(&mut self, root: &Root) -> fmt::Result;
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result;
 }
 
@@ -177,6 +181,12 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     for (index, block) in derivation.blocks.iter().enumerate() {
         pen.block(index + 1, block)?;
         pen.list(words::UNKNOWN, &mut block.unknowns.iter().copied())?;
+        pen.lead(if block.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION })?;
+        equations(pen, &mut number, block.position)?;
+        if let Some(root) = &block.root {
+            pen.branches(root)?;
+        }
+        pen.lead(&system(block))?;
         if let Some(determinant) = block.determinant {
             equations(pen, &mut number, &[determinant])?;
         }
@@ -271,6 +281,11 @@ pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Re
         pen.kernels(scene.kernels)?;
     }
     Ok(())
+}
+
+/// How the velocities and accelerations of a block are solved for.
+pub(crate) fn system(block: &Block) -> String {
+    format!("Velocities and accelerations solve a linear system, {}.", block.method.words())
 }
 
 fn equations(pen: &mut dyn Pen, number: &mut usize, equations: &[Equation]) -> fmt::Result {

@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use super::outline::{GeneralEquation, Pen};
-use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel};
+use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel, Root};
 
 pub(super) struct Text<'a> {
     out: &'a mut String,
@@ -78,7 +78,11 @@ impl Pen for Text<'_> {
         for (index, equation) in block.equations.iter().enumerate() {
             write!(self.out, "{} ({})", if index == 0 { "" } else { "," }, equation + 1)?;
         }
-        writeln!(self.out, ", solved {}", block.method.words())
+        writeln!(self.out)
+    }
+
+    fn branches(&mut self, Root { formula, branches: [positive, negative] }: &Root) -> fmt::Result {
+        writeln!(self.out, "  {formula} is positive on the branch {positive}, negative on {negative}.")
     }
 
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {

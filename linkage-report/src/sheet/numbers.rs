@@ -31,7 +31,7 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
         .iter()
         .chain(derivation.residual)
         .chain(derivation.gamma)
-        .chain(derivation.blocks.iter().filter_map(|block| block.determinant.as_ref()))
+        .chain(derivation.blocks.iter().flat_map(|block| block.position.iter().chain(&block.determinant)))
         .chain(derivation.ratio_derivatives.into_iter().flatten())
         .chain(derivation.sensitivity.iter().flat_map(|sensitivity| sensitivity.formulas))
         .chain(quantities.flat_map(|quantity| {

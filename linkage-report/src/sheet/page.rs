@@ -2,7 +2,7 @@
 
 use crate::document::outline::{self, GeneralEquation, words};
 use linkage_runtime::derivation::{
-    Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, SceneDerivation, Symbol,
+    Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation, Symbol,
 };
 
 use super::html::{display, escape, inline, matrix, svg_address};
@@ -142,11 +142,19 @@ impl Page {
                 }
                 let (several, verb) = if block.equations.len() == 1 { ("", "gives") } else { ("s", "give") };
                 page.push(&format!(
-                    "<p class=\"group\">{}</p><p>Equation{several} {links} {verb} {}, solved {}.</p>",
+                    "<p class=\"group\">{}</p><p>Equation{several} {links} {verb} {}.</p>",
                     escape(&sentence(block.group)),
                     list(block.unknowns.iter()),
-                    block.method.words()
                 ));
+                page.lead(if block.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION });
+                page.equations(block.position);
+                if let Some(Root { formula, branches: [positive, negative] }) = &block.root {
+                    page.lead(&format!(
+                        "{} is positive on the branch <code>{positive}</code>, negative on <code>{negative}</code>.",
+                        inline(formula)
+                    ));
+                }
+                page.lead(&outline::system(block));
                 page.equations(block.determinant.as_slice());
                 if let Some(inverse) = &block.inverse {
                     page.matrix(inverse, None);

@@ -79,6 +79,15 @@ pub enum BlockMethod {
     Factorization,
 }
 
+/// The root that tells the two solutions of a [`Block`] apart by its sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Root {
+    /// The root.
+    pub formula: Formula,
+    /// The names of the branches on which it is positive and negative.
+    pub branches: [&'static str; 2],
+}
+
 /// Unknowns that are solved for together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -89,6 +98,10 @@ pub struct Block {
     pub equations: &'static [usize],
     /// The Assur group, or a description of any other block.
     pub group: &'static str,
+    /// The position in closed form, each equation in terms of those before it; empty if Newton's method finds it.
+    pub position: &'static [Equation],
+    /// The root that tells two solutions apart.
+    pub root: Option<Root>,
     /// The method that solves the linear system.
     pub method: BlockMethod,
     /// The determinant of the block of J, if it has a formula.
