@@ -184,6 +184,7 @@ fn picture(
 ) -> Result<String, linkage::drawing::DrawingError> {
     let mut drawing = Drawing::new("Four-bar of the sheet at theta2 = 20 deg, 400 rpm");
     drawing
+        .units("mm", "s")
         .ground("A", [0.0, 0.0])
         .joint("B", points.b.position)
         .joint("C", points.c.position)

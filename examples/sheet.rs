@@ -39,6 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut drawing = Drawing::new("Four-bar at 20 deg, 400 rpm");
     drawing
+        .units("mm", "s")
         .ground("A", [0.0, 0.0])
         .joint("B", motion.points.b.position)
         .joint("C", motion.points.c.position)

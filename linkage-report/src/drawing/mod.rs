@@ -69,6 +69,13 @@ pub struct Drawing {
     arrows: Vec<Arrow>,
     velocity_scale: f64,
     acceleration_scale: f64,
+    units: Option<Units>,
+}
+
+#[derive(Debug, Clone)]
+struct Units {
+    length: String,
+    time: String,
 }
 
 /// The error of a drawing.
@@ -128,6 +135,7 @@ impl Drawing {
             arrows: Vec::new(),
             velocity_scale: 1.0,
             acceleration_scale: 1.0,
+            units: None,
         }
     }
 
@@ -160,6 +168,13 @@ impl Drawing {
     /// Adds the path of a point, such as a coupler curve.
     pub fn path(&mut self, points: impl IntoIterator<Item = impl Into<Point2<f64>>>) -> &mut Self {
         self.paths.push(points.into_iter().map(|point| point.into().coords).collect());
+        self
+    }
+
+    /// Names the units of length and time, such as mm and s. The axes show the first; the scale of velocities is a time, that
+    /// of accelerations its square.
+    pub fn units(&mut self, length: impl Into<String>, time: impl Into<String>) -> &mut Self {
+        self.units = Some(Units { length: length.into(), time: time.into() });
         self
     }
 

@@ -7,7 +7,7 @@ use svg::node::element::{Circle, Description, Group, Line, Path, Polyline, Recta
 use super::axes::{label, ticks};
 use super::frame::{Frame, LEFT, TOP, WIDTH};
 use super::names::{Name, Shape, foot, offsets};
-use super::{Drawing, Mark, Quantity};
+use super::{Drawing, Mark, Quantity, Units};
 
 const STYLE: &str = "
 .paper{fill:#fff}.frame{fill:none;stroke:#888}.grid{stroke:#ddd}.tick{fill:#444;font-size:12px}
@@ -48,7 +48,7 @@ pub(super) fn svg(drawing: &Drawing) -> String {
         .add(Style::new(STYLE))
         .add(Rectangle::new().set("class", "paper").set("width", "100%").set("height", "100%"))
         .add(text(&drawing.title, "title", Vector2::new(LEFT, 27.0), "start"))
-        .add(axes(&frame));
+        .add(axes(&frame, drawing.units.as_ref()));
     for path in &drawing.paths {
         let points: Vec<String> = path.iter().map(|at| frame.pixel(*at)).map(|p| format!("{},{}", p.x, p.y)).collect();
         document = document.add(Polyline::new().set("class", "path").set("points", points.join(" ")));
@@ -97,7 +97,11 @@ fn legend(drawing: &Drawing) -> Vec<(&'static str, String)> {
     ]
     .into_iter()
     .filter(|(quantity, ..)| drawing.arrows.iter().any(|arrow| arrow.quantity == *quantity))
-    .map(|(_, name, scale)| (name, format!("{name} × {scale}")))
+    .map(|(quantity, name, scale)| {
+        let squared = if quantity == Quantity::Acceleration { "²" } else { "" };
+        let unit = drawing.units.as_ref().map_or_else(String::new, |units| format!(" {}{squared}", units.time));
+        (name, format!("{name} × {scale}{unit}"))
+    })
     .collect()
 }
 
@@ -123,22 +127,32 @@ fn line([from, to]: [Vector2<f64>; 2], class: &str) -> Line {
         .set("y2", round(to.y))
 }
 
-fn axes(frame: &Frame) -> Group {
+/// The labels of the ticks of an axis; the last has the unit.
+fn labels([low, high]: [f64; 2], units: Option<&Units>) -> Vec<(f64, String)> {
+    let mut labels: Vec<_> = ticks(low, high).into_iter().map(|value| (value, label(value, low, high))).collect();
+    if let (Some((_, label)), Some(units)) = (labels.last_mut(), units) {
+        label.push(' ');
+        label.push_str(&units.length);
+    }
+    labels
+}
+
+fn axes(frame: &Frame, units: Option<&Units>) -> Group {
     let bottom = TOP + frame.height();
     let mut group = Group::new();
-    for value in ticks(frame.low.x, frame.high.x) {
+    for (value, label) in labels([frame.low.x, frame.high.x], units) {
         let x = frame.pixel(Vector2::new(value, frame.low.y)).x;
         group = group.add(line([Vector2::new(x, TOP), Vector2::new(x, bottom)], "grid")).add(text(
-            &label(value, frame.low.x, frame.high.x),
+            &label,
             "tick",
             Vector2::new(x, bottom + 17.0),
             "middle",
         ));
     }
-    for value in ticks(frame.low.y, frame.high.y) {
+    for (value, label) in labels([frame.low.y, frame.high.y], units) {
         let y = frame.pixel(Vector2::new(frame.low.x, value)).y;
         group = group.add(line([Vector2::new(LEFT, y), Vector2::new(LEFT + WIDTH, y)], "grid")).add(text(
-            &label(value, frame.low.y, frame.high.y),
+            &label,
             "tick",
             Vector2::new(LEFT - 7.0, y + 4.0),
             "end",
@@ -187,6 +201,23 @@ fn mark(at: Vector2<f64>, mark: Mark) -> Group {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn scales_have_units() {
+        let mut drawing = Drawing::new("units");
+        drawing.ground("A", [0.0, 0.0]).joint("B", [80.0, 60.0]).bar("A", "B").units("mm", "s");
+        drawing
+            .velocity_scale(0.02)
+            .velocity("B", [0.0, 100.0])
+            .acceleration_scale(0.001)
+            .acceleration("B", [1e3, 0.0]);
+        let svg = svg(&drawing);
+        let texts: Vec<&str> = svg.split('>').map(|piece| piece.split('<').next().unwrap_or("").trim()).collect();
+        for text in ["80 mm", "60 mm", "velocity × 0.02 s", "acceleration × 0.001 s²"] {
+            assert_eq!(texts.iter().filter(|found| **found == text).count(), 1, "{text}: {texts:?}");
+        }
+        assert!(texts.contains(&"40"), "only the last tick of an axis has the unit");
+    }
 
     #[test]
     fn vectors_are_drawn_to_scale() {
