@@ -11,6 +11,8 @@ const MANIFEST: &str = r#"
 name = "emitted"
 version = "0.0.0"
 edition = "2024"
+# The minimum of `linkage`: clippy rejects what is newer in the standard library.
+rust-version = "MINIMUM"
 
 [dependencies]
 linkage = { path = "ROOT", default-features = false, features = ["dynamics", "libm"] }
@@ -41,7 +43,8 @@ fn crate_called(name: &str) -> PathBuf {
     let root = env!("CARGO_MANIFEST_DIR");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(folder.join("src")).unwrap();
-    let manifest = MANIFEST.replace("ROOT", root).replacen("emitted", name, 1);
+    let manifest =
+        MANIFEST.replace("ROOT", root).replace("MINIMUM", env!("CARGO_PKG_RUST_VERSION")).replacen("emitted", name, 1);
     fs::write(folder.join("Cargo.toml"), manifest).unwrap();
     // A name in the user's own doc comments.
     fs::write(folder.join("clippy.toml"), r#"doc-valid-idents = ["McCarthy", ".."]"#).unwrap();
