@@ -71,7 +71,7 @@ impl Derivation {
         form
     }
 
-    /// What stands for the symbols of steps: cosines and sines of the solved angles, and letters.
+    /// The nodes that stand for symbols of steps: cosines and sines of the solved angles, and letters.
     fn shown(&mut self, assembly: &Assembly) -> FxHashMap<NodeId, NodeId> {
         let mut shown = FxHashMap::default();
         for (&angle, &named) in &assembly.named_directions {

@@ -283,7 +283,7 @@ pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Re
     Ok(())
 }
 
-/// How the velocities and accelerations of a block are solved for.
+/// The sentence about velocities and accelerations of a block.
 pub(crate) fn system(block: &Block) -> String {
     format!("Velocities and accelerations solve a linear system, {}.", block.method.words())
 }

@@ -34,7 +34,7 @@ struct Item {
     name: Option<Label>,
 }
 
-/// A name beside its point.
+/// A name next to its point.
 struct Label {
     text: String,
     /// Its places relative to the point, at equal steps of time.
