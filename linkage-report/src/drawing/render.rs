@@ -127,20 +127,16 @@ fn line([from, to]: [Vector2<f64>; 2], class: &str) -> Line {
         .set("y2", round(to.y))
 }
 
-/// The labels of the ticks of an axis; the last has the unit.
-fn labels([low, high]: [f64; 2], units: Option<&Units>) -> Vec<(f64, String)> {
-    let mut labels: Vec<_> = ticks(low, high).into_iter().map(|value| (value, label(value, low, high))).collect();
-    if let (Some((_, label)), Some(units)) = (labels.last_mut(), units) {
-        label.push(' ');
-        label.push_str(&units.length);
-    }
-    labels
-}
-
 fn axes(frame: &Frame, units: Option<&Units>) -> Group {
     let bottom = TOP + frame.height();
     let mut group = Group::new();
-    for (value, label) in labels([frame.low.x, frame.high.x], units) {
+    let unit = units.map_or("", |units| units.length.as_str());
+    let across = ticks(frame.low.x, frame.high.x);
+    for &value in &across {
+        let label = label(value, frame.low.x, frame.high.x);
+        // The last has the unit.
+        let is_last = !unit.is_empty() && across.last() == Some(&value);
+        let label = if is_last { format!("{label} {unit}") } else { label };
         let x = frame.pixel(Vector2::new(value, frame.low.y)).x;
         group = group.add(line([Vector2::new(x, TOP), Vector2::new(x, bottom)], "grid")).add(text(
             &label,
@@ -149,7 +145,8 @@ fn axes(frame: &Frame, units: Option<&Units>) -> Group {
             "middle",
         ));
     }
-    for (value, label) in labels([frame.low.y, frame.high.y], units) {
+    for value in ticks(frame.low.y, frame.high.y) {
+        let label = label(value, frame.low.y, frame.high.y);
         let y = frame.pixel(Vector2::new(frame.low.x, value)).y;
         group = group.add(line([Vector2::new(LEFT, y), Vector2::new(LEFT + WIDTH, y)], "grid")).add(text(
             &label,
@@ -157,6 +154,9 @@ fn axes(frame: &Frame, units: Option<&Units>) -> Group {
             Vector2::new(LEFT - 7.0, y + 4.0),
             "end",
         ));
+    }
+    if !unit.is_empty() {
+        group = group.add(text(unit, "tick", Vector2::new(LEFT - 7.0, TOP - 8.0), "end"));
     }
     group.add(
         Rectangle::new()
@@ -213,10 +213,10 @@ mod tests {
             .acceleration("B", [1e3, 0.0]);
         let svg = svg(&drawing);
         let texts: Vec<&str> = svg.split('>').map(|piece| piece.split('<').next().unwrap_or("").trim()).collect();
-        for text in ["80 mm", "60 mm", "velocity × 0.02 s", "acceleration × 0.001 s²"] {
+        for text in ["80 mm", "mm", "velocity × 0.02 s", "acceleration × 0.001 s²"] {
             assert_eq!(texts.iter().filter(|found| **found == text).count(), 1, "{text}: {texts:?}");
         }
-        assert!(texts.contains(&"40"), "only the last tick of an axis has the unit");
+        assert!(["40", "60"].iter().all(|tick| texts.contains(tick)), "only the last tick has the unit: {texts:?}");
     }
 
     #[test]
