@@ -81,6 +81,7 @@ pub enum BlockMethod {
 
 /// The root that tells the two solutions of a [`Block`] apart by its sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Root {
     /// The root.
     pub formula: Formula,
