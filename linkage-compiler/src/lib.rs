@@ -1,7 +1,7 @@
 //! The compiler behind `linkage!`: tokens in, tokens out.
 //!
-//! [`expand`] runs all stages. Each depends only on stages before it: syntax (parser), graph (expressions), structure
-//! (order of solution), model (name resolution and checks), algebra (simplification), derivation (mathematics), program
+//! [`expand`] runs all stages. Each depends only on stages before it: syntax (parser), graph (expressions), algebra
+//! (simplification), structure (order of solution), model (name resolution and checks), derivation (mathematics), program
 //! (the functions to emit), lower (common subexpressions, order, names), notation (formulas for readers), emit
 //! (printers).
 

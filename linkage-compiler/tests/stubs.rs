@@ -46,7 +46,8 @@ fn a_stub_has_the_functions_of_the_mechanism() {
                 let whose = format!("{} of {}", driver.name, path.display());
                 let planned = program::plan(&mechanism, driver, &mut derivation);
                 let stub = program::stub::<Code>(&mechanism, driver);
-                let sides = |of: &Position| of.sides.iter().map(|side| (side.field.clone(), side.choice)).collect::<Vec<_>>();
+                let sides =
+                    |of: &Position| of.sides.iter().map(|side| (side.field.clone(), side.choice)).collect::<Vec<_>>();
                 assert_eq!(sides(&planned.position), sides(&stub.position), "{whose}");
                 assert_eq!(planned.position.is_closed, stub.position.is_closed, "{whose}");
                 if planned.position.is_closed {

@@ -10,7 +10,8 @@ pub use nalgebra::{Point2, SMatrix, SVector, Scalar, UnitComplex, Vector2};
 
 pub use crate::branch::{existing, side_of};
 pub use crate::chord::{
-    Triangle, chord, elbow_chord, reach_chord, regular_chord, regular_elbow_chord, regular_reach_chord, solvable,
+    Triangle, chord, elbow_chord, reach_chord, reachable, regular_chord, regular_elbow_chord, regular_reach_chord,
+    solvable,
 };
 pub use crate::error::{finite, finite_matrix};
 pub use crate::lanes::{Batch, Lanes, Values};

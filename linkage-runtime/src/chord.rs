@@ -87,6 +87,16 @@ pub fn solvable<T: Real, const N: usize>(
     if determinant.is_zero() { Err(unsolvable(mechanism, group, &numerators, &scales)) } else { Ok(()) }
 }
 
+/// Returns an error if a distance that an equation gives is negative.
+///
+/// # Errors
+/// [`PositionError::Unbuildable`], with the whole distance as the gap.
+#[inline]
+pub fn reachable<T: Real>(mechanism: &'static str, group: &'static str, distance: T) -> Result<(), PositionError> {
+    // A distance that is NaN makes the position NaN, which is reported when the position is complete.
+    if distance < T::zero() { Err(PositionError::Unbuildable { mechanism, group, gap: 1.0 }) } else { Ok(()) }
+}
+
 #[cold]
 #[inline(never)]
 fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators: &[T], scales: &[T]) -> PositionError {

@@ -64,6 +64,13 @@ pub fn has_hypotenuse<T: Real>(x: T, y: T) -> bool {
     native!((x, y) => hypotenuse::is_regular).unwrap_or(true)
 }
 
+/// True if a distance is not negative, as [`reachable`](crate::__rt::reachable) requires.
+#[inline(always)]
+#[must_use]
+pub fn is_reachable<T: Real>(distance: T) -> bool {
+    distance >= T::zero()
+}
+
 /// True if a determinant is not zero, as [`solvable`](crate::__rt::solvable) requires.
 #[inline(always)]
 #[must_use]

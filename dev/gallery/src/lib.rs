@@ -38,6 +38,7 @@ macro_rules! all_mechanisms {
             components: Components closed, orders;
             coupled_wheels: CoupledWheels closed;
             crank_shaper: CrankShaper closed;
+            distances: Distances closed, orders;
             double_butterfly: DoubleButterfly newton, orders;
             drag_link_drive: DragLinkDrive closed;
             elliptic_trammel: EllipticTrammel closed, orders;
@@ -56,8 +57,10 @@ macro_rules! all_mechanisms {
             introductory: Introductory closed;
             inverted_slider_crank: InvertedSliderCrank closed;
             jansen: Jansen closed, orders;
+            joint_coordinates: JointCoordinates closed, orders;
             klann: Klann closed;
             klann_mirrored: KlannMirrored closed, orders;
+            mirrored_angles: MirroredAngles closed, orders;
             multiples: Multiples closed;
             norton_four_bar: NortonFourBar closed, orders;
             offset_slider_crank: OffsetSliderCrank closed, orders;

@@ -11,7 +11,7 @@ use super::plane::{Vector, turned};
 use super::step::Step;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, ColumnId};
-use crate::structure::{Group, Slide};
+use crate::structure::{self, Group, Slide};
 
 /// The steps that solve all groups, and their results.
 #[derive(Debug, Clone, Default)]
@@ -60,8 +60,8 @@ impl Choice {
     #[must_use]
     pub fn of(group: Group, slide: Option<Slide>) -> Option<Self> {
         match (group, slide) {
-            (Group::Rrr, _) => Some(Self::Elbow),
-            (Group::Rrp | Group::Rpr, _) | (Group::Angle, Some(_)) => Some(Self::Slider),
+            (Group::Rrr | Group::Circles | Group::LinkToCircle, _) => Some(Self::Elbow),
+            (Group::Rrp | Group::Rpr | Group::SliderToCircle, _) | (Group::Angle, Some(_)) => Some(Self::Slider),
             (Group::Angle, None) => Some(Self::Slope),
             (Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Irreducible(_), _) => None,
         }
@@ -170,15 +170,20 @@ impl Derivation {
     fn assemble(&mut self, id: BlockId, block: &Block, assembly: &mut Assembly) -> Option<NodeId> {
         let equations = self.residual.at(&block.equations);
         let rows = assembly.solved(&mut self.graph, &equations);
+        let rows = structure::mirror(&mut self.graph, &rows, &block.mirrored);
         let symbols: Vec<SymbolId> =
             block.unknowns.iter().map(|&place| self.coordinates[self.unknowns[place]].value).collect();
-        let mut group = Solver { graph: &mut self.graph, block: id, equations, assembly };
-        match (block.group, rows.as_slice(), symbols.as_slice()) {
+        let mirrored = &block.mirrored;
+        let mut group = Solver { graph: &mut self.graph, block: id, equations, assembly, mirrored };
+        let determinant = match (block.group, rows.as_slice(), symbols.as_slice()) {
             (Group::Linear, &[row], &[unknown]) => group.linear(row, unknown),
             (Group::Angle, &[row], &[phi]) => {
                 group.angle(row, phi, block.slide.is_none_or(|slide| slide.is_far_rising))
             }
             (Group::Sliders, &[x, y], &[s, t]) => group.sliders([x, y], s, t),
+            (Group::Circles, &[one, other], &[x, y]) => group.circles([one, other], [x, y]),
+            (Group::LinkToCircle, &[row], &[phi]) => group.link_to_circle(row, phi),
+            (Group::SliderToCircle, &[row], &[s]) => group.slider_to_circle(row, s),
             (Group::Rrr, &[x, y], &[a, b]) => {
                 // The first angle may be measured relative to the other link.
                 if group.is_link(&[x, y], a, b) {
@@ -196,6 +201,8 @@ impl Derivation {
                 Some(if swapped { group.graph.negate(determinant) } else { determinant })
             }
             _ => None,
-        }
+        }?;
+        // A mirrored angle changes the sign of its column of J.
+        Some(if mirrored.len().is_multiple_of(2) { determinant } else { self.graph.negate(determinant) })
     }
 }

@@ -31,10 +31,19 @@ pub(super) struct Solver<'a> {
     /// The residuals in terms of the unknowns of earlier groups.
     pub(super) equations: Vec<NodeId>,
     pub(super) assembly: &'a mut Assembly,
+    /// The angles in place of which the rows of the group contain their negatives.
+    pub(super) mirrored: &'a [SymbolId],
+}
+
+/// The solution of a link on a guide: g = `along`, h = `across`, n^2 = `square`.
+pub(super) struct Guide {
+    pub(super) along: NodeId,
+    pub(super) across: NodeId,
+    pub(super) square: NodeId,
 }
 
 impl Solver<'_> {
-    fn name(&mut self, symbol: SymbolId, node: NodeId) -> NodeId {
+    pub(super) fn name(&mut self, symbol: SymbolId, node: NodeId) -> NodeId {
         self.assembly.steps.push(Step::Let { symbol, node });
         self.graph.variable(symbol)
     }
@@ -45,7 +54,7 @@ impl Solver<'_> {
     }
 
     /// The expressions with some symbols set to zero.
-    fn at_zero<const N: usize>(&mut self, nodes: [NodeId; N], symbols: &[SymbolId]) -> [NodeId; N] {
+    pub(super) fn at_zero<const N: usize>(&mut self, nodes: [NodeId; N], symbols: &[SymbolId]) -> [NodeId; N] {
         let zero = self.graph.zero();
         let by = symbols.iter().map(|&symbol| (self.graph.variable(symbol), zero)).collect();
         let replaced = self.graph.replace(&nodes, &by);
@@ -53,12 +62,9 @@ impl Solver<'_> {
     }
 
     /// Splits two rows into the terms with a symbol and the other terms.
-    fn parted(&mut self, rows: [NodeId; 2], symbol: SymbolId) -> (Vector, Vector) {
+    pub(super) fn parted(&mut self, rows: [NodeId; 2], symbol: SymbolId) -> (Vector, Vector) {
         let with = rows.map(|row| {
-            let terms = match self.graph.node(row) {
-                Node::Sum { terms, .. } => terms.clone(),
-                _ => vec![(Number::ONE, row)],
-            };
+            let terms = self.graph.terms(row);
             let holding: Vec<_> =
                 terms.into_iter().filter(|&(_, term)| self.graph.symbols_of(&[term]).contains(&symbol)).collect();
             self.graph.sum(&holding)
@@ -67,12 +73,12 @@ impl Solver<'_> {
         (with, rest)
     }
 
-    fn negated(&mut self, vector: Vector) -> Vector {
+    pub(super) fn negated(&mut self, vector: Vector) -> Vector {
         vector.map(|part| self.graph.negate(part))
     }
 
     /// Names the vector between the outer joints.
-    fn line(&mut self, [x, y]: Vector) -> Vector {
+    pub(super) fn line(&mut self, [x, y]: Vector) -> Vector {
         let number = self.block.number();
         [("x", x), ("y", y)].map(|(axis, part)| match self.graph.node(part) {
             Node::Sum { .. } | Node::Product { .. } => self.fresh(&format!("line_{number}_{axis}"), part),
@@ -80,9 +86,15 @@ impl Solver<'_> {
         })
     }
 
+    /// The direction of an angle from that in the rows of the group, or the reverse.
+    fn seen(&mut self, angle: SymbolId, [cosine, sine]: Vector) -> Vector {
+        [cosine, if self.mirrored.contains(&angle) { self.graph.negate(sine) } else { sine }]
+    }
+
     /// Names a solved direction and the angle itself, which is computed only if it is used.
-    fn direction(&mut self, angle: SymbolId, [cosine, sine]: Vector) {
-        let named = self.named_direction(angle, [cosine, sine]);
+    fn direction(&mut self, angle: SymbolId, direction: Vector) {
+        let direction = self.seen(angle, direction);
+        let named = self.named_direction(angle, direction);
         self.solve_angle(angle, named);
     }
 
@@ -99,9 +111,10 @@ impl Solver<'_> {
     ///
     /// A link along its angle keeps the quotient link / length without a name, so that length e^(i angle) in other
     /// formulas cancels to the link.
-    fn direction_of_link(&mut self, angle: SymbolId, link: Vector, at_zero: Vector, square: NodeId) {
+    pub(super) fn direction_of_link(&mut self, angle: SymbolId, link: Vector, at_zero: Vector, square: NodeId) {
         let direction = quotient(self.graph, link, at_zero, square);
         if at_zero.iter().any(|&part| self.graph.is_zero(part)) {
+            let direction = self.seen(angle, direction);
             self.named_direction(angle, direction);
             self.solve_angle(angle, direction);
         } else {
@@ -117,7 +130,7 @@ impl Solver<'_> {
     }
 
     /// Names the vector of a link.
-    fn link(&mut self, angle: SymbolId, [x, y]: Vector) -> Vector {
+    pub(super) fn link(&mut self, angle: SymbolId, [x, y]: Vector) -> Vector {
         let name = self.graph.symbol_name(angle).to_owned();
         [("x", x), ("y", y)].map(|(axis, part)| self.fresh(&format!("link_{name}_{axis}"), part))
     }
@@ -131,7 +144,7 @@ impl Solver<'_> {
     }
 
     /// The sum of the magnitudes of the terms of several expressions.
-    fn scale(&mut self, nodes: &[NodeId]) -> NodeId {
+    pub(super) fn scale(&mut self, nodes: &[NodeId]) -> NodeId {
         let scales: Vec<_> = nodes.iter().map(|&node| (Number::ONE, scale::of(self.graph, node))).collect();
         self.graph.sum(&scales)
     }
@@ -162,6 +175,14 @@ impl Solver<'_> {
         let is_sum = |id: NodeId| matches!(self.graph.node(id), Node::Sum { .. });
         let may_cancel = self.graph.reachable(&[radius]).into_iter().any(is_sum);
         ChordGeometry::Circle { scales, may_cancel }
+    }
+
+    /// Adds the checks that some numbers are not negative: distances or their squares.
+    pub(super) fn reach_to(&mut self, bounds: &[Option<NodeId>]) {
+        for &bound in bounds.iter().flatten() {
+            self.assembly.steps.push(Step::Reach { block: self.block, length: bound });
+            self.assembly.bounds.push((self.block, vec![bound]));
+        }
     }
 
     /// Adds a check that a determinant is not zero, unless it is a constant.
@@ -253,31 +274,11 @@ impl Solver<'_> {
             slope == [self.graph.scale(Number::integer(-k), v[1]), self.graph.scale(Number::integer(k), v[0])]
         })?;
         let (at_v, at_w) = (self.at_zero(v, &[a, b]), self.at_zero(w, &[b]));
-        // The product of the factors of the chord does not depend on the signs of p and q.
-        let [p, q] = [at_v, at_w].map(|at_zero| {
-            let length = length(self.graph, at_zero);
-            unsigned(self.graph, length)
-        });
-        let g = &mut *self.graph;
-        let distance_squared = dot(g, d, d);
-        let distance_squared = self.fresh(&format!("distance_squared_{}", self.block.number()), distance_squared);
-        let g = &mut *self.graph;
-        let (sum, difference) = (g.add(p, q), g.subtract(p, q));
-        let squares = g.multiply(sum, difference);
-        let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
-        let factors = [g.subtract(sum, distance_squared), g.subtract(distance_squared, difference)];
-        let (p2, q2) = (square_of(g, p), square_of(g, q));
+        let [p, q] = [at_v, at_w].map(|at_zero| length(self.graph, at_zero));
         let scale = self.scale_without(&[a, b]);
-        let triangle = ChordGeometry::Triangle { links: [p, q], line: d, distance_squared, scale };
-        let twice = self.chord(factors, sum, triangle);
-        let g = &mut *self.graph;
-        let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
-        let cross_product = g.negate(half_chord);
-        // Both products and the divisor are doubled, which saves two factors of 1/2.
-        let along = g.add(distance_squared, squares);
-        let across = g.scale(Number::integer(-left), twice);
-        let divisor = g.scale(Number::integer(2), distance_squared);
-        let solved = with_products(g, d, divisor, along, across);
+        let (half_chord, solved) = self.triangle(d, [p, q], scale, left);
+        let cross_product = self.graph.negate(half_chord);
+        let (p2, q2) = (square_of(self.graph, p), square_of(self.graph, q));
         let v = self.link(a, solved);
         let g = &mut *self.graph;
         let rest = [g.subtract(d[0], v[0]), g.subtract(d[1], v[1])];
@@ -286,7 +287,7 @@ impl Solver<'_> {
         if k == 0 {
             self.direction_of_link(a, v, at_v, p2);
         } else {
-            let [cosine, sine] = self.assembly.directions[&b];
+            let [cosine, sine] = self.seen(b, self.assembly.directions[&b]);
             let mut first = quotient(self.graph, v, at_v, p2);
             for _ in 0..k.abs() {
                 let back = if k > 0 { self.graph.negate(sine) } else { sine };
@@ -298,6 +299,46 @@ impl Solver<'_> {
         Some(cross_product)
     }
 
+    /// Solves for the end of a link of length p on a guide of direction E = `line`, where the link and s E make D = `d`,
+    /// by the scales of p and of D.
+    pub(super) fn guide(&mut self, d: Vector, line: Vector, p: NodeId, scales: [NodeId; 2]) -> Guide {
+        let n = length(self.graph, line);
+        let across = cross(self.graph, d, line);
+        let across = self.fresh(&format!("offset_{}", self.block.number()), across);
+        let g = &mut *self.graph;
+        let reach = g.multiply(p, n);
+        let factors = [g.subtract(reach, across), g.add(reach, across)];
+        let of_line = self.scale(&line);
+        let scales = scales.map(|scale| self.graph.multiply(scale, of_line));
+        let of = self.reach(reach, scales);
+        let along = self.chord(factors, reach, of);
+        Guide { along, across, square: square_of(self.graph, n) }
+    }
+
+    /// Solves the triangle of two links of lengths p and q whose outer joints are D apart, D = `d`: D x V, and the first
+    /// link V. `left` is the sign of D x V on the left.
+    pub(super) fn triangle(&mut self, d: Vector, lengths: [NodeId; 2], scale: NodeId, left: i64) -> (NodeId, Vector) {
+        // The product of the factors of the chord does not depend on the signs of p and q.
+        let [p, q] = lengths.map(|length| unsigned(self.graph, length));
+        let g = &mut *self.graph;
+        let distance_squared = dot(g, d, d);
+        let distance_squared = self.fresh(&format!("distance_squared_{}", self.block.number()), distance_squared);
+        let g = &mut *self.graph;
+        let (sum, difference) = (g.add(p, q), g.subtract(p, q));
+        let squares = g.multiply(sum, difference);
+        let (sum, difference) = (g.power(sum, 2), g.power(difference, 2));
+        let factors = [g.subtract(sum, distance_squared), g.subtract(distance_squared, difference)];
+        let triangle = ChordGeometry::Triangle { links: [p, q], line: d, distance_squared, scale };
+        let twice = self.chord(factors, sum, triangle);
+        let g = &mut *self.graph;
+        let half_chord = g.scale(Number::ratio(left.into(), 2), twice);
+        // Both products and the divisor are doubled, which saves two factors of 1/2.
+        let along = g.add(distance_squared, squares);
+        let across = g.scale(Number::integer(-left), twice);
+        let divisor = g.scale(Number::integer(2), distance_squared);
+        (half_chord, with_products(g, d, divisor, along, across))
+    }
+
     pub(super) fn slider(&mut self, rows: [NodeId; 2], phi: SymbolId, s: SymbolId, group: Group) -> Option<NodeId> {
         let slope = self.graph.partial(&rows, s);
         let line = [slope[0], slope[1]];
@@ -306,22 +347,12 @@ impl Solver<'_> {
             let rest = self.at_zero(rest, &[s]);
             let d = self.negated(rest);
             let at_zero = self.at_zero(v, &[phi]);
-            let (p, n) = (length(self.graph, at_zero), length(self.graph, line));
+            let p = length(self.graph, at_zero);
+            let scales = [self.scale(&at_zero), self.scale_without(&[phi, s])];
+            let Guide { along, across, square } = self.guide(d, line, p, scales);
             let g = &mut *self.graph;
-            let h = cross(g, d, line);
-            let h = self.fresh(&format!("offset_{}", self.block.number()), h);
-            let g = &mut *self.graph;
-            let reach = g.multiply(p, n);
-            let factors = [g.subtract(reach, h), g.add(reach, h)];
-            let (of_link, of_line) = (self.scale(&at_zero), self.scale(&line));
-            let of_rest = self.scale_without(&[phi, s]);
-            let scales = [of_link, of_rest].map(|scale| self.graph.multiply(scale, of_line));
-            let of = self.reach(reach, scales);
-            let along = self.chord(factors, reach, of);
-            let g = &mut *self.graph;
-            let square = square_of(g, n);
             let minus = g.negate(along);
-            let solved = with_products(g, line, square, minus, h);
+            let solved = with_products(g, line, square, minus, across);
             let forward = dot(g, d, line);
             let rest = g.add(forward, along);
             let value = g.divide(rest, square);

@@ -57,6 +57,8 @@ pub struct Block {
     pub slide: Option<Slide>,
     /// The joints of two links.
     pub joints: Option<Joints>,
+    /// Its mirrored angles.
+    pub mirrored: Vec<SymbolId>,
     /// The determinant, if the block has at most two unknowns.
     pub determinant: Option<Determinant>,
 }

@@ -13,12 +13,12 @@ use crate::algebra::{self, simplify};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{BlockId, ColumnId, CoordinateId, Id, InputId, RowId, Table, UnknownId};
 use crate::model::{Driver, Mechanism, Request};
-use crate::structure::{self, Group, Method};
+use crate::structure::{self, Class, Group, Method};
 
 /// Derives a checked mechanism, which can be solved in the order of the blocks of its driver.
 #[must_use]
 pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
-    let blocks = driver.blocks.clone();
+    let blocks = driver.system.blocks.clone();
     let mut graph = mechanism.graph.clone();
     let order = mechanism.coordinate_order(driver);
     let columns: BTreeMap<CoordinateId, ColumnId> = order.enumerated().map(|(column, &id)| (id, column)).collect();
@@ -36,7 +36,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let unknowns: Table<UnknownId, ColumnId> = driver.unknowns.iter().map(|id| columns[id]).collect();
     let inputs: Table<InputId, ColumnId> = driver.inputs.iter().map(|id| columns[id]).collect();
 
-    let residual = mechanism.rows();
+    let residual = driver.system.rows.clone();
     let place_of = places_of(&coordinates, |c| c.value);
     let jacobian = Table::from(jacobian(&mut graph, &residual, &place_of));
     let residual_scales = residual.iter().map(|&row| scale::of(&mut graph, row)).collect();
@@ -49,9 +49,9 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let mut parts = Table::default();
     for block in blocks {
         let symbols: Vec<SymbolId> = block.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
-        let group = Group::of(&mut graph, &residual.at(&block.equations), &symbols);
+        let class = Class::of(&mut graph, &residual.at(&block.equations), &symbols);
         let determinant = determinant(&mut graph, &jacobian, &unknowns, &block);
-        parts.push((block, group, determinant));
+        parts.push((block, class, determinant));
     }
     let blocks = with_names(&mut graph, parts);
     let ratios = ratios::names(&mut graph, &coordinates, &unknowns, &inputs);
@@ -135,21 +135,22 @@ fn determinant(
 }
 
 /// A block with the value and the scale of its determinant, which has no name yet.
-type Unnamed = (structure::Block, Group, Option<(NodeId, NodeId)>);
+type Unnamed = (structure::Block, Class, Option<(NodeId, NodeId)>);
 
 /// Names the determinants of blocks: `determinant` if only one varies, else with the numbers of their blocks.
 fn with_names(graph: &mut Graph, parts: Table<BlockId, Unnamed>) -> Table<BlockId, Block> {
     let is_variable = |graph: &Graph, value: NodeId| graph.constant_value(value).is_none();
     let values = parts.iter().filter_map(|(_, _, determinant)| Some(determinant.as_ref()?.0));
     let is_single = values.filter(|&value| is_variable(graph, value)).count() == 1;
-    let named = parts.ids().zip(parts).map(|(id, (block, group, determinant))| {
+    let named = parts.ids().zip(parts).map(|(id, (block, class, determinant))| {
         let structure::Block { equations, unknowns, slide } = block;
         let determinant = determinant.map(|(value, scale)| {
             let is_only = is_single && is_variable(graph, value);
             let name = if is_only { "determinant".to_owned() } else { format!("determinant_{}", id.number()) };
             Determinant { value, symbol: graph.symbol(name), scale }
         });
-        Block { equations, unknowns, group, slide, joints: None, determinant }
+        let Class { group, mirrored } = class;
+        Block { equations, unknowns, group, mirrored, slide, joints: None, determinant }
     });
     named.collect()
 }

@@ -11,6 +11,7 @@ mod closed_form;
 mod contacts;
 mod data;
 mod derive;
+mod distances;
 mod equilibrium;
 mod formulas;
 mod iteration;

@@ -3,14 +3,17 @@
 //! The rows of the unknowns in M q'' + `Psi_q'` lambda = F give J' lambda = F_u - (M q'')_u. This is solved from the
 //! last block to the first, each block of J transposed. For a `loop`, lambda is the force of the left side on the right
 //! side at the point where they meet.
+//!
+//! The rows of Psi may be those of an elimination, row j less m times row i. With lambda_i - sum m lambda_j in place of
+//! lambda_i, `Psi_q'` lambda is that of the rows as written.
 
 use super::data::Derivation;
 use super::jacobian::along_rates;
 use super::linear::{Form, solve_closed};
 use super::scene::Reactions;
 use super::step::Step;
-use crate::graph::{Function, NodeId, Number};
-use crate::ids::{Id, RowId};
+use crate::graph::{Function, NodeId, Number, SymbolId};
+use crate::ids::{Id, RowId, Table};
 use crate::model::{self, Mechanism};
 
 impl Derivation {
@@ -38,8 +41,15 @@ impl Derivation {
             add(self, law.along, law.law, Number::ONE);
         }
         let side = terms.map(|terms| self.graph.sum(&terms));
-        let names = self.residual.ids().map(|row| self.graph.symbol(format!("lambda_{}", row.number()))).collect();
-        Reactions { names, side }
+        let names: Table<RowId, SymbolId> =
+            self.residual.ids().map(|row| self.graph.symbol(format!("lambda_{}", row.number()))).collect();
+        let eliminations = mechanism.drivers[scene.driver].system.eliminations.clone();
+        let mut solved = names.clone();
+        for elimination in &eliminations {
+            let row = elimination.pivot;
+            solved[row] = self.graph.symbol(format!("lambda_{}_eliminated", row.number()));
+        }
+        Reactions { names, solved, eliminations, side }
     }
 
     /// s'' in terms of q, q' and q''.
@@ -71,7 +81,7 @@ impl Derivation {
                 }
                 right.push(self.graph.sum(&terms));
             }
-            let targets = reactions.names.at(&block.equations);
+            let targets = reactions.solved.at(&block.equations);
             if block.determinant.is_some() {
                 if let Some(divisor) = self.check_block(id, &block, &mut steps) {
                     let values = solve_closed(&mut self.graph, &matrix, divisor, &right, Form::Entries);
@@ -84,6 +94,25 @@ impl Derivation {
                 steps.push(Step::Solve { block: id, targets: targets.clone(), right });
             }
             solved.extend(block.equations.iter().zip(targets).map(|(&at, name)| (at, self.graph.variable(name))));
+        }
+        steps.extend(self.as_written(reactions));
+        steps
+    }
+
+    /// The steps that name the multipliers of the rows as written.
+    fn as_written(&mut self, reactions: &Reactions) -> Vec<Step> {
+        let mut values: Table<RowId, NodeId> =
+            reactions.solved.iter().map(|&symbol| self.graph.variable(symbol)).collect();
+        let mut steps = Vec::new();
+        for elimination in reactions.eliminations.iter().rev() {
+            let row = elimination.pivot;
+            let mut terms = vec![(Number::ONE, values[row])];
+            for &(other, multiple) in &elimination.multiples {
+                terms.push((Number::MINUS_ONE, self.graph.multiply(multiple, values[other])));
+            }
+            let node = self.graph.sum(&terms);
+            steps.push(Step::Let { symbol: reactions.names[row], node });
+            values[row] = self.graph.variable(reactions.names[row]);
         }
         steps
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::linear::{Row, System};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{ColumnId, InputId, RowId, SceneId, Table, UnknownId};
+use crate::structure::Elimination;
 
 /// The formulas of one scene, in terms of q, q', W and t.
 #[derive(Debug, Clone)]
@@ -83,8 +84,12 @@ pub struct Unreduced {
 /// The system of the reactions.
 #[derive(Debug, Clone)]
 pub struct Reactions {
-    /// lambda.
+    /// lambda of the rows as written.
     pub names: Table<RowId, SymbolId>,
+    /// lambda of the rows of Psi.
+    pub solved: Table<RowId, SymbolId>,
+    /// The steps from the rows as written to those of Psi.
+    pub eliminations: Vec<Elimination>,
     /// F_u - (M q'')_u, in terms of q, q', q'' and t.
     pub side: Table<UnknownId, NodeId>,
 }

@@ -25,6 +25,8 @@ pub enum Step {
     /// Fails if the determinant of linear unknowns is zero; `numerators` are their numerators by Cramer's rule,
     /// `scales` the sums of the magnitudes of the terms of each numerator.
     Solvable { block: BlockId, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
+    /// Fails if a distance that an equation gives is negative.
+    Reach { block: BlockId, length: NodeId },
     /// Names the unknowns of a block, found by Newton's method from `start`. `system` holds its residuals, their scales
     /// and its Jacobian by rows, in terms of the unknowns and of `known`.
     Newton { block: BlockId, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
@@ -80,7 +82,7 @@ impl Step {
             | Self::Pivots { symbol, .. }
             | Self::Chord { symbol, .. } => vec![*symbol],
             Self::Solve { targets, .. } | Self::Newton { targets, .. } => targets.clone(),
-            Self::Guard { .. } | Self::Factor { .. } | Self::Solvable { .. } => Vec::new(),
+            Self::Guard { .. } | Self::Factor { .. } | Self::Solvable { .. } | Self::Reach { .. } => Vec::new(),
         }
     }
 
@@ -104,6 +106,7 @@ impl Step {
             Self::Solvable { block, determinant, numerators, scales } => {
                 Self::Solvable { block, determinant: f(determinant), numerators: all(numerators), scales: all(scales) }
             }
+            Self::Reach { block, length } => Self::Reach { block, length: f(length) },
             Self::Newton { block, targets, start, known, system } => {
                 Self::Newton { block, targets, start: all(start), known: all(known), system: all(system) }
             }
@@ -117,6 +120,7 @@ impl Step {
         match self {
             Self::Let { node, .. } => vec![*node],
             Self::Turn { principal, .. } => vec![*principal],
+            Self::Reach { length, .. } => vec![*length],
             Self::Guard { determinant, scale, .. } => vec![*determinant, *scale],
             Self::Chord { factors: [low, high], size, of, .. } => {
                 [*low, *high, *size].into_iter().chain(of.values()).collect()

@@ -45,6 +45,18 @@ impl Graph {
         self.product(&[(base, exponent)])
     }
 
+    /// The terms of a sum, of which the last is its constant.
+    pub fn terms(&mut self, sum: NodeId) -> Vec<(Number, NodeId)> {
+        match self.node(sum).clone() {
+            Node::Sum { constant, terms } if constant.is_zero() => terms,
+            Node::Sum { constant, mut terms } => {
+                terms.push((constant, self.one()));
+                terms
+            }
+            _ => vec![(Number::ONE, sum)],
+        }
+    }
+
     /// The sum of coefficient * item, like terms collected.
     pub fn sum(&mut self, items: &[(Number, NodeId)]) -> NodeId {
         if let Some(any) = self.unaffordable(items.len()) {

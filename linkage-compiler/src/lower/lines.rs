@@ -187,6 +187,15 @@ impl<'a, 'n> Writer<'a, 'n> {
                 let call = self.group_call("solvable", *block, [determinant, numerators, scales]);
                 self.statements.push(Statement::Do(call.tried()));
             }
+            Line::Reach { block, length } => {
+                let length = self.signed(*length);
+                if self.is_flagged() {
+                    self.flags.push(Expression::runtime("lane::is_reachable", [length]));
+                    return;
+                }
+                let call = self.group_call("reachable", *block, [length]);
+                self.statements.push(Statement::Do(call.tried()));
+            }
             Line::Chord { block, symbol, factors, size, of } => self.chord((*block, *symbol), *factors, *size, *of),
             Line::Pivots { symbol, matrix } => {
                 let columns = self.columns(matrix);

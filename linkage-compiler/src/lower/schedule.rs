@@ -59,6 +59,10 @@ pub enum Line {
         numerators: Vec<Signed>,
         scales: Vec<Signed>,
     },
+    Reach {
+        block: BlockId,
+        length: Signed,
+    },
     Newton {
         block: BlockId,
         targets: Vec<SymbolId>,

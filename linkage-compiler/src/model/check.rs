@@ -75,10 +75,10 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 /// Checks that there are as many scalar equations as unknowns and that all unknowns can be solved for; sets the order
 /// of solution of each driver.
 pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
-    let mut orders = Vec::new();
     let rows: usize = mechanism.constraints.iter().map(|constraint| constraint.rows.len()).sum();
     let at = |driver: &Driver| -> Span { driver.name.span() };
-    for (id, driver) in mechanism.drivers.enumerated() {
+    for id in mechanism.drivers.ids() {
+        let driver = &mechanism.drivers[id];
         let unknowns = driver.unknowns.len();
         let coordinates = driver.unknowns.iter().map(|&index| &mechanism.coordinates[index]);
         let idle = coordinates.filter(|unknown| is_idle(scope, &unknown.name, unknown.symbol)).count();
@@ -126,14 +126,11 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
             }
         }
         if before && diagnostics.is_empty() {
-            match mechanism.order_of_solution(driver) {
-                Ok(blocks) => orders.push((id, blocks)),
-                Err(singular) => singularity(mechanism, driver, &singular, diagnostics),
+            match mechanism.ordered(id) {
+                Ok(system) => mechanism.drivers[id].system = system,
+                Err(singular) => singularity(mechanism, &mechanism.drivers[id], &singular, diagnostics),
             }
         }
-    }
-    for (id, blocks) in orders {
-        mechanism.drivers[id].blocks = blocks;
     }
 }
 

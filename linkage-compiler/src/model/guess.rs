@@ -90,10 +90,9 @@ fn missing(mechanism: &Mechanism, statements: &[Statement], scope: &Scope) -> Ve
 fn order(mechanism: &mut Mechanism, rows: usize) {
     let read: usize = mechanism.constraints.iter().map(|constraint| constraint.rows.len()).sum();
     for id in mechanism.drivers.ids() {
-        let driver = &mechanism.drivers[id];
-        let is_known = read == rows && rows == driver.unknowns.len();
-        let blocks = is_known.then(|| mechanism.order_of_solution(driver).ok());
-        mechanism.drivers[id].blocks = blocks.flatten().unwrap_or_default();
+        let is_known = read == rows && rows == mechanism.drivers[id].unknowns.len();
+        let system = is_known.then(|| mechanism.ordered(id).ok());
+        mechanism.drivers[id].system = system.flatten().unwrap_or_default();
     }
 }
 

@@ -18,6 +18,7 @@ use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{CoordinateId, Table};
+use crate::structure::System;
 use crate::syntax::{self, ExpressionId, StatementKind};
 
 /// The largest number of expressions of a mechanism; its derivatives have several times as many.
@@ -382,7 +383,7 @@ impl Lowering<'_> {
                 attributes: statement.attributes.clone(),
                 inputs: driven.into(),
                 unknowns,
-                blocks: Table::default(),
+                system: System::default(),
             });
         }
         if !chosen {
@@ -393,8 +394,8 @@ impl Lowering<'_> {
             }
             let name = result.name.clone();
             let unknowns = unknowns.into_iter().chain(open).collect();
-            let (inputs, blocks) = (inputs.into(), Table::default());
-            result.drivers.push(Driver { name, attributes: Vec::new(), inputs, unknowns, blocks });
+            let (inputs, system) = (inputs.into(), System::default());
+            result.drivers.push(Driver { name, attributes: Vec::new(), inputs, unknowns, system });
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A mechanism after semantic analysis.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
@@ -13,10 +13,10 @@ use super::scene::{Body, Scene};
 use crate::diagnostics::Region;
 use crate::graph::{ExternalId, Graph, NodeId, SymbolId};
 use crate::ids::{
-    BlockId, BodyId, ColumnId, CoordinateId, DriverId, Id, InputId, ParameterId, RowId, SceneId, SceneParameterId,
-    Table, UnknownId,
+    BodyId, ColumnId, CoordinateId, DriverId, Id, InputId, ParameterId, RowId, SceneId, SceneParameterId, Table,
+    UnknownId,
 };
-use crate::structure::{self, Block, StructurallySingular};
+use crate::structure::{StructurallySingular, System};
 
 /// A mechanism with resolved names.
 pub struct Mechanism {
@@ -109,8 +109,8 @@ pub struct Driver {
     pub attributes: Vec<Attribute>,
     pub inputs: Table<InputId, CoordinateId>,
     pub unknowns: Table<UnknownId, CoordinateId>,
-    /// The blocks in the order of solution; empty before the check and in mechanisms with mistakes.
-    pub blocks: Table<BlockId, Block>,
+    /// Psi and its blocks in the order of solution; empty before the check and in mechanisms with mistakes.
+    pub system: System,
 }
 
 /// A named point of the plane.
@@ -170,44 +170,29 @@ impl Mechanism {
         misnamed(self).next().is_none()
     }
 
-    /// The formulas of equations, points and outputs.
-    pub fn kinematic_formulas(&self) -> Vec<NodeId> {
-        let mut formulas = self.rows().to_vec();
+    /// The formulas of equations with these rows, points and outputs.
+    pub fn kinematic_formulas(&self, rows: &[NodeId]) -> Vec<NodeId> {
+        let mut formulas = rows.to_vec();
         formulas.extend(self.points.iter().flat_map(|point| [point.x, point.y]));
         formulas.extend(self.outputs.iter().map(|output| output.value));
         formulas
     }
 
-    /// Psi.
+    /// The loop equations and constraints as written.
     #[must_use]
     pub fn rows(&self) -> Table<RowId, NodeId> {
         self.constraints.iter().flat_map(|constraint| constraint.rows.iter().copied()).collect()
     }
 
-    /// The unknowns of `driver` in each row.
-    #[must_use]
-    pub fn incidence(&self, driver: &Driver) -> Table<RowId, Vec<UnknownId>> {
-        let places = driver.unknowns.enumerated().map(|(place, &id)| (self.coordinates[id].symbol, place));
-        let places: BTreeMap<SymbolId, UnknownId> = places.collect();
-        self.rows().map(|row| {
-            let mut unknowns: Vec<UnknownId> =
-                self.graph.symbols_of(&[row]).iter().filter_map(|symbol| places.get(symbol).copied()).collect();
-            unknowns.sort_unstable();
-            unknowns
-        })
-    }
-
-    /// The blocks of a driver in the order of solution.
+    /// Psi of a driver in the form in which it is solved, and its blocks.
     ///
     /// # Errors
-    /// [`StructurallySingular`] if some unknowns appear in too few equations.
-    pub fn order_of_solution(&self, driver: &Driver) -> Result<Table<BlockId, Block>, StructurallySingular> {
-        let incidence = self.incidence(driver);
-        let mut blocks = structure::order(&incidence, driver.unknowns.len())?;
-        let symbols = driver.unknowns.clone().map(|coordinate| self.coordinates[coordinate].symbol);
-        let (mut graph, rows) = (self.graph.clone(), self.rows());
-        structure::find_slides(&mut blocks, &incidence, &self.rows_of_loops(), &mut graph, &rows, &symbols);
-        Ok(blocks)
+    /// [`StructurallySingular`] if it is singular for all values of the parameters.
+    pub fn ordered(&mut self, driver: DriverId) -> Result<System, StructurallySingular> {
+        let (rows, unknowns) = (self.rows(), &self.drivers[driver].unknowns);
+        let unknowns = unknowns.iter().map(|&id| self.coordinates[id].symbol).collect();
+        let loops = self.rows_of_loops();
+        System::new(&mut self.graph, rows, &unknowns, &loops)
     }
 
     /// The two rows of each `loop`.

@@ -8,7 +8,7 @@ use crate::derivation::{Assembly, Choice, Chord, Derivation, Joint, Step};
 use crate::graph::{Graph, SymbolId};
 use crate::ids::UnknownId;
 use crate::model::{Driver, Kind, Mechanism};
-use crate::structure::Group;
+use crate::structure::Class;
 
 /// The properties of the position problem that signatures and types depend on.
 #[derive(Debug, Clone, Default)]
@@ -128,7 +128,7 @@ impl Position {
     /// as written; else each pair of unknowns, in the order of declaration, is a group with two solutions.
     pub fn guessed(mechanism: &Mechanism, driver: &Driver) -> Self {
         let name = |place: UnknownId| mechanism.coordinates[driver.unknowns[place]].name.field.as_str();
-        if driver.blocks.is_empty() {
+        if driver.system.blocks.is_empty() {
             let are_angles = |group: &[UnknownId]| {
                 group.iter().all(|&place| mechanism.coordinates[driver.unknowns[place]].kind != Kind::Length)
             };
@@ -141,19 +141,19 @@ impl Position {
             return Self { is_closed: true, blocks: sides.len(), sides, turns: Vec::new() };
         }
         let mut graph = mechanism.graph.clone();
-        let rows = mechanism.rows();
+        let rows = &driver.system.rows;
         let (mut sides, mut solved, mut is_closed) = (Vec::new(), BTreeSet::new(), true);
-        for block in &driver.blocks {
+        for block in &driver.system.blocks {
             let equations = rows.at(&block.equations);
             let symbols = block.unknowns.iter().map(|&place| mechanism.coordinates[driver.unknowns[place]].symbol);
             let symbols: Vec<SymbolId> = symbols.collect();
-            let group = Group::of(&mut graph, &equations, &symbols);
+            let group = Class::of(&mut graph, &equations, &symbols).group;
             let choice = Choice::of(group, block.slide);
             if choice.is_some() {
                 let angles = graph.in_directions(&equations);
                 solved.extend(symbols.into_iter().filter(|symbol| angles.contains(symbol)));
             }
-            is_closed &= !matches!(group, Group::Scalar | Group::Pair | Group::Irreducible(_));
+            is_closed &= group.is_closed();
             let mut dyad = block.unknowns.clone();
             dyad.extend(block.slide.map(|slide| slide.length));
             dyad.sort_unstable();
@@ -164,7 +164,7 @@ impl Position {
             true => Self::guessed_turns(mechanism, driver, &mut graph, &sides, &solved),
             false => Vec::new(),
         };
-        Self { is_closed, sides, turns, blocks: driver.blocks.len() }
+        Self { is_closed, sides, turns, blocks: driver.system.blocks.len() }
     }
 
     /// The turns of the solved angles that appear as numbers in formulas of the mechanism or of its scenes.
@@ -175,7 +175,7 @@ impl Position {
         sides: &[Side],
         solved: &BTreeSet<SymbolId>,
     ) -> Vec<AngleTurn> {
-        let mut formulas = mechanism.kinematic_formulas();
+        let mut formulas = mechanism.kinematic_formulas(&driver.system.rows);
         let directions = graph.directions(&formulas);
         let symbols: Vec<SymbolId> = mechanism.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
         for scene in mechanism.scenes_of(driver) {

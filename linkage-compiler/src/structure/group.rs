@@ -2,13 +2,17 @@
 //!
 //! A loop equation of two rows is a complex equation x + i y = 0. Let V be the sum of its terms that contain an
 //! unknown. The unknown is
-//! - an angle phi of a revolute joint if it rotates V: dV/dphi = i V
+//! - an angle phi of a revolute joint if it rotates V: dV/dphi = i V; a mirrored angle if dV/dphi = -i V, which is an
+//!   angle after -phi is put for phi
 //! - a length s of a sliding joint if it moves V along a line: the direction D = dV/ds does not depend on s
 //!
 //! With two unknowns these are the four cases of M. A. Chace, "Vector analysis of linkages", Journal of
 //! Engineering for Industry 85, 1963: two angles, an angle and a length, an angle and a length along a line that it
 //! rotates, two lengths.
 
+use rustc_hash::FxHashMap;
+
+use super::distance::Distance;
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 
 /// The kind of a block.
@@ -22,6 +26,12 @@ pub enum Group {
     Rpr,
     /// Two lengths along given lines: two sliders.
     Sliders,
+    /// The two coordinates of a point at given distances from two others.
+    Circles,
+    /// An angle of a link whose end is at a given distance from a point.
+    LinkToCircle,
+    /// A length along a line, to a given distance from a point.
+    SliderToCircle,
     /// One unknown that enters linearly: gears, belts, a slider whose link is known.
     Linear,
     /// One angle phi in a cos(phi) + b sin(phi) + c = 0: a link whose end is known in one direction.
@@ -43,6 +53,9 @@ impl Group {
             Self::Rrp => "dyad RRP: an angle, and a length along a given line".to_owned(),
             Self::Rpr => "dyad RPR: an angle, and a length along a line that turns with it".to_owned(),
             Self::Sliders => "dyad PRP or RPP: two lengths along given lines".to_owned(),
+            Self::Circles => "dyad RRR: a point at two distances".to_owned(),
+            Self::LinkToCircle => "dyad RRR: an angle and a distance".to_owned(),
+            Self::SliderToCircle => "dyad RRP: a length along a given line and a distance".to_owned(),
             Self::Linear => "one unknown, linear".to_owned(),
             Self::Angle => "one angle".to_owned(),
             Self::Scalar => "one unknown".to_owned(),
@@ -51,14 +64,68 @@ impl Group {
         }
     }
 
+    /// True if its position has a closed form.
+    #[must_use]
+    pub fn is_closed(self) -> bool {
+        !matches!(self, Self::Scalar | Self::Pair | Self::Irreducible(_))
+    }
+}
+
+/// The kind of a block, and its mirrored angles.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Class {
+    pub group: Group,
+    pub mirrored: Vec<SymbolId>,
+}
+
+impl Class {
     /// Classifies the block of these scalar equations and unknowns.
     pub fn of(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Self {
         match (rows, unknowns) {
-            (&[row], &[unknown]) => scalar(graph, row, unknown),
-            (&[x, y], &[a, b]) => pair(graph, [x, y], a, b),
-            _ => Self::Irreducible(unknowns.len()),
+            (&[row], &[unknown]) => Self::of_one(graph, row, unknown),
+            (&[x, y], &[a, b]) => Self::of_pair(graph, [x, y], a, b),
+            _ => Self::plain(Group::Irreducible(unknowns.len())),
         }
     }
+
+    fn plain(group: Group) -> Self {
+        Self { group, mirrored: Vec::new() }
+    }
+
+    fn of_one(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Self {
+        let group = scalar(graph, row, unknown);
+        if group.is_closed() {
+            return Self::plain(group);
+        }
+        for mirrored in [&[][..], &[unknown]] {
+            let seen = mirror(graph, &[row], mirrored)[0];
+            if let Some(group) = to_circle(graph, seen, unknown) {
+                return Self { group, mirrored: mirrored.to_vec() };
+            }
+        }
+        Self::plain(group)
+    }
+
+    fn of_pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Self {
+        for mirrored in [&[][..], &[a], &[b], &[a, b]] {
+            let seen = mirror(graph, &rows, mirrored);
+            let group = pair(graph, [seen[0], seen[1]], a, b);
+            if group.is_closed() {
+                return Self { group, mirrored: mirrored.to_vec() };
+            }
+        }
+        Self::plain(Group::Pair)
+    }
+}
+
+/// The expressions with the negatives of some unknowns in place of these.
+pub fn mirror(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Vec<NodeId> {
+    let mut by = FxHashMap::default();
+    for &unknown in unknowns {
+        let variable = graph.variable(unknown);
+        by.insert(variable, graph.negate(variable));
+    }
+    graph.replace(rows, &by)
 }
 
 fn scalar(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Group {
@@ -73,9 +140,64 @@ fn scalar(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Group {
     if graph.is_zero(sum) { Group::Angle } else { Group::Scalar }
 }
 
+/// The group of one unknown whose row gives the length of a vector.
+fn to_circle(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Option<Group> {
+    let vector = Distance::of(graph, row, &[unknown])?.vector;
+    let line = direction(graph, vector, unknown);
+    if line.is_some() {
+        Some(Group::SliderToCircle)
+    } else {
+        is_angle(graph, vector, unknown).then_some(Group::LinkToCircle)
+    }
+}
+
+/// Two circles on which the point (x, y) lies.
+pub struct Circles {
+    /// x and y.
+    pub point: [SymbolId; 2],
+    /// The distances from the centres.
+    pub distances: [Distance; 2],
+    pub centres: [[NodeId; 2]; 2],
+}
+
+impl Circles {
+    /// The circles of two rows; `None` if a row has another form. The first of two unknowns is x, unless a row has
+    /// them in another order.
+    pub fn of(graph: &mut Graph, rows: [NodeId; 2], unknowns: [SymbolId; 2]) -> Option<Self> {
+        let [one, other] = rows.map(|row| Distance::of(graph, row, &unknowns));
+        let distances = [one?, other?];
+        let [x, y] = unknowns;
+        let is_turned = |distance: &Distance| distance.is_ordered && !depends_on(graph, distance.vector[0], x);
+        let point = if distances.iter().any(is_turned) { [y, x] } else { [x, y] };
+        let centres = distances.each_ref().map(|distance| centre(graph, distance, point));
+        let [first, second] = centres;
+        Some(Self { point, distances, centres: [first?, second?] })
+    }
+}
+
+/// The vector c of V = (x, y) - c, but for the order of the components of V and their signs.
+fn centre(graph: &mut Graph, distance: &Distance, point: [SymbolId; 2]) -> Option<[NodeId; 2]> {
+    let [first, second] = distance.vector;
+    let vector = if depends_on(graph, first, point[0]) { [first, second] } else { [second, first] };
+    let mut centre = vector;
+    for axis in [0, 1] {
+        let variable = graph.variable(point[axis]);
+        centre[axis] = [Number::ONE, Number::MINUS_ONE].into_iter().find_map(|sign| {
+            let signed = graph.scale(sign, vector[axis]);
+            let centre = graph.subtract(variable, signed);
+            let is_free = point.iter().all(|&unknown| !depends_on(graph, centre, unknown));
+            is_free.then_some(centre)
+        })?;
+    }
+    Some(centre)
+}
+
 fn pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Group {
     if two_links(graph, rows, a, b) || two_links(graph, rows, b, a) {
         return Group::Rrr;
+    }
+    if Circles::of(graph, rows, [a, b]).is_some() {
+        return Group::Circles;
     }
     let [angle_a, angle_b] = [a, b].map(|unknown| is_angle(graph, rows, unknown));
     let [line_a, line_b] = [a, b].map(|unknown| direction(graph, rows, unknown));
@@ -132,7 +254,7 @@ fn direction(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> Option<
     is_constant.then(|| [derivatives[0], derivatives[1]])
 }
 
-fn depends_on(graph: &Graph, node: NodeId, symbol: SymbolId) -> bool {
+pub(super) fn depends_on(graph: &Graph, node: NodeId, symbol: SymbolId) -> bool {
     graph.symbols_of(&[node]).contains(&symbol)
 }
 
@@ -190,7 +312,7 @@ mod tests {
             }
             let rows = [self.graph.sum(&x), self.graph.sum(&y)];
             let unknowns = unknowns.map(|name| self.symbols[name]);
-            Group::of(&mut self.graph, &rows, &unknowns)
+            Class::of(&mut self.graph, &rows, &unknowns).group
         }
     }
 
@@ -213,6 +335,34 @@ mod tests {
         }
     }
 
+    /// V = l@(phi - delta) + r@psi + s@chi with angles in either sense.
+    #[test]
+    fn mirrored_angles() {
+        for (signs, mirrored) in
+            [([1, 1], &[][..]), ([-1, 1], &["phi"]), ([1, -1], &["psi"]), ([-1, -1], &["phi", "psi"])]
+        {
+            let mut plane = Plane::new();
+            let [l, r, d, delta] = ["l", "r", "d", "delta"].map(|name| plane.variable(name));
+            let angles = ["phi", "psi"].map(|name| plane.variable(name));
+            let g = &mut plane.graph;
+            let [phi, psi] = [0, 1].map(|place| g.scale(Number::integer(signs[place]), angles[place]));
+            let phi = g.subtract(phi, delta);
+            let row = |g: &mut Graph, function, ground: NodeId| {
+                let [one, other] = [(l, phi), (r, psi)].map(|(length, angle)| {
+                    let part = g.call(function, &[angle]);
+                    g.multiply(length, part)
+                });
+                g.sum(&[(Number::ONE, one), (Number::ONE, other), (Number::MINUS_ONE, ground)])
+            };
+            let zero = g.zero();
+            let rows = [row(g, Function::Cos, d), row(g, Function::Sin, zero)];
+            let unknowns = ["phi", "psi"].map(|name| plane.symbols[name]);
+            let found = Class::of(&mut plane.graph, &rows, &unknowns);
+            let mirrored = mirrored.iter().map(|name| plane.symbols[name]).collect();
+            assert_eq!(found, Class { group: Group::Rrr, mirrored });
+        }
+    }
+
     #[test]
     fn single_unknowns() {
         let mut plane = Plane::new();
@@ -222,12 +372,12 @@ mod tests {
         let (sine, cosine) = (g.call(Function::Sin, &[phi]), g.call(Function::Cos, &[phi]));
         let (high, wide) = (g.multiply(l, sine), g.multiply(d, cosine));
         let row = g.sum(&[(Number::ONE, high), (Number::ONE, wide), (Number::ONE, s)]);
-        assert_eq!(Group::of(g, &[row], &[phi_symbol]), Group::Angle);
-        assert_eq!(Group::of(g, &[row], &[s_symbol]), Group::Linear);
+        assert_eq!(Class::of(g, &[row], &[phi_symbol]).group, Group::Angle);
+        assert_eq!(Class::of(g, &[row], &[s_symbol]).group, Group::Linear);
         let rolled = g.add(row, phi);
-        assert_eq!(Group::of(g, &[rolled], &[phi_symbol]), Group::Scalar);
+        assert_eq!(Class::of(g, &[rolled], &[phi_symbol]).group, Group::Scalar);
         let (twice, symbol) = (g.scale(Number::integer(2), phi), phi_symbol);
         let double = g.call(Function::Sin, &[twice]);
-        assert_eq!(Group::of(g, &[double], &[symbol]), Group::Scalar);
+        assert_eq!(Class::of(g, &[double], &[symbol]).group, Group::Scalar);
     }
 }

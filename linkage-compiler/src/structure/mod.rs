@@ -5,11 +5,15 @@
 //! components of the dependency graph, which Tarjan's algorithm finds in the order of solution (I. S. Duff, J. K. Reid,
 //! "An implementation of Tarjan's algorithm for the block triangularization of a matrix", ACM TOMS 4, 1978).
 
+mod distance;
+mod elimination;
 mod group;
 mod matching;
 mod slide;
 
-pub use group::Group;
+pub use distance::Distance;
+pub use elimination::{Elimination, System};
+pub use group::{Circles, Class, Group, mirror};
 use matching::Matching;
 pub use matching::StructurallySingular;
 pub use slide::{Slide, find_slides};

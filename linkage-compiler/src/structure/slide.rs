@@ -3,7 +3,7 @@
 //! With its guide along x or y, a dyad RRP falls apart into two blocks: one row of its loop has only the angle, the
 //! other then gives the length. Its two solutions are named as those of a dyad along any other line: by the length.
 
-use super::{Block, Group};
+use super::{Block, Class, Group};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{BlockId, RowId, Table, UnknownId};
 
@@ -41,14 +41,19 @@ pub fn find_slides(
         let (Some(angle), Some(length)) = (alone[place], alone[later]) else { continue };
         let is_known = |&unknown: &UnknownId| solved_in[unknown] <= place || unknown == length;
         let [phi, s] = [angle, length].map(|unknown| symbols[unknown]);
-        if !incidence[other].iter().all(is_known) || Group::of(graph, &[rows[x], rows[y]], &[phi, s]) != Group::Rrp {
+        if !incidence[other].iter().all(is_known) {
+            continue;
+        }
+        let class = Class::of(graph, &[rows[x], rows[y]], &[phi, s]);
+        if class.group != Group::Rrp {
             continue;
         }
         // With V the link and E the direction of the guide, V + s E = D and dV/dphi = i V: for a guide along x,
-        // s = (D_x - V_x) / E_x and dV_y/dphi = V_x; along y, s = (D_y - V_y) / E_y and dV_x/dphi = -V_y.
+        // s = (D_x - V_x) / E_x and dV_y/dphi = V_x; along y, s = (D_y - V_y) / E_y and dV_x/dphi = -V_y. A mirrored angle
+        // turns the other way.
         let slope = graph.partial(&[rows[other]], s)[0];
         let Some(slope) = graph.as_number(slope) else { continue };
-        let is_far_rising = (slope.to_f64() > 0.0) == (row == x);
+        let is_far_rising = ((slope.to_f64() > 0.0) == (row == x)) != class.mirrored.contains(&phi);
         if let Some(block) = blocks.iter_mut().nth(place) {
             block.slide = Some(Slide { length, is_far_rising });
         }

@@ -131,7 +131,8 @@ impl Lowering<'_> {
 
     /// Moves parameters that only scenes use from the mechanism to these scenes.
     fn part_parameters(&self, result: &mut Mechanism) {
-        let kinematic: BTreeSet<SymbolId> = self.graph.symbols_of(&result.kinematic_formulas()).into_iter().collect();
+        let kinematic: BTreeSet<SymbolId> =
+            self.graph.symbols_of(&result.kinematic_formulas(&result.rows())).into_iter().collect();
         let held: Vec<BTreeSet<SymbolId>> = result
             .scenes
             .iter()

@@ -1,0 +1,308 @@
+//! Elimination of unknowns that enter linearly, such as the coordinates of a joint between two loops.
+//!
+//! If a row of a block is c u + r = 0 with a number c and an r free of u, then u = -r / c may be put into the other rows
+//! of the block. They then do not contain u, which is solved after them, and the rest may split into smaller blocks. The
+//! solutions are those of the rows as written: `loop a@phi + b@psi = (x, y); loop (x, y) = d@0 + c@chi;` becomes a dyad
+//! of psi and chi.
+//!
+//! Only blocks without a closed form are changed, and those of two unknowns only if they get one. An unknown that is an
+//! angle comes last, and only if it is an integer combination of the other angles of its row, so that no half angle
+//! results. Among equals the row with the fewest unknowns is taken: H. M. Markowitz, "The elimination form of the inverse
+//! and its application to linear programming", Management Science 3, 1957.
+
+use std::collections::BTreeSet;
+
+use rustc_hash::FxHashMap;
+
+use super::{Block, Class, StructurallySingular, find_slides, order};
+use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
+
+/// Psi in the form in which it is solved, and the order of solution.
+#[derive(Debug, Clone, Default)]
+pub struct System {
+    pub rows: Table<RowId, NodeId>,
+    pub blocks: Table<BlockId, Block>,
+    /// The eliminations that lead from the rows as written to these rows, in order.
+    pub eliminations: Vec<Elimination>,
+}
+
+/// The elimination of one unknown u by the row i: row j becomes row j - m row i up to terms that vanish with row i
+/// itself, where m = (d row j / du) / (d row i / du).
+#[derive(Debug, Clone)]
+pub struct Elimination {
+    pub unknown: UnknownId,
+    pub pivot: RowId,
+    /// j and m.
+    pub multiples: Vec<(RowId, NodeId)>,
+}
+
+impl System {
+    /// Orders these rows, after the elimination of unknowns that enter linearly where it splits a block. `loops` has the
+    /// two rows of each loop.
+    ///
+    /// # Errors
+    /// [`StructurallySingular`] if the system is singular for all values of the parameters.
+    pub fn new(
+        graph: &mut Graph,
+        rows: Table<RowId, NodeId>,
+        unknowns: &Table<UnknownId, SymbolId>,
+        loops: &[[RowId; 2]],
+    ) -> Result<Self, StructurallySingular> {
+        let blocks = order(&incidence(graph, &rows, unknowns), unknowns.len())?;
+        let mut reduction = Reduction { graph, unknowns, rows, eliminations: Vec::new() };
+        for block in &blocks {
+            reduction.split(block.clone());
+        }
+        let Reduction { graph, rows, eliminations, .. } = reduction;
+        let incidence = incidence(graph, &rows, unknowns);
+        let mut blocks = if eliminations.is_empty() { blocks } else { order(&incidence, unknowns.len())? };
+        find_slides(&mut blocks, &incidence, loops, graph, &rows, unknowns);
+        Ok(Self { rows, blocks, eliminations })
+    }
+}
+
+/// The unknowns in each row.
+fn incidence(
+    graph: &Graph,
+    rows: &Table<RowId, NodeId>,
+    unknowns: &Table<UnknownId, SymbolId>,
+) -> Table<RowId, Vec<UnknownId>> {
+    let places: FxHashMap<SymbolId, UnknownId> =
+        unknowns.enumerated().map(|(place, &symbol)| (symbol, place)).collect();
+    rows.iter()
+        .map(|&row| {
+            let symbols = graph.symbols_of(&[row]);
+            let mut found: Vec<UnknownId> = symbols.iter().filter_map(|symbol| places.get(symbol).copied()).collect();
+            found.sort_unstable();
+            found
+        })
+        .collect()
+}
+
+/// A row c u + r = 0 of a block, and u.
+struct Pivot {
+    row: RowId,
+    unknown: UnknownId,
+    factor: Number,
+}
+
+struct Reduction<'a> {
+    graph: &'a mut Graph,
+    unknowns: &'a Table<UnknownId, SymbolId>,
+    rows: Table<RowId, NodeId>,
+    eliminations: Vec<Elimination>,
+}
+
+impl Reduction<'_> {
+    /// Eliminates unknowns of a block, and of the blocks into which it falls, until all have a closed form or no unknown
+    /// is left that enters linearly.
+    fn split(&mut self, block: Block) {
+        let mut open = vec![block];
+        while let Some(block) = open.pop() {
+            if self.is_closed(&block) || self.graph.budget().is_spent() {
+                continue;
+            }
+            let Some(pivot) = self.pivot(&block) else { continue };
+            let rest = Block {
+                equations: block.equations.iter().copied().filter(|&row| row != pivot.row).collect(),
+                unknowns: block.unknowns.iter().copied().filter(|&unknown| unknown != pivot.unknown).collect(),
+                slide: None,
+            };
+            let before = self.rows.at(&rest.equations);
+            let elimination = self.eliminate(&pivot, &rest.equations);
+            let parts = self.parts(&rest).unwrap_or_default();
+            // Rows that depend on one another stay as written, and so do two rows that gain nothing.
+            let is_better = match parts.as_slice() {
+                [] => false,
+                [only] if only.unknowns.len() == 1 => self.is_closed(only),
+                _ => true,
+            };
+            if is_better {
+                open.extend(parts);
+                self.eliminations.push(elimination);
+            } else {
+                for (&row, node) in rest.equations.iter().zip(before) {
+                    self.rows[row] = node;
+                }
+            }
+        }
+    }
+
+    fn symbols(&self, block: &Block) -> Vec<SymbolId> {
+        self.unknowns.at(&block.unknowns)
+    }
+
+    fn is_closed(&mut self, block: &Block) -> bool {
+        let symbols = self.symbols(block);
+        Class::of(self.graph, &self.rows.at(&block.equations), &symbols).group.is_closed()
+    }
+
+    fn pivot(&mut self, block: &Block) -> Option<Pivot> {
+        let symbols = self.symbols(block);
+        let angles: BTreeSet<SymbolId> =
+            self.graph.in_directions(&self.rows.at(&block.equations)).into_iter().collect();
+        let mut best: Option<((bool, usize), Pivot)> = None;
+        for &row in &block.equations {
+            let node = self.rows[row];
+            let in_row: BTreeSet<SymbolId> = self.graph.symbols_of(&[node]).into_iter().collect();
+            let count = symbols.iter().filter(|symbol| in_row.contains(symbol)).count();
+            for (&unknown, &symbol) in block.unknowns.iter().zip(&symbols).filter(|(_, symbol)| in_row.contains(symbol))
+            {
+                let rank = (angles.contains(&symbol), count);
+                if best.as_ref().is_some_and(|(other, _)| *other <= rank) {
+                    continue;
+                }
+                let Some(factor) = self.factor(node, symbol) else { continue };
+                let others = symbols.iter().copied().filter(|other| *other != symbol && angles.contains(other));
+                if angles.contains(&symbol) && !others.clone().all(|other| self.is_multiple(node, other, factor)) {
+                    continue;
+                }
+                best = Some((rank, Pivot { row, unknown, factor }));
+            }
+        }
+        best.map(|(_, pivot)| pivot)
+    }
+
+    /// The derivative of a row with respect to an unknown, if it is a number other than zero.
+    fn factor(&mut self, row: NodeId, unknown: SymbolId) -> Option<Number> {
+        let slope = self.graph.partial(&[row], unknown)[0];
+        self.graph.as_number(slope).filter(|factor| !factor.is_zero())
+    }
+
+    /// True if a row contains an integer multiple of `factor` times an angle, and the angle nowhere else.
+    fn is_multiple(&mut self, row: NodeId, angle: SymbolId, factor: Number) -> bool {
+        let slope = self.graph.partial(&[row], angle)[0];
+        let times = self.graph.as_number(slope).map(|slope| slope.multiply(factor.power(-1)));
+        times.is_some_and(|times| times.as_integer().is_some())
+    }
+
+    fn eliminate(&mut self, pivot: &Pivot, others: &[RowId]) -> Elimination {
+        let symbol = self.unknowns[pivot.unknown];
+        let variable = self.graph.variable(symbol);
+        let part = pivot.factor.power(-1).negate();
+        let value = self.graph.sum(&[(Number::ONE, variable), (part, self.rows[pivot.row])]);
+        let by = std::iter::once((variable, value)).collect();
+        let mut multiples = Vec::new();
+        for &row in others {
+            let slope = self.graph.partial(&[self.rows[row]], symbol)[0];
+            if self.graph.is_zero(slope) {
+                continue;
+            }
+            multiples.push((row, self.graph.scale(pivot.factor.power(-1), slope)));
+            self.rows[row] = self.graph.replace(&[self.rows[row]], &by)[0];
+        }
+        Elimination { unknown: pivot.unknown, pivot: pivot.row, multiples }
+    }
+
+    /// The blocks of a part of the system.
+    fn parts(&self, part: &Block) -> Result<Vec<Block>, StructurallySingular> {
+        let rows: Table<RowId, NodeId> = self.rows.at(&part.equations).into();
+        let unknowns: Table<UnknownId, SymbolId> = self.symbols(part).into();
+        let blocks = order(&incidence(self.graph, &rows, &unknowns), unknowns.len())?;
+        let named = |block: &Block| Block {
+            equations: block.equations.iter().map(|row| part.equations[row.index()]).collect(),
+            unknowns: block.unknowns.iter().map(|unknown| part.unknowns[unknown.index()]).collect(),
+            slide: None,
+        };
+        Ok(blocks.iter().map(named).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Function;
+    use crate::structure::Group;
+
+    /// A graph with symbols by name, and the vector r@(angle).
+    struct Plane {
+        graph: Graph,
+        names: Vec<(&'static str, SymbolId)>,
+    }
+
+    impl Plane {
+        fn new(names: &[&'static str]) -> Self {
+            let mut graph = Graph::default();
+            let names = names.iter().map(|&name| (name, graph.symbol(name))).collect();
+            Self { graph, names }
+        }
+
+        fn symbol(&self, name: &str) -> SymbolId {
+            self.names.iter().find(|(other, _)| *other == name).expect(name).1
+        }
+
+        fn variable(&mut self, name: &str) -> NodeId {
+            let symbol = self.symbol(name);
+            self.graph.variable(symbol)
+        }
+
+        fn link(&mut self, length: &str, angle: &str) -> [NodeId; 2] {
+            let [length, angle] = [length, angle].map(|name| self.variable(name));
+            [Function::Cos, Function::Sin].map(|function| {
+                let part = self.graph.call(function, &[angle]);
+                self.graph.multiply(length, part)
+            })
+        }
+
+        fn order(&mut self, rows: Vec<NodeId>, unknowns: &[&str]) -> (System, Vec<Group>) {
+            let unknowns: Table<UnknownId, SymbolId> = unknowns.iter().map(|name| self.symbol(name)).collect();
+            let system = System::new(&mut self.graph, rows.into(), &unknowns, &[]).unwrap();
+            let group = |block: &Block| {
+                let (rows, symbols) = (system.rows.at(&block.equations), unknowns.at(&block.unknowns));
+                Class::of(&mut self.graph, &rows, &symbols).group
+            };
+            let groups = system.blocks.iter().map(group).collect();
+            (system, groups)
+        }
+    }
+
+    #[test]
+    fn a_joint_between_two_loops() {
+        let mut plane = Plane::new(&["x", "y", "a", "b", "c", "phi", "psi", "chi"]);
+        let [crank, rod, rocker] = [("a", "phi"), ("b", "psi"), ("c", "chi")].map(|(l, angle)| plane.link(l, angle));
+        let joint = ["x", "y"].map(|name| plane.variable(name));
+        let g = &mut plane.graph;
+        let first = [0, 1].map(|axis| {
+            g.sum(&[(Number::ONE, crank[axis]), (Number::ONE, rod[axis]), (Number::MINUS_ONE, joint[axis])])
+        });
+        let second = [0, 1].map(|axis| g.subtract(joint[axis], rocker[axis]));
+        let rows = [first, second].concat();
+        let (system, groups) = plane.order(rows.clone(), &["x", "y", "psi", "chi"]);
+        assert_eq!(groups, [Group::Rrr, Group::Linear, Group::Linear]);
+        // The rows as written are those of the system and multiples of the pivots.
+        let mut written = system.rows;
+        for elimination in system.eliminations.iter().rev() {
+            for &(row, multiple) in &elimination.multiples {
+                let part = plane.graph.multiply(multiple, written[elimination.pivot]);
+                written[row] = plane.graph.add(written[row], part);
+            }
+        }
+        assert_eq!(*written, *rows);
+    }
+
+    #[test]
+    fn equal_angles_and_rows_that_depend_on_one_another() {
+        let mut plane = Plane::new(&["a", "b", "phi", "psi", "chi", "d"]);
+        let [rod, rocker] = [("a", "phi"), ("b", "psi")].map(|(l, angle)| plane.link(l, angle));
+        let third = plane.link("d", "chi");
+        let [phi, chi, d] = ["phi", "chi", "d"].map(|name| plane.variable(name));
+        let g = &mut plane.graph;
+        let gear = g.sum(&[(Number::ONE, chi), (Number::integer(-2), phi), (Number::ONE, d)]);
+        let rows = [0, 1]
+            .map(|axis| g.sum(&[(Number::ONE, rod[axis]), (Number::ONE, rocker[axis]), (Number::ONE, third[axis])]))
+            .into_iter()
+            .chain([gear])
+            .collect();
+        // 2 phi has no half: chi is eliminated, not phi.
+        let (system, groups) = plane.order(rows, &["phi", "psi", "chi"]);
+        assert_eq!(system.eliminations.iter().map(|one| one.unknown.index()).collect::<Vec<_>>(), [2]);
+        assert_eq!(groups, [Group::Pair, Group::Linear]);
+        // x = d cos(chi), twice.
+        let g = &mut plane.graph;
+        let row = g.subtract(phi, third[0]);
+        let (system, groups) = plane.order(vec![row, row], &["phi", "chi"]);
+        assert_eq!((*system.rows).to_vec(), [row, row]);
+        assert_eq!(groups, [Group::Pair]);
+    }
+}
