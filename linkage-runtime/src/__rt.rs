@@ -14,6 +14,7 @@ pub use crate::chord::{
     solvable,
 };
 pub use crate::error::{finite, finite_matrix};
+pub use crate::implied::{closes, implied};
 pub use crate::lanes::{Batch, Lanes, Values};
 pub use crate::limits::{Bound, Search, limits};
 pub use crate::linear::{Factorization, is_nonzero, product_of_pivots, regular};

@@ -75,7 +75,8 @@ pub struct Assembled<B, P> {
     pub pose: P,
 }
 
-/// Assembles each of these branches. A branch with no position, or with infinitely many, is left out.
+/// Assembles each of these branches. A branch with no position, or with infinitely many, is left out, and so is one on
+/// which an implied loop does not close.
 ///
 /// # Errors
 /// Any other error of a branch, before the first position.
@@ -85,7 +86,12 @@ pub fn existing<B: Copy, P>(
 ) -> Result<impl Iterator<Item = Assembled<B, P>>, PositionError> {
     for branch in branches.clone() {
         match assemble(branch) {
-            Ok(_) | Err(PositionError::Unbuildable { .. } | PositionError::Undetermined { .. }) => {}
+            Ok(_)
+            | Err(
+                PositionError::Unbuildable { .. }
+                | PositionError::Undetermined { .. }
+                | PositionError::NotImplied { .. },
+            ) => {}
             Err(error) => return Err(error),
         }
     }

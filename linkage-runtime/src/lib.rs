@@ -31,6 +31,7 @@ mod dim;
 mod error;
 pub mod extremes;
 mod hypotenuse;
+mod implied;
 #[doc(hidden)]
 pub mod jacobian;
 #[doc(hidden)]

@@ -95,6 +95,15 @@ pub trait Mechanism {
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the solution is not finite.
     fn solve_jacobian(&self, pose: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError>;
 
+    /// Checks that the loops and equations that are declared as implied close at a position.
+    ///
+    /// # Errors
+    /// [`PositionError::NotImplied`] if one does not.
+    #[inline]
+    fn check_implied(&self, _: &Self::Coordinates) -> Result<(), PositionError> {
+        Ok(())
+    }
+
     /// The unknowns u of q.
     #[inline]
     fn unknowns(q: &Self::Coordinates) -> PerUnknown<Self> {

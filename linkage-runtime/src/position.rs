@@ -60,6 +60,7 @@ pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M:
 /// [`PositionError::NotConverged`] if the residual does not vanish, [`PositionError::OtherBranch`] if the determinant
 /// of a group has another sign than at the guess, [`PositionError::NotFinite`] if a number is not finite. If the
 /// regularity of the group is below 16 sqrt(epsilon) at the guess or at the position, the sign is not compared.
+/// [`PositionError::NotImplied`] if an implied loop does not close at the position.
 pub fn newton<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Solution<M::Coordinates>, PositionError> {
     let (found, start, end) = searched(mechanism, guess)?;
     let AnyBranch { coordinates, iterations, residual, same_branch } = found;
@@ -82,8 +83,8 @@ fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Op
 /// Finds the position near `guess` at the inputs of `guess`, on any branch, by the search of [`newton`].
 ///
 /// # Errors
-/// [`PositionError::NotConverged`] if the residual does not vanish, [`PositionError::NotFinite`] if a number is not
-/// finite.
+/// [`PositionError::NotConverged`] if the residual does not vanish, [`PositionError::NotImplied`] if an implied loop does
+/// not close, [`PositionError::NotFinite`] if a number is not finite.
 pub fn newton_any_branch<M: Mechanism>(
     mechanism: &M,
     guess: &M::Coordinates,
@@ -105,6 +106,7 @@ fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searc
         residual: to_f64(size),
         same_branch: mechanism.same_branch(&start, &point),
     };
+    mechanism.check_implied(&found.coordinates)?;
     Ok((found, start, point))
 }
 

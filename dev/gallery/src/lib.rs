@@ -54,6 +54,7 @@ macro_rules! all_mechanisms {
             geneva: Geneva closed;
             hart: Hart closed;
             hoecken: Hoecken closed;
+            implied_loops: ImpliedLoops closed, orders;
             introductory: Introductory closed;
             inverted_slider_crank: InvertedSliderCrank closed;
             jansen: Jansen closed, orders;

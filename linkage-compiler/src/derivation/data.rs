@@ -87,6 +87,16 @@ pub struct Sensitivity {
     pub jacobian: Table<RowId, Row<ParameterId>>,
 }
 
+/// A scalar equation that follows from Psi(q) = 0.
+#[derive(Debug, Clone)]
+pub struct Implied {
+    /// Its name in errors.
+    pub name: String,
+    pub residual: NodeId,
+    /// The sum of the magnitudes of its terms.
+    pub scale: NodeId,
+}
+
 /// Everything derived from one mechanism with one choice of independent coordinates.
 #[derive(Debug, Clone)]
 pub struct Derivation {
@@ -99,6 +109,8 @@ pub struct Derivation {
     pub residual: Table<RowId, NodeId>,
     /// For each row of Psi, the sum of the magnitudes of its terms: the scale of its residual.
     pub residual_scales: Table<RowId, NodeId>,
+    /// The equations that follow from Psi(q) = 0.
+    pub implied: Vec<Implied>,
     /// Psi_q.
     pub jacobian: Table<RowId, Row<ColumnId>>,
     pub blocks: Table<BlockId, Block>,

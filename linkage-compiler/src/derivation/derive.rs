@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::angles::angles;
-use super::data::{Block, Coordinate, Derivation, Determinant, Quantity};
+use super::data::{Block, Coordinate, Derivation, Determinant, Implied, Quantity};
 use super::jacobian::{along_rates, jacobian, places_of};
 use super::joints::Joints;
 use super::linear::Row;
@@ -40,6 +40,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let place_of = places_of(&coordinates, |c| c.value);
     let jacobian = Table::from(jacobian(&mut graph, &residual, &place_of));
     let residual_scales = residual.iter().map(|&row| scale::of(&mut graph, row)).collect();
+    let implied = implied(&mut graph, mechanism);
     // gamma = (Psi_q q')_q q': the derivative along q' of Psi' with q' held.
     let rates = along_rates(&mut graph, &coordinates);
     let psi_rate = graph.differentiate(&residual, &rates);
@@ -69,6 +70,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         inputs,
         residual,
         residual_scales,
+        implied,
         jacobian,
         blocks,
         is_odd,
@@ -112,6 +114,23 @@ impl Derivation {
             }
         }
     }
+}
+
+/// The rows of implied loops and equations, named by their number and by the first line of their doc comment.
+fn implied(graph: &mut Graph, mechanism: &Mechanism) -> Vec<Implied> {
+    let mut all = Vec::new();
+    for (place, constraint) in mechanism.implied.iter().enumerate() {
+        let kind = if constraint.rows.len() == 2 { "loop" } else { "equation" };
+        let mut name = format!("implied {kind} {}", place + 1);
+        if let Some(text) = constraint.description().get(1) {
+            name = format!("{name} ({})", text.trim_end_matches('.'));
+        }
+        all.extend(constraint.rows.iter().map(|&residual| {
+            let scale = scale::of(graph, residual);
+            Implied { name: name.clone(), residual, scale }
+        }));
+    }
+    all
 }
 
 /// The determinant of a block in closed form, and its scale.

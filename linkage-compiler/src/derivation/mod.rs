@@ -37,7 +37,7 @@ mod unreduced;
 
 pub use assembly::{Assembly, Choice, Chord};
 pub use check::{LARGEST, check, check_numbers, matrices};
-pub use data::{Block, Coordinate, Derivation, Determinant, Quantity, RatioDerivatives, Sensitivity};
+pub use data::{Block, Coordinate, Derivation, Determinant, Implied, Quantity, RatioDerivatives, Sensitivity};
 pub use derive::derive;
 pub use formulas::{Formulas, Inverse, QuantityFormulas};
 pub use joints::{Joint, Joints};

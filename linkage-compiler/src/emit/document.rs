@@ -39,6 +39,8 @@ pub(super) fn constant(
     let (by_inputs, by_pairs, by_parameters) = (document.by_inputs(), document.by_pairs(), document.by_parameters());
 
     let residual = document.numbered("Psi", &derivation.residual);
+    let implied: Vec<NodeId> = derivation.implied.iter().map(|implied| implied.residual).collect();
+    let implied = document.numbered("chi", &implied);
     let by_unknowns = derivation.jacobian_unknowns();
     let jacobian_unknowns = document.matrix(Name::Plain("J"), None, &by_unknowns, unknowns.len());
     let jacobian_inputs = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
@@ -81,6 +83,7 @@ pub(super) fn constant(
                     inputs: #inputs,
                     unknowns: #unknowns,
                     residual: #residual,
+                    implied: #implied,
                     jacobian_unknowns: #jacobian_unknowns,
                     jacobian_inputs: #jacobian_inputs,
                     blocks: &[#(#blocks),*],

@@ -137,6 +137,13 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
             }
         }
     });
+    let implied = (!mechanism.implied.is_empty()).then(|| {
+        quote! {
+            fn check_implied(&self, q: &Self::Coordinates) -> __rt::Result<(), __rt::PositionError> {
+                self.check_implied(&self.pose_at(q))
+            }
+        }
+    });
     quote! {
         impl<T: __rt::Real> __rt::Mechanism for #name<T> {
             type Scalar = T;
@@ -175,6 +182,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
             ) -> __rt::Result<#by_unknowns, __rt::PositionError> {
                 __rt::Ok(self.solve_jacobian(pose, &(*right).into())?.into())
             }
+            #implied
         }
         #assembly
     }

@@ -31,12 +31,12 @@ impl Finished<'_> {
                 out.extend(check(&what, values, detail));
             }
             Statement::CheckPosition => self.check_position(formulas, out),
-            Statement::CheckKinematics { determinants, otherwise } => {
-                self.check_kinematics(determinants, otherwise, formulas, out);
+            Statement::CheckKinematics { conditions, otherwise } => {
+                self.check_kinematics(conditions, otherwise, formulas, out);
             }
-            Statement::LetAccepted(to, determinants) => {
+            Statement::LetAccepted(to, checks) => {
                 let mut conditions = formulas.flags.clone();
-                conditions.extend(self.conditions(determinants, formulas));
+                conditions.extend(self.conditions(checks, formulas));
                 if let [only] = conditions.as_slice() {
                     out.push(Statement::Let(self.pattern(to), only.clone()));
                     return;
@@ -86,22 +86,20 @@ impl Finished<'_> {
     /// Adds the check of a position and its motion. The directions of dyads are finite: their chords are regular.
     fn check_kinematics(
         &self,
-        determinants: Vec<[Expression; 2]>,
+        conditions: Vec<Expression>,
         otherwise: Expression,
         formulas: &Formulas,
         out: &mut Vec<Statement>,
     ) {
-        let conditions = self.conditions(determinants, formulas);
+        let conditions = self.conditions(conditions, formulas);
         if !conditions.is_empty() {
             out.push(Statement::Unless(conditions, vec![Statement::Return(otherwise)]));
         }
     }
 
-    /// The conditions that determinants are not zero and results finite.
-    fn conditions(&self, determinants: Vec<[Expression; 2]>, formulas: &Formulas) -> Vec<Expression> {
-        let of_determinants =
-            determinants.into_iter().map(|pair| Expression::runtime("is_nonzero", self.expressions(pair.to_vec())));
-        let mut conditions: Vec<Expression> = of_determinants.collect();
+    /// These conditions, and that results are finite.
+    fn conditions(&self, conditions: Vec<Expression>, formulas: &Formulas) -> Vec<Expression> {
+        let mut conditions = self.expressions(conditions);
         let numbers = self.results.iter().zip(&formulas.dyads).zip(&formulas.is_proven);
         let unproven = numbers.filter(|((_, dyad), is_proven)| dyad.is_none() && !**is_proven);
         let numbers = to_check(unproven.map(|((value, _), _)| value.clone()).collect());

@@ -55,7 +55,7 @@ impl Lowering<'_> {
                     chains.points.push(self.chain(*value, &named).unwrap_or_default());
                     named.insert(name.to_string(), None);
                 }
-                StatementKind::Loop { left, right } => {
+                StatementKind::Loop { left, right, .. } => {
                     chains.loops.push([left, right].map(|&side| self.chain(side, &named).unwrap_or_default()));
                 }
                 _ => {}

@@ -72,9 +72,28 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     }
 }
 
+/// Checks that each implied loop or equation contains an unknown of every driver.
+fn implied(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
+    for implied in &mechanism.implied {
+        let found = mechanism.graph.symbols_of(&implied.rows);
+        let is_free = |driver: &Driver| {
+            let mut unknowns = driver.unknowns.iter().map(|&index| mechanism.coordinates[index].symbol);
+            !unknowns.any(|symbol| found.contains(&symbol))
+        };
+        if let Some(driver) = mechanism.drivers.iter().find(|driver| is_free(driver)) {
+            let message = format_args!(
+                "this implied equation contains no unknown of `{}`: it cannot follow from the others",
+                driver.name
+            );
+            diagnostics.error(implied.span, message);
+        }
+    }
+}
+
 /// Checks that there are as many scalar equations as unknowns and that all unknowns can be solved for; sets the order
 /// of solution of each driver.
 pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
+    implied(mechanism, diagnostics);
     let rows: usize = mechanism.constraints.iter().map(|constraint| constraint.rows.len()).sum();
     let at = |driver: &Driver| -> Span { driver.name.span() };
     for id in mechanism.drivers.ids() {
@@ -94,7 +113,7 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
             let advice = if rows < unknowns {
                 "close another loop, or make unknowns inputs"
             } else {
-                "remove an equation, or declare another unknown"
+                "write `implied` before those that follow from others, or declare another unknown"
             };
             diagnostics.error(
                 span,

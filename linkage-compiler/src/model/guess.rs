@@ -22,8 +22,8 @@ pub(super) fn complete(
 ) {
     rename(mechanism, scope);
     let rows = statements.iter().map(|statement| match statement.kind {
-        StatementKind::Loop { .. } => 2,
-        StatementKind::Equation { .. } => 1,
+        StatementKind::Loop { is_implied: false, .. } => 2,
+        StatementKind::Equation { is_implied: false, .. } => 1,
         _ => 0,
     });
     let rows: usize = rows.sum();

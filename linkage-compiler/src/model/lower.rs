@@ -57,6 +57,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
         coordinates: Table::default(),
         constraints: Vec::new(),
         loops: Vec::new(),
+        implied: Vec::new(),
         drivers: Table::default(),
         points: Vec::new(),
         outputs: Vec::new(),
@@ -237,8 +238,12 @@ impl Lowering<'_> {
                         }
                     }
                 }
-                StatementKind::Loop { left, right } => self.close_loop(attributes, *left, *right, result),
-                StatementKind::Equation { left, right } => {
+                StatementKind::Loop { left, right, is_implied } => {
+                    let constraints = if *is_implied { &mut result.implied } else { &mut result.constraints };
+                    self.close_loop(attributes, *left, *right, constraints);
+                }
+                StatementKind::Equation { left, right, is_implied } => {
+                    let constraints = if *is_implied { &mut result.implied } else { &mut result.constraints };
                     let both = (self.value(*left), self.value(*right));
                     if let (Value::Vector(..), Value::Vector(..)) = both {
                         let region = self.expressions.region(*left).to(self.expressions.region(*right));
@@ -247,7 +252,7 @@ impl Lowering<'_> {
                         self.diagnostics.error(region, message);
                     } else if let (Some(a), Some(b)) = (self.scalar(*left), self.scalar(*right)) {
                         let row = self.graph.subtract(a, b);
-                        self.close(attributes, *left, *right, vec![row], result);
+                        self.close(attributes, *left, *right, vec![row], constraints);
                     }
                 }
                 StatementKind::Let { name, value } => {
@@ -309,18 +314,18 @@ impl Lowering<'_> {
         attributes: Vec<Attribute>,
         left: ExpressionId,
         right: ExpressionId,
-        result: &mut Mechanism,
+        constraints: &mut Vec<Constraint>,
     ) {
         let (a, b) = (self.value(left), self.value(right));
         let region = self.expressions.region(left).to(self.expressions.region(right));
         match (a, b) {
             (Value::Vector(ax, ay), Value::Vector(bx, by)) => {
                 let rows = vec![self.graph.subtract(ax, bx), self.graph.subtract(ay, by)];
-                self.close(attributes, left, right, rows, result);
+                self.close(attributes, left, right, rows, constraints);
             }
             // `loop … = 0`: the zero vector.
             (Value::Vector(x, y), Value::Scalar(zero)) if self.graph.is_zero(zero) => {
-                self.close(attributes, left, right, vec![x, y], result);
+                self.close(attributes, left, right, vec![x, y], constraints);
             }
             (Value::Scalar(_), Value::Scalar(_)) => {
                 self.diagnostics
@@ -338,7 +343,7 @@ impl Lowering<'_> {
         left: ExpressionId,
         right: ExpressionId,
         rows: Vec<NodeId>,
-        result: &mut Mechanism,
+        constraints: &mut Vec<Constraint>,
     ) {
         let region = self.expressions.region(left).to(self.expressions.region(right));
         if self.report_fault(region) {
@@ -348,7 +353,7 @@ impl Lowering<'_> {
             self.diagnostics.error(region, "both sides are equal: this equation is always true; remove it");
             return;
         }
-        result.constraints.push(Constraint { span: region.first, attributes, rows });
+        constraints.push(Constraint { span: region.first, attributes, rows });
     }
 
     fn drivers(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: Roles) {

@@ -32,6 +32,8 @@ pub struct Mechanism {
     pub constraints: Vec<Constraint>,
     /// The vectors of both sides of each `loop`.
     pub loops: Vec<[Chain; 2]>,
+    /// Loops and equations that follow from the constraints.
+    pub implied: Vec<Constraint>,
     pub drivers: Table<DriverId, Driver>,
     pub points: Vec<Point>,
     pub outputs: Vec<Output>,
@@ -173,6 +175,7 @@ impl Mechanism {
     /// The formulas of equations with these rows, points and outputs.
     pub fn kinematic_formulas(&self, rows: &[NodeId]) -> Vec<NodeId> {
         let mut formulas = rows.to_vec();
+        formulas.extend(self.implied.iter().flat_map(|implied| &implied.rows));
         formulas.extend(self.points.iter().flat_map(|point| [point.x, point.y]));
         formulas.extend(self.outputs.iter().map(|output| output.value));
         formulas

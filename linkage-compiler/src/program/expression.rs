@@ -81,11 +81,10 @@ pub enum Statement {
     /// Returns an error if a number of a position is not finite; numbers that a well-conditioned triangle guarantees
     /// finite are not checked.
     CheckPosition,
-    /// Returns another value if a determinant is zero relative to its scale, or a result is not finite.
-    CheckKinematics { determinants: Vec<[Expression; 2]>, otherwise: Expression },
-    /// Binds true if these determinants are not zero relative to their scales, the results are finite, and all checks of
-    /// the kernel passed.
-    LetAccepted(Pattern, Vec<[Expression; 2]>),
+    /// Returns another value if a condition is false, or a result is not finite.
+    CheckKinematics { conditions: Vec<Expression>, otherwise: Expression },
+    /// Binds true if these conditions are true, the results are finite, and all checks of the kernel passed.
+    LetAccepted(Pattern, Vec<Expression>),
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -337,12 +336,12 @@ impl Statement {
             Self::Check { values, detail, .. } => {
                 values.iter().chain(detail).for_each(|value| value.each_name(visit));
             }
-            Self::CheckKinematics { determinants, otherwise } => {
-                determinants.iter().flatten().for_each(|value| value.each_name(visit));
+            Self::CheckKinematics { conditions, otherwise } => {
+                conditions.iter().for_each(|value| value.each_name(visit));
                 otherwise.each_name(visit);
             }
-            Self::LetAccepted(_, determinants) => {
-                determinants.iter().flatten().for_each(|value| value.each_name(visit));
+            Self::LetAccepted(_, conditions) => {
+                conditions.iter().for_each(|value| value.each_name(visit));
             }
             Self::CheckPosition => {}
         }

@@ -24,12 +24,12 @@ impl Plan<'_, '_> {
         let from = if self.position.is_closed { &names.inputs } else { &names.guess };
         let arguments = [from, &names.branch, &names.input_rates, &names.input_accelerations];
         let otherwise = Expression::call("kinematics_by_parts", arguments.map(Expression::name));
-        let (kernel, determinants) = self.kinematics_kernel(Failure::Return(otherwise.clone()));
+        let (kernel, conditions) = self.kinematics_kernel(Failure::Return(otherwise.clone()));
         let value = self.kinematics_of_results(&kernel);
         let mut body = Body::of(kernel, value);
         body.before = self.before_kinematics();
         body.calls.push("kinematics_by_parts".to_owned());
-        body.after.push(Statement::CheckKinematics { determinants, otherwise });
+        body.after.push(Statement::CheckKinematics { conditions, otherwise });
         let doc = lines([
             "The position, the rates q' and the accelerations q'' of all coordinates in one computation, from the inputs, their",
             "rates v' and their accelerations v''.",
@@ -53,9 +53,9 @@ impl Plan<'_, '_> {
         Expression::structure(of, members.map(|(field, value)| (field.to_owned(), value)))
     }
 
-    /// The kernel, whose results are the pose, the rates and the accelerations; and the determinants to check, each
-    /// with its scale.
-    pub(super) fn kinematics_kernel(&mut self, failure: Failure) -> (Kernel, Vec<[Expression; 2]>) {
+    /// The kernel, whose results are the pose, the rates and the accelerations; and the conditions to check: that
+    /// determinants are not zero relative to their scales, and that implied loops close.
+    pub(super) fn kinematics_kernel(&mut self, failure: Failure) -> (Kernel, Vec<Expression>) {
         let (determinants, steps) = self.kinematics_steps();
         let (_, mut outputs) = self.position_steps();
         let of_pose = outputs.len();
@@ -64,7 +64,9 @@ impl Plan<'_, '_> {
             outputs.extend(unnamed(self.variables(&symbols)));
         }
         let of_motion = outputs.len();
-        outputs.extend(unnamed(determinants.iter().flatten().copied()));
+        let implied = self.implied_pairs();
+        let implied = self.assembly.solved(&mut self.derivation.graph, &implied.concat());
+        outputs.extend(unnamed(determinants.iter().flatten().chain(&implied).copied()));
         let nodes: Vec<NodeId> = outputs.iter().map(|output| output.node).collect();
         let steps = needed_names(&self.derivation.graph, steps, &nodes);
         let names = self.signatures.arguments.clone();
@@ -84,8 +86,12 @@ impl Plan<'_, '_> {
             conclusive: of_pose + columns.len()..of_motion,
             ..self.kernel(sources, steps, outputs)
         };
-        let pairs = results(of_motion..of_motion + 2 * determinants.len());
-        (kernel, pairs.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect())
+        let all = results(of_motion..of_motion + 2 * determinants.len() + implied.len());
+        let (determinants, implied) = all.split_at(2 * determinants.len());
+        let conditions = [("is_nonzero", determinants), ("closes", implied)].into_iter().flat_map(|(check, pairs)| {
+            pairs.chunks_exact(2).map(move |pair| Expression::runtime(check, pair.to_vec()))
+        });
+        (kernel, conditions.collect())
     }
 
     /// The steps of the position, velocity and acceleration; and the determinants to check, each with its scale: those

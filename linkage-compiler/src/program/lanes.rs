@@ -14,11 +14,11 @@ impl Plan<'_, '_> {
         if !self.position.is_closed {
             return;
         }
-        let (kernel, determinants) = self.kinematics_kernel(Failure::Flag);
+        let (kernel, conditions) = self.kinematics_kernel(Failure::Flag);
         let value = self.kinematics_of_results(&kernel);
         let mut body = flagged(kernel, vec![value]);
         body.before = self.turns_of_branch();
-        body.after.extend(accepted(determinants));
+        body.after.extend(accepted(conditions));
         let doc =
             lines(["`kinematics` without branches; false if `kinematics` takes another way or returns an error."]);
         self.add(self.signatures.kinematics_in_lane(), doc, body);
@@ -61,8 +61,8 @@ fn flagged(kernel: Kernel, mut values: Vec<Expression>) -> Body {
 }
 
 /// The statement that binds the flag.
-fn accepted(determinants: Vec<[Expression; 2]>) -> [Statement; 1] {
-    [Statement::LetAccepted(Pattern::Local(0), determinants)]
+fn accepted(conditions: Vec<Expression>) -> [Statement; 1] {
+    [Statement::LetAccepted(Pattern::Local(0), conditions)]
 }
 
 impl Signatures<'_> {

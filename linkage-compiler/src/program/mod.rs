@@ -8,6 +8,7 @@ mod doc;
 mod equations;
 mod expression;
 mod function;
+mod implied;
 mod kinematics;
 mod lanes;
 mod limits;

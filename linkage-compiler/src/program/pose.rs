@@ -139,6 +139,7 @@ fn formulas_of_scenes(derivation: &Derivation) -> impl Iterator<Item = NodeId> {
 fn formulas(derivation: &Derivation) -> Vec<NodeId> {
     let mut formulas = derivation.residual.to_vec();
     formulas.extend(&derivation.residual_scales);
+    formulas.extend(derivation.implied.iter().flat_map(|implied| [implied.residual, implied.scale]));
     formulas.extend(derivation.jacobian.iter().flat_map(Row::values));
     formulas.extend(&derivation.gamma);
     formulas.extend(derivation.eta.iter().flatten());

@@ -22,6 +22,7 @@ impl Plan<'_, '_> {
     pub(super) fn position(&mut self) {
         self.pose_at();
         self.solve();
+        self.check_implied();
         self.assemble();
         if self.position.is_closed {
             self.branches();
@@ -124,6 +125,7 @@ impl Plan<'_, '_> {
         };
         let mut body = Body::of(kernel, self.pose_of_results());
         body.after.push(Statement::CheckPosition);
+        self.with_implied(&mut body);
         if !self.position.is_closed {
             if !self.position.turns.is_empty() {
                 body.before = self.nearest_turns(&guess, &turn);

@@ -72,6 +72,9 @@ impl<'a> Signatures<'a> {
         all.push(self.motion());
         all.extend(self.assemblies(position));
         all.extend([self.branch_of(), self.branch_near(), self.solve(), self.solve_any_branch(), self.pose_at()]);
+        if !self.mechanism.implied.is_empty() {
+            all.push(self.check_implied());
+        }
         all.extend([self.velocity(), self.acceleration()]);
         if wants(Request::Jerk) {
             all.push(self.jerk());
@@ -396,7 +399,7 @@ impl<'a> Signatures<'a> {
 
     // Arguments and types.
 
-    fn pose(&self) -> Argument {
+    pub(super) fn pose(&self) -> Argument {
         Argument { name: self.arguments.pose.clone(), passed: Passed::ByReference(self.pose_type()) }
     }
 

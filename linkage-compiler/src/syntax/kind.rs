@@ -17,13 +17,16 @@ pub enum StatementKind {
         name: Ident,
         by: Vec<Ident>,
     },
+    /// `is_implied` if it follows from the other equations.
     Loop {
         left: ExpressionId,
         right: ExpressionId,
+        is_implied: bool,
     },
     Equation {
         left: ExpressionId,
         right: ExpressionId,
+        is_implied: bool,
     },
     Let {
         name: Ident,
@@ -78,7 +81,7 @@ impl StatementKind {
     }
 }
 
-pub(super) const KEYWORDS: [&str; 14] = [
+pub(super) const KEYWORDS: [&str; 15] = [
     "param",
     "input",
     "unknown",
@@ -86,6 +89,7 @@ pub(super) const KEYWORDS: [&str; 14] = [
     "drive",
     "loop",
     "equation",
+    "implied",
     "let",
     "point",
     "output",

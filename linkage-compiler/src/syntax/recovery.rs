@@ -10,6 +10,13 @@ use crate::diagnostics::{Region, nearest};
 /// Guesses the kind of a statement from its tokens, including the keyword.
 pub(super) fn kind(tokens: &[TokenTree], expressions: &mut Expressions) -> StatementKind {
     let [TokenTree::Ident(keyword), rest @ ..] = tokens else { return unread(tokens) };
+    if keyword == "implied" {
+        return match kind(rest, expressions) {
+            StatementKind::Loop { left, right, .. } => StatementKind::Loop { left, right, is_implied: true },
+            StatementKind::Equation { left, right, .. } => StatementKind::Equation { left, right, is_implied: true },
+            other => other,
+        };
+    }
     let names = || rest.iter().filter_map(name);
     let first = rest.first().and_then(name);
     let value = |expressions: &mut Expressions| unread_value(rest, keyword.span(), expressions);
@@ -23,8 +30,10 @@ pub(super) fn kind(tokens: &[TokenTree], expressions: &mut Expressions) -> State
         ("drive", Some(name)) => {
             StatementKind::Drive { name, by: names().skip(1).filter(|word| word != "by").collect() }
         }
-        ("loop", _) => StatementKind::Loop { left: value(expressions), right: value(expressions) },
-        ("equation", _) => StatementKind::Equation { left: value(expressions), right: value(expressions) },
+        ("loop", _) => StatementKind::Loop { left: value(expressions), right: value(expressions), is_implied: false },
+        ("equation", _) => {
+            StatementKind::Equation { left: value(expressions), right: value(expressions), is_implied: false }
+        }
         ("let", Some(name)) => StatementKind::Let { name, value: value(expressions) },
         ("point", Some(name)) => StatementKind::Point { name, value: value(expressions) },
         ("output", Some(name)) => StatementKind::Output { name, value: value(expressions) },

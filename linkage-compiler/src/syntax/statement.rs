@@ -69,8 +69,14 @@ pub(super) fn statements(
 
 /// Takes the tokens up to the end of a statement, without its `;`.
 fn statement_tokens(stream: ParseStream) -> Vec<TokenTree> {
-    let mut tokens = Vec::new();
-    while !stream.is_empty() && (tokens.is_empty() || !at_keyword(stream)) {
+    let mut tokens: Vec<TokenTree> = Vec::new();
+    // `implied` goes with the keyword after it.
+    let is_begun = |tokens: &[TokenTree]| match tokens {
+        [] => false,
+        [TokenTree::Ident(word)] => word != "implied",
+        _ => true,
+    };
+    while !stream.is_empty() && !(is_begun(&tokens) && at_keyword(stream)) {
         match stream.parse::<TokenTree>() {
             Ok(TokenTree::Punct(punct)) if punct.as_char() == ';' => break,
             Ok(token) => tokens.push(token),
@@ -124,13 +130,15 @@ fn kind(
             }
             StatementKind::Drive { name, by: names(stream)? }
         }
-        "loop" => {
-            let (left, right) = sides(stream, expressions)?;
-            StatementKind::Loop { left, right }
-        }
-        "equation" => {
-            let (left, right) = sides(stream, expressions)?;
-            StatementKind::Equation { left, right }
+        "loop" | "equation" => closed(&word, false, stream, expressions)?,
+        "implied" => {
+            const FORM: &str = "`implied loop … = …;` or `implied equation … = …;`";
+            let found = if stream.is_empty() { keyword.span() } else { stream.span() };
+            let what = stream.call(Ident::parse_any).map(|what| what.to_string()).unwrap_or_default();
+            if !["loop", "equation"].contains(&what.as_str()) {
+                return Err(syn::Error::new(found, format!("expected `loop` or `equation`: {FORM}")));
+            }
+            closed(&what, true, stream, expressions)?
         }
         "let" | "point" | "output" => {
             let name = name(stream)?;
@@ -199,6 +207,20 @@ fn list(stream: ParseStream, missing: impl Fn(Span) -> syn::Error) -> syn::Resul
         content.parse::<Token![,]>().map_err(|_| syn::Error::new(found, "expected `,` or `)`"))?;
     }
     if names.is_empty() { Err(missing(found)) } else { Ok(names) }
+}
+
+/// Parses the two sides of a `loop` or an `equation`.
+fn closed(
+    what: &str,
+    is_implied: bool,
+    stream: ParseStream,
+    expressions: &mut Expressions,
+) -> syn::Result<StatementKind> {
+    let (left, right) = sides(stream, expressions)?;
+    Ok(match what {
+        "loop" => StatementKind::Loop { left, right, is_implied },
+        _ => StatementKind::Equation { left, right, is_implied },
+    })
 }
 
 fn sides(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(ExpressionId, ExpressionId)> {

@@ -108,6 +108,7 @@ pub(crate) mod words {
     pub(crate) const UNKNOWN: &str = "Unknown";
 
     pub(crate) const LEAD_CONSTRAINTS: &str = "The mechanism is assembled where";
+    pub(crate) const LEAD_IMPLIED: &str = "These equations follow, and are checked at each position:";
     pub(crate) const LEAD_JACOBIAN: &str =
         "The derivatives of the constraint equations with respect to the unknowns and the inputs:";
     pub(crate) const LEAD_DETERMINANT: &str = "All blocks together:";
@@ -165,6 +166,10 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     pen.lead(words::LEAD_CONSTRAINTS)?;
     pen.general_equation(&CONSTRAINTS)?;
     equations(pen, &mut number, derivation.residual)?;
+    if !derivation.implied.is_empty() {
+        pen.lead(words::LEAD_IMPLIED)?;
+        equations(pen, &mut number, derivation.implied)?;
+    }
 
     pen.heading(words::JACOBIAN)?;
     pen.lead(words::LEAD_JACOBIAN)?;

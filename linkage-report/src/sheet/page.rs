@@ -116,6 +116,10 @@ impl Page {
             page.lead(words::LEAD_CONSTRAINTS);
             page.general_equation(&outline::CONSTRAINTS);
             page.equations(derivation.residual);
+            if !derivation.implied.is_empty() {
+                page.lead(words::LEAD_IMPLIED);
+                page.equations(derivation.implied);
+            }
         });
     }
 

@@ -294,6 +294,7 @@ where
                         let quantity = "the length of the path";
                         return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
                     }
+                    self.curve.mechanism.check_implied(&end.place.q)?;
                     return Ok(self.arrive(end, tried, chord, number > 0));
                 }
                 Err(why) => rejection = why,

@@ -177,6 +177,8 @@ pub struct Derivation {
     pub unknowns: &'static [Symbol],
     /// Ψ, the residuals of the constraint equations.
     pub residual: &'static [Equation],
+    /// The residuals of loops and equations that are declared as implied by the others.
+    pub implied: &'static [Equation],
     /// J = ∂Ψ/∂u.
     pub jacobian_unknowns: FormulaMatrix,
     /// A = ∂Ψ/∂v.

@@ -65,6 +65,16 @@ pub enum PositionError {
         /// The unknowns of the first group whose determinant has another sign.
         group: &'static str,
     },
+    /// A loop or an equation that is declared as implied by the others does not close at the position found: the
+    /// dimensions or the branch are not those for which it follows from the others.
+    NotImplied {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The loop or equation: its number among those declared as implied, and its doc comment.
+        equation: &'static str,
+        /// Its residual, divided by the sum of the magnitudes of its terms.
+        residual: f64,
+    },
     /// A number given or computed is infinite or NaN.
     NotFinite {
         /// The mechanism, the driver of one or the scene.
@@ -110,6 +120,11 @@ impl fmt::Display for PositionError {
                      {group} changed its sign"
                 )
             }
+            Self::NotImplied { mechanism, equation, residual } => write!(
+                f,
+                "{equation} of {mechanism} does not close at this position: relative residual {residual:.1e}; check the \
+                 lengths and the branch"
+            ),
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
             Self::Input(error) => error.fmt(f),
         }

@@ -1,7 +1,7 @@
 use linkage::linkage;
 
 linkage! {
-    /// A six-bar linkage with the coordinates of its joints as unknowns beside the angles of its links: each joint ends
+    /// A six-bar linkage with the coordinates of its joints as unknowns, with the angles of its links: each joint ends
     /// one loop and begins the next. The dimensions are this gallery's.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism JointCoordinates {
