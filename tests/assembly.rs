@@ -420,3 +420,19 @@ fn a_negative_length_points_the_other_way() {
         }
     }
 }
+
+/// A mechanism without closed form has an `assemble` that says why: a warning at the call, and an error.
+#[test]
+fn assemble_without_closed_form() {
+    use kepler::{Kepler, KeplerBranch};
+
+    let m = Kepler::default();
+    #[expect(deprecated, reason = "the warning is what is tested")]
+    let found = m.assemble(1.0, KeplerBranch { theta3_theta4: Elbow::Left });
+    let error = found.unwrap_err();
+    assert_eq!(error, PositionError::NoClosedForm { mechanism: "Kepler", group: "psi" });
+    assert_eq!(
+        error.to_string(),
+        "group psi of Kepler has no closed form: use `assemble_near` with a guess, or `solve`"
+    );
+}

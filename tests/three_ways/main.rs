@@ -74,6 +74,7 @@ mod five_bar;
 mod four_bar;
 mod inverted_slider_crank;
 mod peaucellier;
+mod reactions;
 mod slider_crank;
 mod stephenson;
 mod trammel;

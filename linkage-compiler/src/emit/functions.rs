@@ -33,6 +33,10 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
         Access::PublicInlined => quote!(#[inline] pub),
         Access::Hidden if !is_fallible => quote!(#[doc(hidden)] #[must_use] pub),
         Access::Hidden => quote!(#[doc(hidden)] pub),
+        Access::Deprecated => {
+            let note = super::names::string(&function.doc.join(" "));
+            quote!(#[deprecated(note = #note)] pub)
+        }
         Access::PublicLayer => quote!(#[inline(always)] #[must_use] pub),
         Access::Inlined => quote!(#[inline]),
         Access::Layer | Access::Lane => quote!(#[inline(always)]),

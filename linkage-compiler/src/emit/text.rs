@@ -24,6 +24,7 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
             Access::Public | Access::PublicInlined | Access::Hidden | Access::PublicLayer => "",
             Access::Inlined | Access::Layer | Access::Lane => "inlined ",
             Access::Cold => "cold ",
+            Access::Deprecated => "deprecated ",
         };
         let or_error = if function.is_fallible { " or an error" } else { "" };
         let _ = writeln!(text, "\n{access}{}({}){or_error}", function.name, arguments.join(", "));

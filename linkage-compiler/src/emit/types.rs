@@ -130,7 +130,7 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
         tokens.extend(quote!(use #root::__rt::serde as #alias;));
     }
     if mechanism.is_driven_by_choice() {
-        tokens.extend(parameters(mechanism, name, &mechanism.attributes, root));
+        tokens.extend(parameters(mechanism, name, &mechanism.attributes, None, root));
         for driver in &mechanism.drivers {
             let other = &driver.name;
             let fields = Fields::of(mechanism.parameters.iter().map(|parameter| &parameter.name));
@@ -302,7 +302,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     } else {
         mechanism.attributes.clone()
     };
-    let mut tokens = parameters(mechanism, name, &attributes, root);
+    let mut tokens = parameters(mechanism, name, &attributes, obstacles(&program.position, name), root);
     let inputs = ident(&types.inputs);
     let members: Vec<&Coordinate> = driver.inputs.iter().map(|&index| &mechanism.coordinates[index]).collect();
     let title = format!(
@@ -362,6 +362,14 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     tokens
 }
 
+/// A doc comment that says which groups have no closed form.
+fn obstacles(position: &Position, name: &Ident) -> Option<TokenStream> {
+    let obstacles = position.obstacles();
+    let text = format!("\n\n {} [`{name}::assemble_near`] finds its position from a guess.", obstacles.join(" "));
+    let text = comment(&text);
+    (!obstacles.is_empty()).then(|| quote!(#[doc = #text]))
+}
+
 fn pose_fields(derived: &Derived, derivation: &Derivation, root: &TokenStream) -> TokenStream {
     let plan = &derived.pose;
     let mut texts = Texts::default();
@@ -393,7 +401,13 @@ fn pose_fields(derived: &Derived, derivation: &Derivation, root: &TokenStream) -
     members
 }
 
-fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], root: &TokenStream) -> TokenStream {
+fn parameters(
+    mechanism: &Mechanism,
+    name: &Ident,
+    attributes: &[Attribute],
+    note: Option<TokenStream>,
+    root: &TokenStream,
+) -> TokenStream {
     let visibility = &mechanism.visibility;
     let fields = Fields::of(mechanism.parameters.iter().map(|parameter| &parameter.name));
     let (names, texts, count) = (&fields.names, &fields.texts, fields.count());
@@ -433,6 +447,7 @@ fn parameters(mechanism: &Mechanism, name: &Ident, attributes: &[Attribute], roo
     quote! {
         #title
         #(#attributes)*
+        #note
         #serde
         #visibility struct #name<T = f64> { #(#members,)* #phantom }
         impl<T> ::core::convert::From<[T; #count]> for #name<T> {

@@ -15,6 +15,8 @@ use crate::structure::Class;
 pub struct Position {
     /// True if every group has a closed form.
     pub is_closed: bool,
+    /// The groups that have none, with the reason.
+    pub open: Vec<(String, String)>,
     /// The groups that have two solutions.
     pub sides: Vec<Side>,
     /// The solved angles that a pose stores as numbers; empty unless every group has a closed form.
@@ -121,7 +123,9 @@ impl Position {
             AngleTurn { symbol: *symbol, field, coordinate, number: number.clone() }
         });
         let turns = turns.collect();
-        Self { is_closed: assembly.guesses.is_empty(), sides, turns, blocks: derivation.blocks.len() }
+        let blocks = derivation.blocks.iter();
+        let open = blocks.filter_map(|block| Some((block.names(derivation), block.group.obstacle()?))).collect();
+        Self { is_closed: assembly.guesses.is_empty(), open, sides, turns, blocks: derivation.blocks.len() }
     }
 
     /// A guess for a mechanism with mistakes. If the order of solution is known, the groups are those of the equations
@@ -138,11 +142,11 @@ impl Position {
                 Side::of_unknowns([name(group[0]), name(group[1])].join("_"), choice)
             });
             let sides: Vec<_> = sides.collect();
-            return Self { is_closed: true, blocks: sides.len(), sides, turns: Vec::new() };
+            return Self { is_closed: true, open: Vec::new(), blocks: sides.len(), sides, turns: Vec::new() };
         }
         let mut graph = mechanism.graph.clone();
         let rows = &driver.system.rows;
-        let (mut sides, mut solved, mut is_closed) = (Vec::new(), BTreeSet::new(), true);
+        let (mut sides, mut solved, mut open) = (Vec::new(), BTreeSet::new(), Vec::new());
         for block in &driver.system.blocks {
             let equations = rows.at(&block.equations);
             let symbols = block.unknowns.iter().map(|&place| mechanism.coordinates[driver.unknowns[place]].symbol);
@@ -153,18 +157,20 @@ impl Position {
                 let angles = graph.in_directions(&equations);
                 solved.extend(symbols.into_iter().filter(|symbol| angles.contains(symbol)));
             }
-            is_closed &= group.is_closed();
+            let names: Vec<&str> = block.unknowns.iter().map(|&place| name(place)).collect();
+            open.extend(group.obstacle().map(|obstacle| (names.join(", "), obstacle)));
             let mut dyad = block.unknowns.clone();
             dyad.extend(block.slide.map(|slide| slide.length));
             dyad.sort_unstable();
             let names: Vec<&str> = dyad.into_iter().map(name).collect();
             sides.extend(choice.map(|choice| Side::of_unknowns(names.join("_"), choice)));
         }
+        let is_closed = open.is_empty();
         let turns = match is_closed {
             true => Self::guessed_turns(mechanism, driver, &mut graph, &sides, &solved),
             false => Vec::new(),
         };
-        Self { is_closed, sides, turns, blocks: driver.system.blocks.len() }
+        Self { is_closed, open, sides, turns, blocks: driver.system.blocks.len() }
     }
 
     /// The turns of the solved angles that appear as numbers in formulas of the mechanism or of its scenes.
@@ -201,6 +207,14 @@ impl Position {
             AngleTurn { symbol: coordinate.symbol, field, number: name.clone(), coordinate: name }
         });
         turns.collect()
+    }
+
+    /// A sentence for each group without a closed form.
+    pub fn obstacles(&self) -> Vec<String> {
+        let sentence = |(names, obstacle): &(String, String)| {
+            format!("The group of `{}` has no closed form: {obstacle}.", names.replace(", ", "`, `"))
+        };
+        self.open.iter().map(sentence).collect()
     }
 
     pub fn has_few_branches(&self) -> bool {

@@ -35,6 +35,8 @@ pub enum Access {
     PublicInlined,
     /// Public, but called mostly by the runtime through traits: `#[doc(hidden)]`.
     Hidden,
+    /// Public, `#[deprecated]` with the doc comment as the note.
+    Deprecated,
     /// Private, `#[inline]`.
     Inlined,
     /// Private to scenes, `#[inline(always)]`: the optimiser removes results that the caller does not use.
@@ -54,7 +56,7 @@ impl Access {
     }
 
     pub fn is_public(self) -> bool {
-        matches!(self, Self::Public | Self::PublicInlined | Self::Hidden | Self::PublicLayer)
+        matches!(self, Self::Public | Self::PublicInlined | Self::Hidden | Self::Deprecated | Self::PublicLayer)
     }
 }
 

@@ -132,6 +132,7 @@ impl Plan<'_, '_> {
             }
             let doc = self.near_doc();
             self.add(self.signatures.assemble_near(), doc, body);
+            self.no_assemble();
         } else if self.position.turns.is_empty() {
             self.add(self.signatures.assemble(), lines(ASSEMBLE), body);
         } else {
@@ -139,6 +140,15 @@ impl Plan<'_, '_> {
             self.add(self.signatures.assemble_in_turns(), doc, body);
             self.assemble_by_turns();
         }
+    }
+
+    /// `assemble` of a mechanism without closed form.
+    fn no_assemble(&mut self) {
+        let signature = self.signatures.no_assemble(&self.position);
+        let group = self.position.open.first().map_or("", |(names, _)| names.as_str());
+        let error = Expression::runtime("no_closed_form", [Expression::mechanism(), Expression::text(group)]);
+        let doc = signature.doc.clone();
+        self.add(signature, doc, Body::result(error));
     }
 
     /// `assemble` and `assemble_near` of a mechanism with turns of angles.

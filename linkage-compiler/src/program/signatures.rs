@@ -162,7 +162,7 @@ impl<'a> Signatures<'a> {
     /// The functions that assemble a position, and `branches`.
     pub fn assemblies(&self, position: &Position) -> Vec<Function<Body>> {
         if !position.is_closed {
-            return vec![self.assemble_near()];
+            return vec![self.assemble_near(), self.no_assemble(position)];
         }
         let mut all = Vec::new();
         if !position.turns.is_empty() {
@@ -180,6 +180,14 @@ impl<'a> Signatures<'a> {
 
     pub fn assemble(&self) -> Function<Body> {
         public_inlined(fallible("assemble", [self.inputs_by(Order::Value), self.branch()], self.pose_type()))
+    }
+
+    /// `assemble` of a mechanism without closed form: it returns an error, and a call of it is a warning that says why.
+    pub fn no_assemble(&self, position: &Position) -> Function<Body> {
+        let mut doc = position.obstacles();
+        doc.push("Use `assemble_near` with a guess, or `solve`.".to_owned());
+        let itself = fallible("assemble", [self.inputs_by(Order::Value), self.branch()], self.pose_type());
+        Function { access: Access::Deprecated, doc, ..itself }
     }
 
     pub fn assemble_near(&self) -> Function<Body> {

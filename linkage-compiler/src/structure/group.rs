@@ -64,6 +64,17 @@ impl Group {
         }
     }
 
+    /// The reason why its position has no closed form; `None` if it has one.
+    #[must_use]
+    pub fn obstacle(self) -> Option<String> {
+        match self {
+            Self::Scalar => Some("its equation is neither linear nor a cos + b sin = c nor a distance".to_owned()),
+            Self::Pair => Some("its two equations are not those of a dyad".to_owned()),
+            Self::Irreducible(count) => Some(format!("its {count} unknowns depend on one another")),
+            _ => None,
+        }
+    }
+
     /// True if its position has a closed form.
     #[must_use]
     pub fn is_closed(self) -> bool {

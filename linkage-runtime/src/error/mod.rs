@@ -25,6 +25,14 @@ pub fn finite<T: Real, const N: usize>(
     all_finite(mechanism, quantity, values.iter())
 }
 
+/// The error of a mechanism whose position has no closed form.
+///
+/// # Errors
+/// [`PositionError::NoClosedForm`].
+pub const fn no_closed_form<P>(mechanism: &'static str, group: &'static str) -> Result<P, PositionError> {
+    Err(PositionError::NoClosedForm { mechanism, group })
+}
+
 /// Returns an error if an entry of the matrix is infinite or NaN.
 ///
 /// # Errors

@@ -75,6 +75,13 @@ pub enum PositionError {
         /// Its residual, divided by the sum of the magnitudes of its terms.
         residual: f64,
     },
+    /// A group has no closed form, and no guess is given.
+    NoClosedForm {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the first group without a closed form.
+        group: &'static str,
+    },
     /// A number given or computed is infinite or NaN.
     NotFinite {
         /// The mechanism, the driver of one or the scene.
@@ -125,6 +132,12 @@ impl fmt::Display for PositionError {
                 "{equation} of {mechanism} does not close at this position: relative residual {residual:.1e}; check the \
                  lengths and the branch"
             ),
+            Self::NoClosedForm { mechanism, group } => {
+                write!(
+                    f,
+                    "group {group} of {mechanism} has no closed form: use `assemble_near` with a guess, or `solve`"
+                )
+            }
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
             Self::Input(error) => error.fmt(f),
         }
