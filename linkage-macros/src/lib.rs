@@ -73,6 +73,7 @@ use proc_macro::TokenStream;
 /// | `unknown u;` | dependent coordinates, as many as scalar equations (two for each `loop`, one for each `equation`) |
 /// | `loop VECTOR = VECTOR;` | a vector loop equation, that is two scalar equations; the right side may be `0` |
 /// | `equation SCALAR = SCALAR;` | a scalar constraint: gears, rolling, cams, loops by component |
+/// | `implied loop VECTOR = VECTOR;`, `implied equation SCALAR = SCALAR;` | a loop or an equation that follows from the others, such as the second loop of a parallelogram on three cranks: it is no constraint, but is checked at each position, see below |
 /// | `let NAME = EXPRESSION;` | a named subexpression, scalar or vector |
 /// | `point NAME = VECTOR;` | a point; functions for its position, velocity and acceleration are emitted |
 /// | `output NAME = SCALAR;` | a scalar quantity; functions for its value, rate and acceleration are emitted |
@@ -349,7 +350,7 @@ use proc_macro::TokenStream;
 /// | `drives(t)`, `drive_forces(t, &q, v')` | value, rate and acceleration of each prescribed input; the forces that drive them, M v'' - Q |
 /// | `DERIVATION` | the equations of motion as data: M, the contribution of each body and effect to Q, the potential energy; `sheet` prints them |
 /// | `energy(&q, v')`, `power(t, &q, v')` | kinetic and potential energy; applied power (of forces, torques and drives) and dissipated power (of dampers and frictions) |
-/// | `reactions(t, &q, v')` | the Lagrange multipliers: for a `loop`, the force of its left side on its right side where it is cut |
+/// | `reactions(t, &q, v')` | the Lagrange multipliers: for a `loop` as written, the force of its left side on its right side where it is cut |
 /// | `equilibrium(t, &guess)` | the position of static equilibrium near the guess, by Newton's method, with prescribed inputs at their values; `balance(t, &q)`: the forces at rest and their derivatives, whose signs decide stability |
 /// | `check()` | returns an error that names the parameter if a mass, an inertia or a friction is negative, the range of a stop is empty, or a restitution is not between 0 and 1 |
 /// | `unreduced(t, &q, &q')` | with `inertia`: M and F of `M q'' + Psi_q' lambda = F` in all coordinates, without frictions and stops |
@@ -553,8 +554,8 @@ use proc_macro::TokenStream;
 /// | `full_kinematics(v, branch, v', v'')` | the same with `points` and `outputs`: `FourBarFullKinematics<T>`; emitted if points or outputs are declared |
 /// | `kinematics_near(&guess, branch, v', v'')`, `full_kinematics_near` | replace these two if some blocks have no closed form, see `assemble_near` |
 /// | `motion(&q, v', v'')` | the same at given coordinates of a position: `FourBarMotion<T>` with `position`, `rates`, `accelerations`, `points` and `outputs` |
-/// | `assemble(v, branch)` | position in closed form, group by group, on the given branch; emitted if every block has a closed form |
-/// | `assemble_near(&guess, branch)` | if some blocks have no closed form: replaces `assemble`, with Newton's method from the guess for these blocks. If turns of angles matter (see below): in addition to `assemble`, with each angle in the turn nearest to the guess |
+/// | `assemble(v, branch)` | position in closed form, group by group, on the given branch. If a block has no closed form, it is marked as deprecated, and the note and the documentation of the type say which block and why |
+/// | `assemble_near(&guess, branch)` | if some blocks have no closed form: takes the place of `assemble`, with Newton's method from the guess for these blocks. If turns of angles matter (see below): in addition to `assemble`, with each angle in the turn nearest to the guess |
 /// | `branches(v)` | every position that exists at these inputs, with its branch, `for found in four_bar.branches(v)? { .. }`; angles at their principal values; branches on which a group is undetermined are omitted |
 /// | `FourBarBranch`, `branch_of(&pose)` | the branch, that is the assembly mode: one of two solutions for each group, by the names of its unknowns, and the turns of angles, see below; `new(..)` sets all turns to 0, `all()` lists the branches with turns 0 |
 /// | `branch_near(&rough)` | the branch of a rough position, such as one read off a drawing |
@@ -580,8 +581,44 @@ use proc_macro::TokenStream;
 /// their unknowns enter the loop equation (RRR, RRP, RPR, two sliders) and named in the emitted documentation and in
 /// `DERIVATION`. Dyads, single angles and linear unknowns have closed-form positions. An RRR dyad has an `Elbow` left
 /// or right of the line between its outer joints, seen from that of the unknown named first; a link with a slider has
-/// the `Slider` far or near, however its guide lies; a single angle has a rising or falling `Slope` of its equation. Two sliders and linear
-/// unknowns have one solution. An error names a singular block, or one that cannot be assembled, by its unknowns.
+/// the `Slider` far or near, however its guide lies; a single angle has a rising or falling `Slope` of its equation. Two
+/// sliders and linear unknowns have one solution. An error names a singular block, or one that cannot be assembled, by its
+/// unknowns, a dyad also by its joints.
+///
+/// A dyad may be written in several ways. An angle may be measured against the sense of rotation, `c@(pi - theta)`. The
+/// coordinates of a joint may be unknowns, as the end of one loop and the beginning of the next: an unknown with a
+/// number as its factor is eliminated from the other equations of its block, and `residual` has the equations that
+/// result; reactions are those of the loops as written. A joint may be given by its distances, `norm((x, y) - A) = b`,
+/// or by their squares: its `Elbow` is seen from the centre in the first equation to that in the second, (x, y) in the
+/// order of declaration. A negative distance is unbuildable, a negative length in a square counts as positive.
+///
+/// ```
+/// # use linkage::{Elbow, linkage};
+/// linkage! {
+///     pub mechanism Distances {
+///         param a = 20, b = 50, c = 70, d = 80;
+///         input theta;
+///         unknown x, y;
+///
+///         equation norm((x, y) - a@theta) = b;
+///         equation norm((x, y) - (d, 0)) = c;
+///         /// The foot of a brace that is as long as the rocker.
+///         implied equation (x - d)^2 + y^2 = c^2;
+///
+///         point C = (x, y);
+///     }
+/// }
+///
+/// let m = Distances::default();
+/// let pose = m.assemble(1.2, DistancesBranch::new(Elbow::Left))?;
+/// assert!((pose.x - 39.341).abs() < 1e-3 && (pose.y - 56.981).abs() < 1e-3);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+///
+/// Loops that follow from the others are declared as `implied`. `assemble`, `kinematics`, `solve`, each step of a `Path`
+/// and `check_implied(&pose)` return `PositionError::NotImplied` if one does not close: its residual is more than
+/// 16 sqrt(epsilon), the accuracy of a position at a dead point, times the sum of the magnitudes of its terms. `branches`
+/// omits such branches.
 ///
 /// # Turns of angles
 ///

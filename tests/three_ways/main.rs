@@ -73,6 +73,7 @@ mod cylinder;
 mod five_bar;
 mod four_bar;
 mod inverted_slider_crank;
+mod limits;
 mod peaucellier;
 mod reactions;
 mod slider_crank;

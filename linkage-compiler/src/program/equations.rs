@@ -22,6 +22,12 @@ impl Plan<'_, '_> {
     fn residual(&mut self) {
         let (residual, scales) = (self.derivation.residual.clone(), self.derivation.residual_scales.clone());
         let mut doc = lines(["The residual Psi(q) of the loop equations and constraints; Psi(q) = 0 at a position."]);
+        let eliminations = &self.signatures.driver.system.eliminations;
+        if !eliminations.is_empty() {
+            let unknowns = &self.signatures.driver.unknowns;
+            let eliminated: Vec<CoordinateId> = eliminations.iter().map(|one| unknowns[one.unknown]).collect();
+            doc.push(format!("Eliminated from the other equations of their groups: {}.", self.list(&eliminated)));
+        }
         doc.extend(self.numbered("Psi", &residual));
         for constraint in &self.signatures.mechanism.constraints {
             doc.extend(constraint.description());

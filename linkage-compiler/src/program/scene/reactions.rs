@@ -16,6 +16,9 @@ impl ScenePlan<'_, '_, '_> {
             "The Lagrange multipliers lambda of `M q'' + Psi_q' lambda = F` in the motion of the scene, two for each `loop` and",
             "one for each `equation`. For a `loop`, lambda is the force of its left side on its right side where they meet.",
         ]);
+        if !reactions.eliminations.is_empty() {
+            doc.extend(lines(["", "Psi are here the loops and equations as written, before unknowns are eliminated."]));
+        }
         doc.extend(lines(ERRORS));
         let Arguments { time, q, rates, accelerations, input_rates, input_accelerations, pose, .. } =
             self.signatures.arguments.clone();
