@@ -76,7 +76,7 @@ fn statement_tokens(stream: ParseStream) -> Vec<TokenTree> {
         [TokenTree::Ident(word)] => word != "implied",
         _ => true,
     };
-    while !stream.is_empty() && !(is_begun(&tokens) && at_keyword(stream)) {
+    while !stream.is_empty() && (!is_begun(&tokens) || !at_keyword(stream)) {
         match stream.parse::<TokenTree>() {
             Ok(TokenTree::Punct(punct)) if punct.as_char() == ';' => break,
             Ok(token) => tokens.push(token),
