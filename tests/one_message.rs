@@ -32,7 +32,7 @@ const MISTAKES: &[(&str, &str, &str, &str)] = &[
     ("equation_too_many", "point B  =", "equation theta3 = theta4; point B  =", "2 unknowns, but 3 scalar equations"),
     ("loop_too_many", "point B  =", "loop l2@theta3 = l1@theta4; point B  =", "2 unknowns, but 4 scalar equations"),
     ("implied_point", "point B  =", "implied point A = l2@theta2; point B  =", "expected `loop` or `equation`"),
-    ("misspelt_implied", "point B  =", "implid equation theta3 = theta4; point B  =", "unknown statement `implid`"),
+    ("misspelt_implied", "point B  =", "implid loop l2@theta3 = l3@theta4; point B  =", "unknown statement `implid`"),
     ("implied_without_unknown", "point B  =", "implied loop l2@theta2 = l1@0; point B  =", "no unknown of `FourBar`"),
     ("implied_scalar", "point B  =", "implied loop l2@theta3 = l1; point B  =", "expected a vector"),
     ("misspelt_in_implied", "point B  =", "implied loop l2@theta3 = l1@thta4; point B  =", "unknown name `thta4`"),

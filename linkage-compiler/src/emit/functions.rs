@@ -34,7 +34,9 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
         Access::Hidden if !is_fallible => quote!(#[doc(hidden)] #[must_use] pub),
         Access::Hidden => quote!(#[doc(hidden)] pub),
         Access::Deprecated => {
-            let note = super::names::string(&function.doc.join(" "));
+            let sentences: Vec<&str> =
+                function.doc.iter().map(String::as_str).take_while(|line| !line.is_empty()).collect();
+            let note = super::names::string(&sentences.join(" "));
             quote!(#[deprecated(note = #note)] pub)
         }
         Access::PublicLayer => quote!(#[inline(always)] #[must_use] pub),

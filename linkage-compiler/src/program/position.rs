@@ -147,7 +147,8 @@ impl Plan<'_, '_> {
         let signature = self.signatures.no_assemble(&self.position);
         let group = self.position.open.first().map_or("", |(names, _)| names.as_str());
         let error = Expression::runtime("no_closed_form", [Expression::mechanism(), Expression::text(group)]);
-        let doc = signature.doc.clone();
+        let mut doc = signature.doc.clone();
+        doc.extend(lines(["", "# Errors", "`PositionError::NoClosedForm`, always."]));
         self.add(signature, doc, Body::result(error));
     }
 

@@ -14,7 +14,8 @@ linkage! {
         loop d@0 + c@theta4 + e@theta5 = (pivot_x, pivot_y) + f@theta6;
         /// The outer loop.
         implied loop a@theta2 + b@theta3 + e@theta5 = (pivot_x, pivot_y) + f@theta6;
-        implied equation norm((pivot_x, pivot_y) + f@theta6 - d@0 - c@theta4) = e;
+        let link = (pivot_x, pivot_y) + f@theta6 - d@0 - c@theta4;
+        implied equation dot(link, link) = e^2;
 
         point B = a@theta2;
         point C = B + b@theta3;
