@@ -1,7 +1,7 @@
 //! Loops that follow from the others: a position where they close, and the error where they do not.
 
 use linkage::continuation::{Direction, Path};
-use linkage::{Elbow, PathError, PositionError, linkage};
+use linkage::{Assembled, Elbow, PathError, PositionError, linkage};
 
 use linkage_gallery::implied_loops::ImpliedLoops;
 
@@ -56,8 +56,8 @@ fn three_parallel_cranks() {
     let m = ThreeCranks::default();
     for degrees in (1..180).chain(181..360) {
         let theta = f64::from(degrees).to_radians();
-        let found: Vec<_> = m.branches(theta).map(|found| found.unwrap()).collect();
-        let [(branch, pose)] = found.as_slice() else { panic!("{}", found.len()) };
+        let found: Vec<_> = m.branches(theta).unwrap().collect();
+        let [Assembled { branch, pose }] = found.as_slice() else { panic!("{}", found.len()) };
         let accuracy = 8.0 * f64::EPSILON / theta.sin().abs();
         assert!((pose.psi.re - theta.cos()).abs() <= accuracy && (pose.phi.re - 1.0).abs() <= accuracy, "{pose:?}");
         m.check_implied(pose).unwrap();
@@ -83,7 +83,7 @@ fn a_crank_of_another_length() {
     let guess = ThreeCranksCoordinates { theta: 1.0, phi: 0.0, psi: 1.0 };
     let errors = [m.solve(&guess).unwrap_err(), m.solve_any_branch(&guess).unwrap_err()];
     assert!(errors.into_iter().all(is_third), "{errors:?}");
-    assert!(m.branches(1.0).next().is_none());
+    assert!(m.branches(1.0).unwrap().next().is_none());
     let Err(PathError::Position(error)) = Path::new(&m, &guess, Direction::Increasing).map(|_| ()) else {
         panic!("a path begins where a loop is open")
     };
@@ -112,7 +112,7 @@ fn implied_loops_near_a_dead_point() {
     let mut found = 0;
     for power in 3..40 {
         for theta in [f64::from(power).exp2().recip(), std::f64::consts::PI - f64::from(power).exp2().recip()] {
-            found += m.branches(theta).filter(|found| found.is_ok()).count();
+            found += m.branches(theta).unwrap().count();
         }
     }
     assert!(found >= 74, "{found}");
@@ -123,7 +123,7 @@ fn both_sides_of_a_scissor_lift() {
     let m = Scissor::default();
     for s in 1..50 {
         let s = f64::from(s);
-        let found: Vec<_> = m.branches(s).map(|found| found.unwrap().1).collect();
+        let found: Vec<_> = m.branches(s).unwrap().map(|found| found.pose).collect();
         // Up or down; a stage that folds back has no mirror image.
         let lifts: Vec<f64> = found.iter().map(|pose| m.points(pose).unwrap().top.y).collect();
         let height = 2.0 * (2500.0 - s * s).sqrt();
@@ -136,6 +136,6 @@ fn both_sides_of_a_scissor_lift() {
 #[test]
 fn all_loops_of_a_six_bar() {
     let m = ImpliedLoops::default();
-    let count = (0..360).map(|degrees| m.branches(f64::from(degrees).to_radians()).count()).sum::<usize>();
+    let count = (0..360).map(|degrees| m.branches(f64::from(degrees).to_radians()).unwrap().count()).sum::<usize>();
     assert_eq!(count, 4 * 360);
 }

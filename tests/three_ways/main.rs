@@ -31,8 +31,8 @@ macro_rules! positions {
         let m = $Mechanism::default();
         let found: crate::Positions = m
             .branches($inputs)
-            .map(|found| {
-                let (branch, pose) = found.unwrap();
+            .unwrap()
+            .map(|linkage::Assembled { branch, pose }| {
                 assert_eq!(m.branch_of(&pose), branch);
                 assert!(crate::closes(&m, &pose), "{:?}: {:?}", branch, m.residual(&pose));
                 let points: [nalgebra::Point2<f64>; _] = m.points(&pose).unwrap().into();
