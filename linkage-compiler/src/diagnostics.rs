@@ -49,6 +49,10 @@ impl Diagnostics {
         self.errors.push(error);
     }
 
+    pub fn extend(&mut self, errors: impl IntoIterator<Item = syn::Error>) {
+        self.errors.extend(errors);
+    }
+
     pub fn append(&mut self, mut other: Self) {
         self.errors.append(&mut other.errors);
     }
@@ -61,6 +65,22 @@ impl Diagnostics {
     #[must_use]
     pub fn len(&self) -> usize {
         self.errors.len()
+    }
+
+    /// Replaces a message, at another place.
+    pub fn replace(&mut self, index: usize, at: impl Into<Region>, message: impl std::fmt::Display) {
+        if let Some(error) = self.errors.get_mut(index) {
+            *error = syn::Error::new_spanned(at.into(), message);
+        }
+    }
+
+    /// Removes the messages with these indices.
+    pub fn remove(&mut self, indices: &[usize]) {
+        let mut index = 0;
+        self.errors.retain(|_| {
+            index += 1;
+            !indices.contains(&(index - 1))
+        });
     }
 
     /// Keeps the first `length` messages.
@@ -87,12 +107,19 @@ pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>)
     nearest(name, candidates).map_or_else(String::new, |candidate| format!(", did you mean `{candidate}`?"))
 }
 
-/// Returns the candidate with the smallest edit distance to `name`, up to half of its letters and 3.
+/// Returns the candidate with the smallest edit distance to `name`, up to half of its letters and 3; equal but for case
+/// comes first. One letter resembles nothing else, and a numbered name no other number.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // Half the letters may differ, at least one and at most three.
-    let limit = (name.chars().count() / 2).clamp(1, 3);
-    let distance = |candidate: &str| match name.eq_ignore_ascii_case(candidate) {
+    let length = name.chars().count();
+    // Half the letters may differ, at most three.
+    let limit = (length / 2).min(3);
+    let stem = |text: &str| text.trim_end_matches(|letter: char| letter.is_ascii_digit()).to_owned();
+    let distance = |candidate: &str| match name.to_lowercase() == candidate.to_lowercase() {
         true => 0,
+        false if candidate.chars().count() == 1 => usize::MAX,
+        // `theta3` is meant when it is written, and so is `l3`.
+        false if stem(name) == stem(candidate) && stem(name).len() < name.len() => usize::MAX,
+        false if stem(name).chars().count() <= 1 => usize::MAX,
         false => strsim::osa_distance(name, candidate),
     };
     let distances = candidates.into_iter().map(|candidate| (distance(candidate), candidate));

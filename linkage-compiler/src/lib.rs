@@ -7,6 +7,7 @@
 
 pub mod algebra;
 pub mod budget;
+mod clash;
 pub mod derivation;
 pub mod diagnostics;
 pub mod emit;
@@ -60,43 +61,47 @@ impl Facade {
 #[must_use]
 pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> TokenStream {
     let root = &facade.path;
-    let mut diagnostics = Diagnostics::default();
-    let trees = syntax::parse(input, &mut diagnostics);
-    let mut mechanisms = Vec::new();
-    for tree in trees {
-        let (before, was_spent) = (diagnostics.len(), budget.is_spent());
-        let mut mechanism = model::resolve(tree, budget, &mut diagnostics);
+    let mut outside = Diagnostics::default();
+    let mut resolved = Vec::new();
+    for tree in syntax::parse(input, &mut outside) {
+        let was_spent = budget.is_spent();
+        let (mut mechanism, mut diagnostics) = model::resolve(tree, budget);
         if !facade.has_dynamics {
             report_scenes(&mut mechanism, &mut diagnostics);
         }
-        if !facade.has_serde && mechanism.requests.remove(&Request::Serde) {
+        if !facade.has_serde
+            && let Some(span) = mechanism.requests_at.remove(&Request::Serde)
+        {
+            mechanism.requests.remove(&Request::Serde);
             let advice = "`derive serde` needs the feature `serde` of `linkage`: enable it in Cargo.toml";
-            diagnostics.error(mechanism.name.span(), advice);
+            diagnostics.error(span, advice);
         }
+        clash::within(&mut mechanism, &mut diagnostics);
         if budget.is_spent() {
-            diagnostics.truncate(before);
+            diagnostics = Diagnostics::default();
             if !was_spent {
                 too_much(&mechanism, &mut diagnostics);
             }
         }
-        mechanisms.push(mechanism);
+        resolved.push((mechanism, diagnostics));
     }
-    let mut tokens = TokenStream::new();
-    if diagnostics.is_empty() {
-        for mechanism in &mechanisms {
-            tokens.extend(printed(mechanism, budget, root, &mut diagnostics));
-            if budget.is_spent() {
-                break;
-            }
+    let clashes = clash::find(resolved.iter().map(|(mechanism, _)| mechanism), &mut outside);
+    let (mut errors, mut items) = (outside.to_tokens(), TokenStream::new());
+    for (place, (mechanism, diagnostics)) in resolved.iter_mut().enumerate() {
+        if clashes.contains(&place) {
+            errors.extend(diagnostics.to_tokens());
+            continue;
+        }
+        let is_spent = budget.is_spent();
+        let complete = (!is_spent && diagnostics.is_empty()).then(|| printed(mechanism, budget, root, diagnostics));
+        errors.extend(diagnostics.to_tokens());
+        match complete.filter(|_| diagnostics.is_empty()) {
+            Some(complete) => items.extend(complete),
+            None if mechanism.is_well_named() => items.extend(emit::stub(mechanism, root)),
+            None => {}
         }
     }
-    if !diagnostics.is_empty() {
-        let errors = diagnostics.to_tokens();
-        let stubs = mechanisms.iter().filter(|mechanism| mechanism.is_well_named());
-        let stubs = stubs.map(|mechanism| emit::stub(mechanism, root));
-        return quote! { #errors #(#stubs)* };
-    }
-    tokens
+    quote! { #errors #items }
 }
 
 /// Reports and removes all scenes: without the feature `dynamics` the types that their stubs name do not exist.
@@ -186,8 +191,13 @@ pub fn programs(mechanism: &Mechanism) -> Vec<String> {
 /// The messages of all mistakes.
 pub fn read(input: TokenStream) -> Result<Vec<Mechanism>, Vec<String>> {
     let mut diagnostics = Diagnostics::default();
-    let trees = syntax::parse(input, &mut diagnostics);
     let budget = Budget::default();
-    let mechanisms = trees.into_iter().map(|tree| model::resolve(tree, &budget, &mut diagnostics)).collect();
+    let trees = syntax::parse(input, &mut diagnostics);
+    let mechanisms = trees.into_iter().map(|tree| {
+        let (mechanism, own) = model::resolve(tree, &budget);
+        diagnostics.append(own);
+        mechanism
+    });
+    let mechanisms = mechanisms.collect();
     if diagnostics.is_empty() { Ok(mechanisms) } else { Err(diagnostics.messages()) }
 }

@@ -32,6 +32,10 @@ pub struct Kinematics<P, R, T, const U: usize, const V: usize> {
 /// ```text
 /// |t, y: &_| scene.derivative(t, y)
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a scene with inertia",
+    note = "`linkage!` implements `Scene` for each `scene` with `inertia;`"
+)]
 pub trait Scene {
     /// The scalar type of lengths and angles.
     type Scalar: Real;

@@ -9,6 +9,7 @@
 use core::fmt::Debug;
 
 /// A number as a type, with the array type of that length.
+#[diagnostic::on_unimplemented(message = "`{Self}` is not a dimension", note = "write `D<N>` with a number `N`")]
 pub trait Dim: Copy + Debug + Eq + 'static {
     /// The number.
     const COUNT: usize;

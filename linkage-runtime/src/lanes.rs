@@ -44,6 +44,10 @@ pub type Found<M, X> = <<M as Lanes>::Found as Dim>::Array<X>;
 /// rates of the inputs; their accelerations. The found columns are the directions of unknown angles, the other unknowns,
 /// the rates and the accelerations of all; then, computed only if one of them is asked for, the angles themselves, and
 /// the points and outputs with their derivatives.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not compute many positions at once",
+    note = "add `derive lanes;` to its mechanism"
+)]
 pub trait Lanes: Sized {
     /// The type of lengths and angles.
     type Scalar: Real;

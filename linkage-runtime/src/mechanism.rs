@@ -28,6 +28,10 @@ pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
 ///
 /// `linkage!` implements it for every mechanism and every driver of one. Functions that do not return a `Result` check
 /// nothing: for numbers that are not finite their results are not finite or have no meaning.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a mechanism",
+    note = "`linkage!` implements `Mechanism` for each `mechanism`, or for each `drive` of one with several inputs; a scene has its mechanism in the field `mechanism`"
+)]
 pub trait Mechanism {
     /// The type of lengths and angles.
     type Scalar: Real;
@@ -136,6 +140,10 @@ pub trait Mechanism {
 ///
 /// `linkage!` implements it if all groups have one. In other mechanisms the groups without a closed form are solved by
 /// Newton's method.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no position in closed form",
+    note = "`linkage!` implements `Assembly` if every group has a closed form; use `solve` or `assemble_near` with a guess"
+)]
 pub trait Assembly: Mechanism {
     /// The assembly branch: the choice between the two solutions of each group that has two.
     type Branch: Copy + Debug + Eq;

@@ -6,6 +6,10 @@ use crate::native::native;
 use crate::{hypotenuse, lane, sine};
 
 /// A real scalar that is `Copy`: `f32`, `f64`, dual numbers. It is implemented for all such types.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a scalar of mechanisms",
+    note = "use `f64`, `f32` or `DoubleDouble`; an integer is written with a point, as in `2.0`"
+)]
 pub trait Real: RealField + Copy {
     /// The sine and cosine of an angle in radians: for `f64` up to 1e5 and `f32` up to 1e4 inlined and within
     /// 0.85 ulp, else the scalar's own.

@@ -1,20 +1,21 @@
 //! Functions of a program as Rust.
 
-use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{quote, quote_spanned};
 
 use super::expression::argument;
-use super::names::{comment, ident};
+use super::names::comment;
+use super::places;
 use crate::lower::Code;
 use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value, count};
 
-/// Emits a function with its doc comment; `error` is its error type. Without a body it is a stub.
-pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream {
+/// Emits a function with its doc comment, at a place; `error` is its error type. Without a body it is a stub.
+pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) -> TokenStream {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
     // Only public functions show their operation counts.
     let work = body.as_ref().filter(|_| access.is_public()).map(|code| code.operations);
     let doc = description(doc, work.unwrap_or_default());
-    let name = ident(name);
+    let name = Ident::new(name, place);
     let itself = is_method.then(|| quote!(&self));
     let arguments = arguments.iter().map(|Argument { name, passed }| {
         let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(name)));
@@ -57,7 +58,8 @@ pub(super) fn function(function: &Function<Code>, error: &Ident) -> TokenStream 
         None => quote!(::core::unreachable!()),
     };
     let result = if *is_fallible { quote!(__rt::Result<#returns, __rt::#error>) } else { quote!(#returns) };
-    quote! {
+    let attributes = places::located(attributes, place, 0);
+    quote_spanned! {place=>
         #doc
         #attributes fn #name(#(#arguments),*) -> #result { #body }
     }

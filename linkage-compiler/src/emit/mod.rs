@@ -9,13 +9,15 @@ mod items;
 mod lanes;
 mod motion;
 mod names;
+mod places;
+mod pose;
 mod scene;
 mod text;
 mod traits;
 mod types;
 
-use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{quote, quote_spanned};
 
 use crate::derivation::Derivation;
 use crate::lower::Code;
@@ -31,7 +33,7 @@ pub fn mechanism(
     drivers: impl IntoIterator<Item = TokenStream>,
     root: &TokenStream,
 ) -> TokenStream {
-    let mut tokens = types::shared(mechanism, root);
+    let mut tokens = places::located(types::shared(mechanism, root), places::of(mechanism.name.span()), 1);
     tokens.extend(drivers);
     items::bearing(tokens, &mechanism.everywhere)
 }
@@ -48,7 +50,8 @@ pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
 #[must_use]
 pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
-    let mut tokens = types::of_driver(program, derivation, root);
+    let place = places::of(driver.name.span());
+    let mut tokens = places::located(types::of_driver(program, derivation, root), place, 1);
     let (of_pose, mut implemented) = (traits::of_pose(program, derivation), traits::of_driver(program, derivation));
     if mechanism.requests.contains(&Request::Lanes) {
         let [columns, lanes] = lanes::of_driver(program, derivation);
@@ -60,7 +63,9 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     }
     let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");
-    tokens.extend(block(&driver.name, kinematics, &program.functions, root, &quote!(#of_pose #implemented)));
+    let implemented = places::located(quote!(#of_pose #implemented), place, 1);
+    let place_of = |function: &Function<Code>| places::of(mechanism.place_of(driver, &function.name));
+    tokens.extend(block(&driver.name, kinematics, &program.functions, &place_of, root, &implemented));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
         let works = works(&program.functions);
@@ -69,11 +74,13 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     let order = mechanism.coordinate_order(driver);
     let fields: Vec<Ident> = order.iter().map(|&index| types::field(&mechanism.coordinates[index].name)).collect();
     for (number, scene) in program.scenes.iter().enumerate() {
-        tokens.extend(scene::types(&scene.signatures, root));
         let name = &scene.signatures.scene.name;
+        let place = places::of(name.span());
+        tokens.extend(places::located(scene::types(&scene.signatures, root), place, 1));
         let implemented = traits::of_scene(&scene.signatures, driver.unknowns.len(), &fields).unwrap_or_default();
         let text = "The name of the scene in errors.";
-        tokens.extend(block(name, (text, "MotionError"), &scene.functions, root, &implemented));
+        let implemented = places::located(implemented, place, 1);
+        tokens.extend(block(name, (text, "MotionError"), &scene.functions, &|_| place, root, &implemented));
         tokens.extend(external::calls(mechanism, &scene.functions, name, root));
         if let Some(derivation) = derivation {
             let derived = (derivation, &derivation.scenes[number]);
@@ -90,13 +97,14 @@ fn block(
     of: &Ident,
     (text, error): (&str, &str),
     functions: &[Function<Code>],
+    place_of: &dyn Fn(&Function<Code>) -> Span,
     root: &TokenStream,
     implemented: &TokenStream,
 ) -> TokenStream {
     let (error, name) = (names::ident(error), string(&of.to_string()));
-    let functions = functions.iter().map(|function| functions::function(function, &error));
+    let functions = functions.iter().map(|function| functions::function(function, &error, place_of(function)));
     let text = names::comment(&format!(" {text}"));
-    quote! {
+    quote_spanned! {places::of(of.span())=>
         const _: () = {
             use #root::__rt::{self, prelude::*};
             impl<T: __rt::Real> #of<T> {

@@ -8,11 +8,12 @@ use syn::Attribute;
 use super::expression::{self, literal};
 use super::motion;
 use super::names::{comment, ident};
+use super::pose;
 use crate::derivation::Derivation;
-use crate::graph::{Number, Texts};
+use crate::graph::Number;
 use crate::lower::Code;
 use crate::model::{Coordinate, Kind, Mechanism, Name, Parameter, Request};
-use crate::program::{Derived, Order, Position, Program, Side, TypeNames};
+use crate::program::{Order, Position, Program, Side, TypeNames};
 
 /// `new` is emitted only up to this number of parameters; longer argument lists are hard to read at the call.
 pub(super) const MOST_ARGUMENTS: usize = 7;
@@ -344,17 +345,17 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
         });
     }
     let members = derived.map_or_else(
-        || quote!(scalar: ::core::marker::PhantomData<T>),
-        |(derived, derivation)| pose_fields(derived, derivation, root),
+        || pose::guessed(mechanism, driver, root),
+        |(derived, derivation)| pose::fields(derived, derivation, root),
     );
     let title = comment(&format!(
         " A position of [`{name}`] with each angle as its direction (cos, sin), so that functions of it compute no sines."
     ));
-    let pose = ident(&types.pose);
+    let pose_name = ident(&types.pose);
     tokens.extend(quote! {
         #[doc = #title]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
-        #visibility struct #pose<T = f64> { #members }
+        #visibility struct #pose_name<T = f64> { #members }
     });
     tokens.extend(motion::kinematics(mechanism, name, types, root));
     tokens.extend(motion::motion(mechanism, name, types, root));
@@ -368,37 +369,6 @@ fn obstacles(position: &Position, name: &Ident) -> Option<TokenStream> {
     let text = format!("\n\n {} [`{name}::assemble_near`] finds its position from a guess.", obstacles.join(" "));
     let text = comment(&text);
     (!obstacles.is_empty()).then(|| quote!(#[doc = #text]))
-}
-
-fn pose_fields(derived: &Derived, derivation: &Derivation, root: &TokenStream) -> TokenStream {
-    let plan = &derived.pose;
-    let mut texts = Texts::default();
-    let mut members = TokenStream::new();
-    let mut member = |name: &str, text: String, of: TokenStream| {
-        let (name, text) = (ident(name), comment(&text));
-        members.extend(quote!(#[doc = #text] pub #name: #of,));
-    };
-    for (angle, name) in &plan.directions {
-        let text = format!(" The direction of `{}`.", texts.of(&derivation.graph, *angle));
-        member(name, text, quote!(#root::__rt::UnitComplex<T>));
-    }
-    for (index, name, _) in &plan.values {
-        member(name, format!(" The coordinate `{}`.", derivation.coordinates[*index].name), quote!(T));
-    }
-    for (node, name, _) in &plan.externals {
-        member(name, format!(" `{}`.", texts.of(&derivation.graph, *node)), quote!(T));
-    }
-    for (block, name, _) in &plan.determinants {
-        let block = &derivation.blocks[*block];
-        let Some(determinant) = block.determinant else { continue };
-        let of = match derivation.blocks.len() {
-            1 => "det J".to_owned(),
-            _ => format!("The determinant of the block of `{}`,", block.names(derivation).replace(", ", "`, `")),
-        };
-        let formula = texts.of(&derivation.graph, determinant.value);
-        member(name, format!(" {of} = `{formula}`."), quote!(T));
-    }
-    members
 }
 
 fn parameters(

@@ -59,6 +59,13 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     let outputs: Vec<_> = mechanism.outputs.iter().map(|o| &o.name).collect();
     for names in [symbols, functions, points, outputs] {
         for (index, name) in names.iter().enumerate() {
+            if name.is_keyword() {
+                let Name { text, field, .. } = name;
+                diagnostics.error(
+                    name.span,
+                    format_args!("`{text}` becomes the field `{field}`, a Rust keyword: choose another name"),
+                );
+            }
             if let Some(first) = names[..index].iter().find(|other| other.field == name.field) {
                 diagnostics.error(
                     name.span,
@@ -110,17 +117,17 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
             let equations = mechanism.constraints.len() - loops;
             let last = driver.unknowns.last().map(|&index| mechanism.coordinates[index].name.span);
             let span = if mechanism.is_driven_by_choice() { at(driver) } else { last.unwrap_or_else(|| at(driver)) };
-            let advice = if rows < unknowns {
-                "close another loop, or make unknowns inputs"
-            } else {
-                "write `implied` before those that follow from others, or declare another unknown"
+            let advice = match (rows < unknowns, driver.inputs.is_empty()) {
+                (true, _) if rows == 0 => "add a `loop` or an `equation`".to_owned(),
+                (true, true) => format!("there is no `input`; declare {} of the unknowns as `input`", unknowns - rows),
+                (true, false) => "add a `loop` or an `equation`, or declare unknowns as `input`".to_owned(),
+                (false, _) => {
+                    "write `implied` before those that follow from others, or declare another unknown".to_owned()
+                }
             };
-            diagnostics.error(
-                span,
-                format_args!(
-                    "{unknowns} unknowns, but {rows} scalar equations (2 for each of {loops} `loop`, 1 for each of {equations} `equation`): {advice}"
-                ),
-            );
+            let message =
+                format!("{}, but {}: {advice}", counted(unknowns, "unknown"), sources(rows, loops, equations));
+            diagnostics.error(span, message);
             continue;
         }
         if driver.inputs.is_empty() {
@@ -153,6 +160,22 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
     }
 }
 
+/// A number with its noun, in the plural unless it is 1.
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// The number of scalar equations, and the statements they come from.
+fn sources(rows: usize, loops: usize, equations: usize) -> String {
+    let from_loops = (loops > 0).then(|| format!("{} from {}", 2 * loops, counted(loops, "`loop`")));
+    let from_equations = (equations > 0).then(|| format!("{equations} from {}", counted(equations, "`equation`")));
+    let sources: Vec<String> = from_loops.into_iter().chain(from_equations).collect();
+    match sources.as_slice() {
+        [] => "no scalar equation".to_owned(),
+        sources => format!("{} ({})", counted(rows, "scalar equation"), sources.join(", ")),
+    }
+}
+
 /// Reports unknowns that too few equations determine, and equations that contain too few unknowns.
 fn singularity(mechanism: &Mechanism, driver: &Driver, singular: &StructurallySingular, diagnostics: &mut Diagnostics) {
     let name = |unknown: UnknownId| &mechanism.coordinates[driver.unknowns[unknown]].name;
@@ -160,25 +183,22 @@ fn singularity(mechanism: &Mechanism, driver: &Driver, singular: &StructurallySi
         let names = unknowns.iter().map(|&unknown| format!("`{}`", name(unknown).text));
         names.collect::<Vec<_>>().join(", ")
     };
-    let rows = |count: usize| format!("{count} scalar equation{}", if count == 1 { "" } else { "s" });
+    let rows = |count: usize| counted(count, "scalar equation");
     let StructurallySingular { undetermined, too_few, competing, contested } = singular;
-    if let Some(&first) = undetermined.first() {
-        let what = match (undetermined.as_slice(), too_few.len()) {
-            (_, 0) => format!("{} appears in no equation", list(undetermined)),
-            (_, count) => format!("{} appear in only {}", list(undetermined), rows(count)),
-        };
-        let advice = format_args!("`{}` cannot be solved at any position: {what}", driver.name);
-        diagnostics.error(name(first).span, advice);
-    }
     let constraints =
         mechanism.constraints.iter().flat_map(|constraint| constraint.rows.iter().map(|_| constraint.span));
     let spans: Table<RowId, Span> = constraints.collect();
-    if let Some(&last) = competing.last() {
-        let advice = format_args!(
-            "{}, up to this one, contain only {}: use another unknown in one of them",
-            rows(competing.len()),
-            list(contested),
-        );
-        diagnostics.error(spans[last], advice);
+    let contest = format!("{} contain only {}", rows(competing.len()), list(contested));
+    if let Some(&first) = undetermined.first() {
+        let verb = if undetermined.len() == 1 { "appears" } else { "appear" };
+        let what = match too_few.len() {
+            0 => format!("{} {verb} in no equation", list(undetermined)),
+            count => format!("{} {verb} in only {}", list(undetermined), rows(count)),
+        };
+        let contest = if competing.is_empty() { String::new() } else { format!(", while {contest}") };
+        let message = format!("`{}` cannot be solved at any position: {what}{contest}", driver.name);
+        diagnostics.error(name(first).span, message);
+    } else if let Some(&last) = competing.last() {
+        diagnostics.error(spans[last], format_args!("{contest}, up to this one: use another unknown in one of them"));
     }
 }

@@ -1,15 +1,16 @@
 //! Lowering of expressions from syntax tree to graph, with a check of scalars and vectors.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
+use super::advice;
 use super::kind::{Kind, bare_symbols};
 use super::mechanism::{Call, ExternalFunction, Extreme};
 use super::scope::{Scope, VECTOR_FUNCTIONS, Value};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
 use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
-use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Unread};
+use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
 
 /// The state of the analysis of one mechanism: names, values and kinds so far.
 pub(super) struct Lowering<'a> {
@@ -22,8 +23,21 @@ pub(super) struct Lowering<'a> {
     pub(super) externals: Vec<ExternalFunction>,
     /// Kinds of names that may be undeclared, from their use.
     pub(super) undeclared_kinds: Vec<(String, Kind)>,
+    /// Symbols of undeclared names, which may be coordinates.
+    pub(super) undeclared_symbols: BTreeMap<String, SymbolId>,
+    /// Names of scalars that are reported among vectors.
+    pub(super) misused: BTreeSet<String>,
     /// Symbols that are lengths unless another use says otherwise.
     pub(super) supposed: Vec<SymbolId>,
+    /// Symbols that are components of vectors in loops.
+    pub(super) lengths_of_loops: Vec<SymbolId>,
+    pub(super) is_loop: bool,
+    /// True in the default of a parameter.
+    pub(super) is_default: bool,
+    /// The angles of bodies, with their places and the names of the bodies.
+    pub(super) angles_of_bodies: Vec<(NodeId, Region, String)>,
+    /// The symbols that statements outside of scenes mention.
+    pub(super) kinematic: BTreeSet<SymbolId>,
     /// The rate of each coordinate; empty without scenes.
     pub(super) rates: BTreeMap<SymbolId, NodeId>,
     pub(super) time: Option<NodeId>,
@@ -79,8 +93,8 @@ impl Lowering<'_> {
     }
 
     pub(super) fn expect_vector(&mut self, id: ExpressionId) {
-        let region = self.expressions.region(id);
-        self.diagnostics.error(region, "expected a vector, found a scalar: write `r@phi` or `(x, y)`");
+        let (region, advice) = (self.expressions.region(id), self.as_vector(id));
+        self.diagnostics.error(region, format_args!("expected a vector, found a scalar: {advice}"));
     }
 
     fn expect_scalar(&mut self, region: Region) {
@@ -90,7 +104,10 @@ impl Lowering<'_> {
 
     /// The value of an expression without symbols: the default of a parameter.
     pub(super) fn constant(&mut self, id: ExpressionId) -> Option<NodeId> {
-        let node = self.scalar(id)?;
+        self.is_default = true;
+        let node = self.scalar(id);
+        self.is_default = false;
+        let node = node?;
         if self.graph.constant_value(node).is_some() {
             return Some(node);
         }
@@ -100,8 +117,8 @@ impl Lowering<'_> {
 
     fn lower(&mut self, expression: &Expression, region: Region) -> Value {
         match expression {
-            Expression::Number { digits, degrees } => match self.number(digits, region) {
-                Some(number) if *degrees => {
+            Expression::Number { digits, unit } => match self.number(digits, region) {
+                Some(number) if *unit == Unit::Degrees => {
                     let pi = self.graph.pi();
                     Value::Scalar(self.graph.scale(number.multiply(Number::ratio(1, 180)), pi))
                 }
@@ -113,14 +130,32 @@ impl Lowering<'_> {
             },
             Expression::Name(name) if name == "pi" => Value::Scalar(self.graph.pi()),
             Expression::Name(name) if self.is_law && name == "t" => self.time.map_or(Value::Poison, Value::Scalar),
+            Expression::Name(name) if self.is_default && !self.scope.is_declared(name) => {
+                self.diagnostics.error(region, "a default must be a number: it cannot depend on names");
+                Value::Poison
+            }
+            // `x` and `y` are names of coordinates more often than of functions.
+            Expression::Name(name)
+                if name != "x"
+                    && name != "y"
+                    && self.is_function(&name.to_string())
+                    && !self.scope.is_declared(name) =>
+            {
+                self.diagnostics.error(region, format_args!("`{name}` is a function: write `{name}(…)`"));
+                Value::Poison
+            }
             Expression::Name(name) => self.scope.look_up(name, self.diagnostics),
-            &Expression::Vector(x, y) => match (self.scalar(x), self.scalar(y)) {
-                (Some(x), Some(y)) => {
-                    self.suppose_lengths([x, y]);
-                    Value::Vector(x, y)
+            &Expression::Adjacent(ref name, operand) => self.adjacent(name, operand, region),
+            Expression::Broken => Value::Poison,
+            &Expression::Vector(x, y) => {
+                match [x, y].map(|part| self.scalar(part).or_else(|| self.undeclared(part))).into() {
+                    (Some(x), Some(y)) => {
+                        self.suppose_lengths([x, y]);
+                        Value::Vector(x, y)
+                    }
+                    _ => Value::Poison,
                 }
-                _ => Value::Poison,
-            },
+            }
             &Expression::At(magnitude, angle) => self.at(magnitude, angle),
             Expression::Sum(operands) => self.sum(operands),
             Expression::Product(operands) => self.product(operands),
@@ -134,6 +169,7 @@ impl Lowering<'_> {
             Expression::Unread(names) => {
                 for Unread { name, is_angle, is_length } in names {
                     let Some(symbol) = self.scope.symbol(name) else { continue };
+                    self.scope.mention(symbol);
                     let is_known = self.kinds.iter().any(|(other, _)| *other == symbol);
                     let kind = if *is_angle { Kind::Angle } else { Kind::Length };
                     if (*is_angle || *is_length) && !is_known {
@@ -163,13 +199,35 @@ impl Lowering<'_> {
                 self.undeclared_kinds.push((name.to_string(), kind));
             }
         }
-        let (value, Some(angle)) = (self.value(magnitude), self.scalar(angle)) else { return Value::Poison };
-        self.mark(angle, Kind::Angle, angle_region);
+        let angle_id = angle;
+        let value = match self.value(magnitude) {
+            Value::Poison => self.undeclared(magnitude).map_or(Value::Poison, Value::Scalar),
+            value => value,
+        };
+        let Some(angle) = self.scalar(angle).or_else(|| self.undeclared(angle)) else { return Value::Poison };
+        if self.has_unit(magnitude, "a length") || self.degrees_without_unit(angle_id) {
+            return Value::Poison;
+        }
+        if let Value::Scalar(length) = value
+            && self.conflicts(length, Kind::Length)
+            && self.conflicts(angle, Kind::Angle)
+            && let (Some(length), Some(angle)) =
+                (self.expressions.as_name(magnitude), self.expressions.as_name(angle_id))
+        {
+            let message = format!("the length comes before `@`, the angle after it: write `{angle}@{length}`");
+            self.diagnostics.error(region.to(angle_region), message);
+            return Value::Poison;
+        }
+        if !self.mark(angle, Kind::Angle, angle_region) {
+            return Value::Poison;
+        }
         let g = &mut self.graph;
         let (cosine, sine) = (g.call(Function::Cos, &[angle]), g.call(Function::Sin, &[angle]));
         match value {
             Value::Scalar(r) => {
-                self.mark(r, Kind::Length, region);
+                if !self.mark(r, Kind::Length, region) {
+                    return Value::Poison;
+                }
                 Value::Vector(self.graph.multiply(r, cosine), self.graph.multiply(r, sine))
             }
             Value::Vector(x, y) => {
@@ -183,39 +241,36 @@ impl Lowering<'_> {
 
     fn sum(&mut self, operands: &[(Operator, ExpressionId)]) -> Value {
         let (mut xs, mut ys) = (Vec::new(), Vec::new());
-        let mut poisoned = false;
-        let mut first_is_vector = None;
+        let (mut scalars, mut vectors) = (Vec::new(), Vec::new());
         for &(operator, id) in operands {
             let sign = if operator == Operator::Direct { Number::ONE } else { Number::MINUS_ONE };
-            let value = self.value(id);
-            let is_vector = match value {
+            match self.value(id) {
                 Value::Scalar(node) => {
                     xs.push((sign, node));
-                    false
+                    scalars.push(id);
                 }
                 Value::Vector(x, y) => {
                     xs.push((sign, x));
                     ys.push((sign, y));
-                    true
+                    vectors.push(id);
                 }
-                Value::Poison => {
-                    poisoned = true;
-                    continue;
-                }
-            };
-            let expected = *first_is_vector.get_or_insert(is_vector);
-            if expected != is_vector {
-                if expected {
-                    self.diagnostics.error(
-                        self.expressions.region(id),
-                        "a scalar cannot be added to a vector: did you mean `r@phi`?",
-                    );
-                } else {
-                    self.diagnostics.error(self.expressions.region(id), "a vector cannot be added to a scalar");
-                }
-                return Value::Poison;
+                Value::Poison => {}
             }
         }
+        let poisoned = scalars.len() + vectors.len() < operands.len();
+        if let ([scalar, ..], [vector, ..]) = (scalars.as_slice(), vectors.as_slice()) {
+            let few_vectors = vectors.len() < scalars.len();
+            let (at, message) = match few_vectors {
+                true => (*vector, "a vector cannot be added to a scalar: use `x(…)`, `y(…)` or `norm(…)`".to_owned()),
+                false => (*scalar, format!("a scalar cannot be added to a vector: {}", self.as_vector(*scalar))),
+            };
+            // A name with a wrong value is one mistake.
+            if self.values_in(at).into_iter().all(|name| self.misused.insert(name)) {
+                self.diagnostics.error(self.expressions.region(at), message);
+            }
+            return Value::Poison;
+        }
+        let first_is_vector = (!(scalars.is_empty() && vectors.is_empty())).then_some(scalars.is_empty());
         match (poisoned, first_is_vector) {
             (false, Some(true)) => Value::Vector(self.graph.sum(&xs), self.graph.sum(&ys)),
             (false, Some(false)) => Value::Scalar(self.graph.sum(&xs)),
@@ -229,7 +284,7 @@ impl Lowering<'_> {
         let mut poisoned = false;
         for &(operator, id) in operands {
             match (self.value(id), operator) {
-                (Value::Scalar(node), Operator::Direct) => factors.push((node, 1)),
+                (Value::Scalar(node), Operator::Direct | Operator::Missing) => factors.push((node, 1)),
                 (Value::Scalar(node), Operator::Inverse) => {
                     if self.graph.is_zero(node) {
                         self.diagnostics.error(self.expressions.region(id), "division by zero");
@@ -237,8 +292,10 @@ impl Lowering<'_> {
                     }
                     factors.push((node, -1));
                 }
-                (Value::Vector(x, y), Operator::Direct) if vector.is_none() => vector = Some((x, y)),
-                (Value::Vector(..), Operator::Direct) => {
+                (Value::Vector(x, y), Operator::Direct | Operator::Missing) if vector.is_none() => {
+                    vector = Some((x, y))
+                }
+                (Value::Vector(..), Operator::Direct | Operator::Missing) => {
                     self.diagnostics
                         .error(self.expressions.region(id), "product of two vectors: use `dot(…)` or `cross(…)`");
                     return Value::Poison;
@@ -261,10 +318,18 @@ impl Lowering<'_> {
     }
 
     fn power(&mut self, base: ExpressionId, exponent: ExpressionId) -> Value {
+        if let Value::Vector(..) = self.value(base) {
+            let message = "a vector has no power: use `dot(P, P)` for the square of its length";
+            self.diagnostics.error(self.expressions.region(base), message);
+            return Value::Poison;
+        }
         let (Some(base), Some(node)) = (self.scalar(base), self.scalar(exponent)) else { return Value::Poison };
+        if self.has_unit(exponent, "an exponent") {
+            return Value::Poison;
+        }
         let integer = self.graph.as_number(node).and_then(Number::as_integer).and_then(|n| i32::try_from(n).ok());
         let Some(integer) = integer else {
-            let message = "an exponent must be an integer; write roots with `sqrt(…)`";
+            let message = "an exponent must be an integer: write a root as `sqrt(…)`";
             self.diagnostics.error(self.expressions.region(exponent), message);
             return Value::Poison;
         };
@@ -290,9 +355,15 @@ impl Lowering<'_> {
             } else {
                 let known = crate::graph::OPERATIONS.iter().map(|row| row.name);
                 let known = known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)).chain(self.scope.functions());
-                let hint = self.value_of(&text).unwrap_or_else(|| suggestion(&text, known));
-                if !self.scope.is_excused(&text) {
-                    self.diagnostics.error(name.span(), format_args!("unknown function `{text}`{hint}"));
+                let hint = match (self.value_of(&text), advice::for_function(&text)) {
+                    (Some(hint), _) => hint,
+                    (None, Some(advice)) => format!(": {advice}"),
+                    _ if self.scope.is_declared(name) => format!(": write `{name}*(…)` for a product"),
+                    _ => suggestion(&text, known),
+                };
+                if !self.scope.is_excused(&text) && !self.scope.has_unread_functions {
+                    let message = format!("unknown function `{text}`{hint}");
+                    self.diagnostics.error(name.span(), message);
                 }
             }
             return Value::Poison;
@@ -303,8 +374,11 @@ impl Lowering<'_> {
         if let Some(function) = function {
             let nodes: Option<Vec<NodeId>> = arguments.iter().map(|&argument| self.scalar(argument)).collect();
             let Some(nodes) = nodes else { return Value::Poison };
-            if matches!(function, Function::Sin | Function::Cos | Function::Tan) {
-                self.mark(nodes[0], Kind::Angle, self.expressions.region(arguments[0]));
+            if matches!(function, Function::Sin | Function::Cos | Function::Tan)
+                && (self.degrees_without_unit(arguments[0])
+                    || !self.mark(nodes[0], Kind::Angle, self.expressions.region(arguments[0])))
+            {
+                return Value::Poison;
             }
             return Value::Scalar(self.graph.call(function, &nodes));
         }
@@ -372,14 +446,24 @@ impl Lowering<'_> {
     /// Assumes that the components of a vector are lengths, unless another use says otherwise: an angle may be plotted.
     fn suppose_lengths(&mut self, components: [NodeId; 2]) {
         for symbol in components.into_iter().flat_map(|node| bare_symbols(&self.graph, node)) {
+            if self.is_loop {
+                self.lengths_of_loops.push(symbol);
+            }
             if !self.kinds.iter().any(|(other, _)| *other == symbol) {
                 self.supposed.push(symbol);
             }
         }
     }
 
-    /// Records the kind of the symbols that have the kind of an expression.
-    fn mark(&mut self, node: NodeId, kind: Kind, region: Region) {
+    /// True if a name of an expression has another kind.
+    fn conflicts(&self, node: NodeId, kind: Kind) -> bool {
+        let symbols = bare_symbols(&self.graph, node);
+        symbols.iter().any(|symbol| self.kinds.iter().any(|(other, known)| other == symbol && *known != kind))
+    }
+
+    /// Records the kind of the symbols that have the kind of an expression; returns false if one has another kind.
+    fn mark(&mut self, node: NodeId, kind: Kind, region: Region) -> bool {
+        let mut agrees = true;
         for symbol in bare_symbols(&self.graph, node) {
             match self.kinds.iter().find(|(other, _)| *other == symbol) {
                 None => self.kinds.push((symbol, kind)),
@@ -388,8 +472,10 @@ impl Lowering<'_> {
                     let name = self.graph.symbol_name(symbol);
                     let message = format!("`{name}` is used as a {kind} here, but as a {before} before");
                     self.diagnostics.error(region, message.replace("a angle", "an angle"));
+                    agrees = false;
                 }
             }
         }
+        agrees
     }
 }

@@ -1,15 +1,16 @@
 //! Completion of a mechanism with mistakes, so that its stub has the names that the rest of the program uses.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
 use super::kind::Kind;
-use super::mechanism::{Coordinate, Mechanism};
+use super::mechanism::{Coordinate, Driver, Mechanism};
 use super::name::Name;
-use super::scope::Scope;
+use super::scope::{Scope, Undeclared};
 use crate::diagnostics::nearest;
-use crate::ids::{CoordinateId, InputId, Table};
+use crate::graph::SymbolId;
+use crate::ids::{CoordinateId, Id, InputId, Table};
 use crate::syntax::{Statement, StatementKind};
 
 /// Completes a mechanism with mistakes: undeclared coordinates, the order of solution if it is known, and unique field
@@ -19,36 +20,79 @@ pub(super) fn complete(
     statements: &[Statement],
     scope: &Scope,
     undeclared_kinds: &[(String, Kind)],
+    undeclared_symbols: &BTreeMap<String, SymbolId>,
 ) {
     rename(mechanism, scope);
+    let zero = mechanism.graph.zero();
+    for parameter in mechanism.parameters.iter_mut().chain(mechanism.scene_parameters.iter_mut()) {
+        parameter.default.get_or_insert(zero);
+    }
     let rows = statements.iter().map(|statement| match statement.kind {
         StatementKind::Loop { is_implied: false, .. } => 2,
         StatementKind::Equation { is_implied: false, .. } => 1,
         _ => 0,
     });
     let rows: usize = rows.sum();
-    let mut missing = missing(mechanism, statements, scope).into_iter();
+    let mut missing = missing(mechanism, statements, scope);
     let declare = |mechanism: &mut Mechanism, name: Ident| {
         let kind = undeclared_kinds.iter().find(|(other, _)| name == other).map_or(Kind::Number, |(_, kind)| *kind);
+        let known = undeclared_symbols.get(&name.to_string()).copied();
         let name = Name::new(&name);
-        let symbol = mechanism.graph.symbol(name.field.clone());
-        mechanism.coordinates.push(Coordinate { name, attributes: Vec::new(), symbol, rate: None, kind })
+        let symbol = known.unwrap_or_else(|| mechanism.graph.symbol(name.field.clone()));
+        mechanism.coordinates.push(Coordinate { kind, ..Coordinate::new(name, Vec::new(), symbol) })
     };
-    let known = mechanism.drivers.first().map_or(0, |driver| driver.unknowns.len());
-    for name in missing.by_ref().take(rows.saturating_sub(known)) {
-        let index = declare(mechanism, name);
-        for driver in mechanism.drivers.iter_mut() {
-            driver.unknowns.push(index);
+    if mechanism.is_driven_by_choice() {
+        let driven = |statement: &Statement| match &statement.kind {
+            StatementKind::Drive { by, .. } => by.len(),
+            _ => 0,
+        };
+        let inputs = statements.iter().map(driven).find(|count| *count > 0).unwrap_or(1);
+        missing.truncate((rows + inputs).saturating_sub(mechanism.coordinates.len()));
+        for name in missing {
+            let is_driven = |driver: &Driver| {
+                statements.iter().any(|statement| match &statement.kind {
+                    StatementKind::Drive { name: of, by } => *of == driver.name && by.contains(&name),
+                    _ => false,
+                })
+            };
+            let driven: Vec<bool> = mechanism.drivers.iter().map(is_driven).collect();
+            let id = declare(mechanism, name);
+            for (driver, is_driven) in mechanism.drivers.iter_mut().zip(driven) {
+                match is_driven {
+                    true => drop(driver.inputs.push(id)),
+                    false => drop(driver.unknowns.push(id)),
+                }
+            }
+        }
+    } else {
+        let known = mechanism.drivers.first().map_or(0, |driver| driver.unknowns.len());
+        let nothing_drives = mechanism.drivers.iter().all(|driver| driver.inputs.is_empty());
+        // Inputs are declared before unknowns.
+        let first = match nothing_drives && known == 0 {
+            true => missing.len().saturating_sub(rows).min(missing.len()),
+            false => 0,
+        };
+        let unknowns: Vec<Ident> = missing.drain(first..).take(rows.saturating_sub(known)).collect();
+        let inputs: Vec<Ident> = if nothing_drives { missing } else { Vec::new() };
+        for name in inputs {
+            let id = declare(mechanism, name);
+            for driver in mechanism.drivers.iter_mut() {
+                driver.inputs.push(id);
+            }
+        }
+        for name in unknowns {
+            let id = declare(mechanism, name);
+            for driver in mechanism.drivers.iter_mut() {
+                driver.unknowns.push(id);
+            }
         }
     }
     let nothing_drives = mechanism.drivers.iter().all(|driver| driver.inputs.is_empty());
     if nothing_drives && let [only] = &*mechanism.drivers {
-        // Inputs are declared before unknowns.
         let surplus = only.unknowns.len().saturating_sub(rows);
         let inputs: Table<InputId, CoordinateId> = match rows {
             0 => Table::default(),
-            _ if surplus > 0 => only.unknowns.iter().copied().take(surplus).collect(),
-            _ => missing.next().map(|name| declare(mechanism, name)).into_iter().collect(),
+            _ => only.unknowns.iter().copied().take(surplus).collect(),
         };
         for driver in mechanism.drivers.iter_mut() {
             driver.unknowns = driver.unknowns.iter().copied().filter(|id| !inputs.contains(id)).collect();
@@ -59,9 +103,26 @@ pub(super) fn complete(
     distinguish(mechanism);
 }
 
+/// Removes the coordinates that are reported as unused.
+pub(super) fn without_idle(mechanism: &mut Mechanism, scope: &Scope) {
+    let is_idle = |coordinate: &Coordinate| !scope.is_used(coordinate.symbol) && !coordinate.name.text.starts_with('_');
+    let idle: BTreeSet<CoordinateId> =
+        mechanism.coordinates.enumerated().filter(|(_, coordinate)| is_idle(coordinate)).map(|(id, _)| id).collect();
+    let moved = |id: CoordinateId| {
+        let before = idle.iter().filter(|other| **other < id).count();
+        (!idle.contains(&id)).then(|| CoordinateId::new(id.index() - before))
+    };
+    for driver in mechanism.drivers.iter_mut() {
+        driver.inputs = std::mem::take(&mut driver.inputs).into_iter().filter_map(moved).collect();
+        driver.unknowns = std::mem::take(&mut driver.unknowns).into_iter().filter_map(moved).collect();
+    }
+    let coordinates = std::mem::take(&mut mechanism.coordinates);
+    mechanism.coordinates = coordinates.into_iter().filter(|coordinate| !is_idle(coordinate)).collect();
+}
+
 /// Renames a declaration that is not used to a similar name that is used more than once but not declared.
 fn rename(mechanism: &mut Mechanism, scope: &Scope) {
-    for (name, _) in scope.undeclared().iter().filter(|(_, uses)| *uses > 1) {
+    for Undeclared { name, .. } in scope.undeclared().iter().filter(|undeclared| undeclared.uses > 1) {
         let parameters = mechanism.parameters.iter_mut().map(|parameter| (&mut parameter.name, parameter.symbol));
         let coordinates = mechanism.coordinates.iter_mut().map(|coordinate| (&mut coordinate.name, coordinate.symbol));
         let unused = parameters.chain(coordinates).filter(|(_, symbol)| !scope.is_used(*symbol));
@@ -76,10 +137,10 @@ fn rename(mechanism: &mut Mechanism, scope: &Scope) {
 /// The names that may be coordinates: those of lists with an unknown keyword, then other undeclared ones.
 fn missing(mechanism: &Mechanism, statements: &[Statement], scope: &Scope) -> Vec<Ident> {
     let listed = statements.iter().flat_map(|statement| match &statement.kind {
-        StatementKind::Unread { names, is_list: true } => names.as_slice(),
+        StatementKind::Unread { names, is_list: true, .. } => names.as_slice(),
         _ => &[],
     });
-    let undeclared = scope.undeclared().iter().map(|(name, _)| name);
+    let undeclared = scope.undeclared().iter().map(|undeclared| &undeclared.name);
     let parameters = mechanism.parameters.iter().map(|parameter| &parameter.name);
     let names = parameters.chain(mechanism.coordinates.iter().map(|coordinate| &coordinate.name));
     let mut taken: BTreeSet<String> = names.map(|name| name.text.clone()).collect();
@@ -106,7 +167,7 @@ fn distinguish(mechanism: &mut Mechanism) {
     for names in [symbols.collect::<Vec<_>>(), points.collect(), outputs.collect()] {
         let mut taken = BTreeSet::new();
         for name in names {
-            while !taken.insert(name.field.clone()) {
+            while name.is_keyword() || !taken.insert(name.field.clone()) {
                 name.field.push('_');
             }
         }

@@ -24,10 +24,11 @@ use crate::syntax::{self, ExpressionId, StatementKind};
 /// The largest number of expressions of a mechanism; its derivatives have several times as many.
 const LARGEST: usize = 25_000;
 
-/// Resolves one mechanism. With mistakes it still returns what it could resolve, so that a stub with the right names
-/// can be emitted.
-pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagnostics) -> Mechanism {
-    let syntax::Mechanism { attributes, visibility, name, statements, expressions } = tree;
+/// Resolves one mechanism, and returns it with all its mistakes. With mistakes it still returns what it could resolve,
+/// so that a stub with the right names can be emitted.
+pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnostics) {
+    let syntax::Mechanism { attributes, visibility, name, statements, expressions, diagnostics: mut own } = tree;
+    let diagnostics = &mut own;
     const EVERYWHERE: [&str; 5] = ["cfg", "allow", "warn", "deny", "forbid"];
     let is_everywhere = |attribute: &Attribute| EVERYWHERE.iter().any(|word| attribute.path().is_ident(word));
     let (everywhere, attributes) = attributes.into_iter().partition(is_everywhere);
@@ -38,7 +39,14 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
         expressions: &expressions,
         kinds: Vec::new(),
         undeclared_kinds: Vec::new(),
+        undeclared_symbols: BTreeMap::new(),
+        misused: BTreeSet::new(),
         supposed: Vec::new(),
+        lengths_of_loops: Vec::new(),
+        is_loop: false,
+        is_default: false,
+        angles_of_bodies: Vec::new(),
+        kinematic: BTreeSet::new(),
         externals: Vec::new(),
         rates: BTreeMap::new(),
         time: None,
@@ -46,7 +54,8 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
         extreme: None,
         diagnostics,
     };
-    let complete = lowering.diagnostics.is_empty();
+    let has_scenes = statements.iter().any(|statement| matches!(statement.kind, StatementKind::Scene(_)));
+    lowering.scope.has_time = has_scenes;
     let mut result = Mechanism {
         attributes,
         everywhere,
@@ -64,6 +73,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
         externals: Vec::new(),
         named: Vec::new(),
         requests: BTreeSet::new(),
+        requests_at: BTreeMap::new(),
         bodies: Table::default(),
         scenes: Table::default(),
         scene_parameters: Table::default(),
@@ -72,27 +82,32 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
     };
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
-    if statements.iter().any(|statement| matches!(statement.kind, StatementKind::Scene(_))) {
+    if has_scenes {
         lowering.declare_motion(&mut result);
     }
     let reading = lowering.define(&statements, &mut result);
     lowering.drivers(&statements, &mut result, roles);
     lowering.finish_scenes(reading, &mut result);
-    result.requests = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
+    result.requests_at = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
+    result.requests = result.requests_at.keys().copied().collect();
     lowering.report_fault(result.name.span());
-    if complete && lowering.diagnostics.is_empty() {
-        let chains = lowering.chains(&statements);
-        result.loops = chains.loops;
-        result.points.iter_mut().zip(chains.points).for_each(|(point, chain)| point.chain = chain);
-    }
-    let Lowering { graph, scope, kinds, undeclared_kinds, supposed, externals, extreme, diagnostics, .. } = lowering;
-    (result.graph, result.extreme) = (graph, extreme);
-    result.externals = externals;
+    lowering.report_undeclared(&statements);
+    let (kinds, supposed) = (lowering.kinds.clone(), lowering.supposed.clone());
     let kind_of = |symbol| match kinds.iter().find(|(other, _)| *other == symbol) {
         Some((_, kind)) => *kind,
         None if supposed.contains(&symbol) => Kind::Length,
         None => Kind::Number,
     };
+    lowering.kinds_of_numbers(&statements, &kind_of);
+    if lowering.diagnostics.is_empty() {
+        lowering.unused_lets(&statements, &result);
+        let chains = lowering.chains(&statements);
+        result.loops = chains.loops;
+        result.points.iter_mut().zip(chains.points).for_each(|(point, chain)| point.chain = chain);
+    }
+    let Lowering { graph, scope, undeclared_kinds, undeclared_symbols, externals, extreme, diagnostics, .. } = lowering;
+    (result.graph, result.extreme) = (graph, extreme);
+    result.externals = externals;
     for parameter in result.parameters.iter_mut().chain(result.scene_parameters.iter_mut()) {
         parameter.kind = kind_of(parameter.symbol);
     }
@@ -106,19 +121,23 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget, diagnostics: &mut Diagn
         );
     }
     // After mistakes, these checks would report their consequences.
-    if complete && diagnostics.is_empty() {
-        // Without equations nearly all names are unused.
-        if !result.constraints.is_empty() {
-            check::usage(&result, &scope, diagnostics);
-        }
+    if diagnostics.is_empty() {
         check::types(&result, diagnostics);
         check::fields(&result, diagnostics);
+        // Without equations nearly all names are unused.
+        if diagnostics.is_empty() && !result.constraints.is_empty() {
+            check::usage(&result, &scope, diagnostics);
+        }
+        let is_idle = !diagnostics.is_empty();
         check::constraints(&mut result, &scope, diagnostics);
+        if is_idle {
+            guess::without_idle(&mut result, &scope);
+        }
     }
     if !diagnostics.is_empty() {
-        guess::complete(&mut result, &statements, &scope, &undeclared_kinds);
+        guess::complete(&mut result, &statements, &scope, &undeclared_kinds, &undeclared_symbols);
     }
-    result
+    (result, own)
 }
 
 /// The coordinates declared as `input`, `unknown` and `coordinate`.
@@ -143,7 +162,7 @@ impl Lowering<'_> {
             for name in names {
                 if let Some((name, symbol)) = self.new_symbol(name) {
                     let attributes = statement.attributes.clone();
-                    let coordinate = Coordinate { name, attributes, symbol, rate: None, kind: Kind::Number };
+                    let coordinate = Coordinate::new(name, attributes, symbol);
                     role.push(result.coordinates.push(coordinate));
                 }
             }
@@ -170,7 +189,8 @@ impl Lowering<'_> {
                 | StatementKind::Quantity { name, .. } => {
                     self.scope.claim(name, self.diagnostics);
                 }
-                StatementKind::Unread { names, .. } => {
+                StatementKind::Unread { names, is_extern, .. } => {
+                    self.scope.has_unread_functions |= is_extern;
                     for name in names {
                         self.scope.excuse(name);
                     }
@@ -224,7 +244,7 @@ impl Lowering<'_> {
     fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) -> scene::Reading {
         let mut reading = scene::Reading::default();
         for statement in statements {
-            let attributes = statement.attributes.clone();
+            let (attributes, before) = (statement.attributes.clone(), self.scope.uses());
             match &statement.kind {
                 StatementKind::Parameters(parameters) => {
                     for (name, default) in parameters {
@@ -305,6 +325,11 @@ impl Lowering<'_> {
                 | StatementKind::Unread { .. }
                 | StatementKind::Derive(_) => {}
             }
+            let is_of_scenes =
+                matches!(statement.kind, StatementKind::Let { .. } | StatementKind::Body(_) | StatementKind::Scene(_));
+            if !is_of_scenes {
+                self.kinematic.extend(self.scope.used_since(before));
+            }
         }
         reading
     }
@@ -316,7 +341,9 @@ impl Lowering<'_> {
         right: ExpressionId,
         constraints: &mut Vec<Constraint>,
     ) {
+        self.is_loop = true;
         let (a, b) = (self.value(left), self.value(right));
+        self.is_loop = false;
         let region = self.expressions.region(left).to(self.expressions.region(right));
         match (a, b) {
             (Value::Vector(ax, ay), Value::Vector(bx, by)) => {
@@ -370,12 +397,26 @@ impl Lowering<'_> {
                         self.diagnostics.error(coordinate.span(), format_args!("`{text}` already drives `{name}`"));
                     }
                     Some(index) => driven.push(*index),
+                    None if self.scope.symbol(coordinate).is_none() && open.is_empty() => {
+                        self.scope.miss(coordinate, self.diagnostics);
+                    }
                     None => {
                         let names = open.iter().map(|&index| result.coordinates[index].name.text.as_str());
                         let hint = suggestion(&text, names);
-                        self.diagnostics.error(coordinate.span(), format_args!("unknown `coordinate` `{text}`{hint}"));
+                        let message = match self.scope.is_declared(coordinate) {
+                            true => {
+                                format!("`{text}` is not a `coordinate`{hint}: declare what may drive as `coordinate`")
+                            }
+                            false => format!("unknown `coordinate` `{text}`{hint}"),
+                        };
+                        self.diagnostics.error(coordinate.span(), message);
                     }
                 }
+            }
+            if driven.is_empty() && !self.diagnostics.is_empty() {
+                // For the stub: a coordinate that no other driver has.
+                let is_free = |id: &&CoordinateId| result.drivers.iter().all(|driver| !driver.inputs.contains(id));
+                driven.extend(open.iter().rev().find(is_free));
             }
             if result.drivers.iter().any(|driver| driver.name == *name) || result.name == *name {
                 self.diagnostics.error(name.span(), format_args!("the type `{name}` is declared twice"));

@@ -1,6 +1,6 @@
 //! A mechanism after semantic analysis.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, Span};
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
@@ -42,6 +42,8 @@ pub struct Mechanism {
     pub named: Vec<(NodeId, String)>,
     /// The keywords of its `derive` statements.
     pub requests: BTreeSet<Request>,
+    /// The places of these keywords.
+    pub requests_at: BTreeMap<Request, Span>,
     pub bodies: Table<BodyId, Body>,
     pub scenes: Table<SceneId, Scene>,
     /// The parameters that only scenes use.
@@ -77,6 +79,12 @@ pub struct Coordinate {
     /// The symbol of its rate, if there are scenes.
     pub rate: Option<SymbolId>,
     pub kind: Kind,
+}
+
+impl Coordinate {
+    pub(super) fn new(name: Name, attributes: Vec<Attribute>, symbol: SymbolId) -> Self {
+        Self { name, attributes, symbol, rate: None, kind: Kind::Number }
+    }
 }
 
 /// A `loop`, with two rows, or an `equation`, with one row; each row is a residual.
@@ -158,6 +166,37 @@ impl Mechanism {
     #[must_use]
     pub fn is_driven_by_choice(&self) -> bool {
         !matches!(&*self.drivers, [only] if only.name == self.name)
+    }
+
+    /// The place of the statement that a function of a driver comes from.
+    #[must_use]
+    pub fn place_of(&self, driver: &Driver, function: &str) -> Span {
+        let requests = [
+            ("jerk", Request::Jerk),
+            ("limits", Request::Limits),
+            ("sensitivit", Request::Sensitivity),
+            ("ratio_derivatives", Request::VelocityRatioDerivatives),
+            ("joints", Request::Drawing),
+        ];
+        let request = requests.iter().filter(|(word, _)| function.contains(word));
+        let request = request.filter_map(|(_, request)| self.requests_at.get(request)).next().copied();
+        let point = || self.points.first().filter(|_| function.starts_with("point")).map(|point| point.name.span);
+        let output = || self.outputs.first().filter(|_| function.starts_with("output")).map(|output| output.name.span);
+        request.or_else(point).or_else(output).unwrap_or_else(|| driver.name.span())
+    }
+
+    /// Removes a driver, with its scenes.
+    pub fn remove_driver(&mut self, id: DriverId) {
+        let drivers = std::mem::take(&mut self.drivers).into_iter().enumerate();
+        self.drivers = drivers.filter(|(index, _)| *index != id.index()).map(|(_, driver)| driver).collect();
+        let scenes = std::mem::take(&mut self.scenes).into_iter().filter(|scene| scene.driver != id);
+        self.scenes = scenes
+            .map(|mut scene| {
+                let index = scene.driver.index();
+                scene.driver = DriverId::new(if index > id.index() { index - 1 } else { index });
+                scene
+            })
+            .collect();
     }
 
     /// The scenes that a driver drives.

@@ -1,17 +1,21 @@
 //! Semantic analysis: names resolved, expressions in the graph, all checks made. Later stages report only mistakes that
 //! appear in derivatives, see `derivation::check`.
 
+mod advice;
 mod chain;
 mod check;
 mod expression;
 mod guess;
 mod kind;
 mod lower;
+mod meant;
 mod mechanism;
 mod name;
 mod request;
 mod scene;
 mod scope;
+mod slips;
+mod undeclared;
 
 pub use chain::{Chain, Link};
 pub use kind::Kind;

@@ -17,6 +17,12 @@ impl Name {
         let text = ident.to_string();
         Self { field: snake_case(&text), text, span: ident.span() }
     }
+
+    /// True if the field is a Rust keyword: `Box` is the field `box`.
+    pub(super) fn is_keyword(&self) -> bool {
+        // `gen` is one since edition 2024.
+        self.field == "gen" || syn::parse_str::<Ident>(&self.field).is_err()
+    }
 }
 
 /// `G3` is `g3`, `CouplerPoint` is `coupler_point`, `AB` is `ab`.

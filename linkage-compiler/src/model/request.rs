@@ -1,8 +1,10 @@
 //! The `derive` statements of a mechanism.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
-use crate::diagnostics::{Diagnostics, suggestion};
+use proc_macro2::Span;
+
+use crate::diagnostics::{Diagnostics, nearest};
 use crate::syntax::{Statement, StatementKind};
 
 /// A keyword of the statement `derive`.
@@ -36,28 +38,31 @@ impl Request {
     ];
 }
 
-/// Collects the keywords of the `derive` statements of a mechanism.
+/// Collects the keywords of the `derive` statements of a mechanism, with their places.
 pub(super) fn resolve(
     statements: &[Statement],
     has_parameters: bool,
     diagnostics: &mut Diagnostics,
-) -> BTreeSet<Request> {
-    let mut requests = BTreeSet::new();
+) -> BTreeMap<Request, Span> {
+    let mut requests = BTreeMap::new();
     let words = statements.iter().flat_map(|statement| match &statement.kind {
         StatementKind::Derive(words) => words.as_slice(),
         _ => &[],
     });
     for word in words {
         let text = word.to_string();
-        let known = Request::ALL.iter().find(|(name, _)| text == *name);
-        let Some(&(_, request)) = known else {
-            let names = Request::ALL.map(|(name, _)| name);
-            let (hint, all) = (suggestion(&text, names), names.join(", "));
-            diagnostics
-                .error(word.span(), format_args!("unknown keyword `{text}` after `derive`{hint}\nkeywords: {all}"));
-            continue;
-        };
-        if !requests.insert(request) {
+        let named = |word: &str| Request::ALL.iter().find(|(name, _)| word == *name);
+        let names = Request::ALL.map(|(name, _)| name);
+        let meant = nearest(&text, names);
+        if named(&text).is_none() {
+            let hint = match meant {
+                Some(meant) => format!(", did you mean `{meant}`?"),
+                None => format!("\nkeywords: {}", names.join(", ")),
+            };
+            diagnostics.error(word.span(), format_args!("unknown keyword `{text}` after `derive`{hint}"));
+        }
+        let Some(&(_, request)) = named(&text).or_else(|| named(meant?)) else { continue };
+        if requests.insert(request, word.span()).is_some() {
             diagnostics.error(word.span(), format_args!("`{text}` is named twice after `derive`; remove one"));
         }
         if request == Request::Sensitivity && !has_parameters {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
-use crate::diagnostics::{Diagnostics, suggestion};
+use crate::diagnostics::{Diagnostics, nearest};
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
 
 /// The value of an expression; `Poison` stands for one with a reported mistake.
@@ -29,14 +29,30 @@ enum Entry {
 pub(super) struct Scope {
     entries: BTreeMap<String, Entry>,
     used: BTreeSet<SymbolId>,
+    /// The symbols of the names that are looked up, in order.
+    uses: Vec<SymbolId>,
     /// Names in statements with syntax errors, which are not reported as undeclared.
     excused: BTreeSet<String>,
-    /// The undeclared names, each once, with their number of uses.
-    undeclared: Vec<(Ident, usize)>,
+    /// True if a statement that declares functions has a syntax error.
+    pub(super) has_unread_functions: bool,
+    /// The undeclared names, each once.
+    undeclared: Vec<Undeclared>,
+    /// The names that are declared again.
+    duplicates: Vec<String>,
+    /// The names of values that are looked up.
+    values: BTreeSet<String>,
+    /// True if `t` is time, since there are scenes.
+    pub(super) has_time: bool,
 }
 
-/// Keywords that are values.
-const VALUES: [&str; 2] = ["pi", "t"];
+/// A name that is used but not declared.
+#[derive(Debug)]
+pub(super) struct Undeclared {
+    pub name: Ident,
+    pub uses: usize,
+    /// Its message, unless it is excused.
+    pub message: Option<usize>,
+}
 
 /// The functions of the language besides the operation table, with their number of arguments.
 pub(super) const VECTOR_FUNCTIONS: [(&str, usize); 7] =
@@ -46,12 +62,18 @@ impl Scope {
     /// Declares a name; returns false and reports an error if it is a keyword or already declared.
     pub(super) fn claim(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> bool {
         let text = name.to_string();
-        if VALUES.contains(&text.as_str()) {
-            diagnostics.error(name.span(), format_args!("`{text}` is a keyword of `linkage!`; choose another name"));
+        if text == "pi" {
+            diagnostics.error(name.span(), "`pi` is a constant of `linkage!`: choose another name");
+            return false;
+        }
+        if text == "t" && self.has_time {
+            diagnostics.error(name.span(), "`t` is time in a mechanism with scenes: choose another name");
+            self.entries.insert(text, Entry::Value(Value::Poison));
             return false;
         }
         if self.entries.contains_key(&text) {
-            diagnostics.error(name.span(), format_args!("the name `{text}` is already in use; choose another one"));
+            diagnostics.error(name.span(), format_args!("the name `{text}` is already in use: choose another one"));
+            self.duplicates.push(text);
             return false;
         }
         self.entries.insert(text, Entry::Later);
@@ -74,24 +96,73 @@ impl Scope {
         self.excused.insert(name.to_string());
     }
 
-    /// The undeclared names in the order of use, with their number of uses.
-    pub(super) fn undeclared(&self) -> &[(Ident, usize)] {
+    /// The undeclared names in the order of use.
+    pub(super) fn undeclared(&self) -> &[Undeclared] {
         &self.undeclared
     }
 
-    /// Records the use of an undeclared name; returns true if it must be reported.
-    fn miss(&mut self, name: &Ident) -> bool {
-        if let Some((_, uses)) = self.undeclared.iter_mut().find(|(other, _)| other == name) {
-            *uses += 1;
-            return false;
+    /// The names of all declarations.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.entries.keys().map(String::as_str)
+    }
+
+    /// True if a similar name is declared twice: one of the two is meant.
+    pub(super) fn may_be_duplicate(&self, name: &str) -> bool {
+        self.duplicates.iter().any(|other| strsim::osa_distance(other, name) <= 1)
+    }
+
+    /// True if a value is used.
+    pub(super) fn is_value_used(&self, name: &str) -> bool {
+        self.values.contains(name)
+    }
+
+    /// The value of a similar name, which may be meant by an undeclared one.
+    fn meant(&self, name: &str) -> Value {
+        let meant = nearest(name, self.entries.keys().map(String::as_str)).and_then(|near| self.entries.get(near));
+        match meant {
+            Some(Entry::Symbol(_, node)) => Value::Scalar(*node),
+            Some(Entry::Value(value)) => *value,
+            _ => Value::Poison,
         }
-        self.undeclared.push((name.clone(), 1));
-        !self.excused.contains(&name.to_string())
+    }
+
+    /// Records the use of an undeclared name, with a message at the first.
+    pub(super) fn miss(&mut self, name: &Ident, diagnostics: &mut Diagnostics) {
+        if let Some(undeclared) = self.undeclared.iter_mut().find(|other| other.name == *name) {
+            undeclared.uses += 1;
+            return;
+        }
+        let is_excused = self.excused.contains(&name.to_string()) || self.may_be_duplicate(&name.to_string());
+        let message = (!is_excused).then(|| {
+            // It is completed when all names are known.
+            diagnostics.error(name.span(), format_args!("unknown name `{name}`"));
+            diagnostics.len() - 1
+        });
+        self.undeclared.push(Undeclared { name: name.clone(), uses: 1, message });
+    }
+
+    /// True if a name is declared.
+    pub(super) fn is_declared(&self, name: &Ident) -> bool {
+        self.entries.contains_key(&name.to_string())
+    }
+
+    /// True for the name of a parameter or a coordinate.
+    pub(super) fn is_symbol(&self, name: &Ident) -> bool {
+        self.symbol(name).is_some()
+    }
+
+    /// True for the name of a `let`, a point or an output.
+    pub(super) fn is_value(&self, name: &Ident) -> bool {
+        matches!(self.entries.get(&name.to_string()), Some(Entry::Value(_)))
     }
 
     /// The symbol of a name.
     pub(super) fn symbol(&self, name: &Ident) -> Option<SymbolId> {
-        match self.entries.get(&name.to_string()) {
+        self.symbol_of(&name.to_string())
+    }
+
+    pub(super) fn symbol_of(&self, name: &str) -> Option<SymbolId> {
+        match self.entries.get(name) {
             Some(Entry::Symbol(symbol, _)) => Some(*symbol),
             _ => None,
         }
@@ -115,7 +186,7 @@ impl Scope {
             || VECTOR_FUNCTIONS.iter().any(|(other, _)| *other == text)
             || text == "rate"
         {
-            diagnostics.error(name.span(), format_args!("`{text}` is a function of `linkage!`; choose another name"));
+            diagnostics.error(name.span(), format_args!("`{text}` is a function of `linkage!`: choose another name"));
         } else if self.claim(name, diagnostics) {
             self.entries.insert(text, Entry::Function(function, order));
         }
@@ -139,10 +210,15 @@ impl Scope {
         let text = name.to_string();
         match self.entries.get(&text) {
             Some(Entry::Symbol(symbol, node)) => {
-                self.used.insert(*symbol);
-                Value::Scalar(*node)
+                let (symbol, node) = (*symbol, *node);
+                self.mention(symbol);
+                Value::Scalar(node)
             }
-            Some(Entry::Value(value)) => *value,
+            Some(Entry::Value(value)) => {
+                let value = *value;
+                self.values.insert(text);
+                value
+            }
             Some(Entry::Function(..)) => {
                 diagnostics.error(name.span(), format_args!("`{text}` is a function: write `{text}(…)`"));
                 Value::Poison
@@ -152,21 +228,34 @@ impl Scope {
                     .error(name.span(), format_args!("`{text}` is used before it is defined; move its statement up"));
                 Value::Poison
             }
-            None if text == "t" => {
+            None if text == "t" && self.has_time => {
                 diagnostics.error(name.span(), "`t` (time) can be used only in the laws of a scene");
                 Value::Poison
             }
             None => {
-                if self.miss(name) {
-                    let hint = suggestion(&text, self.entries.keys().map(String::as_str));
-                    diagnostics.error(name.span(), format_args!("unknown name `{text}`{hint}"));
-                }
-                Value::Poison
+                self.miss(name, diagnostics);
+                self.meant(&text)
             }
         }
     }
 
     pub(super) fn is_used(&self, symbol: SymbolId) -> bool {
         self.used.contains(&symbol)
+    }
+
+    /// The number of names that were looked up so far.
+    pub(super) fn uses(&self) -> usize {
+        self.uses.len()
+    }
+
+    /// The symbols of the names that were looked up since there were `before` of them.
+    pub(super) fn used_since(&self, before: usize) -> BTreeSet<SymbolId> {
+        self.uses[before..].iter().copied().collect()
+    }
+
+    /// Records the use of a name.
+    pub(super) fn mention(&mut self, symbol: SymbolId) {
+        self.used.insert(symbol);
+        self.uses.push(symbol);
     }
 }

@@ -30,7 +30,7 @@ pub use branch::{AngleTurn, Position, Side};
 pub use doc::count;
 pub use expression::{Expression, Pattern, Statement, Type};
 pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Value};
-pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of};
+pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};
 pub use scene::{SceneProgram, SceneSignatures};

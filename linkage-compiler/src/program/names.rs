@@ -1,12 +1,12 @@
 //! Names of the emitted program.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::derivation::Coordinate;
 use crate::graph::SymbolId;
-use crate::model::{Driver, Mechanism};
+use crate::model::{Driver, Mechanism, Request};
 
 /// The greatest length of a generated name in bytes; values with longer ones are numbered.
 pub const LONGEST_NAME: usize = 36;
@@ -171,6 +171,35 @@ impl TypeNames {
     pub fn function(&self, name: &str) -> String {
         format!("{}::{name}", self.driver)
     }
+}
+
+/// The names of the types that a mechanism emits, by the mechanism, driver or scene that they belong to.
+pub fn emitted_types(mechanism: &Mechanism) -> BTreeMap<String, Vec<String>> {
+    let mut types: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let has_quantities = !mechanism.points.is_empty() || !mechanism.outputs.is_empty();
+    let has = |request| mechanism.requests.contains(&request);
+    let mut shared = Vec::new();
+    for driver in &mechanism.drivers {
+        let names = TypeNames::new(mechanism, driver);
+        let columns = has(Request::Lanes).then_some(names.columns);
+        let full = has_quantities.then_some(names.full_kinematics);
+        let own = [names.itself, names.inputs, names.pose, names.motion, names.kinematics, names.branch];
+        types.entry(driver.name.to_string()).or_default().extend(own.into_iter().chain(columns).chain(full));
+        let jerks = has(Request::Jerk).then_some(names.jerks);
+        let points = (!mechanism.points.is_empty()).then_some(names.points);
+        let outputs = (!mechanism.outputs.is_empty()).then_some(names.outputs);
+        let always = [names.coordinates, names.rates, names.accelerations];
+        shared = always.into_iter().chain(jerks).chain(points).chain(outputs).collect();
+    }
+    let name = mechanism.name.to_string();
+    if mechanism.is_driven_by_choice() {
+        shared.push(name.clone());
+    }
+    types.entry(name).or_default().extend(shared);
+    for scene in &mechanism.scenes {
+        types.entry(format!("scene {}", scene.name)).or_default().push(scene.name.to_string());
+    }
+    types
 }
 
 /// The arguments and local values that functions have in common.

@@ -8,6 +8,7 @@ use syn::spanned::Spanned;
 use syn::token::Bracket;
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Token};
 
+use super::kind::at_keyword;
 use crate::diagnostics::Diagnostics;
 
 /// The construct that an attribute belongs to.
@@ -27,6 +28,14 @@ pub(super) enum Bearer {
 pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<Attribute> {
     let mut attributes = Vec::new();
     while stream.peek(Token![#]) {
+        if !stream.peek2(Bracket) {
+            diagnostics.error(stream.span(), "`#` begins an attribute, `#[…]`: a comment begins with `//`");
+            // Skip the comment.
+            while !stream.is_empty() && !stream.peek(Token![;]) && !at_keyword(stream) {
+                drop(stream.parse::<TokenTree>());
+            }
+            continue;
+        }
         let ahead = stream.fork();
         match ahead.call(Attribute::parse_outer) {
             Ok(mut read) => {

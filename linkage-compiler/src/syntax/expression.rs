@@ -2,11 +2,14 @@
 //!
 //! Precedence from low to high: `+ -`, `@`, `* /`, unary `-`, `^`.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Delimiter, Ident, Span};
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Lit, Token};
 
+use super::foreign;
 use crate::diagnostics::Region;
 
 /// An expression of an [`Expressions`] arena.
@@ -16,10 +19,10 @@ pub struct ExpressionId(usize);
 /// An expression as written.
 #[derive(Debug)]
 pub enum Expression {
-    /// The digits of a literal; `degrees` if the suffix is `deg`.
+    /// The digits of a literal.
     Number {
         digits: String,
-        degrees: bool,
+        unit: Unit,
     },
     Name(Ident),
     Vector(ExpressionId, ExpressionId),
@@ -30,8 +33,22 @@ pub enum Expression {
     Negate(ExpressionId),
     Power(ExpressionId, ExpressionId),
     Call(Ident, Vec<ExpressionId>),
+    /// A name before a factor without an operator: a function without parentheses, or a product without `*`.
+    Adjacent(Ident, ExpressionId),
+    /// A reported part without a value.
+    Broken,
     /// An expression with a syntax error: its names.
     Unread(Vec<Unread>),
+}
+
+/// The unit of a literal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    None,
+    /// `deg`.
+    Degrees,
+    /// `rad`: a plain number that is meant as an angle, however large it is.
+    Radians,
 }
 
 /// A name in an expression with a syntax error.
@@ -51,18 +68,56 @@ pub enum Operator {
     Direct,
     /// `-` or `/`.
     Inverse,
+    /// None: reported, and read as a product.
+    Missing,
 }
 
 /// The expressions of one mechanism.
 #[derive(Debug, Default)]
 pub struct Expressions {
     nodes: Vec<(Expression, Region)>,
+    /// True after `@`: a second `@` belongs to another vector.
+    pub(super) is_angle: bool,
+    /// Mistakes that are read as what is meant.
+    slips: Vec<syn::Error>,
+    /// The units that are reported.
+    units: BTreeSet<String>,
 }
 
 impl Expressions {
-    fn push(&mut self, expression: Expression, region: Region) -> ExpressionId {
+    pub(super) fn push(&mut self, expression: Expression, region: Region) -> ExpressionId {
         self.nodes.push((expression, region));
         ExpressionId(self.nodes.len() - 1)
+    }
+
+    /// Reports a mistake that is read as what is meant.
+    pub(super) fn slip(&mut self, at: impl Into<Region>, message: impl std::fmt::Display) {
+        self.slips.push(syn::Error::new_spanned(at.into(), message));
+    }
+
+    /// Reports a unit at its first use.
+    pub(super) fn unit(&mut self, unit: &str, at: Region, digits: &str) {
+        if self.units.insert(unit.to_owned()) {
+            self.slip(at, unknown_unit(unit, digits));
+        }
+    }
+
+    /// True if the statement has a mistake so far.
+    pub(super) fn has_slips(&self) -> bool {
+        !self.slips.is_empty()
+    }
+
+    /// Takes the mistakes of a statement.
+    pub(super) fn take_slips(&mut self) -> Vec<syn::Error> {
+        std::mem::take(&mut self.slips)
+    }
+
+    /// The digits, if the expression is a plain number.
+    pub(super) fn digits(&self, id: ExpressionId) -> Option<&str> {
+        match &self.nodes[id.0] {
+            (Expression::Number { digits, unit: Unit::None }, _) => Some(digits),
+            _ => None,
+        }
     }
 
     #[must_use]
@@ -81,6 +136,11 @@ impl Expressions {
         self.nodes.last().map(|(_, region)| *region)
     }
 
+    /// Adds the number 0.
+    pub(super) fn zero(&mut self, at: Span) -> ExpressionId {
+        self.push(Expression::Number { digits: "0".to_owned(), unit: Unit::None }, at.into())
+    }
+
     /// Adds an expression with a syntax error.
     pub(super) fn unread(&mut self, names: Vec<Unread>, region: Region) -> ExpressionId {
         self.push(Expression::Unread(names), region)
@@ -91,6 +151,12 @@ impl Expressions {
         self.nodes.truncate(length);
     }
 
+    /// The expression as written.
+    #[must_use]
+    pub fn get(&self, id: ExpressionId) -> &Expression {
+        &self.nodes[id.0].0
+    }
+
     /// The name, if the expression is only a name.
     #[must_use]
     pub fn as_name(&self, id: ExpressionId) -> Option<&Ident> {
@@ -98,11 +164,6 @@ impl Expressions {
             (Expression::Name(name), _) => Some(name),
             _ => None,
         }
-    }
-
-    #[must_use]
-    pub fn get(&self, id: ExpressionId) -> &Expression {
-        &self.nodes[id.0].0
     }
 
     #[must_use]
@@ -128,7 +189,7 @@ pub(super) fn parse(stream: ParseStream, arena: &mut Expressions) -> syn::Result
         stream,
         arena,
         at,
-        |stream| {
+        |stream, _, _| {
             Ok(if stream.parse::<Option<Token![+]>>()?.is_some() {
                 Some(Operator::Direct)
             } else {
@@ -144,11 +205,13 @@ fn product(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
         stream,
         arena,
         signed,
-        |stream| {
+        |stream, last, arena| {
             Ok(if stream.parse::<Option<Token![*]>>()?.is_some() {
                 Some(Operator::Direct)
+            } else if stream.parse::<Option<Token![/]>>()?.is_some() {
+                Some(Operator::Inverse)
             } else {
-                stream.parse::<Option<Token![/]>>()?.map(|_| Operator::Inverse)
+                foreign::product(stream, last, arena)?
             })
         },
         Expression::Product,
@@ -161,15 +224,31 @@ fn chain(
     stream: ParseStream,
     arena: &mut Expressions,
     part: Part,
-    operator: fn(ParseStream) -> syn::Result<Option<Operator>>,
+    operator: fn(ParseStream, ExpressionId, &mut Expressions) -> syn::Result<Option<Operator>>,
     build: fn(Vec<(Operator, ExpressionId)>) -> Expression,
 ) -> syn::Result<ExpressionId> {
-    let first = part(stream, arena)?;
+    let mut first = part(stream, arena)?;
     let mut operands = vec![(Operator::Direct, first)];
     let mut last = first;
-    while let Some(operator) = operator(stream)? {
+    while let Some(operator) = operator(stream, last, arena)? {
+        let name = arena.as_name(last).filter(|_| operator == Operator::Missing).cloned();
+        let before = last;
         last = part(stream, arena)?;
-        operands.push((operator, last));
+        match name {
+            // `sin phi` or `l2 l3`.
+            Some(name) => {
+                let region = arena.region(before).to(arena.region(last));
+                arena.nodes[before.0].0 = Expression::Broken;
+                last = arena.push(Expression::Adjacent(name, last), region);
+                operands.pop();
+                let operator = operands.last().map_or(Operator::Direct, |_| Operator::Missing);
+                operands.push((operator, last));
+                if operands.len() == 1 {
+                    first = last;
+                }
+            }
+            None => operands.push((operator, last)),
+        }
     }
     if operands.len() == 1 {
         return Ok(first);
@@ -179,11 +258,20 @@ fn chain(
 }
 
 fn at(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    if stream.peek(Token![@]) {
+        return Err(stream.error("expected a length before `@`: write `r@phi`"));
+    }
     let magnitude = product(stream, arena)?;
     if stream.parse::<Option<Token![@]>>()?.is_none() {
         return Ok(magnitude);
     }
-    let angle = product(stream, arena)?;
+    if stream.peek(Token![+]) {
+        return Err(stream.error("expected an angle after `@`: write `r@phi`"));
+    }
+    let was_angle = std::mem::replace(&mut arena.is_angle, true);
+    let angle = product(stream, arena);
+    arena.is_angle = was_angle;
+    let angle = angle?;
     if stream.peek(Token![@]) {
         return Err(syn::Error::new(stream.span(), "a vector has one angle: write `r@(phi + psi)`"));
     }
@@ -207,7 +295,7 @@ fn signed(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressio
 
 fn power(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
     let base = postfix(stream, arena)?;
-    if stream.parse::<Option<Token![^]>>()?.is_none() {
+    if !foreign::power(stream, arena) && stream.parse::<Option<Token![^]>>()?.is_none() {
         return Ok(base);
     }
     let start = stream.span();
@@ -221,8 +309,11 @@ fn power(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expression
     Ok(arena.push(Expression::Power(base, exponent), region))
 }
 
-fn postfix(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+pub(super) fn postfix(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
     let mut value = primary(stream, arena)?;
+    while let Some(read) = foreign::postfix(stream, value, arena)? {
+        value = read;
+    }
     while !stream.peek(Token![..]) && stream.parse::<Option<Token![.]>>()?.is_some() {
         let method: Ident = stream.call(Ident::parse_any)?;
         let (mut arguments, close) = arguments(stream, arena)?;
@@ -234,6 +325,13 @@ fn postfix(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
 }
 
 fn arguments(stream: ParseStream, arena: &mut Expressions) -> syn::Result<(Vec<ExpressionId>, Span)> {
+    let was_angle = std::mem::take(&mut arena.is_angle);
+    let arguments = listed(stream, arena);
+    arena.is_angle = was_angle;
+    arguments
+}
+
+fn listed(stream: ParseStream, arena: &mut Expressions) -> syn::Result<(Vec<ExpressionId>, Span)> {
     let content;
     let parentheses = syn::parenthesized!(content in stream);
     let mut arguments = Vec::new();
@@ -249,14 +347,21 @@ fn arguments(stream: ParseStream, arena: &mut Expressions) -> syn::Result<(Vec<E
 
 fn comma(stream: ParseStream) -> syn::Result<()> {
     let found = stream.span();
-    stream.parse::<Token![,]>().map(drop).map_err(|_| syn::Error::new(found, "expected `,` or `)`"))
+    if stream.parse::<Option<Token![,]>>()?.is_some() {
+        return Ok(());
+    }
+    Err(foreign::sign(stream).unwrap_or_else(|| syn::Error::new(found, "expected `,` or `)`")))
 }
 
 fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
     let start = stream.span();
-    let missing = || syn::Error::new(start, "expected an expression");
+    let missing =
+        || syn::Error::new(start, "expected an expression: a number, a name, `r@phi`, `(x, y)` or a function");
     if stream.is_empty() || stream.peek(Token![;]) {
         return Err(missing());
+    }
+    if let Some(value) = foreign::primary(stream, arena)? {
+        return Ok(value);
     }
     if let Ok(literal) = stream.fork().parse::<Lit>() {
         Lit::parse(stream)?;
@@ -292,15 +397,31 @@ fn number(literal: &Lit, arena: &mut Expressions) -> syn::Result<ExpressionId> {
     let (digits, suffix) = match literal {
         Lit::Int(integer) => (integer.base10_digits().to_owned(), integer.suffix().to_owned()),
         Lit::Float(float) => (float.base10_digits().to_owned(), float.suffix().to_owned()),
-        other => return Err(syn::Error::new(other.span(), "expected a number")),
+        other => return Err(foreign::not_a_number(other)),
     };
-    let degrees = match suffix.as_str() {
-        "" => false,
-        "deg" => true,
-        other => {
-            let message = format!("unknown unit `{other}`: write a plain number, or `deg` for degrees");
-            return Err(syn::Error::new(literal.span(), message));
+    let unit = match suffix.as_str() {
+        "" => Unit::None,
+        "deg" => Unit::Degrees,
+        "rad" => Unit::Radians,
+        unknown => {
+            arena.unit(unknown, literal.span().into(), &digits);
+            if unknown.starts_with("deg") { Unit::Degrees } else { Unit::None }
         }
     };
-    Ok(arena.push(Expression::Number { digits, degrees }, literal.span().into()))
+    Ok(arena.push(Expression::Number { digits, unit }, literal.span().into()))
+}
+
+/// The message of a suffix that is not a unit of the language.
+fn unknown_unit(suffix: &str, digits: &str) -> String {
+    let is_type = ["f16", "f32", "f64", "f128", "i8", "i16", "i32", "i64", "isize", "u8", "u16", "u32", "u64", "usize"];
+    if is_type.contains(&suffix) {
+        return format!("a number has no type: write `{digits}`");
+    }
+    let angle = ["deg", "rad"].into_iter().find(|unit| suffix.starts_with(unit));
+    match angle {
+        Some(unit) => format!("unknown unit `{suffix}`: write `{digits}{unit}`"),
+        None => format!(
+            "unknown unit `{suffix}`: write `{digits}`, with all numbers in one system of units; an angle may have `deg`"
+        ),
+    }
 }

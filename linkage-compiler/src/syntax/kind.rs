@@ -1,11 +1,14 @@
 //! The kinds of statements, and the keywords that begin them.
 
 use proc_macro2::Ident;
-use syn::Path;
+use syn::ext::IdentExt;
+use syn::parse::ParseStream;
+use syn::{Path, Token};
 
 use super::attributes::Bearer;
 use super::expression::ExpressionId;
-use super::scene::{Body, Scene};
+use super::scene::{self, Body, Scene};
+use crate::diagnostics::nearest;
 
 /// The kind and the content of a statement.
 pub enum StatementKind {
@@ -54,10 +57,12 @@ pub enum StatementKind {
         name: Ident,
         value: ExpressionId,
     },
-    /// A statement with a syntax error: its names; `is_list` if it may be a list of coordinates.
+    /// A statement with a syntax error: its names; `is_list` if it may be a list of coordinates, `is_extern` if it
+    /// declares functions.
     Unread {
         names: Vec<Ident>,
         is_list: bool,
+        is_extern: bool,
     },
 }
 
@@ -98,3 +103,56 @@ pub(super) const KEYWORDS: [&str; 15] = [
     "body",
     "scene",
 ];
+
+/// Words that are written for a keyword.
+const SYNONYMS: [(&str, &[&str]); 14] = [
+    (
+        "param",
+        &["parameter", "parameters", "const", "static", "constant", "constants", "length", "lengths", "dimensions"],
+    ),
+    ("input", &["driver", "drivers", "motor", "actuator", "independent", "dof"]),
+    ("unknown", &["variable", "variables", "var", "vars", "dependent", "angle", "angles"]),
+    ("coordinate", &["coord", "coords", "variable", "variables", "dofs"]),
+    ("drive", &["driver", "drivers", "driven", "drives"]),
+    ("loop", &["chain", "close", "vector", "constraint", "constraints"]),
+    ("equation", &["constraint", "constraints", "eq", "eqn", "constrain"]),
+    ("let", &["def", "define", "set", "where"]),
+    ("point", &["joint", "pin", "node", "position", "pt"]),
+    ("output", &["out", "result", "return", "measure", "print", "show"]),
+    ("extern", &["fn", "function"]),
+    ("derive", &["request"]),
+    ("body", &["bodies", "link", "mass"]),
+    ("scene", &["dynamics", "simulation", "simulate"]),
+];
+
+/// The keywords that may be meant by another word, the most similar first.
+pub(super) fn meant(word: &str) -> Vec<&'static str> {
+    let synonyms = SYNONYMS.iter().filter(|(_, words)| words.contains(&word)).map(|(keyword, _)| *keyword);
+    let mut meant: Vec<&'static str> = synonyms.collect();
+    if meant.is_empty() {
+        meant.extend(nearest(word, KEYWORDS));
+    }
+    meant
+}
+
+/// Words after which an expression ends.
+const PREPOSITIONS: [&str; 8] = ["on", "at", "between", "and", "in", "by", "of", "restitution"];
+
+/// True for words that do not begin a factor: a statement, an effect or a property begins, or an expression ends.
+pub(super) fn is_reserved(word: &str) -> bool {
+    let words = || KEYWORDS.into_iter().chain(scene::EFFECTS).chain(scene::PROPERTIES).chain(PREPOSITIONS);
+    words().any(|reserved| reserved == word)
+}
+
+/// True before an attribute, and before a keyword that begins a statement.
+pub(super) fn at_keyword(stream: ParseStream) -> bool {
+    (stream.peek(Token![#]) && stream.peek2(syn::token::Bracket)) || at_word(stream, &KEYWORDS)
+}
+
+/// True before one of these words, unless it is a name: a sign that follows a name comes next.
+pub(super) fn at_word(stream: ParseStream, words: &[&str]) -> bool {
+    let ahead = stream.fork();
+    let at_word = ahead.call(Ident::parse_any).is_ok_and(|found| words.iter().any(|word| found == word));
+    let goes_on = !(ahead.is_empty() || ahead.peek(Token![;]) || ahead.peek(Token![,]) || ahead.peek(Token![=]));
+    at_word && goes_on
+}

@@ -5,7 +5,10 @@
 
 mod attributes;
 mod expression;
+mod foreign;
+mod head;
 mod kind;
+mod list;
 mod recovery;
 mod scene;
 mod statement;
@@ -15,7 +18,8 @@ use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
-pub use expression::{Expression, ExpressionId, Expressions, Operator, Unread};
+pub use expression::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
+pub(crate) use foreign::constant_of_rust;
 pub use kind::StatementKind;
 pub use scene::{Body, Effect, EffectKind, Place, Scene};
 pub use statement::Statement;
@@ -27,6 +31,8 @@ pub struct Mechanism {
     pub name: Ident,
     pub statements: Vec<Statement>,
     pub expressions: Expressions,
+    /// Its syntax errors.
+    pub diagnostics: Diagnostics,
 }
 
 /// The largest nesting of parentheses; it bounds the recursion of the parser.
@@ -35,7 +41,7 @@ pub const DEEPEST_NESTING: usize = 64;
 /// The largest number of tokens of an invocation; it bounds the time of parsing.
 pub const LONGEST: usize = 100_000;
 
-/// Reads every mechanism of one invocation.
+/// Reads every mechanism of one invocation; `diagnostics` are the mistakes outside of all mechanisms.
 pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism> {
     match measure(input.clone()) {
         Some(Excess::Depth(token)) => {
@@ -50,10 +56,10 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
         }
         None => {}
     }
-    let mut mechanisms = Vec::new();
+    let mut mechanisms: Vec<Mechanism> = Vec::new();
     let parser = |stream: ParseStream| {
         while !stream.is_empty() {
-            match mechanism(stream, diagnostics) {
+            match head::mechanism(stream) {
                 Ok(mechanism) => mechanisms.push(mechanism),
                 Err(error) => {
                     diagnostics.push(error);
@@ -67,50 +73,11 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
     // consequence.
     if let Err(error) = parser.parse2(input)
         && diagnostics.is_empty()
+        && mechanisms.iter().all(|mechanism| mechanism.diagnostics.is_empty())
     {
         diagnostics.push(error);
     }
     mechanisms
-}
-
-fn mechanism(stream: ParseStream, diagnostics: &mut Diagnostics) -> syn::Result<Mechanism> {
-    let attributes = attributes::read(stream, diagnostics);
-    let attributes = attributes::meant(attributes, attributes::Bearer::Mechanism, diagnostics);
-    let visibility = stream.parse()?;
-    let keyword: Ident = stream
-        .call(syn::ext::IdentExt::parse_any)
-        .map_err(|error| syn::Error::new(error.span(), "expected `mechanism NAME { … }`"))?;
-    let is_nameless = keyword != "mechanism" && stream.peek(syn::token::Brace);
-    if keyword != "mechanism" {
-        let error = syn::Error::new(keyword.span(), "expected `mechanism NAME { … }`");
-        let is_named = stream.peek(syn::Ident) && stream.peek2(syn::token::Brace);
-        if !is_nameless && !is_named {
-            return Err(error);
-        }
-        diagnostics.push(error);
-    }
-    let name = if is_nameless { keyword } else { stream.parse()? };
-    if !stream.peek(syn::token::Brace) {
-        let found = if stream.is_empty() { Ident::span(&name) } else { stream.span() };
-        diagnostics.push(syn::Error::new(found, format!("expected `{{` after `{name}`")));
-        while !stream.is_empty() && !stream.peek(syn::token::Brace) {
-            stream.parse::<TokenTree>()?;
-        }
-        if stream.is_empty() {
-            return Ok(Mechanism {
-                attributes,
-                visibility,
-                name,
-                statements: Vec::new(),
-                expressions: Expressions::default(),
-            });
-        }
-    }
-    let content;
-    syn::braced!(content in stream);
-    let mut expressions = Expressions::default();
-    let statements = statement::statements(&content, &mut expressions, diagnostics);
-    Ok(Mechanism { attributes, visibility, name, statements, expressions })
 }
 
 fn skip_to_brace(stream: ParseStream) {

@@ -1,34 +1,119 @@
 //! Error recovery: the names that a statement with a syntax error seems to declare.
 
-use proc_macro2::{Ident, Span, TokenTree};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use syn::parse::ParseStream;
 
 use super::expression::{ExpressionId, Expressions, Unread};
 use super::kind::{KEYWORDS, StatementKind};
-use super::scene::{Body, Scene};
-use crate::diagnostics::{Region, nearest};
+use super::scene::{self, Body, Scene};
+use crate::diagnostics::Region;
 
-/// Guesses the kind of a statement from its tokens, including the keyword.
+/// The tokens up to the end of a statement, without moving on.
+fn ahead(stream: ParseStream) -> Vec<TokenTree> {
+    let ahead = stream.fork();
+    let mut tokens = Vec::new();
+    while let Ok(token) = ahead.parse::<TokenTree>() {
+        if matches!(&token, TokenTree::Punct(punct) if punct.as_char() == ';') {
+            break;
+        }
+        tokens.push(token);
+    }
+    tokens
+}
+
+/// True if the rest of a statement may follow a keyword; `is_only` if no other keyword is meant.
+pub(super) fn fits(keyword: &str, is_only: bool, stream: ParseStream) -> bool {
+    let tokens = ahead(stream);
+    let has_at = || tokens.iter().any(|token| is_punct(Some(token), '@'));
+    let is_word = |token: &TokenTree, text: &str| matches!(token, TokenTree::Ident(word) if word == text);
+    match keyword {
+        "let" | "point" | "output" => tokens.iter().any(|token| is_punct(Some(token), '=')),
+        "loop" => is_only || has_at(),
+        "equation" => is_only || !has_at(),
+        "drive" => is_only || tokens.iter().any(|token| is_word(token, "by")),
+        // A mechanism with `drive` has coordinates.
+        "input" => is_only || !tokens.iter().any(|token| is_word(token, "by")),
+        "unknown" if !is_only => {
+            let rest = stream.fork().parse::<TokenStream>().unwrap_or_default();
+            !rest.into_iter().any(|token| is_word(&token, "by"))
+        }
+        "body" => tokens.iter().any(|token| matches!(token, TokenTree::Group(_))),
+        _ => true,
+    }
+}
+
+/// The message of a statement that begins with no keyword.
+pub(super) fn without_keyword(word: &str, stream: ParseStream) -> String {
+    let tokens = ahead(stream);
+    let signs: Vec<char> = tokens
+        .iter()
+        .filter_map(|token| match token {
+            TokenTree::Punct(punct) => Some(punct.as_char()),
+            _ => None,
+        })
+        .collect();
+    match (is_punct(tokens.first(), '='), tokens.get(1)) {
+        (true, Some(TokenTree::Literal(_))) => format!("expected a keyword before `{word}`: write `param {word} = …;`"),
+        (true, _) => format!(
+            "expected a keyword before `{word}`: write `point {word} = VECTOR;`, `output {word} = SCALAR;` or `let {word} = …;`"
+        ),
+        _ if signs.contains(&'@') && signs.contains(&'=') => {
+            format!("expected a keyword before `{word}`: write `loop {word}… = …;`")
+        }
+        _ if scene::EFFECTS.contains(&word) => {
+            format!("`{word}` is an effect of a scene: write it into `scene NAME {{ … }}`")
+        }
+        _ => format!("unknown statement `{word}`\nstatements: {}", KEYWORDS.join(", ")),
+    }
+}
+
+/// Guesses the kind of a statement from its tokens, including the word instead of a keyword.
 pub(super) fn kind(tokens: &[TokenTree], expressions: &mut Expressions) -> StatementKind {
     let [TokenTree::Ident(keyword), rest @ ..] = tokens else { return unread(tokens) };
+    let first = rest.first().and_then(name);
+    match first {
+        Some(_) if is_punct(rest.get(1), '=') && matches!(rest.get(2), Some(TokenTree::Literal(_))) => {
+            parameters(rest, expressions)
+        }
+        None if is_punct(rest.first(), '=') && matches!(rest.get(1), Some(TokenTree::Literal(_))) => {
+            parameters(tokens, expressions)
+        }
+        Some(name) if is_punct(rest.get(1), '=') => {
+            StatementKind::Quantity { name, value: unread_value(rest, keyword.span(), expressions) }
+        }
+        None if is_punct(rest.first(), '=') => {
+            StatementKind::Quantity { name: keyword.clone(), value: unread_value(rest, keyword.span(), expressions) }
+        }
+        _ if tokens.iter().any(|token| is_punct(Some(token), '=')) => {
+            let value = |expressions: &mut Expressions| unread_value(tokens, keyword.span(), expressions);
+            StatementKind::Loop { left: value(expressions), right: value(expressions), is_implied: false }
+        }
+        _ => unread(rest),
+    }
+}
+
+/// Guesses a statement with a syntax error from its keyword and the tokens after it.
+pub(super) fn of_keyword(keyword: &Ident, rest: &[TokenTree], expressions: &mut Expressions) -> StatementKind {
     if keyword == "implied" {
-        return match kind(rest, expressions) {
+        let [TokenTree::Ident(what), rest @ ..] = rest else { return unread(rest) };
+        return match of_keyword(what, rest, expressions) {
             StatementKind::Loop { left, right, .. } => StatementKind::Loop { left, right, is_implied: true },
             StatementKind::Equation { left, right, .. } => StatementKind::Equation { left, right, is_implied: true },
             other => other,
         };
     }
     let names = || rest.iter().filter_map(name);
-    let first = rest.first().and_then(name);
+    let first = rest.first().and_then(name).filter(|name| name != "by");
     let value = |expressions: &mut Expressions| unread_value(rest, keyword.span(), expressions);
-    let word = keyword.to_string();
-    match (nearest(&word, KEYWORDS).unwrap_or_default(), first) {
+    match (keyword.to_string().as_str(), first) {
         ("param", _) => parameters(rest, expressions),
         ("input", _) => StatementKind::Inputs(names().collect()),
         ("unknown", _) => StatementKind::Unknowns(names().collect()),
         ("coordinate", _) => StatementKind::Coordinates(names().collect()),
         ("derive", _) => StatementKind::Derive(names().collect()),
         ("drive", Some(name)) => {
-            StatementKind::Drive { name, by: names().skip(1).filter(|word| word != "by").collect() }
+            let by = names().skip(1).filter(|word| word != "by").collect();
+            StatementKind::Drive { name, by }
         }
         ("loop", _) => StatementKind::Loop { left: value(expressions), right: value(expressions), is_implied: false },
         ("equation", _) => {
@@ -37,25 +122,26 @@ pub(super) fn kind(tokens: &[TokenTree], expressions: &mut Expressions) -> State
         ("let", Some(name)) => StatementKind::Let { name, value: value(expressions) },
         ("point", Some(name)) => StatementKind::Point { name, value: value(expressions) },
         ("output", Some(name)) => StatementKind::Output { name, value: value(expressions) },
-        ("body", Some(name)) => StatementKind::Body(Body { name, properties: Vec::new(), is_complete: false }),
+        ("body", Some(name)) => StatementKind::Body(Body {
+            name,
+            properties: vec![(keyword.clone(), value(expressions))],
+            is_complete: false,
+        }),
         ("scene", Some(name)) => {
             let is_of = names().nth(1).is_some_and(|word| word == "of");
             let of = names().nth(2).filter(|_| is_of);
             StatementKind::Scene(Scene { name, of, effects: Vec::new(), is_complete: false })
         }
-        ("", Some(_)) if is_punct(rest.get(1), '=') && matches!(rest.get(2), Some(TokenTree::Literal(_))) => {
-            parameters(rest, expressions)
-        }
-        ("", Some(name)) if is_punct(rest.get(1), '=') => StatementKind::Quantity { name, value: value(expressions) },
-        ("", _) if is_punct(rest.first(), '=') => {
-            StatementKind::Quantity { name: keyword.clone(), value: value(expressions) }
-        }
-        _ => unread(rest),
+        ("extern", _) => StatementKind::Unread { names: names().collect(), is_list: false, is_extern: true },
+        _ => StatementKind::Unread { names: names().collect(), is_list: false, is_extern: false },
     }
 }
 
 /// Parameters: each name at the beginning, after a comma or before `=`.
 fn parameters(tokens: &[TokenTree], expressions: &mut Expressions) -> StatementKind {
+    if let [TokenTree::Group(group)] = tokens {
+        return parameters(&group.stream().into_iter().collect::<Vec<_>>(), expressions);
+    }
     let mut parameters = Vec::new();
     for (place, token) in tokens.iter().enumerate() {
         let Some(name) = name(token) else { continue };
@@ -74,10 +160,10 @@ fn parameters(tokens: &[TokenTree], expressions: &mut Expressions) -> StatementK
 fn unread(tokens: &[TokenTree]) -> StatementKind {
     let is_list = tokens.iter().all(|token| name(token).is_some() || is_punct(Some(token), ','));
     let names = names_with_places(tokens).into_iter().map(|unread| unread.name);
-    StatementKind::Unread { names: names.collect(), is_list }
+    StatementKind::Unread { names: names.collect(), is_list, is_extern: false }
 }
 
-fn unread_value(tokens: &[TokenTree], keyword: Span, expressions: &mut Expressions) -> ExpressionId {
+pub(super) fn unread_value(tokens: &[TokenTree], keyword: Span, expressions: &mut Expressions) -> ExpressionId {
     let first = tokens.first().map_or(keyword, TokenTree::span);
     let last = tokens.last().map_or(keyword, TokenTree::span);
     expressions.unread(names_with_places(tokens), Region { first, last })

@@ -7,10 +7,11 @@ use syn::parse::discouraged::Speculative;
 use syn::{Attribute, Path, Token};
 
 use super::expression::{self, ExpressionId, Expressions};
-use super::kind::{KEYWORDS, StatementKind};
+use super::kind::{KEYWORDS, StatementKind, at_keyword, meant};
+use super::list::{names, parameters};
 use super::tokens::{end, equals, name};
 use super::{attributes, recovery, scene};
-use crate::diagnostics::{Diagnostics, nearest, suggestion};
+use crate::diagnostics::Diagnostics;
 
 /// A statement with its attributes.
 pub struct Statement {
@@ -26,45 +27,110 @@ pub(super) fn statements(
 ) -> Vec<Statement> {
     let mut statements = Vec::new();
     while !stream.is_empty() {
+        if stream.peek(Token![;]) {
+            diagnostics.error(stream.span(), "remove this `;`: the statement ends before it");
+            drop(stream.parse::<TokenTree>());
+            continue;
+        }
         let attributes = attributes::read(stream, diagnostics);
-        let (before, messages) = (expressions.len(), diagnostics.len());
-        let ahead = stream.fork();
-        let read = kind(&ahead, expressions, diagnostics).and_then(|kind| {
-            // A statement that ends with braces needs no `;`.
-            if matches!(kind, StatementKind::Body(_) | StatementKind::Scene(_)) {
-                if ahead.peek(Token![;]) {
-                    ahead.parse::<TokenTree>()?;
-                }
-                return Ok(kind);
-            }
-            let last = expressions.last_region().filter(|_| expressions.len() > before);
-            match end(&ahead, last) {
-                // Only the `;` is missing.
-                Err(error) if ahead.is_empty() || at_keyword(&ahead) => {
-                    diagnostics.push(error);
-                    Ok(kind)
-                }
-                Err(error) => Err(error),
-                Ok(()) => Ok(kind),
-            }
-        });
-        let kind = match read {
-            Ok(kind) => {
-                stream.advance_to(&ahead);
-                kind
-            }
-            Err(error) => {
-                if diagnostics.len() == messages {
-                    diagnostics.push(error);
-                }
-                expressions.truncate(before);
-                recovery::kind(&statement_tokens(stream), expressions)
-            }
-        };
+        if let (true, Some(last)) = (stream.is_empty(), attributes.last()) {
+            let region = syn::spanned::Spanned::span(last);
+            diagnostics.error(region, "expected a statement after this comment or attribute");
+            break;
+        }
+        let kind = statement(stream, expressions, diagnostics);
         let attributes = attributes::meant(attributes, kind.bearer(), diagnostics);
         statements.push(Statement { attributes, kind });
     }
     statements
+}
+
+/// Parses one statement; its mistakes are reported.
+fn statement(stream: ParseStream, expressions: &mut Expressions, diagnostics: &mut Diagnostics) -> StatementKind {
+    let (before, messages) = (expressions.len(), diagnostics.len());
+    let word = match keyword(stream, diagnostics) {
+        Ok(word) => word,
+        Err(error) => {
+            if diagnostics.len() == messages {
+                diagnostics.push(error);
+            }
+            return quantity(stream, expressions, diagnostics)
+                .unwrap_or_else(|| recovery::kind(&statement_tokens(stream), expressions));
+        }
+    };
+    let ahead = stream.fork();
+    let read = ended(&ahead, &word, expressions, diagnostics);
+    diagnostics.extend(expressions.take_slips());
+    match read {
+        Ok(kind) => {
+            stream.advance_to(&ahead);
+            kind
+        }
+        Err(error) => {
+            // After a wrong keyword the rest may be wrong as well.
+            if diagnostics.len() == messages {
+                diagnostics.push(error);
+            }
+            expressions.truncate(before);
+            recovery::of_keyword(&word, &statement_tokens(stream), expressions)
+        }
+    }
+}
+
+/// Parses `NAME = EXPRESSION;` without a keyword, unless it is a list of parameters.
+fn quantity(
+    stream: ParseStream,
+    expressions: &mut Expressions,
+    diagnostics: &mut Diagnostics,
+) -> Option<StatementKind> {
+    let (before, ahead) = (expressions.len(), stream.fork());
+    let read = named_value(&ahead, expressions).ok().filter(|(_, value)| expressions.digits(*value).is_none());
+    let slips = expressions.take_slips();
+    let Some((name, value)) = read else {
+        expressions.truncate(before);
+        return None;
+    };
+    diagnostics.extend(slips);
+    stream.advance_to(&ahead);
+    Some(StatementKind::Quantity { name, value })
+}
+
+fn named_value(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(Ident, ExpressionId)> {
+    let name = name(stream)?;
+    stream.parse::<Token![=]>()?;
+    let value = expression::parse(stream, expressions)?;
+    stream.parse::<Token![;]>()?;
+    Ok((name, value))
+}
+
+/// Parses a statement with its end.
+fn ended(
+    stream: ParseStream,
+    keyword: &Ident,
+    expressions: &mut Expressions,
+    diagnostics: &mut Diagnostics,
+) -> syn::Result<StatementKind> {
+    let before = expressions.len();
+    let kind = kind(stream, keyword, expressions, diagnostics)?;
+    // A statement that ends with braces needs no `;`.
+    if matches!(kind, StatementKind::Body(_) | StatementKind::Scene(_)) {
+        if stream.peek(Token![;]) {
+            stream.parse::<TokenTree>()?;
+        }
+        return Ok(kind);
+    }
+    let last = expressions.last_region().filter(|_| expressions.len() > before);
+    match end(stream, last) {
+        // Only the `;` is missing.
+        Err(error) if stream.is_empty() || at_keyword(stream) => {
+            if !expressions.has_slips() {
+                diagnostics.push(error);
+            }
+            Ok(kind)
+        }
+        Err(error) => Err(error),
+        Ok(()) => Ok(kind),
+    }
 }
 
 /// Takes the tokens up to the end of a statement, without its `;`.
@@ -86,50 +152,54 @@ fn statement_tokens(stream: ParseStream) -> Vec<TokenTree> {
     tokens
 }
 
+/// Parses the keyword of a statement. Another word is reported, and returned as the keyword that is meant.
+fn keyword(stream: ParseStream, diagnostics: &mut Diagnostics) -> syn::Result<Ident> {
+    if stream.peek(Token![%]) || stream.peek(Token![-]) {
+        return Err(stream.error("expected a statement: a comment begins with `//`"));
+    }
+    let expected =
+        |error: syn::Error| syn::Error::new(error.span(), format!("expected a statement: {}", KEYWORDS.join(", ")));
+    let ahead = stream.fork();
+    let mut keyword: Ident = ahead.call(Ident::parse_any).map_err(expected)?;
+    if keyword == "pub" && at_keyword(&ahead) {
+        diagnostics.error(keyword.span(), "remove this `pub`: all parts of a mechanism are as visible as it is");
+        keyword = ahead.call(Ident::parse_any)?;
+    }
+    let word = keyword.to_string();
+    if !KEYWORDS.contains(&word.as_str()) {
+        let candidates = meant(&word);
+        let is_only = candidates.len() == 1;
+        let fits = |candidate: &&&str| recovery::fits(candidate, is_only, &ahead);
+        let Some(candidate) = candidates.iter().find(fits) else {
+            return Err(syn::Error::new(keyword.span(), recovery::without_keyword(&word, &ahead)));
+        };
+        diagnostics.error(keyword.span(), format_args!("unknown statement `{word}`, did you mean `{candidate}`?"));
+        keyword = Ident::new(candidate, keyword.span());
+    }
+    if word == "fn" {
+        // It is parsed after `extern`.
+        return Ok(keyword);
+    }
+    if let Ok(colon) = ahead.parse::<Token![:]>() {
+        diagnostics.error(colon.span, format_args!("remove this `:`: write `{keyword} …;`"));
+    }
+    stream.advance_to(&ahead);
+    Ok(keyword)
+}
+
 fn kind(
     stream: ParseStream,
+    keyword: &Ident,
     expressions: &mut Expressions,
     diagnostics: &mut Diagnostics,
 ) -> syn::Result<StatementKind> {
-    let keyword: Ident = stream
-        .call(Ident::parse_any)
-        .map_err(|error| syn::Error::new(error.span(), format!("expected a statement: {}", KEYWORDS.join(", "))))?;
-    let mut word = keyword.to_string();
-    if !KEYWORDS.contains(&word.as_str()) {
-        let hint = suggestion(&word, KEYWORDS);
-        diagnostics.error(
-            keyword.span(),
-            format_args!("unknown statement `{word}`{hint}\nstatements: {}", KEYWORDS.join(", ")),
-        );
-        word = nearest(&word, KEYWORDS).unwrap_or_default().to_owned();
-    }
+    let word = keyword.to_string();
     Ok(match word.as_str() {
-        "param" => {
-            let mut parameters = Vec::new();
-            loop {
-                let name = listed(stream)?;
-                let default = if stream.parse::<Option<Token![=]>>()?.is_some() {
-                    Some(expression::parse(stream, expressions)?)
-                } else {
-                    None
-                };
-                parameters.push((name, default));
-                if stream.parse::<Option<Token![,]>>()?.is_none() {
-                    break StatementKind::Parameters(parameters);
-                }
-            }
-        }
-        "input" => StatementKind::Inputs(names(stream)?),
-        "unknown" => StatementKind::Unknowns(names(stream)?),
-        "coordinate" => StatementKind::Coordinates(names(stream)?),
-        "drive" => {
-            let name = name(stream)?;
-            let by: Ident = stream.call(Ident::parse_any)?;
-            if by != "by" {
-                return Err(syn::Error::new(by.span(), "expected `by`: `drive NAME by COORDINATE;`"));
-            }
-            StatementKind::Drive { name, by: names(stream)? }
-        }
+        "param" => StatementKind::Parameters(parameters(stream, expressions)?),
+        "input" => StatementKind::Inputs(names(stream, expressions, &word)?),
+        "unknown" => StatementKind::Unknowns(names(stream, expressions, &word)?),
+        "coordinate" => StatementKind::Coordinates(names(stream, expressions, &word)?),
+        "drive" => drive(stream, expressions)?,
         "loop" | "equation" => closed(&word, false, stream, expressions)?,
         "implied" => {
             const FORM: &str = "`implied loop … = …;` or `implied equation … = …;`";
@@ -141,8 +211,12 @@ fn kind(
             closed(&what, true, stream, expressions)?
         }
         "let" | "point" | "output" => {
+            if let Ok(mutable) = stream.parse::<Token![mut]>() {
+                expressions.slip(mutable.span, "remove this `mut`: the value of a name does not change");
+            }
             let name = name(stream)?;
-            equals(stream)?;
+            after_name(stream, &word, &name, expressions)?;
+            equals(stream, expressions, &format!("{word} {name} = …;"))?;
             let value = expression::parse(stream, expressions)?;
             match word.as_str() {
                 "let" => StatementKind::Let { name, value },
@@ -150,41 +224,89 @@ fn kind(
                 _ => StatementKind::Output { name, value },
             }
         }
-        "extern" => external(stream, keyword.span())?,
-        "derive" => StatementKind::Derive(names(stream)?),
+        "extern" => external(stream, keyword.span(), expressions)?,
+        "derive" => StatementKind::Derive(names(stream, expressions, &word)?),
         "body" => StatementKind::Body(scene::body(stream, expressions, diagnostics)?),
         "scene" => StatementKind::Scene(scene::scene(stream, expressions, diagnostics)?),
         _ => return Err(syn::Error::new(keyword.span(), "unknown statement")),
     })
 }
 
-/// A name in a list; a keyword instead of it means that a `;` is missing.
-fn listed(stream: ParseStream) -> syn::Result<Ident> {
-    if at_keyword(stream) && stream.peek2(syn::Ident) {
-        return Err(syn::Error::new(stream.span(), "expected a name; end the statement before this with `;`"));
+/// Reports arguments or a type after the name of a `let`, a `point` or an `output`.
+fn after_name(stream: ParseStream, word: &str, name: &Ident, expressions: &mut Expressions) -> syn::Result<()> {
+    let found = stream.span();
+    if stream.peek(Token![,]) {
+        return Err(syn::Error::new(found, format!("expected `=`, found `,`: write one `{word}` for each name")));
     }
-    name(stream)
+    if stream.peek(syn::token::Paren) {
+        let found = stream.parse::<TokenTree>()?.span();
+        let message = format!("`{name}` has no arguments: write `{word} {name} = …;` with the coordinates in it");
+        expressions.slip(found, message);
+    }
+    if stream.peek(Token![:]) && stream.peek2(syn::Ident) && stream.peek3(Token![=]) {
+        let colon = stream.span();
+        stream.parse::<TokenTree>()?;
+        let of = stream.parse::<TokenTree>()?.span();
+        let region = crate::diagnostics::Region { first: colon, last: of };
+        expressions.slip(region, format!("`{name}` has no type here: write `{word} {name} = …;`"));
+    }
+    Ok(())
 }
 
-fn names(stream: ParseStream) -> syn::Result<Vec<Ident>> {
-    let mut names = vec![listed(stream)?];
-    while stream.parse::<Option<Token![,]>>()?.is_some() {
-        names.push(listed(stream)?);
+/// Parses `NAME by q`, after `drive`.
+fn drive(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<StatementKind> {
+    const FORM: &str = "write `drive NAME by COORDINATE;`";
+    let name = name(stream)?;
+    if name == "by" {
+        return Err(syn::Error::new(name.span(), format!("expected the name of the driver before `by`: {FORM}")));
     }
-    Ok(names)
+    let found = stream.span();
+    if !super::tokens::word(stream, "by") {
+        let other = ["=", ":"].into_iter().find(|sign| super::tokens::take(stream, sign).is_some());
+        // Another word, before the coordinate.
+        let is_word = other.is_none() && stream.peek2(syn::Ident);
+        if is_word {
+            stream.parse::<TokenTree>()?;
+        }
+        expressions.slip(found, format!("expected `by`: {FORM}"));
+    }
+    if stream.peek(Token![;]) {
+        return Err(syn::Error::new(stream.span(), format!("expected a coordinate after `by`: {FORM}")));
+    }
+    Ok(StatementKind::Drive { name, by: names(stream, expressions, "by")? })
 }
 
 /// Parses `fn path::of(x, p) -> (f, df, ddf)`, after `extern`.
-fn external(stream: ParseStream, keyword: Span) -> syn::Result<StatementKind> {
+fn external(stream: ParseStream, keyword: Span, expressions: &mut Expressions) -> syn::Result<StatementKind> {
     const FORM: &str = "`extern fn path::to(x) -> (f, df, ddf);`";
     let expected = |found: Span, what: &str| syn::Error::new(found, format!("expected {what}: {FORM}"));
     let found = if stream.is_empty() { keyword } else { stream.span() };
-    stream.parse::<Token![fn]>().map_err(|_| expected(found, "`fn`"))?;
+    if let Ok(abi) = stream.parse::<syn::LitStr>() {
+        expressions.slip(abi.span(), format!("remove the name of the ABI: {FORM}"));
+    }
+    if stream.parse::<Option<Token![fn]>>()?.is_none() {
+        if !stream.peek(syn::Ident) {
+            return Err(expected(found, "`fn`"));
+        }
+        expressions.slip(found, format!("expected `fn` before this: {FORM}"));
+    }
     let found = stream.span();
     let path = Path::parse_mod_style(stream).map_err(|_| expected(found, "the path of a function"))?;
+    if stream.peek(Token![<]) {
+        let mut region = crate::diagnostics::Region::from(stream.span());
+        while !stream.is_empty() && !stream.peek(syn::token::Paren) && !stream.peek(Token![;]) {
+            region = region.to(stream.parse::<TokenTree>()?.span().into());
+        }
+        expressions.slip(region, format!("a function is generic here without saying so: {FORM}"));
+    }
     let arguments = list(stream, |found| expected(found, "the arguments in parentheses"))?;
     let found = stream.span();
-    stream.parse::<Token![->]>().map_err(|_| expected(found, "`->` and the names of its results"))?;
+    if super::tokens::take(stream, "->").is_none() {
+        if super::tokens::take(stream, "=").is_none() {
+            return Err(expected(found, "`->` and the names of its results"));
+        }
+        expressions.slip(found, format!("expected `->`, found `=`: {FORM}"));
+    }
     let names = list(stream, |found| expected(found, "the names of its value and its derivatives"))?;
     Ok(StatementKind::External { path, arguments, names })
 }
@@ -200,6 +322,9 @@ fn list(stream: ParseStream, missing: impl Fn(Span) -> syn::Error) -> syn::Resul
     let mut names = Vec::new();
     while !content.is_empty() {
         names.push(name(&content)?);
+        if content.peek(Token![:]) {
+            return Err(syn::Error::new(content.span(), "an argument has no type here: write its name only"));
+        }
         if content.is_empty() {
             break;
         }
@@ -216,23 +341,29 @@ fn closed(
     stream: ParseStream,
     expressions: &mut Expressions,
 ) -> syn::Result<StatementKind> {
-    let (left, right) = sides(stream, expressions)?;
+    let form = if what == "loop" { "loop VECTOR = VECTOR;" } else { "equation SCALAR = SCALAR;" };
+    let (left, right) = sides(stream, expressions, form)?;
     Ok(match what {
         "loop" => StatementKind::Loop { left, right, is_implied },
         _ => StatementKind::Equation { left, right, is_implied },
     })
 }
 
-fn sides(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(ExpressionId, ExpressionId)> {
+fn sides(stream: ParseStream, expressions: &mut Expressions, form: &str) -> syn::Result<(ExpressionId, ExpressionId)> {
     let left = expression::parse(stream, expressions)?;
-    equals(stream)?;
-    Ok((left, expression::parse(stream, expressions)?))
-}
-
-/// True before an attribute, and before a keyword that begins a statement.
-fn at_keyword(stream: ParseStream) -> bool {
-    let ahead = stream.fork();
-    let at_word = ahead.call(Ident::parse_any).is_ok_and(|word| KEYWORDS.iter().any(|keyword| word == *keyword));
-    let goes_on = !(ahead.is_empty() || ahead.peek(Token![;]) || ahead.peek(Token![,]) || ahead.peek(Token![=]));
-    stream.peek(Token![#]) || (at_word && goes_on)
+    if stream.peek(Token![;]) {
+        let region = stream.span();
+        expressions.slip(region, format!("expected `=` and the other side, which may be `0`: write `{form}`"));
+        let right = expressions.zero(region);
+        return Ok((left, right));
+    }
+    equals(stream, expressions, form)?;
+    let right = expression::parse(stream, expressions)?;
+    let found = stream.span();
+    if stream.peek(Token![=]) && !stream.peek(Token![==]) {
+        stream.parse::<Token![=]>()?;
+        expressions.slip(found, "a statement has one `=`: write a statement for each");
+        expression::parse(stream, expressions)?;
+    }
+    Ok((left, right))
 }

@@ -29,6 +29,7 @@ impl Lowering<'_> {
     }
 
     pub(in crate::model) fn body(&mut self, tree: &syntax::Body, result: &mut Mechanism) {
+        let before = self.scope.uses();
         let mut given: BTreeMap<String, ExpressionId> = BTreeMap::new();
         for (word, value) in &tree.properties {
             if given.insert(word.to_string(), *value).is_some() {
@@ -41,6 +42,9 @@ impl Lowering<'_> {
             if word == "center" {
                 center = self.vector(*value);
             } else if let Some(node) = self.scalar(*value) {
+                if word == "angle" {
+                    self.angle_of_body(node, self.expressions.region(*value), &tree.name.to_string());
+                }
                 scalars.insert(word.to_string(), node);
             }
         }
@@ -66,6 +70,7 @@ impl Lowering<'_> {
             name: Name::new(&tree.name),
             mass: scalars.get("mass").copied().zip(center.map(|(x, y)| [x, y])),
             inertia: scalars.get("inertia").copied().zip(scalars.get("angle").copied()),
+            mentions: self.scope.used_since(before),
         });
     }
 

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
+use proc_macro2::Ident;
 use syn::Attribute;
 
 use super::{Account, Draft, Law, Reading, SceneRequest};
 use crate::graph::{Function, NodeId, Number, SymbolId};
 use crate::model::expression::Lowering;
 use crate::model::scope::Value;
-use crate::syntax::{self, EffectKind, ExpressionId, Place};
+use crate::syntax::{self, EffectKind, Expression, ExpressionId, Place};
 
 impl Lowering<'_> {
     pub(in crate::model) fn scene(&mut self, tree: &syntax::Scene, attributes: &[Attribute], reading: &mut Reading) {
@@ -23,13 +24,18 @@ impl Lowering<'_> {
             contact: None,
             gravity: Vec::new(),
             drives: Vec::new(),
+            mentions: BTreeSet::new(),
+            is_complete: tree.is_complete,
         };
+        let (before, messages) = (self.scope.uses(), self.diagnostics.len());
         for effect in &tree.effects {
             self.effect(effect, &mut scene);
             self.report_fault(effect.keyword.span());
         }
-        if !tree.is_complete {
-            // The `inertia` that a contact needs may be in a statement with a syntax error.
+        scene.mentions = self.scope.used_since(before);
+        scene.is_complete &= self.diagnostics.len() == messages;
+        if !scene.is_complete {
+            // The `inertia` that a contact needs may be in a statement with a mistake.
             scene.contact = None;
         }
         reading.scenes.push(scene);
@@ -111,7 +117,11 @@ impl Lowering<'_> {
                 scene.contacts.extend(self.contact(&effect.kind));
             }
             EffectKind::Drive { input, law } => {
-                let Some(node) = self.law(*law) else { return };
+                let Some(node) = self.law(*law) else {
+                    // For the stub.
+                    scene.drives.push((input.clone(), self.graph.zero()));
+                    return;
+                };
                 let rates: Vec<_> = self.rates.values().filter_map(|&rate| self.graph.as_symbol(rate)).collect();
                 let moves = |symbol: &SymbolId| self.rates.contains_key(symbol) || rates.contains(symbol);
                 if self.graph.symbols_of(&[node]).iter().any(moves) {
@@ -119,6 +129,17 @@ impl Lowering<'_> {
                     self.diagnostics.error(region, "the law of a drive may depend on `t` and parameters only");
                 }
                 scene.drives.push((input.clone(), node));
+            }
+            EffectKind::Unread(names) => {
+                self.value(*names);
+                let is_coordinate =
+                    |name: &&Ident| self.scope.symbol(name).is_some_and(|symbol| self.rates.contains_key(&symbol));
+                if keyword == "drive"
+                    && let Expression::Unread(names) = self.expressions.get(*names)
+                    && let Some(input) = names.iter().map(|unread| &unread.name).find(is_coordinate)
+                {
+                    scene.drives.push((input.clone(), self.graph.zero()));
+                }
             }
             EffectKind::Request => {
                 let request = match keyword.to_string().as_str() {

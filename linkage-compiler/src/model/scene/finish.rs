@@ -4,18 +4,30 @@ use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
-use super::{Draft, Drive, Reading, Scene};
+use super::{Body, Draft, Drive, Reading, Scene, SceneRequest};
 use crate::diagnostics::suggestion;
 use crate::graph::SymbolId;
 use crate::ids::{BodyId, DriverId};
 use crate::model::expression::Lowering;
 use crate::model::mechanism::{Driver, Mechanism};
 
+/// Completes a scene with mistakes for its stub: all that the right scene may have.
+fn complete(scene: &mut Scene, result: &Mechanism) {
+    scene.inertia.get_or_insert_with(|| result.bodies.ids().collect());
+    scene.requests.extend([
+        SceneRequest::Energy,
+        SceneRequest::Power,
+        SceneRequest::Reactions,
+        SceneRequest::Equilibrium,
+    ]);
+}
+
 impl Lowering<'_> {
     /// Resolves the bodies, drivers and parameters of all scenes.
     pub(in crate::model) fn finish_scenes(&mut self, reading: Reading, result: &mut Mechanism) {
-        let mut used = BTreeSet::new();
+        let (mut used, mut mentions) = (BTreeSet::new(), Vec::new());
         for draft in reading.scenes {
+            let messages = self.diagnostics.len();
             let Some(driver) = self.driver_of(&draft, result) else { continue };
             let mut scene = Scene {
                 name: draft.name,
@@ -31,7 +43,7 @@ impl Lowering<'_> {
             };
             if let Some((span, bodies)) = &draft.inertia {
                 let all = self.bodies(bodies, result);
-                if all.is_empty() {
+                if all.is_empty() && bodies.is_empty() {
                     self.diagnostics.error(*span, "`inertia` needs a body: declare one with `body NAME { … }`");
                 }
                 used.extend(all.iter().copied());
@@ -48,6 +60,7 @@ impl Lowering<'_> {
                 scene.weights.extend(heavy.map(|index| (index, [*x, *y])));
             }
             let Driver { inputs, name, .. } = &result.drivers[driver];
+            let mut lost = None;
             for (input, law) in draft.drives {
                 let text = input.to_string();
                 let place = inputs.ids().find(|&input| result.coordinates[inputs[input]].name.text == text);
@@ -55,19 +68,28 @@ impl Lowering<'_> {
                     let of = inputs.iter().map(|&index| result.coordinates[index].name.text.as_str());
                     let hint = suggestion(&text, of);
                     self.diagnostics.error(input.span(), format_args!("`{text}` is not an input of `{name}`{hint}"));
+                    lost = Some(law);
                     continue;
                 };
                 if scene.drives.iter().any(|drive| drive.input == place) {
-                    self.diagnostics.error(input.span(), format_args!("`{text}` is driven twice; remove one `drive`"));
+                    self.diagnostics.error(input.span(), format_args!("`{text}` is driven twice: remove one `drive`"));
+                    continue;
                 }
                 scene.drives.push(Drive { input: place, law });
             }
+            // For the stub.
+            let free = inputs.ids().next().filter(|_| scene.drives.is_empty());
+            scene.drives.extend(free.zip(lost).map(|(input, law)| Drive { input, law }));
             let taken = result.drivers.iter().map(|driver| &driver.name).chain([&result.name]);
             if taken.chain(result.scenes.iter().map(|scene| &scene.name)).any(|name| *name == scene.name) {
                 let message = format!("the type `{}` is declared twice", scene.name);
                 self.diagnostics.error(scene.name.span(), message);
                 continue;
             }
+            if !draft.is_complete || self.diagnostics.len() > messages {
+                complete(&mut scene, result);
+            }
+            mentions.push(draft.mentions);
             result.scenes.push(scene);
         }
         // After mistakes, a scene that uses the body may be missing.
@@ -78,7 +100,7 @@ impl Lowering<'_> {
                 self.diagnostics.error(body.name.span, message);
             }
         }
-        self.part_parameters(result);
+        self.part_parameters(&mentions, result);
     }
 
     fn driver_of(&mut self, scene: &Draft, result: &Mechanism) -> Option<DriverId> {
@@ -104,7 +126,8 @@ impl Lowering<'_> {
             };
             self.diagnostics.error(span, message);
         }
-        place
+        // For the stub.
+        place.or_else(|| result.drivers.ids().next())
     }
 
     /// The bodies with these names; all bodies if there are no names.
@@ -112,6 +135,8 @@ impl Lowering<'_> {
         if names.is_empty() {
             return result.bodies.ids().collect();
         }
+        let is_twice = |body: &Body| result.bodies.iter().filter(|other| other.name.text == body.name.text).count() > 1;
+        let may_be_misnamed = result.bodies.iter().any(is_twice);
         let mut found = Vec::new();
         for name in names {
             let text = name.to_string();
@@ -120,6 +145,7 @@ impl Lowering<'_> {
                     self.diagnostics.error(name.span(), format_args!("`{text}` is named twice; remove one"));
                 }
                 Some(index) => found.push(index),
+                None if may_be_misnamed => {}
                 None => {
                     let hint = suggestion(&text, result.bodies.iter().map(|body| body.name.text.as_str()));
                     self.diagnostics.error(name.span(), format_args!("unknown body `{text}`{hint}"));
@@ -130,14 +156,24 @@ impl Lowering<'_> {
     }
 
     /// Moves parameters that only scenes use from the mechanism to these scenes.
-    fn part_parameters(&self, result: &mut Mechanism) {
-        let kinematic: BTreeSet<SymbolId> =
+    fn part_parameters(&self, mentions: &[BTreeSet<SymbolId>], result: &mut Mechanism) {
+        let mut kinematic: BTreeSet<SymbolId> =
             self.graph.symbols_of(&result.kinematic_formulas(&result.rows())).into_iter().collect();
-        let held: Vec<BTreeSet<SymbolId>> = result
+        let mut held: Vec<BTreeSet<SymbolId>> = result
             .scenes
             .iter()
             .map(|scene| self.graph.symbols_of(&scene.formulas(&result.bodies)).into_iter().collect())
             .collect();
+        if !self.diagnostics.is_empty() {
+            // Formulas with mistakes are missing: the symbols that the statements mention count.
+            kinematic.extend(&self.kinematic);
+            for ((held, scene), mentions) in held.iter_mut().zip(&result.scenes).zip(mentions) {
+                held.extend(mentions);
+                for &body in scene.inertia.iter().flatten() {
+                    held.extend(&result.bodies[body].mentions);
+                }
+            }
+        }
         let belongs = |symbol: &SymbolId| !kinematic.contains(symbol) && held.iter().any(|held| held.contains(symbol));
         let parameters = std::mem::take(&mut result.parameters);
         let (own, shared): (Vec<_>, Vec<_>) = parameters.into_iter().partition(|p| belongs(&p.symbol));

@@ -11,7 +11,7 @@ use proc_macro2::{Ident, Span};
 use syn::Attribute;
 
 use super::name::Name;
-use crate::graph::NodeId;
+use crate::graph::{NodeId, SymbolId};
 use crate::ids::{BodyId, DriverId, InputId, SceneParameterId, Table};
 
 /// A rigid body.
@@ -21,6 +21,8 @@ pub struct Body {
     pub mass: Option<(NodeId, [NodeId; 2])>,
     /// The moment of inertia about the centre, and the angle of the body.
     pub inertia: Option<(NodeId, NodeId)>,
+    /// The symbols that its statement mentions.
+    pub(super) mentions: BTreeSet<SymbolId>,
 }
 
 /// A mechanism with forces and inertia.
@@ -111,6 +113,10 @@ struct Draft {
     contact: Option<(Span, String)>,
     gravity: Vec<([NodeId; 2], Vec<Ident>)>,
     drives: Vec<(Ident, NodeId)>,
+    /// The symbols that its effects mention.
+    mentions: BTreeSet<SymbolId>,
+    /// True if it has no mistake.
+    is_complete: bool,
 }
 
 impl Scene {

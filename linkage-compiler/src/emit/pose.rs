@@ -1,0 +1,62 @@
+//! The fields of a pose.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::names::{comment, ident};
+use crate::derivation::Derivation;
+use crate::graph::Texts;
+use crate::model::{Coordinate, Driver, Kind, Mechanism};
+use crate::program::{Derived, Taken};
+
+/// The fields of a pose in a stub: the coordinates, angles as directions and as numbers.
+pub(super) fn guessed(mechanism: &Mechanism, driver: &Driver, root: &TokenStream) -> TokenStream {
+    let nothing = BTreeSet::new();
+    let mut taken = Taken::new(&nothing);
+    let order = mechanism.coordinate_order(driver);
+    let coordinates: Vec<&Coordinate> = order.iter().map(|&place| &mechanism.coordinates[place]).collect();
+    let names: Vec<Ident> = coordinates.iter().map(|coordinate| ident(&taken.unique(&coordinate.name.field))).collect();
+    let members = coordinates.iter().zip(&names).map(|(coordinate, name)| match coordinate.kind {
+        Kind::Angle => {
+            let number = ident(&taken.unique(&format!("{}_angle", coordinate.name.field)));
+            quote!(pub #name: #root::__rt::UnitComplex<T>, pub #number: T,)
+        }
+        Kind::Length | Kind::Number => quote!(pub #name: T,),
+    });
+    let members: TokenStream = members.collect();
+    quote!(#members scalar: ::core::marker::PhantomData<T>)
+}
+
+/// The fields of a pose.
+pub(super) fn fields(derived: &Derived, derivation: &Derivation, root: &TokenStream) -> TokenStream {
+    let plan = &derived.pose;
+    let mut texts = Texts::default();
+    let mut members = TokenStream::new();
+    let mut member = |name: &str, text: String, of: TokenStream| {
+        let (name, text) = (ident(name), comment(&text));
+        members.extend(quote!(#[doc = #text] pub #name: #of,));
+    };
+    for (angle, name) in &plan.directions {
+        let text = format!(" The direction of `{}`.", texts.of(&derivation.graph, *angle));
+        member(name, text, quote!(#root::__rt::UnitComplex<T>));
+    }
+    for (index, name, _) in &plan.values {
+        member(name, format!(" The coordinate `{}`.", derivation.coordinates[*index].name), quote!(T));
+    }
+    for (node, name, _) in &plan.externals {
+        member(name, format!(" `{}`.", texts.of(&derivation.graph, *node)), quote!(T));
+    }
+    for (block, name, _) in &plan.determinants {
+        let block = &derivation.blocks[*block];
+        let Some(determinant) = block.determinant else { continue };
+        let of = match derivation.blocks.len() {
+            1 => "det J".to_owned(),
+            _ => format!("The determinant of the block of `{}`,", block.names(derivation).replace(", ", "`, `")),
+        };
+        let formula = texts.of(&derivation.graph, determinant.value);
+        member(name, format!(" {of} = `{formula}`."), quote!(T));
+    }
+    members
+}

@@ -1,0 +1,142 @@
+//! Slips that are valid formulas: degrees without a unit, a unit where none may stand, an angle that is a length.
+
+use super::expression::Lowering;
+use super::kind::{Kind, bare_symbols};
+use super::mechanism::Mechanism;
+use super::name::Name;
+use crate::diagnostics::Region;
+use crate::graph::{NodeId, SymbolId};
+use crate::syntax::{Expression, ExpressionId, Statement, StatementKind, Unit};
+
+/// A number above it is more than a turn in radians.
+const TURN: f64 = std::f64::consts::TAU;
+
+impl Lowering<'_> {
+    /// The text of a plain number, and its value, if the expression is one.
+    fn plain(&self, id: ExpressionId) -> Option<(String, f64, Unit)> {
+        match self.expressions.get(id) {
+            Expression::Number { digits, unit } => Some((digits.clone(), digits.parse().ok()?, *unit)),
+            Expression::Negate(inner) => {
+                let (digits, value, unit) = self.plain(*inner)?;
+                Some((format!("-{digits}"), -value, unit))
+            }
+            _ => None,
+        }
+    }
+
+    /// Reports a plain number of more than a turn as an angle or as a term of one; returns true if there is one.
+    pub(super) fn degrees_without_unit(&mut self, angle: ExpressionId) -> bool {
+        if let Some((digits, value, unit)) = self.plain(angle) {
+            let is_slip = unit == Unit::None && value.abs() > TURN;
+            if is_slip {
+                let message =
+                    format!("{digits} radians are more than a turn: write `{digits}deg`, or `{digits}rad` to mean it");
+                self.diagnostics.error(self.expressions.region(angle), message);
+            }
+            return is_slip;
+        }
+        let Expression::Sum(operands) = self.expressions.get(angle) else { return false };
+        operands.iter().any(|&(_, operand)| self.degrees_without_unit(operand))
+    }
+
+    /// Reports an angle unit where none may stand; returns true if there is one.
+    pub(super) fn has_unit(&mut self, id: ExpressionId, what: &str) -> bool {
+        let Some((digits, _, Unit::Degrees | Unit::Radians)) = self.plain(id) else { return false };
+        let message = format!("{what} has no unit of angles: write `{digits}`");
+        self.diagnostics.error(self.expressions.region(id), message);
+        true
+    }
+
+    /// Records the angle of a body, to be checked when the kinds of all names are known.
+    pub(super) fn angle_of_body(&mut self, node: NodeId, region: Region, body: &str) {
+        self.angles_of_bodies.push((node, region, body.to_owned()));
+    }
+
+    /// Reports defaults and angles of bodies of the wrong kind.
+    pub(super) fn kinds_of_numbers(&mut self, statements: &[Statement], kind_of: &dyn Fn(SymbolId) -> Kind) {
+        let parameters = statements.iter().filter_map(|statement| match &statement.kind {
+            StatementKind::Parameters(parameters) => Some(parameters),
+            _ => None,
+        });
+        for (name, default) in parameters.flatten() {
+            let (Some(default), Some(symbol)) = (*default, self.scope.symbol(name)) else { continue };
+            let Some((digits, value, unit)) = self.plain(default) else { continue };
+            let message = match (kind_of(symbol), unit) {
+                (Kind::Angle, Unit::None) if value.abs() > TURN => {
+                    format!(
+                        "the angle `{name}` is {digits} radians, more than a turn: write `{digits}deg`, or `{digits}rad` to mean it"
+                    )
+                }
+                (Kind::Length, Unit::Degrees | Unit::Radians) => {
+                    format!("the length `{name}` has no unit of angles: write `{digits}`")
+                }
+                _ => continue,
+            };
+            self.diagnostics.error(self.expressions.region(default), message);
+        }
+        for (node, region, body) in std::mem::take(&mut self.angles_of_bodies) {
+            let length = bare_symbols(&self.graph, node).into_iter().find(|&symbol| {
+                kind_of(symbol) == Kind::Length
+                    && (self.lengths_of_loops.contains(&symbol) || self.kinds.iter().any(|(other, _)| *other == symbol))
+            });
+            if let Some(length) = length {
+                let name = self.graph.symbol_name(length);
+                let message =
+                    format!("the angle of `{body}` is the length `{name}`: write the angle that the body turns by");
+                self.diagnostics.error(region, message);
+            }
+        }
+    }
+
+    /// Reports each `let` that is not used.
+    pub(super) fn unused_lets(&mut self, statements: &[Statement], result: &Mechanism) {
+        if result.constraints.is_empty() {
+            return;
+        }
+        for statement in statements {
+            let StatementKind::Let { name, .. } = &statement.kind else { continue };
+            let text = Name::new(name).text;
+            if !self.scope.is_value_used(&text) && !text.starts_with('_') {
+                let message = format!("`let {text}` is never used: remove it, or call it `_{text}`");
+                self.diagnostics.error(name.span(), message);
+            }
+        }
+    }
+
+    /// True for the name of an angle.
+    fn is_angle(&self, name: &str) -> bool {
+        self.scope.symbol_of(name).is_some_and(|symbol| self.kinds.contains(&(symbol, Kind::Angle)))
+    }
+
+    /// The names of values in a name, or in a product of names.
+    pub(super) fn values_in(&self, id: ExpressionId) -> Vec<String> {
+        let names = match self.expressions.get(id) {
+            Expression::Product(operands) => {
+                operands.iter().filter_map(|(_, operand)| self.expressions.as_name(*operand)).collect()
+            }
+            _ => self.expressions.as_name(id).into_iter().collect::<Vec<_>>(),
+        };
+        names.into_iter().filter(|name| self.scope.is_value(name)).map(ToString::to_string).collect()
+    }
+
+    /// A scalar among vectors: the advice is `r@phi` for a product of a length and an angle.
+    pub(super) fn as_vector(&self, id: ExpressionId) -> String {
+        let names: Vec<String> = match self.expressions.get(id) {
+            Expression::Product(operands) => operands
+                .iter()
+                .filter_map(|(_, operand)| self.expressions.as_name(*operand))
+                .map(ToString::to_string)
+                .collect(),
+            _ => self.expressions.as_name(id).map(ToString::to_string).into_iter().collect(),
+        };
+        match names.as_slice() {
+            [name, ..] if self.values_in(id).contains(name) => {
+                format!("define `{name}` as a vector, as in `let {name} = r@phi;`")
+            }
+            [length, angle] => format!("write `{length}@{angle}`"),
+            [angle] if self.is_angle(angle) => "write `r@phi` or `(x, y)`".to_owned(),
+            [length] => format!("write `{length}@phi` with its angle, or `({length}, 0)`"),
+            _ => "write `r@phi` or `(x, y)`".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! The messages of undeclared names, when all declarations are known: a line of declarations that is missing is one
+//! mistake.
+
+use super::expression::Lowering;
+use super::kind::Kind;
+use super::scope::Undeclared;
+use crate::diagnostics::{nearest, suggestion};
+use crate::syntax::{Statement, StatementKind, constant_of_rust};
+
+impl Lowering<'_> {
+    /// Completes the messages of undeclared names.
+    pub(super) fn report_undeclared(&mut self, statements: &[Statement]) {
+        let is_angle =
+            |name: &str| self.undeclared_kinds.iter().any(|(other, kind)| other == name && *kind == Kind::Angle);
+        let known: Vec<&str> = self.scope.names().collect();
+        let reported: Vec<&Undeclared> =
+            self.scope.undeclared().iter().filter(|undeclared| undeclared.message.is_some()).collect();
+        let (mut messages, mut removed) = (Vec::new(), Vec::new());
+        let mut single = |undeclared: &Undeclared| {
+            let name = undeclared.name.to_string();
+            let advice = advice(&name, &known, is_angle(&name));
+            messages.push((undeclared.message, undeclared.name.span(), format!("unknown name `{name}`{advice}")));
+        };
+        let is_similar = |undeclared: &&Undeclared| {
+            let name = undeclared.name.to_string();
+            constant_of_rust(&name).is_some() || nearest(&name, known.iter().copied()).is_some()
+        };
+        let lines = Lines::of(statements);
+        let (similar, new): (Vec<&Undeclared>, Vec<&Undeclared>) = reported.into_iter().partition(is_similar);
+        similar.into_iter().for_each(&mut single);
+        let (own, other): (Vec<&Undeclared>, Vec<&Undeclared>) =
+            new.into_iter().partition(|undeclared| lines.may_hold(is_angle(&undeclared.name.to_string())));
+        other.into_iter().for_each(&mut single);
+        if let [first, rest @ ..] = own.as_slice() {
+            let names: Vec<String> = own.iter().map(|undeclared| undeclared.name.to_string()).collect();
+            messages.push((first.message, first.name.span(), lines.message(&names, &is_angle)));
+            removed.extend(rest.iter().filter_map(|undeclared| undeclared.message));
+        }
+        for (index, at, message) in messages {
+            if let Some(index) = index {
+                self.diagnostics.replace(index, at, message);
+            }
+        }
+        self.diagnostics.remove(&removed);
+    }
+}
+
+/// The advice for one undeclared name.
+fn advice(name: &str, known: &[&str], is_angle: bool) -> String {
+    if let Some(constant) = constant_of_rust(name) {
+        return format!(": write `{constant}`");
+    }
+    if name == "time" {
+        return ": time is `t`, in the laws of a scene".to_owned();
+    }
+    let of = known.iter().find(|other| rates_of(other).any(|rate| rate == name));
+    if let Some(of) = of {
+        return format!(": write `rate({of})`, in the laws of a scene");
+    }
+    match suggestion(name, known.iter().copied()) {
+        hint if !hint.is_empty() => hint,
+        _ if is_angle => ": declare it with `input`, `unknown` or `param`".to_owned(),
+        _ => ": declare it with `param`, `input`, `unknown` or `let`".to_owned(),
+    }
+}
+
+/// Names that are given to the rate of a coordinate.
+fn rates_of(name: &str) -> impl Iterator<Item = String> {
+    ["{}_dot", "{}dot", "d{}", "{}_rate", "{}_velocity", "{}_p"].into_iter().map(move |form| form.replace("{}", name))
+}
+
+/// The lines of declarations that a mechanism lacks.
+struct Lines {
+    param: bool,
+    input: bool,
+    unknown: bool,
+    coordinate: bool,
+    /// The number of scalar equations.
+    rows: usize,
+}
+
+impl Lines {
+    fn of(statements: &[Statement]) -> Self {
+        let has = |is_it: fn(&StatementKind) -> bool| statements.iter().any(|statement| is_it(&statement.kind));
+        let is_open = has(|kind| matches!(kind, StatementKind::Coordinates(_) | StatementKind::Unread { .. }));
+        let is_driven = has(|kind| matches!(kind, StatementKind::Drive { .. }));
+        let rows = statements.iter().map(|statement| match statement.kind {
+            StatementKind::Loop { .. } => 2,
+            StatementKind::Equation { .. } => 1,
+            _ => 0,
+        });
+        Self {
+            param: !has(|kind| matches!(kind, StatementKind::Parameters(_) | StatementKind::Unread { .. })),
+            input: !is_driven && !is_open && !has(|kind| matches!(kind, StatementKind::Inputs(_))),
+            unknown: !is_driven && !is_open && !has(|kind| matches!(kind, StatementKind::Unknowns(_))),
+            coordinate: is_driven && !is_open,
+            rows: rows.sum(),
+        }
+    }
+
+    /// True if a missing line may declare a name.
+    fn may_hold(&self, is_angle: bool) -> bool {
+        match is_angle {
+            true => self.input || self.unknown || self.coordinate,
+            false => self.param || self.input || self.unknown || self.coordinate,
+        }
+    }
+
+    fn message(&self, names: &[String], is_angle: &dyn Fn(&str) -> bool) -> String {
+        let all = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let plural = if names.len() == 1 { "" } else { "s" };
+        let coordinates: Vec<&String> = match self.param {
+            true => names.iter().filter(|name| is_angle(name)).collect(),
+            false => names.iter().collect(),
+        };
+        let parameters = names.iter().filter(|name| !coordinates.contains(name));
+        let inputs = match (self.input, self.unknown) {
+            (true, true) => coordinates.len().saturating_sub(self.rows),
+            (true, false) => coordinates.len(),
+            _ => 0,
+        };
+        let (inputs, unknowns) = coordinates.split_at(inputs);
+        let lists = [
+            ("param", parameters.collect::<Vec<_>>()),
+            ("input", inputs.to_vec()),
+            (if self.coordinate { "coordinate" } else { "unknown" }, unknowns.to_vec()),
+        ];
+        let lists = lists.into_iter().filter(|(_, names)| !names.is_empty());
+        let (missing, written): (Vec<String>, Vec<String>) = lists
+            .map(|(word, names)| {
+                let names = names.into_iter().map(String::as_str).collect::<Vec<_>>().join(", ");
+                (format!("`{word}`"), format!("`{word} {names};`"))
+            })
+            .unzip();
+        let (missing, written) = (missing.join(" and no "), written.join(" and "));
+        format!("unknown name{plural} {all}: this mechanism has no {missing}; write {written}")
+    }
+}

@@ -1,0 +1,132 @@
+//! Lists of names: parameters, coordinates, keywords of `derive`.
+
+use proc_macro2::{Delimiter, Ident, TokenTree};
+use syn::Token;
+use syn::ext::IdentExt;
+use syn::parse::{ParseStream, Parser};
+
+use super::expression::{self, ExpressionId, Expressions};
+use super::kind::{at_keyword, at_word};
+use super::scene::{EFFECTS, PROPERTIES};
+use super::tokens::{equals, name, take};
+use crate::diagnostics::Region;
+
+/// Parses `a = 1, b`.
+pub(super) fn parameters(
+    stream: ParseStream,
+    expressions: &mut Expressions,
+) -> syn::Result<Vec<(Ident, Option<ExpressionId>)>> {
+    listed(stream, expressions, &|stream, expressions| {
+        let name = name(stream)?;
+        skip_type(stream, expressions, "a parameter", &name)?;
+        let has_value = !stream.is_empty() && !stream.peek(Token![,]) && !stream.peek(Token![;]);
+        let default = (has_value && !stream.peek(syn::Ident)).then(|| {
+            equals(stream, expressions, &format!("{name} = …"))?;
+            expression::parse(stream, expressions)
+        });
+        Ok((name, default.transpose()?))
+    })
+}
+
+/// Parses `a, b`; a value is reported.
+pub(super) fn names(stream: ParseStream, expressions: &mut Expressions, of: &str) -> syn::Result<Vec<Ident>> {
+    listed(stream, expressions, &|stream, expressions| {
+        let name = name(stream)?;
+        skip_type(stream, expressions, &format!("`{of}`"), &name)?;
+        let found = stream.span();
+        if stream.parse::<Option<Token![=]>>()?.is_some() {
+            let message = format!("a name after `{of}` has no value here: pass it to the functions; write `{name}`");
+            expressions.slip(found, message);
+            expression::parse(stream, expressions)?;
+        }
+        Ok(name)
+    })
+}
+
+type Item<'a, V> = &'a dyn Fn(ParseStream, &mut Expressions) -> syn::Result<V>;
+
+fn listed<V>(stream: ParseStream, expressions: &mut Expressions, item: Item<V>) -> syn::Result<Vec<V>> {
+    if let Some((content, region)) = group(stream) {
+        expressions.slip(region, "remove these parentheses: names are separated by commas");
+        return Parser::parse2(|inner: ParseStream| items(inner, expressions, item), content);
+    }
+    items(stream, expressions, item)
+}
+
+fn group(stream: ParseStream) -> Option<(proc_macro2::TokenStream, Region)> {
+    let ahead = stream.fork();
+    match ahead.parse() {
+        Ok(TokenTree::Group(group)) if group.delimiter() != Delimiter::None => {
+            syn::parse::discouraged::Speculative::advance_to(stream, &ahead);
+            Some((group.stream(), Region::from(group.span_open()).to(group.span_close().into())))
+        }
+        _ => None,
+    }
+}
+
+fn items<V>(stream: ParseStream, expressions: &mut Expressions, item: Item<V>) -> syn::Result<Vec<V>> {
+    let mut items = vec![item(stream, expressions)?];
+    while goes_on(stream, expressions)? {
+        items.push(item(stream, expressions)?);
+    }
+    Ok(items)
+}
+
+/// Parses what separates two items; a missing comma, or one too many, is reported.
+fn goes_on(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<bool> {
+    let found = stream.span();
+    if stream.parse::<Option<Token![,]>>()?.is_none() {
+        let begins = at_keyword(stream) || at_word(stream, &EFFECTS) || at_word(stream, &PROPERTIES);
+        let is_name = stream.peek(syn::Ident) && !begins;
+        if is_name {
+            let and = stream.peek2(syn::Ident) && stream.fork().call(Ident::parse_any).is_ok_and(|word| word == "and");
+            if and {
+                stream.parse::<Ident>()?;
+                expressions.slip(found, "expected `,`, found `and`");
+            } else {
+                expressions.slip(found, "expected `,` before this");
+            }
+        }
+        return Ok(is_name);
+    }
+    if at_keyword(stream) && stream.peek2(syn::Ident) {
+        return Err(syn::Error::new(found, "expected `;`, found `,`: a keyword follows"));
+    }
+    while stream.peek(Token![,]) {
+        let again = stream.span();
+        stream.parse::<Token![,]>()?;
+        expressions.slip(again, "expected a name: remove this `,`");
+    }
+    // A decimal comma.
+    if let Ok(literal) = stream.fork().parse::<syn::LitInt>() {
+        stream.parse::<TokenTree>()?;
+        expressions.slip(literal.span(), "expected a name: a decimal point is `.`, as in `80.5`");
+        return goes_on(stream, expressions);
+    }
+    let ends = stream.is_empty() || stream.peek(Token![;]);
+    if ends {
+        let at = if stream.is_empty() { found } else { stream.span() };
+        expressions.slip(at, "expected a name after `,`");
+    }
+    Ok(!ends)
+}
+
+/// Reports a type after a name, or a range.
+fn skip_type(stream: ParseStream, expressions: &mut Expressions, of: &str, name: &Ident) -> syn::Result<()> {
+    // `name: 80` has another sign for `=`.
+    let is_type = stream.peek(Token![:]) && (stream.peek2(syn::Ident) || stream.peek2(Token![&]));
+    let is_range = stream.peek(Token![in]);
+    if !is_type && !is_range {
+        return Ok(());
+    }
+    let mut region: Option<Region> = None;
+    while !(stream.is_empty() || [",", ";", "="].iter().any(|sign| take(&stream.fork(), sign).is_some())) {
+        let token: TokenTree = stream.parse()?;
+        region = Some(region.map_or(token.span().into(), |region| region.to(token.span().into())));
+    }
+    if let Some(region) = region {
+        let what = if is_type { "type" } else { "range" };
+        expressions.slip(region, format!("{of} has no {what} here: write `{name}`"));
+    }
+    Ok(())
+}
