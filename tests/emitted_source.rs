@@ -1,5 +1,5 @@
 //! Emitted code as if somebody had written it: a crate made of the expansions alone must pass clippy's
-//! pedantic lints, without the standard library, without unsafe code, and with every item documented.
+//! pedantic lints and those of its nursery, without the standard library, without unsafe code, and with every item documented.
 
 use linkage_gallery::{FILES, families, source};
 use std::path::{Path, PathBuf};
@@ -21,9 +21,23 @@ linkage = { path = "ROOT", default-features = false, features = ["dynamics", "li
 unsafe_code = "forbid"
 warnings = "deny"
 missing_docs = "deny"
+future_incompatible = { level = "deny", priority = -1 }
+keyword_idents = { level = "deny", priority = -1 }
+let_underscore = { level = "deny", priority = -1 }
+nonstandard_style = { level = "deny", priority = -1 }
+rust_2018_idioms = { level = "deny", priority = -1 }
+rust_2021_compatibility = { level = "deny", priority = -1 }
+rust_2024_compatibility = { level = "deny", priority = -1 }
+refining_impl_trait = { level = "deny", priority = -1 }
+unused = { level = "deny", priority = -1 }
 
 [lints.clippy]
+all = { level = "deny", priority = -1 }
 pedantic = { level = "deny", priority = -1 }
+nursery = { level = "deny", priority = -1 }
+# These ask for fused multiplication, which is slow where the machine has none.
+suboptimal_flops = "allow"
+imprecise_flops = "allow"
 # The user chooses the names of the mechanism, and its size.
 many_single_char_names = "allow"
 similar_names = "allow"
