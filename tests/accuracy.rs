@@ -158,7 +158,7 @@ fn closed_form_near_a_dead_point() {
     within(errors::<Jansen, f64, ClosedForm>("1e-3", leg::<f64>).unwrap(), [2e-12, 4e-9, 1e-5]);
     assert!(matches!(
         errors::<Jansen, f64, ClosedForm>("1e-9", leg::<f64>),
-        Err(PositionError::Singular { group: "angle_b, angle_j", .. })
+        Err(PositionError::Singular { group: "angle_b, angle_j (Pivot-Upper-Pin)", .. })
     ));
 }
 

@@ -352,7 +352,11 @@ fn ends_of_inversors() {
                 let q = start.coordinates();
                 let (at, groups, tangents) = crossing(&m, &q, direction);
                 assert!((at.theta - theta).abs() < 1e-14, "{at:?}");
-                assert!(groups.iter().eq(["upper, upper_side", "lower, lower_side", "upper_tip, lower_tip"]));
+                assert!(groups.iter().eq([
+                    "upper, upper_side (O-Upper-P)",
+                    "lower, lower_side (O-Lower-P)",
+                    "upper_tip, lower_tip (Upper-Q-Lower)"
+                ]));
                 assert!(!tangents.is_complete());
                 // The motion that came: the dyads against each other, and the tips along.
                 let followed = tangents[0];
@@ -373,7 +377,7 @@ fn ends_of_inversors() {
     for branch in HartBranch::all() {
         let q = m.assemble(0.2, branch).unwrap().coordinates();
         let (at, groups, tangents) = crossing(&m, &q, Direction::Increasing);
-        assert!(groups.iter().eq(["alpha, beta", "gamma, delta"]));
+        assert!(groups.iter().eq(["alpha, beta", "gamma, delta (B-C-D)"]));
         assert!(tangents.len() == 2 && tangents.is_complete());
         assert_eq!(lead_on(&m, &at, &tangents), 4);
     }
@@ -455,7 +459,7 @@ fn a_rhombus() {
     let m = CoupledWheels::new(1.0, 1.0);
     let at = |theta| CoupledWheelsCoordinates { theta, rod: 0.0, follower: theta };
     let (q, groups, tangents) = crossing(&m, &at(-1.0), Direction::Increasing);
-    assert!(q.theta.abs() < 1e-15 && groups.iter().eq(["rod, follower"]));
+    assert!(q.theta.abs() < 1e-15 && groups.iter().eq(["rod, follower (B-C-D)"]));
     // rod = follower - theta, and theta (follower - theta) = 0.
     let together = CoupledWheelsRates { theta: 1.0, rod: 0.0, follower: 1.0 };
     let folded = CoupledWheelsRates { theta: 0.0, rod: 1.0, follower: 1.0 };

@@ -42,8 +42,14 @@ imprecise_flops = "allow"
 many_single_char_names = "allow"
 similar_names = "allow"
 too_many_lines = "allow"
+# The user writes the documentation of the mechanism, and what its parameters derive.
+too_long_first_doc_paragraph = "allow"
+derive_partial_eq_without_eq = "allow"
 # Clippy itself does not ask this of what a macro emits.
 inline_always = "allow"
+missing_const_for_fn = "allow"
+or_fun_call = "allow"
+suspicious_operation_groupings = "allow"
 
 [profile.dev]
 debug = false
@@ -97,6 +103,36 @@ fn passes_pedantic_lints() {
         let text = prettyplease::unparse(&syn::parse2(tokens).unwrap());
         fs::write(folder.join(format!("src/{mechanism}.rs")), format!("//! `{mechanism}`.\n\n{text}")).unwrap();
         library += &format!("pub mod {mechanism};\n");
+    }
+    fs::write(folder.join("src/lib.rs"), library).unwrap();
+    succeeds(&folder, "clippy");
+}
+
+/// Lints that clippy does not ask of what a macro emits, or that the source of a mechanism does not keep.
+const OF_SOURCE: [&str; 5] = [
+    "derive_partial_eq_without_eq",
+    "inline_always",
+    "missing_const_for_fn",
+    "or_fun_call",
+    "suspicious_operation_groupings",
+];
+
+/// A user may deny every lint, those of clippy's nursery too, but for the two that ask for fused multiplication, and for
+/// lints of the names, the size and the documentation of the user's own mechanism.
+#[test]
+fn a_user_may_deny_every_lint() {
+    let folder = crate_called("all_lints");
+    let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+    let is_kept = |line: &&str| !OF_SOURCE.iter().any(|lint| line.starts_with(&format!("{lint} = ")));
+    let manifest: Vec<&str> = manifest.lines().filter(is_kept).collect();
+    fs::write(folder.join("Cargo.toml"), manifest.join("\n")).unwrap();
+    let mut library = String::from("//! Mechanisms of a user.\n#![no_std]\n\n");
+    let files = FILES.iter().step_by(4);
+    let sources = files.map(|file| (file, source::text_of(file))).filter(|(_, text)| !text.contains("crate::"));
+    for (file, text) in sources {
+        let text = text.replace("PartialEq)]", "PartialEq, Eq)]");
+        fs::write(folder.join(format!("src/{file}.rs")), format!("//! `{file}`.\n\n{text}")).unwrap();
+        library += &format!("pub mod {file};\n");
     }
     fs::write(folder.join("src/lib.rs"), library).unwrap();
     succeeds(&folder, "clippy");

@@ -6,7 +6,7 @@ use crate::error::all_finite;
 use crate::{PositionError, Real};
 
 /// The motion of a point.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PointMotion<T: Scalar = f64> {
     /// The position.
@@ -18,7 +18,7 @@ pub struct PointMotion<T: Scalar = f64> {
 }
 
 /// The motion of a scalar quantity.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutputMotion<T = f64> {
     /// The value.

@@ -125,6 +125,12 @@ fn wrapper(implementation: &ItemImpl, called: Option<&syn::Path>, signature: &sy
     let name = quote::format_ident!("{}{by}_{function}", plain(&of));
     let text = match &signature.output {
         ReturnType::Default => quote!(pub fn #name(#(#parameters),*) { #call }),
+        // The positions on all branches.
+        ReturnType::Type(_, _) if signature.ident == "branches" => quote! {
+            pub fn #name(#(#parameters),*) -> bool {
+                #call.is_ok_and(|found| { found.for_each(|item| { ::core::hint::black_box(item); }); true })
+            }
+        },
         ReturnType::Type(_, of) if matches!(**of, Type::ImplTrait(_)) => quote! {
             pub fn #name(#(#parameters),*) { #call.for_each(|item| { ::core::hint::black_box(item); }) }
         },

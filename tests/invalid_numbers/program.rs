@@ -322,10 +322,11 @@ fn call(name: &str, function: &Signature) -> String {
         // Functions without `Result` document their results for invalid numbers.
         None => String::new(),
     };
-    let _ = if of.starts_with("implIterator<Item=Result<") || of.starts_with("impl::core::iter::Iterator<Item=Result<")
-    {
-        write!(text, "t.each(s, {row}, || {called}.collect());")
-    } else if kept.is_empty() {
+    let called = match of.starts_with("Result<implIterator<") {
+        true => format!("{called}.map(|found| found.collect::<Vec<_>>())"),
+        false => called,
+    };
+    let _ = if kept.is_empty() {
         write!(text, "t.total(s, {row}, || {called});")
     } else {
         write!(text, "if let Some(r) = t.fallible(s, {row}, || {called}) {{ {kept}; }}")

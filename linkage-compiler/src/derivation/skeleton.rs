@@ -188,10 +188,11 @@ impl Tracer<'_> {
                     let along = edge.link.vector.map(|part| self.moves(&[part]));
                     let block = [(from, to), (to, from)].into_iter().find(|(end, _)| is_fixed[*end]);
                     // A vector of two unknown components is no guide.
-                    if let (Some((_, block)), false) = (block, edge.link.angle.is_none() && along == [true, true]) {
-                        if !parts.contains(&Part::Slider(block)) && !is_fixed[block] {
-                            parts.push(Part::Slider(block));
-                        }
+                    let is_free = edge.link.angle.is_none() && along == [true, true];
+                    if let Some((_, block)) = block.filter(|(_, block)| !is_free && !is_fixed[*block])
+                        && !parts.contains(&Part::Slider(block))
+                    {
+                        parts.push(Part::Slider(block));
                     }
                 }
             }

@@ -48,7 +48,13 @@ pub(super) fn docs_of_parameter(mechanism: &Mechanism, parameter: &Parameter) ->
 pub(super) fn derives(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     let serde = serde(mechanism, root);
     quote! {
-        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+        #[derive(
+            ::core::clone::Clone,
+            ::core::marker::Copy,
+            ::core::fmt::Debug,
+            ::core::cmp::PartialEq,
+            ::core::cmp::Eq,
+        )]
         #serde
     }
 }
@@ -552,7 +558,7 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
         #[doc = #title]
         #example
         #derives
-        #[derive(::core::cmp::Eq, ::core::hash::Hash #default)]
+        #[derive(::core::hash::Hash #default)]
         #visibility struct #branch { #(#members,)* #(#turn_members),* }
         #functions
     }

@@ -54,7 +54,7 @@ impl Side {
                 let graph = &derivation.graph;
                 let outer = |joint: &Joint, link: &str| match joint {
                     Joint::Point(point) => format!("`{point}`"),
-                    Joint::Fixed([x, y]) => format!("({}, {})", graph.text(*x), graph.text(*y)),
+                    Joint::Fixed([x, y]) => format!("`({}, {})`", graph.text(*x), graph.text(*y)),
                     Joint::Unnamed => format!("the far end of the link at `{link}`"),
                 };
                 let middle = match &joints.middle {

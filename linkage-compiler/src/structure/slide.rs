@@ -5,7 +5,7 @@
 
 use super::{Block, Class, Group};
 use crate::graph::{Graph, NodeId, SymbolId};
-use crate::ids::{BlockId, RowId, Table, UnknownId};
+use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
 
 /// The length of a slider, for the block of the angle of its link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,8 +54,6 @@ pub fn find_slides(
         let slope = graph.partial(&[rows[other]], s)[0];
         let Some(slope) = graph.as_number(slope) else { continue };
         let is_far_rising = ((slope.to_f64() > 0.0) == (row == x)) != class.mirrored.contains(&phi);
-        if let Some(block) = blocks.iter_mut().nth(place) {
-            block.slide = Some(Slide { length, is_far_rising });
-        }
+        blocks[BlockId::new(place)].slide = Some(Slide { length, is_far_rising });
     }
 }

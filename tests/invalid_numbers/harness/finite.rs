@@ -11,7 +11,7 @@ use linkage::nalgebra::{Point2, SMatrix, UnitComplex};
 use linkage::simulation::{Loads, State, Touch};
 use linkage::singularity::{Accuracy, Exchange, GroupMeasure, Singularity};
 use linkage::{
-    AnyBranch, Balance, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
+    AnyBranch, Assembled, Balance, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
     Mechanism, OutputMotion, PointMotion, Power, Scene, Slider, Slope, Solution, Unreduced,
 };
 
@@ -58,6 +58,12 @@ impl<Q: Finite, const N: usize> Finite for [Q; N] {
 impl<Q: Finite> Finite for Vec<Q> {
     fn all_finite(&self) -> bool {
         self.iter().all(Finite::all_finite)
+    }
+}
+
+impl<B, P: Finite> Finite for Assembled<B, P> {
+    fn all_finite(&self) -> bool {
+        self.pose.all_finite()
     }
 }
 
