@@ -118,7 +118,7 @@ const OF_SOURCE: [&str; 5] = [
 ];
 
 /// A user may deny every lint, those of clippy's nursery too, but for the two that ask for fused multiplication, and for
-/// lints of the names, the size and the documentation of the user's own mechanism.
+/// lints of the names, the size and the documentation that a mechanism has from its user.
 #[test]
 fn a_user_may_deny_every_lint() {
     let folder = crate_called("all_lints");

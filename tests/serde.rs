@@ -66,7 +66,7 @@ fn fields_are_the_names_of_the_user() {
     assert_eq!(to_value(error).unwrap()["Unbuildable"]["mechanism"], "FourBar");
 }
 
-/// Types of the user's own derives, in a function, with other scalars.
+/// Types with derives by the user, in a function, with other scalars.
 #[test]
 fn own_derives_and_places() {
     linkage! {

@@ -108,7 +108,7 @@ fn loops_and_points_become_parts() {
     );
     let mut found = parts::<Inverted>();
     found.sort_unstable();
-    assert_eq!(found, ["crank O-2", "ground 1", "ground O", "sleeve 2 on 1"]);
+    assert_eq!(found, ["crank O-1", "ground 2", "ground O", "sleeve 1 on 2"]);
     let mut found = parts::<FiveBar>();
     found.sort_unstable();
     assert_eq!(found, ["bar 1-2", "bar 2-4", "crank 3-4", "crank O-1", "ground 3", "ground O"]);

@@ -15,7 +15,7 @@ use crate::{D, Dim, Real};
 #[derive(Clone, Copy)]
 pub struct Column<X: Copy + Debug, R: Dim>(R::Array<X>);
 
-/// As a sequence.
+/// A column is written as a sequence.
 #[cfg(feature = "serde")]
 impl<X: Copy + Debug + serde::Serialize, R: Dim> serde::Serialize for Column<X, R> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -52,7 +52,7 @@
 //!
 //! // Driven by its crank it is far from singular there.
 //! let compressor = Compressor::default();
-//! let pose = compressor.assemble(0.0, CompressorBranch { phi2_z3: linkage::Slider::Far }).unwrap();
+//! let pose = compressor.assemble(0.0, CompressorBranch { z3_phi2: linkage::Slider::Far }).unwrap();
 //! assert!(!singularity::report(&compressor, &pose).unwrap().is_singular());
 //! ```
 

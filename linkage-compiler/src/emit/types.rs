@@ -80,7 +80,7 @@ pub(super) fn serde_of_parameters(
     serde(mechanism, root).filter(|_| !is_own)
 }
 
-/// The name of the crate `serde` beside the types: its derives take a path as text, which `$crate` cannot be.
+/// The name of the crate `serde` next to the types: its derives take a path as text, which `$crate` cannot be.
 fn serde_alias(mechanism: &Mechanism) -> Ident {
     ident(&format!("__{}_serde", mechanism.name))
 }

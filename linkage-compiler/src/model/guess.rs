@@ -72,8 +72,11 @@ pub(super) fn complete(
             true => missing.len().saturating_sub(rows).min(missing.len()),
             false => 0,
         };
-        let unknowns: Vec<Ident> = missing.drain(first..).take(rows.saturating_sub(known)).collect();
-        let inputs: Vec<Ident> = if nothing_drives { missing } else { Vec::new() };
+        let count = rows.saturating_sub(known).min(missing.len() - first);
+        let unknowns: Vec<Ident> = missing.drain(first..first + count).collect();
+        // With all unknowns declared, the first other name is the input.
+        let inputs = if known == 0 { first } else { usize::from(nothing_drives) };
+        let inputs: Vec<Ident> = missing.into_iter().take(inputs).collect();
         for name in inputs {
             let id = declare(mechanism, name);
             for driver in mechanism.drivers.iter_mut() {

@@ -86,6 +86,19 @@ impl Tally {
         None
     }
 
+    /// A call that gives several results, each of which may be an error.
+    pub fn each<R: Finite + Debug, E: Into<Error>>(
+        &mut self,
+        source: &Source,
+        name: &'static str,
+        call: impl FnOnce() -> Vec<Result<R, E>>,
+    ) {
+        let results = self.call(source, name, call).map(|(results, _)| results);
+        for result in results.into_iter().flatten() {
+            self.fallible(source, name, || result);
+        }
+    }
+
     /// A call that always gives a result, which is not checked here.
     pub fn total<R>(&mut self, source: &Source, name: &'static str, call: impl FnOnce() -> R) -> Option<R> {
         let (result, row) = self.call(source, name, call)?;

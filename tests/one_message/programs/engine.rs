@@ -35,7 +35,7 @@ fn residual<M: Mechanism<Scalar = f64>>(mechanism: &M, q: &M::Coordinates) -> f6
 
 pub fn main() -> Result<(), linkage::Error> {
     let compressor = Compressor::default();
-    let branch = CompressorBranch::new(linkage::Slope::Falling);
+    let branch = CompressorBranch::new(linkage::Slider::Near);
     let pose = compressor.assemble(1.0, branch)?;
     let rates = compressor.velocity(&pose, 2.0)?;
     let accelerations = compressor.acceleration(&pose, &rates, 0.0)?;
