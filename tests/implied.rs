@@ -105,7 +105,7 @@ fn a_path_of_three_cranks() {
     assert!((end.psi - 6.0).abs() < 1e-12, "{end:?}");
 }
 
-/// Near a dead point the position is accurate to the root of the rounding error: the loop closes there as well.
+/// Near a dead point a position has half of the digits, an error of about sqrt(epsilon); implied loops must pass there too.
 #[test]
 fn implied_loops_near_a_dead_point() {
     let m = ThreeCranks::default();

@@ -19,7 +19,7 @@ fn condition<M: Mechanism<Scalar = f64>>(m: &M, pose: &M::Pose) -> f64 {
     product / m.determinant(pose).abs()
 }
 
-/// True if a residual is within rounding error.
+/// True if each residual is at most 64 epsilon times the sum of the magnitudes of its terms.
 fn closes<M: Mechanism<Scalar = f64>>(m: &M, pose: &M::Pose) -> bool {
     let (residual, scales) = (m.residual(pose), m.residual_scales(pose));
     residual.iter().zip(scales.iter()).all(|(residual, scale)| residual.abs() <= 64.0 * f64::EPSILON * scale)

@@ -160,7 +160,7 @@ impl Animation {
         M: Skeleton<Scalar = f64> + Assembly,
     {
         let middle = f64::midpoint(from, to);
-        // The ends themselves, without the rounding error of the sum.
+        // Exactly `from` and `to` at the ends: the sum below may differ from them in the last digit.
         let input = move |step: u32| match step % FRAMES {
             0 => from,
             half if 2 * half == FRAMES => to,
