@@ -19,6 +19,7 @@ mod equilibrium;
 mod error;
 mod inertia;
 pub mod integrate;
+mod reactions;
 mod scene;
 pub mod simulation;
 

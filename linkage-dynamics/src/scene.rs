@@ -49,6 +49,8 @@ pub trait Scene {
     type Contacts: Dim;
     /// The kinematics.
     type Mechanism: Mechanism<Scalar = Self::Scalar, U = Self::U, V = Self::V>;
+    /// The forces in the joints that `reaction` statements name, or `()`.
+    type Reactions: Copy + PartialEq + core::fmt::Debug;
 
     /// The name of the scene, used in errors.
     const NAME: &'static str;
@@ -99,6 +101,19 @@ pub trait Scene {
         q: &Coordinates<Self>,
         rates: &Rates<Self>,
     ) -> Result<UnreducedOf<Self>, MotionError>;
+    /// The forces in the joints in a motion with the rates q', the accelerations (u'', v''), and these forces of
+    /// frictions and stops along their scalars.
+    ///
+    /// # Errors
+    /// [`PositionError::Singular`] where J is singular, [`PositionError::NotFinite`] if a number is not finite.
+    fn reactions(
+        &self,
+        t: Self::Scalar,
+        q: &Coordinates<Self>,
+        rates: &Rates<Self>,
+        accelerations: (Column<Self::Scalar, Self::U>, Column<Self::Scalar, Self::V>),
+        contact_forces: &Column<Self::Scalar, Self::Contacts>,
+    ) -> Result<Self::Reactions, MotionError>;
     /// The prescribed motion of each input, or None.
     fn prescribed(&self, t: Self::Scalar) -> Column<Option<Prescribed<Self::Scalar>>, Self::V>;
 

@@ -15,7 +15,7 @@ impl Derivation {
         let motion = self.coordinates.iter().flat_map(|c| [c.value, c.rate]).chain(mechanism.time);
         let motion: BTreeSet<SymbolId> = motion.collect();
         let mut contacts = Vec::new();
-        for model::Contact { label, along, law } in &scene.contacts {
+        for model::Contact { label, along, law, .. } in &scene.contacts {
             let value = self.simplest(*along);
             let row = self.row_of(value);
             let seeds = along_rates(&mut self.graph, &self.coordinates);

@@ -155,8 +155,8 @@ impl Derivation {
         let mass_matrix = scene.inertia.is_some().then_some(mass_matrix);
         let drives = self.prescribed(mechanism, scene);
         let unreduced = scene.inertia.is_some().then(|| self.derive_unreduced(mechanism, scene));
-        let reactions =
-            scene.requests.contains(&SceneRequest::Reactions).then(|| self.derive_reactions(mechanism, scene));
+        let has_joints = scene.requests.contains(&SceneRequest::Reactions) || !scene.opened().is_empty();
+        let reactions = has_joints.then(|| self.derive_reactions(mechanism, place, scene));
         Scene {
             place,
             bias,

@@ -1,125 +1,84 @@
-//! Reactions: the Lagrange multipliers of the loop equations and constraints.
+//! The forces in joints: the generalised forces of the displacements that open them.
 //!
-//! The rows of the unknowns in M q'' + `Psi_q'` lambda = F give J' lambda = F_u - (M q'')_u. This is solved from the
-//! last block to the first, each block of J transposed. For a `loop`, lambda is the force of the left side on the right
-//! side at the point where they meet.
-//!
-//! The rows of Psi may be those of an elimination, row j less m times row i. With lambda_i - sum m lambda_j in place of
-//! lambda_i, `Psi_q'` lambda is that of the rows as written.
+//! With a displacement d of a link from a joint (`model::Opened`) as one more coordinate, its row of
+//! M q'' + Psi' lambda = F holds the force R in the joint on the link: R = sum m (s'' - g) `s_d` + `Psi_d'` lambda -
+//! sum F `s_d` at d = 0, with the forces F of effects and contacts along their scalars s.
+
+use rustc_hash::FxHashMap;
 
 use super::data::Derivation;
-use super::jacobian::along_rates;
-use super::linear::{Form, solve_closed};
 use super::scene::Reactions;
-use super::step::Step;
-use crate::graph::{Function, NodeId, Number, SymbolId};
-use crate::ids::{Id, RowId, Table};
+use crate::graph::{NodeId, Number, SymbolId};
+use crate::ids::SceneId;
 use crate::model::{self, Mechanism};
 
 impl Derivation {
-    pub(super) fn derive_reactions(&mut self, mechanism: &Mechanism, scene: &model::Scene) -> Reactions {
-        let mut terms = self.unknowns.filled(Vec::new());
-        let mut add = |derivation: &mut Self, scalar: NodeId, force: NodeId, sign: Number| {
-            let row = derivation.row_of(scalar);
-            for (terms, unknown) in terms.iter_mut().zip(&derivation.unknowns) {
-                if let Some(&entry) = row.get(unknown) {
-                    terms.push((sign, derivation.graph.multiply(entry, force)));
-                }
-            }
-        };
-        for (index, body) in mechanism.bodies.enumerated() {
-            for part in self.moving_parts(index, body, scene) {
-                for (&scalar, &field) in part.scalars.iter().zip(&part.fields) {
-                    let acceleration = if part.is_inert { self.acceleration_of(scalar) } else { self.graph.zero() };
-                    let difference = self.graph.subtract(acceleration, field);
-                    let force = self.graph.multiply(part.factor, difference);
-                    add(self, scalar, force, Number::MINUS_ONE);
-                }
-            }
-        }
-        for law in &scene.laws {
-            add(self, law.along, law.law, Number::ONE);
-        }
-        let side = terms.map(|terms| self.graph.sum(&terms));
-        let names: Table<RowId, SymbolId> =
-            self.residual.ids().map(|row| self.graph.symbol(format!("lambda_{}", row.number()))).collect();
-        let eliminations = mechanism.drivers[scene.driver].system.eliminations.clone();
-        let mut solved = names.clone();
-        for elimination in &eliminations {
-            let row = elimination.pivot;
-            solved[row] = self.graph.symbol(format!("lambda_{}_eliminated", row.number()));
-        }
-        Reactions { names, solved, eliminations, side }
-    }
-
-    /// s'' in terms of q, q' and q''.
-    fn acceleration_of(&mut self, scalar: NodeId) -> NodeId {
-        let mut seeds = along_rates(&mut self.graph, &self.coordinates);
-        let rate = self.graph.differentiate(&[scalar], &seeds)[0];
-        for coordinate in &self.coordinates {
-            seeds.insert(coordinate.rate, self.graph.variable(coordinate.acceleration));
-        }
-        self.graph.differentiate(&[rate], &seeds)[0]
-    }
-
-    /// The steps that check each block and solve J' lambda = side.
-    pub fn transposed_solution(&mut self, reactions: &Reactions) -> Vec<Step> {
-        let mut steps = Vec::new();
-        let mut solved: Vec<(RowId, NodeId)> = Vec::new();
-        for id in self.blocks.ids().rev() {
-            let block = self.blocks[id].clone();
-            let rows = self.block_matrix(&block);
-            let columns = |place: usize| rows.iter().map(|row| row[place]).collect::<Vec<NodeId>>();
-            let matrix: Vec<Vec<NodeId>> = (0..rows.len()).map(columns).collect();
-            let mut right = Vec::new();
-            for &unknown in &block.unknowns {
-                let mut terms = vec![(Number::ONE, reactions.side[unknown])];
-                for &(equation, lambda) in &solved {
-                    if let Some(&entry) = self.jacobian[equation].get(&self.unknowns[unknown]) {
-                        terms.push((Number::MINUS_ONE, self.graph.multiply(entry, lambda)));
+    pub(super) fn derive_reactions(
+        &mut self,
+        mechanism: &Mechanism,
+        place: SceneId,
+        scene: &model::Scene,
+    ) -> Reactions {
+        let contact_forces = self.contact_forces(scene);
+        let multipliers = self.derive_multipliers(mechanism, scene, &contact_forces);
+        let opened = &mechanism.opened;
+        let mut forces = Vec::new();
+        for &load in &scene.opened() {
+            forces.push(opened.loads[load].displacement.map(|displacement| {
+                let mut terms = Vec::new();
+                for (index, body) in mechanism.bodies.enumerated() {
+                    let displaced = &opened.bodies[index];
+                    for part in self.moving_parts(index, body, scene) {
+                        let moved = match part.property {
+                            "mass" => displaced.center.map(Vec::from),
+                            _ => displaced.angle.map(|angle| vec![angle]),
+                        };
+                        let scalars = part.scalars.iter().zip(&part.fields);
+                        for ((&scalar, &field), moved) in scalars.zip(moved.unwrap_or_default()) {
+                            let slope = self.by_displacement(moved, displacement, mechanism);
+                            if self.graph.is_zero(slope) {
+                                continue;
+                            }
+                            let zero = self.graph.zero();
+                            let acceleration = if part.is_inert { self.acceleration_of(scalar) } else { zero };
+                            let net = self.graph.subtract(acceleration, field);
+                            terms.push((Number::ONE, self.graph.product(&[(part.factor, 1), (net, 1), (slope, 1)])));
+                        }
                     }
                 }
-                right.push(self.graph.sum(&terms));
-            }
-            let targets = reactions.solved.at(&block.equations);
-            if block.determinant.is_some() {
-                if let Some(divisor) = self.check_block(id, &block, &mut steps) {
-                    let values = solve_closed(&mut self.graph, &matrix, divisor, &right, Form::Entries);
-                    let named = targets.iter().zip(values);
-                    steps.extend(named.map(|(&symbol, node)| Step::Let { symbol, node }));
+                let lambda = multipliers.names.iter().map(|&name| self.graph.variable(name)).collect::<Vec<_>>();
+                let rows = opened.rows.iter().copied().zip(lambda).map(|(row, lambda)| (Number::ONE, row, lambda));
+                let paths = &opened.scenes[place];
+                let laws = paths.laws.iter().zip(&scene.laws).map(|(&path, law)| (Number::MINUS_ONE, path, law.law));
+                let forces = contact_forces.iter().map(|&symbol| self.graph.variable(symbol)).collect::<Vec<_>>();
+                let contacts = paths.contacts.iter().zip(forces).map(|(&path, force)| (Number::MINUS_ONE, path, force));
+                for (sign, path, force) in rows.chain(laws).chain(contacts).collect::<Vec<_>>() {
+                    let slope = self.by_displacement(path, displacement, mechanism);
+                    terms.push((sign, self.graph.multiply(force, slope)));
                 }
-            } else {
-                let row_scales = matrix.iter().map(|row| self.row_scale(row)).collect();
-                steps.push(Step::Factor { block: id, matrix, row_scales });
-                steps.push(Step::Solve { block: id, targets: targets.clone(), right });
-            }
-            solved.extend(block.equations.iter().zip(targets).map(|(&at, name)| (at, self.graph.variable(name))));
+                let sum = self.graph.sum(&terms);
+                self.simplest(sum)
+            }));
         }
-        steps.extend(self.as_written(reactions));
-        steps
+        Reactions { opened: scene.opened(), contact_forces, multipliers, forces }
     }
 
-    /// The steps that name the multipliers of the rows as written.
-    fn as_written(&mut self, reactions: &Reactions) -> Vec<Step> {
-        let mut values: Table<RowId, NodeId> =
-            reactions.solved.iter().map(|&symbol| self.graph.variable(symbol)).collect();
-        let mut steps = Vec::new();
-        for elimination in reactions.eliminations.iter().rev() {
-            let row = elimination.pivot;
-            let mut terms = vec![(Number::ONE, values[row])];
-            for &(other, multiple) in &elimination.multiples {
-                terms.push((Number::MINUS_ONE, self.graph.multiply(multiple, values[other])));
-            }
-            let node = self.graph.sum(&terms);
-            steps.push(Step::Let { symbol: reactions.names[row], node });
-            values[row] = self.graph.variable(reactions.names[row]);
-        }
-        steps
+    /// The symbols of the forces of frictions and stops along their scalars.
+    fn contact_forces(&mut self, scene: &model::Scene) -> Vec<SymbolId> {
+        let of = |label: &str| label.replace(|letter: char| !letter.is_alphanumeric(), "_").to_lowercase();
+        let names = scene.contacts.iter().map(|contact| format!("force_of_{}", of(&contact.label)));
+        names.map(|name| self.graph.symbol(name)).collect()
     }
 
-    /// The sum of the magnitudes of the entries of a row.
-    fn row_scale(&mut self, row: &[NodeId]) -> NodeId {
-        let terms: Vec<_> = row.iter().map(|&entry| (Number::ONE, self.graph.call(Function::Abs, &[entry]))).collect();
-        self.graph.sum(&terms)
+    /// The derivative of an expression with displaced joints by one displacement, where all are zero.
+    fn by_displacement(&mut self, node: NodeId, displacement: SymbolId, mechanism: &Mechanism) -> NodeId {
+        if !self.graph.symbols_of(&[node]).contains(&displacement) {
+            return self.graph.zero();
+        }
+        let slope = self.graph.partial(&[node], displacement)[0];
+        let zero = self.graph.zero();
+        let all = mechanism.opened.loads.iter().flat_map(|load| load.displacement);
+        let closed: FxHashMap<NodeId, NodeId> = all.map(|symbol| (self.graph.variable(symbol), zero)).collect();
+        self.graph.replace(&[slope], &closed)[0]
     }
 }

@@ -32,6 +32,7 @@ pub struct Scene {
     pub dissipated: NodeId,
     /// M and F in all coordinates, if anything has inertia.
     pub unreduced: Option<Unreduced>,
+    /// The forces in joints, if a statement names one.
     pub reactions: Option<Reactions>,
     pub equilibrium: Option<Equilibrium>,
 }
@@ -81,9 +82,9 @@ pub struct Unreduced {
     pub forces: Table<ColumnId, NodeId>,
 }
 
-/// The system of the reactions.
+/// The system of the Lagrange multipliers.
 #[derive(Debug, Clone)]
-pub struct Reactions {
+pub struct Multipliers {
     /// lambda of the rows as written.
     pub names: Table<RowId, SymbolId>,
     /// lambda of the rows of Psi.
@@ -92,6 +93,18 @@ pub struct Reactions {
     pub eliminations: Vec<Elimination>,
     /// F_u - (M q'')_u, in terms of q, q', q'' and t.
     pub side: Table<UnknownId, NodeId>,
+}
+
+/// The forces in joints, in terms of q, q', q'', t, lambda and the forces of contacts.
+#[derive(Debug, Clone)]
+pub struct Reactions {
+    /// The opened joints, as indices in [`Opened::loads`](crate::model::Opened::loads).
+    pub opened: Vec<usize>,
+    /// The force of each friction and stop along its scalar.
+    pub contact_forces: Vec<SymbolId>,
+    pub multipliers: Multipliers,
+    /// The two components of each.
+    pub forces: Vec<[NodeId; 2]>,
 }
 
 /// The formulas of the equilibrium of a scene, in terms of q, t, W and L.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::graph::{Graph, NodeId, Number, SymbolId};
-use crate::model::{Chain, Driver, Link, Mechanism};
+use crate::model::{Chain, Driver, Link, Mechanism, Places};
 
 /// The joints and the parts of a drawing.
 #[derive(Debug, Clone, Default)]
@@ -47,11 +47,11 @@ impl Skeleton {
         };
         let moving = symbols(&mut mechanism.coordinates.ids());
         let driving = symbols(&mut driver.inputs.iter().copied());
-        let mut tracer = Tracer { mechanism, graph, moving, joints: Vec::new(), same: Vec::new(), edges: Vec::new() };
+        let mut tracer = Tracer { mechanism, graph, moving, joints: Places::default(), edges: Vec::new() };
         for [left, right] in &mechanism.loops {
             if !left.links.is_empty() || !right.links.is_empty() {
-                let [one, other] = [left, right].map(|side| tracer.trace(side)).map(|joint| tracer.find(joint));
-                tracer.same[one.max(other)] = one.min(other);
+                let [one, other] = [left, right].map(|side| tracer.trace(side));
+                tracer.joints.merge(one, other);
             }
         }
         for point in &mechanism.points {
@@ -66,38 +66,20 @@ struct Tracer<'a> {
     graph: &'a mut Graph,
     /// The symbols of the coordinates.
     moving: BTreeSet<SymbolId>,
-    joints: Vec<[NodeId; 2]>,
-    /// For each joint, itself, or an earlier joint where the loop equations put it.
-    same: Vec<usize>,
+    joints: Places,
     edges: Vec<Edge>,
 }
 
 impl Tracer<'_> {
-    fn find(&self, mut joint: usize) -> usize {
-        while self.same[joint] != joint {
-            joint = self.same[joint];
-        }
-        joint
-    }
-
-    fn joint(&mut self, at: [NodeId; 2]) -> usize {
-        if let Some(known) = self.joints.iter().position(|joint| *joint == at) {
-            return known;
-        }
-        self.joints.push(at);
-        self.same.push(self.joints.len() - 1);
-        self.joints.len() - 1
-    }
-
     /// Adds the joints and vectors of a chain; returns its last joint.
     fn trace(&mut self, chain: &Chain) -> usize {
         let zero = self.graph.zero();
-        let mut last = self.joint(chain.start.unwrap_or([zero; 2]));
+        let mut last = self.joints.add(chain.start.unwrap_or([zero; 2]));
         for &link in &chain.links {
             let sign = if link.is_reversed { Number::MINUS_ONE } else { Number::ONE };
-            let from = self.joints[last];
+            let from = self.joints.position(last);
             let to = [0, 1].map(|axis| self.graph.sum(&[(Number::ONE, from[axis]), (sign, link.vector[axis])]));
-            let next = self.joint(to);
+            let next = self.joints.add(to);
             self.edges.push(Edge { ends: [last, next], link });
             last = next;
         }
@@ -116,7 +98,7 @@ impl Tracer<'_> {
                 self.edges.push(edge);
                 continue;
             };
-            let ends = edge.ends.map(|end| self.find(end));
+            let ends = edge.ends.map(|end| self.joints.find(end));
             let mut body = Body { angle, joints: BTreeSet::from(ends) };
             let mut rest = Vec::new();
             for other in bodies {
@@ -154,10 +136,7 @@ impl Tracer<'_> {
     fn finish(mut self, driving: &BTreeSet<SymbolId>) -> Skeleton {
         let bodies = self.bodies();
         let is_fixed: Vec<bool> = (0..self.joints.len())
-            .map(|joint| {
-                let mut same = (0..self.joints.len()).filter(|&other| self.find(other) == joint);
-                same.any(|other| !self.moves(&self.joints[other]))
-            })
+            .map(|joint| self.joints.formulas(joint).any(|formula| !self.moves(&formula)))
             .collect();
         let mut parts = Vec::new();
         let mut pivots: BTreeSet<usize> = BTreeSet::new();
@@ -170,7 +149,7 @@ impl Tracer<'_> {
             parts.push(Part::Bar { joints, is_driven: is_input && fixed.is_some() });
         }
         for edge in std::mem::take(&mut self.edges) {
-            let [from, to] = edge.ends.map(|end| self.find(end));
+            let [from, to] = edge.ends.map(|end| self.joints.find(end));
             if !self.changes(&edge.link) {
                 continue;
             }
@@ -199,8 +178,7 @@ impl Tracer<'_> {
         }
         // A declared point of one body that turns about no pivot is a point of interest.
         for point in &self.mechanism.points {
-            let Some(place) = self.joints.iter().position(|joint| *joint == [point.x, point.y]) else { continue };
-            let place = self.find(place);
+            let Some(place) = self.joints.known([point.x, point.y]) else { continue };
             let mut holding = bodies.iter().filter(|body| body.joints.contains(&place));
             if let (Some(body), None) = (holding.next(), holding.next())
                 && !body.joints.iter().any(|&joint| is_fixed[joint])
@@ -223,8 +201,7 @@ impl Tracer<'_> {
         let mut numbers = (1..).map(|number: usize| number.to_string());
         let mut named = Vec::new();
         for place in 0..self.joints.len() {
-            let here = (0..self.joints.len()).filter(|&other| self.find(other) == self.find(place));
-            let here: Vec<[NodeId; 2]> = here.map(|other| self.joints[other]).collect();
+            let here: Vec<[NodeId; 2]> = self.joints.formulas(self.joints.find(place)).collect();
             let point = points.iter().find(|point| here.contains(&[point.x, point.y]));
             let name = match point {
                 Some(point) => point.name.text.clone(),
@@ -233,7 +210,7 @@ impl Tracer<'_> {
             };
             // Of several formulas for a joint at rest, the constant one.
             let constant = here.iter().find(|joint| !self.moves(&joint[..]));
-            named.push((name, *constant.unwrap_or(&self.joints[place])));
+            named.push((name, constant.copied().unwrap_or_else(|| self.joints.position(place))));
         }
         named
     }

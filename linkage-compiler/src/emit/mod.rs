@@ -11,6 +11,7 @@ mod motion;
 mod names;
 mod places;
 mod pose;
+mod reactions;
 mod scene;
 mod text;
 mod traits;
@@ -77,7 +78,8 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         let name = &scene.signatures.scene.name;
         let place = places::of(name.span());
         tokens.extend(places::located(scene::types(&scene.signatures, root), place, 1));
-        let implemented = traits::of_scene(&scene.signatures, driver.unknowns.len(), &fields).unwrap_or_default();
+        tokens.extend(reactions::types(&scene.signatures, root).map(|types| places::located(types, place, 1)));
+        let implemented = traits::of_scene(&scene.signatures, driver, &fields).unwrap_or_default();
         let text = "The name of the scene in errors.";
         let implemented = places::located(implemented, place, 1);
         tokens.extend(block(name, (text, "MotionError"), &scene.functions, &|_| place, root, &implemented));

@@ -12,7 +12,7 @@ use crate::derivation::{Block, Derivation};
 use crate::graph::SymbolId;
 use crate::ids::{ColumnId, CoordinateId, Id};
 use crate::lower::Code;
-use crate::model::{Coordinate, Kind, Mechanism};
+use crate::model::{Coordinate, Driver, Kind, Mechanism};
 use crate::program::{Derived, Program, SceneSignatures, TypeNames};
 
 /// `is_finite` and `coordinates` of a pose.
@@ -251,13 +251,14 @@ fn groups(derivation: &Derivation) -> Vec<TokenStream> {
 }
 
 /// Implements `Scene` if the scene has `inertia`.
-pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[Ident]) -> Option<TokenStream> {
-    let SceneSignatures { scene, types, field: inner, inputs, driven, .. } = signatures;
+pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Ident]) -> Option<TokenStream> {
+    let SceneSignatures { scene, types, field: inner, inputs, driven, unknowns, .. } = signatures;
     scene.inertia.as_ref()?;
     let (name, text) = (&scene.name, scene.name.to_string());
     let TypeNames { driver, inputs: inputs_type, coordinates, rates, .. } = types;
     let [of, inputs_type, coordinates, rates] = [driver, inputs_type, coordinates, rates].map(|n| ident(n));
     let inner = ident(inner);
+    let unknowns = *unknowns;
     let [u, v, n, c] = [unknowns, inputs.len(), unknowns + 2 * inputs.len(), scene.contacts.len()].map(literal);
     let names: Vec<Ident> = inputs.iter().map(|input| ident(input)).collect();
     let input_rates: Vec<Ident> = inputs.iter().map(|input| ident(&format!("{input}_rate"))).collect();
@@ -288,6 +289,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[
         true => quote!(__rt::Ok(self.contacts(t, q, rates)?.into())),
     };
     let state = quote!(__rt::Column<T, __rt::D<#n>>);
+    let (reactions, joints) = reactions(signatures, on);
     let result = |of: TokenStream| quote!(__rt::Result<#of, __rt::MotionError>);
     let (nothing, derivative) = (result(quote!(())), result(state.clone()));
     let [all_contacts, all_equations, all_unreduced] = [
@@ -304,6 +306,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[
             type State = __rt::D<#n>;
             type Contacts = __rt::D<#c>;
             type Mechanism = #of<T>;
+            type Reactions = #reactions;
             const NAME: &'static str = #text;
             fn mechanism(&self) -> &Self::Mechanism {
                 &self.#inner
@@ -330,6 +333,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[
             fn contacts(&self, #of_t: T, #of_q: &#coordinates<T>, #of_rates: &#rates<T>) -> #all_contacts {
                 #contacts
             }
+            #joints
             fn unreduced(&self, t: T, q: &#coordinates<T>, rates: &#rates<T>) -> #all_unreduced {
                 self.unreduced(t, q, rates)
             }
@@ -339,4 +343,43 @@ pub(super) fn of_scene(signatures: &SceneSignatures, unknowns: usize, fields: &[
             }
         }
     })
+}
+
+/// The type of the forces in the joints of a scene, and the function of `Scene` that computes them.
+fn reactions(signatures: &SceneSignatures, driver: &Driver) -> (TokenStream, TokenStream) {
+    let SceneSignatures { mechanism, scene, types, reactions_type, inputs, unknowns, .. } = signatures;
+    let TypeNames { coordinates, rates, accelerations, .. } = types;
+    let [name, coordinates, rates, accelerations] =
+        [reactions_type, coordinates, rates, accelerations].map(|name| ident(name));
+    let [u, v, c] = [*unknowns, inputs.len(), scene.contacts.len()].map(literal);
+    let has_reactions = signatures.has_reactions();
+    let of = if has_reactions { quote!(#name<T>) } else { quote!(()) };
+    let names = ["t", "q", "rates", "accelerations", "contact_forces"];
+    let [t, q, of_rates, of_accelerations, forces] =
+        names.map(|name| argument(name, has_reactions && (name != "contact_forces" || !scene.contacts.is_empty())));
+    let value = if has_reactions {
+        let unknowns = Members::of(mechanism, &driver.unknowns).fields;
+        let inputs = Members::of(mechanism, &driver.inputs).fields;
+        let forces = (!scene.contacts.is_empty()).then(|| quote!(&(*contact_forces).into()));
+        quote! {
+            let ([#(#unknowns),*], [#(#inputs),*]): ([T; #u], [T; #v]) = (accelerations.0.into(), accelerations.1.into());
+            let accelerations = #accelerations { #(#unknowns,)* #(#inputs),* };
+            self.reactions_of(t, q, rates, &accelerations, #forces)
+        }
+    } else {
+        quote!(__rt::Ok(()))
+    };
+    let function = quote! {
+        fn reactions(
+            &self,
+            #t: T,
+            #q: &#coordinates<T>,
+            #of_rates: &#rates<T>,
+            #of_accelerations: (__rt::Column<T, __rt::D<#u>>, __rt::Column<T, __rt::D<#v>>),
+            #forces: &__rt::Column<T, __rt::D<#c>>,
+        ) -> __rt::Result<Self::Reactions, __rt::MotionError> {
+            #value
+        }
+    };
+    (of, function)
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::expression::Lowering;
 use super::scope::Value;
 use crate::graph::NodeId;
-use crate::syntax::{Expression, ExpressionId, Operator, Statement, StatementKind};
+use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Statement, StatementKind};
 
 /// One vector of a chain.
 #[derive(Debug, Clone, Copy)]
@@ -18,6 +18,37 @@ pub struct Link {
     pub angle: Option<NodeId>,
     /// The length of `r@angle`.
     pub length: Option<NodeId>,
+    /// The parts of the vector along its angle and across, if it is written as `r@angle`, `(x, y)@angle` or `(x, y)`.
+    pub parts: Option<[NodeId; 2]>,
+}
+
+impl Link {
+    /// The vector that an expression writes; `None` if it is a scalar.
+    pub(super) fn of(
+        expressions: &Expressions,
+        id: ExpressionId,
+        is_reversed: bool,
+        zero: NodeId,
+        value: &mut dyn FnMut(ExpressionId) -> Value,
+    ) -> Option<Self> {
+        let Value::Vector(x, y) = value(id) else { return None };
+        let mut link = Self { vector: [x, y], is_reversed, angle: None, length: None, parts: None };
+        match *expressions.get(id) {
+            Expression::At(length, angle) => {
+                link.angle = value(angle).scalar();
+                let length = value(length);
+                link.length = length.scalar();
+                link.parts = match length {
+                    Value::Scalar(length) => Some([length, zero]),
+                    Value::Vector(x, y) => Some([x, y]),
+                    Value::Poison => None,
+                };
+            }
+            Expression::Vector(..) => link.parts = Some(link.vector),
+            _ => {}
+        }
+        Some(link)
+    }
 }
 
 /// Vectors in a row, from a point or from the origin.
@@ -34,11 +65,12 @@ const LONGEST: usize = 256;
 /// The chains of the `let`s of vectors; None for the name of a point, from which chains start.
 type Named = BTreeMap<String, Option<Chain>>;
 
-/// The chains of all loops and points in the order of declaration; empty where an expression is no sum of vectors.
+/// The chains of all loops, points and centres of bodies in the order of declaration; empty where an expression is no sum of vectors.
 #[derive(Debug, Default)]
 pub(super) struct Chains {
     pub(super) loops: Vec<[Chain; 2]>,
     pub(super) points: Vec<Chain>,
+    pub(super) centers: Vec<Chain>,
 }
 
 impl Lowering<'_> {
@@ -57,6 +89,11 @@ impl Lowering<'_> {
                 }
                 StatementKind::Loop { left, right, .. } => {
                     chains.loops.push([left, right].map(|&side| self.chain(side, &named).unwrap_or_default()));
+                }
+                StatementKind::Body(body) => {
+                    let center = body.properties.iter().find(|(word, _)| word == "center");
+                    let chain = center.and_then(|(_, value)| self.chain(*value, &named));
+                    chains.centers.push(chain.unwrap_or_default());
                 }
                 _ => {}
             }
@@ -82,10 +119,9 @@ impl Lowering<'_> {
         if vector.iter().all(|&part| self.graph.is_zero(part)) {
             return Some(());
         }
-        let mut link = Link { vector, is_reversed, angle: None, length: None };
         match expressions.get(id) {
             Expression::Sum(operands) => {
-                for &(operator, operand) in operands {
+                for (operator, operand) in in_order(operands, is_reversed) {
                     self.add_links(operand, is_reversed != (operator == Operator::Inverse), named, chain)?;
                 }
                 return (chain.links.len() <= LONGEST).then_some(());
@@ -96,30 +132,30 @@ impl Lowering<'_> {
                     if let Some(start) = start {
                         start_from(chain, *start, is_reversed)?;
                     }
-                    let links = links.iter();
-                    chain
-                        .links
-                        .extend(links.map(|&link| Link { is_reversed: link.is_reversed != is_reversed, ..link }));
+                    let turned = |link: &Link| Link { is_reversed: link.is_reversed != is_reversed, ..*link };
+                    match is_reversed {
+                        false => chain.links.extend(links.iter().map(turned)),
+                        true => chain.links.extend(links.iter().rev().map(turned)),
+                    }
                     return Some(());
                 }
                 None => return start_from(chain, vector, is_reversed),
             },
-            &Expression::At(length, angle) => {
-                link.length = self.as_scalar(length);
-                link.angle = self.as_scalar(angle);
-            }
             _ => {}
         }
-        chain.links.push(link);
+        let link = Link::of(expressions, id, is_reversed, self.graph.zero(), &mut |id| self.value(id));
+        chain.links.extend(link);
         Some(())
     }
+}
 
-    fn as_scalar(&mut self, id: ExpressionId) -> Option<NodeId> {
-        match self.value(id) {
-            Value::Scalar(node) => Some(node),
-            Value::Vector(..) | Value::Poison => None,
-        }
+/// The operands of a sum in the order in which a chain follows them: from the last one if the sum is subtracted.
+pub(super) fn in_order(operands: &[(Operator, ExpressionId)], is_reversed: bool) -> Vec<(Operator, ExpressionId)> {
+    let mut operands = operands.to_vec();
+    if is_reversed {
+        operands.reverse();
     }
+    operands
 }
 
 /// Lets a chain start from a point: only one, and not subtracted.

@@ -7,6 +7,7 @@ use proc_macro2::Ident;
 use super::advice;
 use super::kind::{Kind, bare_symbols};
 use super::mechanism::{Call, ExternalFunction, Extreme};
+use super::opening::Opening;
 use super::scope::{Scope, VECTOR_FUNCTIONS, Value};
 use crate::diagnostics::{Diagnostics, Region, suggestion};
 use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
@@ -45,6 +46,8 @@ pub(super) struct Lowering<'a> {
     pub(super) is_law: bool,
     /// The literal with the most extreme magnitude so far.
     pub(super) extreme: Option<Extreme>,
+    /// The second reading with displaced joints.
+    pub(super) opening: Option<Opening>,
     pub(super) diagnostics: &'a mut Diagnostics,
 }
 
@@ -55,6 +58,7 @@ impl Lowering<'_> {
         let missing = (id.index() + 1).saturating_sub(self.values.len());
         for (expression, region) in expressions.from(self.values.len()).take(missing) {
             let value = self.lower(expression, region);
+            let value = self.displaced(self.values.len(), value);
             let is_at_fault = self.report_fault(region);
             self.values.push(if is_at_fault { Value::Poison } else { value });
         }

@@ -7,9 +7,10 @@ use quote::ToTokens;
 use syn::spanned::Spanned;
 use syn::{Attribute, Path};
 
-use super::chain::Chain;
+use super::chain::{Chain, Chains};
 use super::expression::Lowering;
 use super::kind::Kind;
+use super::links::Links;
 use super::mechanism::{Constraint, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
 use super::name::Name;
 use super::scope::{Scope, Value};
@@ -17,7 +18,7 @@ use super::{check, guess, request, scene};
 use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
-use crate::ids::{CoordinateId, Table};
+use crate::ids::CoordinateId;
 use crate::structure::System;
 use crate::syntax::{self, ExpressionId, StatementKind};
 
@@ -52,34 +53,12 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
         time: None,
         is_law: false,
         extreme: None,
+        opening: None,
         diagnostics,
     };
     let has_scenes = statements.iter().any(|statement| matches!(statement.kind, StatementKind::Scene(_)));
     lowering.scope.has_time = has_scenes;
-    let mut result = Mechanism {
-        attributes,
-        everywhere,
-        visibility,
-        name,
-        graph: Graph::default(),
-        parameters: Table::default(),
-        coordinates: Table::default(),
-        constraints: Vec::new(),
-        loops: Vec::new(),
-        implied: Vec::new(),
-        drivers: Table::default(),
-        points: Vec::new(),
-        outputs: Vec::new(),
-        externals: Vec::new(),
-        named: Vec::new(),
-        requests: BTreeSet::new(),
-        requests_at: BTreeMap::new(),
-        bodies: Table::default(),
-        scenes: Table::default(),
-        scene_parameters: Table::default(),
-        time: None,
-        extreme: None,
-    };
+    let mut result = Mechanism::named(attributes, everywhere, visibility, name);
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
     if has_scenes {
@@ -102,6 +81,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     if lowering.diagnostics.is_empty() {
         lowering.unused_lets(&statements, &result);
         let chains = lowering.chains(&statements);
+        lowering.open_joints(&statements, &chains, &mut result);
         result.loops = chains.loops;
         result.points.iter_mut().zip(chains.points).for_each(|(point, chain)| point.chain = chain);
     }
@@ -149,6 +129,20 @@ struct Roles {
 }
 
 impl Lowering<'_> {
+    /// Opens the joints whose forces scenes need.
+    fn open_joints(&mut self, statements: &[syntax::Statement], chains: &Chains, result: &mut Mechanism) {
+        if result.scenes.iter().all(|scene| scene.wanted.is_empty()) {
+            return;
+        }
+        let moving = result.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+        let mut links = Links::of(&mut self.graph, moving, chains, &result.bodies);
+        let joints = self.joints(&mut links, result);
+        if self.diagnostics.is_empty() {
+            let again = Mechanism::named(Vec::new(), Vec::new(), result.visibility.clone(), result.name.clone());
+            result.opened = self.opened(statements, links, joints, again).unwrap_or_default();
+        }
+    }
+
     /// Declares all names of the mechanism, so that statements may come in any order.
     fn declare(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: &mut Roles) {
         // Coordinates come first in the canonical order of a sum: phi2 - delta, not -(delta - phi2).
@@ -241,7 +235,7 @@ impl Lowering<'_> {
         Some((name, symbol))
     }
 
-    fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) -> scene::Reading {
+    pub(super) fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) -> scene::Reading {
         let mut reading = scene::Reading::default();
         for statement in statements {
             let (attributes, before) = (statement.attributes.clone(), self.scope.uses());

@@ -8,6 +8,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
 use super::chain::Chain;
 use super::kind::Kind;
 use super::name::Name;
+use super::opening::Opened;
 use super::request::Request;
 use super::scene::{Body, Scene};
 use crate::diagnostics::Region;
@@ -50,6 +51,8 @@ pub struct Mechanism {
     pub scene_parameters: Table<SceneParameterId, Parameter>,
     /// The symbol t, if there are scenes.
     pub time: Option<SymbolId>,
+    /// The joints whose forces scenes need.
+    pub opened: Opened,
     /// The literal with the most extreme magnitude.
     pub extreme: Option<Extreme>,
 }
@@ -162,6 +165,40 @@ pub struct Call {
 }
 
 impl Mechanism {
+    /// A mechanism without content.
+    pub(super) fn named(
+        attributes: Vec<Attribute>,
+        everywhere: Vec<Attribute>,
+        visibility: Visibility,
+        name: Ident,
+    ) -> Self {
+        Self {
+            attributes,
+            everywhere,
+            visibility,
+            name,
+            graph: Graph::default(),
+            parameters: Table::default(),
+            coordinates: Table::default(),
+            constraints: Vec::new(),
+            loops: Vec::new(),
+            implied: Vec::new(),
+            drivers: Table::default(),
+            points: Vec::new(),
+            outputs: Vec::new(),
+            externals: Vec::new(),
+            named: Vec::new(),
+            requests: BTreeSet::new(),
+            requests_at: BTreeMap::new(),
+            bodies: Table::default(),
+            scenes: Table::default(),
+            scene_parameters: Table::default(),
+            time: None,
+            opened: Opened::default(),
+            extreme: None,
+        }
+    }
+
     /// True if the mechanism leaves the choice of input to `drive` statements.
     #[must_use]
     pub fn is_driven_by_choice(&self) -> bool {

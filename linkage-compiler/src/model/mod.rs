@@ -7,10 +7,13 @@ mod check;
 mod expression;
 mod guess;
 mod kind;
+mod links;
 mod lower;
 mod meant;
 mod mechanism;
 mod name;
+mod opening;
+mod places;
 mod request;
 mod scene;
 mod scope;
@@ -24,5 +27,7 @@ pub use mechanism::{
     Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,
 };
 pub use name::Name;
+pub use opening::{Load, LoadKind, Opened};
+pub use places::Places;
 pub use request::Request;
 pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, SceneRequest};

@@ -15,6 +15,15 @@ pub(super) enum Value {
     Poison,
 }
 
+impl Value {
+    pub(super) fn scalar(self) -> Option<NodeId> {
+        match self {
+            Self::Scalar(node) => Some(node),
+            Self::Vector(..) | Self::Poison => None,
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy)]
 enum Entry {
     Symbol(SymbolId, NodeId),
@@ -88,6 +97,13 @@ impl Scope {
         // The first declaration of a name counts.
         if let Some(entry @ Entry::Later) = self.entries.get_mut(&name.to_string()) {
             *entry = Entry::Value(value);
+        }
+    }
+
+    /// Forgets the values of all names, which are defined again.
+    pub(super) fn forget_values(&mut self) {
+        for entry in self.entries.values_mut().filter(|entry| matches!(entry, Entry::Value(_))) {
+            *entry = Entry::Later;
         }
     }
 

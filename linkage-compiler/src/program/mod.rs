@@ -33,7 +33,7 @@ pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Pa
 pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};
-pub use scene::{SceneProgram, SceneSignatures};
+pub use scene::{MULTIPLIERS, SceneProgram, SceneSignatures};
 pub use signatures::{Family, Signatures};
 
 use crate::derivation::{ClosedForm, Derivation, Formulas};

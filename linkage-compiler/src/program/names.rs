@@ -6,7 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::derivation::Coordinate;
 use crate::graph::SymbolId;
-use crate::model::{Driver, Mechanism, Request};
+use crate::model::{Driver, Mechanism, Request, SceneRequest};
 
 /// The greatest length of a generated name in bytes; values with longer ones are numbered.
 pub const LONGEST_NAME: usize = 36;
@@ -197,7 +197,11 @@ pub fn emitted_types(mechanism: &Mechanism) -> BTreeMap<String, Vec<String>> {
     }
     types.entry(name).or_default().extend(shared);
     for scene in &mechanism.scenes {
-        types.entry(format!("scene {}", scene.name)).or_default().push(scene.name.to_string());
+        let of_scene = types.entry(format!("scene {}", scene.name)).or_default();
+        of_scene.push(scene.name.to_string());
+        if scene.requests.contains(&SceneRequest::Reactions) || !scene.loads.is_empty() {
+            of_scene.push(format!("{}Reactions", scene.name));
+        }
     }
     types
 }
@@ -223,6 +227,7 @@ pub struct Arguments {
     pub position: String,
     pub ratios: String,
     pub bias: String,
+    pub contact_forces: String,
     /// The name of the mechanism or scene in errors.
     pub error_name: String,
     pub time: String,
@@ -248,6 +253,7 @@ impl Arguments {
             position: name("position"),
             ratios: name("ratios"),
             bias: name("bias"),
+            contact_forces: name("contact_forces"),
             error_name: name("error_name"),
             time: mechanism.time.map_or("t", |time| mechanism.graph.symbol_name(time)).to_owned(),
         }
@@ -292,6 +298,7 @@ impl Arguments {
             position,
             ratios,
             bias,
+            contact_forces,
             error_name,
             time: _,
         } = self;
@@ -312,6 +319,7 @@ impl Arguments {
             position,
             ratios,
             bias,
+            contact_forces,
             error_name,
         ];
         all.into_iter().cloned().chain(["self".to_owned()]).collect()

@@ -156,7 +156,8 @@ fn formulas(derivation: &Derivation) -> Vec<NodeId> {
         formulas.extend(quantity.by_parameters.iter().flat_map(Row::values));
     }
     let eliminations = derivation.scenes.iter().filter_map(|scene| scene.reactions.as_ref());
-    let multiples = eliminations.flat_map(|reactions| reactions.eliminations.iter().flat_map(|one| &one.multiples));
+    let multiples =
+        eliminations.flat_map(|reactions| reactions.multipliers.eliminations.iter().flat_map(|one| &one.multiples));
     formulas.extend(multiples.map(|(_, multiple)| multiple));
     formulas
 }

@@ -171,6 +171,12 @@ impl Expressions {
         self.nodes[id.0].1
     }
 
+    /// The id of the expression with this index.
+    #[must_use]
+    pub fn id(&self, index: usize) -> ExpressionId {
+        ExpressionId(index)
+    }
+
     /// The expressions from an index on; operands come before the expressions that use them.
     pub fn from(&self, start: usize) -> impl Iterator<Item = (&Expression, Region)> {
         self.nodes.iter().skip(start).map(|(expression, region)| (expression, *region))

@@ -21,7 +21,7 @@ use crate::diagnostics::Diagnostics;
 pub use expression::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
 pub(crate) use foreign::constant_of_rust;
 pub use kind::StatementKind;
-pub use scene::{Body, Effect, EffectKind, Place, Scene};
+pub use scene::{Body, Effect, EffectKind, Joint, Place, Scene};
 pub use statement::Statement;
 
 /// One `mechanism NAME { … }`.

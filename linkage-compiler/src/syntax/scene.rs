@@ -67,6 +67,8 @@ pub enum EffectKind {
     Friction {
         /// The factors of the largest force.
         factors: Vec<ExpressionId>,
+        /// True if the force in the joint is another factor.
+        is_by_reaction: bool,
         on: ExpressionId,
     },
     Stop {
@@ -78,10 +80,19 @@ pub enum EffectKind {
         input: Ident,
         law: ExpressionId,
     },
+    /// The force in a pin, or that of a guide.
+    Reaction(Joint),
     /// A keyword that adds functions.
     Request,
     /// An effect with a syntax error: its names.
     Unread(ExpressionId),
+}
+
+/// A joint of a linkage: a pin at a point, or the guide of a length.
+#[derive(Debug, Clone, Copy)]
+pub enum Joint {
+    At(ExpressionId),
+    On(ExpressionId),
 }
 
 /// The scalar that a spring or damper acts along: an expression, or the distance of two points.
@@ -90,7 +101,7 @@ pub enum Place {
     Between(ExpressionId, ExpressionId),
 }
 
-pub(super) const EFFECTS: [&str; 14] = [
+pub(super) const EFFECTS: [&str; 15] = [
     "inertia",
     "gravity",
     "spring",
@@ -103,6 +114,7 @@ pub(super) const EFFECTS: [&str; 14] = [
     "drive",
     "energy",
     "power",
+    "reaction",
     "reactions",
     "equilibrium",
 ];
@@ -367,13 +379,27 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
         "potential" => EffectKind::Potential(expression::parse(stream, expressions)?),
         "friction" => {
             let mut factors = vec![expression::parse(stream, expressions)?];
+            let mut is_by_reaction = false;
             while factors.len() < 3 && stream.parse::<Option<Token![,]>>()?.is_some() {
+                is_by_reaction = names_reaction(stream);
+                if is_by_reaction {
+                    stream.parse::<Ident>()?;
+                    break;
+                }
                 factors.push(expression::parse(stream, expressions)?);
             }
             if !tokens::word(stream, "on") {
                 return Err(expected(stream, "friction mu, radius, normal on phi;` or `friction mu, normal on s;"));
             }
-            EffectKind::Friction { factors, on: expression::parse(stream, expressions)? }
+            EffectKind::Friction { factors, is_by_reaction, on: expression::parse(stream, expressions)? }
+        }
+        "reaction" => {
+            let joint = match tokens::word(stream, "at") {
+                true => Joint::At(expression::parse(stream, expressions)?),
+                false if tokens::word(stream, "on") => Joint::On(expression::parse(stream, expressions)?),
+                false => return Err(expected(stream, "reaction at P;`, `reaction on s;` or `reactions;")),
+            };
+            EffectKind::Reaction(joint)
         }
         "stop" => {
             const FORM: &str = "stop phi in lower..upper, restitution e;";
@@ -406,6 +432,12 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
         _ => return Err(syn::Error::new(keyword.span(), "unknown effect")),
     };
     Ok(Effect { keyword, kind })
+}
+
+/// True before `reaction on`: the force in the joint, not a name.
+fn names_reaction(stream: ParseStream) -> bool {
+    let ahead = stream.fork();
+    tokens::word(&ahead, "reaction") && tokens::word(&ahead, "on")
 }
 
 /// Parses `on phi` or `between P and Q`.

@@ -196,7 +196,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         &self.state
     }
 
-    /// The forces of frictions, stops and drives at the state reached; at an event, those after it.
+    /// The forces of frictions, stops, drives and joints at the state reached; at an event, those after it.
     ///
     /// # Errors
     /// Those of the equations of motion, and [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) very
@@ -204,12 +204,12 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     pub fn loads(&self) -> Result<Loads<S>, MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.projected(t, self.integration.state())?;
-        let (contacts, drives) = motion.loads(t, &y)?;
+        let (contacts, drives, joints) = motion.loads(t, &y)?;
         let drive_power = drives.dot(&motion.velocity(t, &y)?.inputs);
         if !contacts.iter().chain(drives.iter()).chain([&drive_power]).all(S::Scalar::is_finite) {
             return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
         }
-        Ok(Loads { contacts, drives: drives.into(), drive_power })
+        Ok(Loads { contacts, drives: drives.into(), drive_power, joints })
     }
 
     /// The part of the interval that is done, from 0 to 1.

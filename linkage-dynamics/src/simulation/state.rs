@@ -45,7 +45,7 @@ impl<S: Scene> State<S> {
 
 linkage_runtime::__by_fields!([S: Scene] State<S> { t, q, rates, event, contacts });
 
-/// The forces of frictions, stops and drives.
+/// The forces of frictions, stops, drives and joints.
 pub struct Loads<S: Scene> {
     /// The force of each friction and stop along its scalar s, in the order of declaration: its work is f ds. With
     /// redundant contacts the forces are not unique; this is one solution.
@@ -55,6 +55,8 @@ pub struct Loads<S: Scene> {
     /// The power of the drives. dE/dt = this + the power of the scene's other forces - the dissipation of frictions and
     /// dampers.
     pub drive_power: S::Scalar,
+    /// The forces in the joints that `reaction` statements of the scene name.
+    pub joints: S::Reactions,
 }
 
-linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, drives, drive_power });
+linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, drives, drive_power, joints });

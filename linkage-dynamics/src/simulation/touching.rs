@@ -5,12 +5,15 @@ use super::scales::{resolution as resolution_of, resolution_by_inputs};
 use crate::contact::{Change, Contact, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::integrate::Guard;
 use crate::scene::coordinate_name;
-use crate::{Mode, MotionError, Scene, StateColumn};
+use crate::{Equations, Mode, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput};
 
 /// A number for each contact of a scene.
 type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;
+/// u'' and v''.
+type AccelerationsOf<S> =
+    (Column<<S as Scene>::Scalar, <S as Scene>::U>, Column<<S as Scene>::Scalar, <S as Scene>::V>);
 /// y, and the change of each contact.
 type Changed<S> = (StateColumn<S>, Column<Option<Change>, <S as Scene>::Contacts>);
 
@@ -147,7 +150,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((Self::pack(&S::parts(y).0, &rates), holds))
     }
 
-    /// The forces of the contacts, and of the drives by input, zero without a drive.
+    /// The forces of the contacts, of the drives by input, zero without a drive, and in the joints.
     ///
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
@@ -155,7 +158,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         &self,
         t: S::Scalar,
         y: &StateColumn<S>,
-    ) -> Result<(PerContact<S>, PerInput<S::Mechanism>), MotionError> {
+    ) -> Result<(PerContact<S>, PerInput<S::Mechanism>, S::Reactions), MotionError> {
         let (q, _) = S::parts(y);
         let (free, places) = match &self.parametrisation {
             Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
@@ -176,6 +179,31 @@ impl<S: Scene, W> Motion<'_, S, W> {
             Some(place) if prescribed[input] => residual[place],
             _ => S::Scalar::zero(),
         });
-        Ok((motion.forces, drives))
+        let velocity = self.velocity(t, y)?;
+        let rates = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
+        let accelerations = self.accelerations(t, y, &motion.acceleration)?;
+        let reactions = self.scene.reactions(t, &q, &rates, accelerations, &motion.forces)?;
+        Ok((motion.forces, drives, reactions))
+    }
+
+    /// u'' and v'' from the accelerations of the independent coordinates.
+    fn accelerations(
+        &self,
+        t: S::Scalar,
+        y: &StateColumn<S>,
+        free: &PerInput<S::Mechanism>,
+    ) -> Result<AccelerationsOf<S>, MotionError> {
+        let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
+        else {
+            let Equations { ratios, bias, .. } = self.scene.equations(t, y)?;
+            return Ok((ratios * *free + bias, *free));
+        };
+        let (q, free_rates) = Self::unpack(y);
+        let factors = self.regular(independent, &q).ok_or_else(|| self.change_point_error(&q))?;
+        let (unknowns, inputs) = factors.basis();
+        let rates = S::Mechanism::rates(unknowns * free_rates, inputs * free_rates);
+        let mechanism = self.scene.mechanism();
+        let bias = -factors.solve(&mechanism.gamma(&mechanism.pose_at(&q), &rates));
+        Ok((unknowns * *free + bias.unknowns, inputs * *free + bias.inputs))
     }
 }

@@ -9,7 +9,7 @@ impl Lowering<'_> {
     /// Evaluates a friction or a stop: all its expressions, also after a mistake in one.
     pub(super) fn contact(&mut self, kind: &EffectKind) -> Option<Contact> {
         match kind {
-            EffectKind::Friction { factors, on } => {
+            EffectKind::Friction { factors, on, .. } => {
                 let mut nodes = Vec::new();
                 for &factor in factors {
                     let node = self.law(factor);
@@ -25,6 +25,7 @@ impl Lowering<'_> {
                     label,
                     along: along?,
                     law: ContactLaw::Friction(nodes.into_iter().collect::<Option<_>>()?),
+                    bearing: None,
                 })
             }
             EffectKind::Stop { on, range, restitution } => {
@@ -50,7 +51,7 @@ impl Lowering<'_> {
                     self.diagnostics.error(self.expressions.region(*restitution), message);
                 }
                 let law = ContactLaw::Stop { range, restitution: restitution_node };
-                Some(Contact { label, along: along?, law })
+                Some(Contact { label, along: along?, law, bearing: None })
             }
             _ => None,
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::Ident;
 use syn::Attribute;
 
-use super::{Account, Draft, Law, Reading, SceneRequest};
+use super::{Account, Draft, Law, Reading, SceneRequest, Wanted};
 use crate::graph::{Function, NodeId, Number, SymbolId};
 use crate::model::expression::Lowering;
 use crate::model::scope::Value;
@@ -20,6 +20,7 @@ impl Lowering<'_> {
             laws: Vec::new(),
             contacts: Vec::new(),
             requests: BTreeSet::new(),
+            wanted: Vec::new(),
             inertia: None,
             contact: None,
             gravity: Vec::new(),
@@ -114,8 +115,15 @@ impl Lowering<'_> {
             }
             EffectKind::Friction { .. } | EffectKind::Stop { .. } => {
                 scene.contact.get_or_insert_with(|| (keyword.span(), keyword.to_string()));
-                scene.contacts.extend(self.contact(&effect.kind));
+                let contact = self.contact(&effect.kind);
+                if let (EffectKind::Friction { is_by_reaction: true, on, .. }, Some(contact)) = (&effect.kind, &contact)
+                {
+                    let region = self.expressions.region(*on);
+                    scene.wanted.push(Wanted::friction(region, scene.contacts.len(), contact.along));
+                }
+                scene.contacts.extend(contact);
             }
+            EffectKind::Reaction(joint) => scene.wanted.extend(self.joint(*joint)),
             EffectKind::Drive { input, law } => {
                 let Some(node) = self.law(*law) else {
                     // For the stub.
@@ -148,6 +156,9 @@ impl Lowering<'_> {
                     "equilibrium" => SceneRequest::Equilibrium,
                     _ => SceneRequest::Reactions,
                 };
+                if request == SceneRequest::Reactions {
+                    scene.wanted.push(Wanted::all(keyword.span()));
+                }
                 if !scene.requests.insert(request) {
                     self.diagnostics.error(keyword.span(), format_args!("`{keyword};` is written twice; remove one"));
                 }

@@ -40,6 +40,8 @@ impl Lowering<'_> {
                 drives: Vec::new(),
                 requests: draft.requests,
                 parameters: Vec::new(),
+                loads: Vec::new(),
+                wanted: draft.wanted,
             };
             if let Some((span, bodies)) = &draft.inertia {
                 let all = self.bodies(bodies, result);

@@ -4,6 +4,7 @@ mod body;
 mod contact;
 mod effect;
 mod finish;
+mod joint;
 
 use std::collections::BTreeSet;
 
@@ -11,8 +12,10 @@ use proc_macro2::{Ident, Span};
 use syn::Attribute;
 
 use super::name::Name;
+use super::opening::Paths;
 use crate::graph::{NodeId, SymbolId};
-use crate::ids::{BodyId, DriverId, InputId, SceneParameterId, Table};
+use crate::ids::{BodyId, DriverId, InputId, SceneId, SceneParameterId, Table};
+pub(super) use joint::Wanted;
 
 /// A rigid body.
 pub struct Body {
@@ -39,6 +42,10 @@ pub struct Scene {
     pub drives: Vec<Drive>,
     pub requests: BTreeSet<SceneRequest>,
     pub parameters: Vec<SceneParameterId>,
+    /// The joints whose forces it shows, as indices of [`Opened::loads`](super::Opened::loads).
+    pub loads: Vec<usize>,
+    /// The joints that its statements name.
+    pub(super) wanted: Vec<Wanted>,
 }
 
 /// A force along a scalar: its work is `law` times the change of `along`.
@@ -57,6 +64,8 @@ pub struct Contact {
     pub label: String,
     pub along: NodeId,
     pub law: ContactLaw,
+    /// The joint whose force is a factor of the limit of a friction.
+    pub bearing: Option<usize>,
 }
 
 /// The law of a contact.
@@ -100,6 +109,17 @@ pub(super) struct Reading {
     scenes: Vec<Draft>,
 }
 
+impl Reading {
+    /// The scalars that effects act along, for each scene.
+    pub(super) fn paths(&self) -> Table<SceneId, Paths> {
+        let paths = self.scenes.iter().map(|scene| Paths {
+            laws: scene.laws.iter().map(|law| law.along).collect(),
+            contacts: scene.contacts.iter().map(|contact| contact.along).collect(),
+        });
+        paths.collect()
+    }
+}
+
 /// A scene with unresolved names of bodies, drivers and inputs.
 struct Draft {
     name: Ident,
@@ -108,6 +128,7 @@ struct Draft {
     laws: Vec<Law>,
     contacts: Vec<Contact>,
     requests: BTreeSet<SceneRequest>,
+    wanted: Vec<Wanted>,
     inertia: Option<(Span, Vec<Ident>)>,
     /// The keyword of the first contact.
     contact: Option<(Span, String)>,

@@ -19,6 +19,7 @@ use super::plan::Plan;
 use crate::derivation::{Scene, Step};
 use crate::graph::NodeId;
 use crate::model::{self, SceneRequest};
+pub use reactions::MULTIPLIERS;
 use reads::{Layers, Read};
 pub use signatures::SceneSignatures;
 
@@ -84,10 +85,11 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
             match request {
                 SceneRequest::Energy => planned.energy(),
                 SceneRequest::Power => planned.power(),
-                SceneRequest::Reactions => planned.reactions(),
+                SceneRequest::Reactions => {}
                 SceneRequest::Equilibrium => planned.equilibrium(),
             }
         }
+        planned.reactions();
         if !scene.contacts.is_empty() {
             planned.contacts();
             planned.equations();

@@ -1,55 +1,142 @@
-//! `reactions`: the Lagrange multipliers of the loop equations and constraints.
+//! `reactions`: the forces in joints, and the Lagrange multipliers of the loop equations and constraints.
 
 use super::{ERRORS, ScenePlan};
-use crate::derivation::needed;
+use crate::derivation::{Reactions, Step, needed};
 use crate::graph::SymbolId;
+use crate::model::LoadKind;
 use crate::program::doc::lines;
-use crate::program::expression::{Expression, Pattern, Statement};
-use crate::program::function::{Body, Source, Value, results};
+use crate::program::expression::{Expression, Pattern, Statement, Type};
+use crate::program::function::{Body, Output, Shape, Source, Value, results};
 use crate::program::names::{Arguments, Order};
 use crate::program::plan::unnamed;
 
+/// The field of the multipliers.
+pub const MULTIPLIERS: &str = "multipliers";
+
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn reactions(&mut self) {
-        let Some(reactions) = self.scene.reactions.clone() else { return };
-        let mut doc = lines([
-            "The Lagrange multipliers lambda of `M q'' + Psi_q' lambda = F` in the motion of the scene, two for each `loop` and",
-            "one for each `equation`. For a `loop`, lambda is the force of its left side on its right side where they meet.",
-        ]);
-        if !reactions.eliminations.is_empty() {
+        let Some(derived) = self.scene.reactions.clone().filter(|_| self.signatures.has_reactions()) else { return };
+        let (outputs, value) = self.shown(&derived);
+        let nodes: Vec<_> = outputs.iter().map(|output| output.node).collect();
+        let steps = self.plan.derivation.transposed_solution(&derived.multipliers);
+        let steps = needed(&self.plan.derivation.graph, steps, &nodes);
+        let doc = self.doc_of_reactions(&derived);
+        let has_inertia = self.signatures.scene.inertia.is_some();
+        if !has_inertia {
+            let body = self.reactions_at_rest(&derived, steps, outputs, value);
+            self.add(self.signatures.reactions(), doc, body);
+            return;
+        }
+        let count = outputs.len();
+        let Arguments { rates, accelerations, contact_forces, .. } = self.signatures.arguments.clone();
+        let mut sources: Vec<Source> = [(&rates, Order::Rate), (&accelerations, Order::Acceleration)]
+            .map(|(name, order)| Source { from: Expression::name(name).dereferenced(), ..self.plan.coordinates(order) })
+            .into();
+        if !derived.contact_forces.is_empty() {
+            let from = Expression::name(&contact_forces).dereferenced();
+            sources.push(Source { from, shape: Shape::list(&derived.contact_forces) });
+        }
+        let body = self.on_pose(sources, steps, outputs).checked("the reactions", results(0..count));
+        let mut of_motion =
+            lines(["The reactions of [`Self::reactions`] with these rates, accelerations and forces of contacts."]);
+        of_motion.extend(lines(ERRORS));
+        self.add(self.signatures.reactions_of(), of_motion, Body { value: Value::Plain(value), ..body });
+        let body = self.reactions_in_motion();
+        self.add(self.signatures.reactions(), doc, body);
+    }
+
+    /// The results, and the struct that holds them.
+    fn shown(&mut self, derived: &Reactions) -> (Vec<Output>, Expression) {
+        let (mut outputs, mut members) = (Vec::new(), Vec::new());
+        let loads = &self.signatures.mechanism.opened.loads;
+        for &load in &self.signatures.scene.loads {
+            let Some(place) = derived.opened.iter().position(|&other| other == load) else { continue };
+            let (first, field) = (outputs.len(), &loads[load].field);
+            let names = match loads[load].kind {
+                LoadKind::Pin { .. } => ["x", "y"],
+                LoadKind::Guide { .. } => ["normal", "moment"],
+            };
+            let parts = names.map(|name| format!("{field}_{name}"));
+            for (&node, name) in derived.forces[place].iter().zip(&parts) {
+                outputs.push(Output::named(node, name.clone()));
+            }
+            match loads[load].kind {
+                LoadKind::Pin { .. } => {
+                    members.push((field.clone(), Expression::vector(results(first..first + 2))));
+                }
+                LoadKind::Guide { .. } => {
+                    members.extend(parts.into_iter().zip(results(first..first + 2)));
+                }
+            }
+        }
+        if self.signatures.has_multipliers() {
+            let first = outputs.len();
+            outputs.extend(unnamed(self.plan.variables(&derived.multipliers.names)));
+            members.push((MULTIPLIERS.to_owned(), Expression::vector(results(first..outputs.len()))));
+        }
+        (outputs, Expression::structure(Type::Bare(self.signatures.reactions_type.clone()), members))
+    }
+
+    fn doc_of_reactions(&self, derived: &Reactions) -> Vec<String> {
+        let mut doc = lines(["The forces in the joints in the motion of the scene."]);
+        if !self.signatures.scene.contacts.is_empty() {
+            doc.extend(lines([
+                "",
+                "Frictions and stops are those of a motion that starts here: what is at rest sticks if it can.",
+            ]));
+        }
+        if self.signatures.has_multipliers() && !derived.multipliers.eliminations.is_empty() {
             doc.extend(lines(["", "Psi are here the loops and equations as written, before unknowns are eliminated."]));
         }
         doc.extend(lines(ERRORS));
-        let Arguments { time, q, rates, accelerations, input_rates, input_accelerations, pose, .. } =
-            self.signatures.arguments.clone();
-        let steps = self.plan.derivation.transposed_solution(&reactions);
-        let nodes = self.plan.variables(&reactions.names);
-        let steps = needed(&self.plan.derivation.graph, steps, &nodes);
-        let used = |of: fn(&crate::derivation::Coordinate) -> SymbolId| {
-            let derivation = &self.plan.derivation;
-            let nodes: Vec<_> = steps.iter().flat_map(|step| step.nodes()).collect();
-            let used = derivation.graph.symbols_of(&nodes);
-            derivation.coordinates.iter().any(|coordinate| used.contains(&of(coordinate)))
-        };
-        let (takes_rate, takes_acceleration) = (used(|c| c.rate), used(|c| c.acceleration));
-        let count = nodes.len();
-        let by_name = |name: &str, order| Source { from: Expression::name(name), ..self.plan.coordinates(order) };
-        let sources = vec![by_name(&rates, Order::Rate), by_name(&accelerations, Order::Acceleration)];
-        let mut body = self.on_pose(sources, steps, unnamed(nodes)).checked("the reactions", results(0..count));
-        let at = |name: &str| Expression::name(name);
-        let on = at(&pose).borrowed();
-        if takes_acceleration {
-            let both = Pattern::Tuple(vec![Pattern::Name(rates.clone()), Pattern::Name(input_accelerations.clone())]);
-            let moving = Expression::call("rates", [at(&time), at(&q), at(&input_rates)]).tried();
-            body.before.push(Statement::Let(both, moving));
-            let all = [on, at(&rates).borrowed(), at(&input_accelerations)];
-            let all = self.mechanism().method("acceleration", all).tried();
-            body.before.push(Statement::Let(Pattern::Name(accelerations), all));
-        } else if takes_rate {
-            let all = self.mechanism().method("velocity", [on, at(&input_rates)]).tried();
+        doc
+    }
+
+    /// The reactions of a scene without inertia.
+    fn reactions_at_rest(
+        &self,
+        derived: &Reactions,
+        steps: Vec<Step>,
+        outputs: Vec<Output>,
+        value: Expression,
+    ) -> Body {
+        let Arguments { rates, input_rates, pose, .. } = self.signatures.arguments.clone();
+        let derivation = &self.plan.derivation;
+        let nodes = steps.iter().flat_map(Step::nodes).chain(outputs.iter().map(|output| output.node));
+        let used: Vec<SymbolId> = derivation.graph.symbols_of(&nodes.collect::<Vec<_>>());
+        let takes_rates = derivation.coordinates.iter().any(|coordinate| used.contains(&coordinate.rate));
+        debug_assert!(derived.contact_forces.is_empty(), "contacts need inertia");
+        let count = outputs.len();
+        let source = Source { from: Expression::name(&rates), ..self.plan.coordinates(Order::Rate) };
+        let sources = takes_rates.then_some(source).into_iter().collect();
+        let mut body = self.on_pose(sources, steps, outputs).checked("the reactions", results(0..count));
+        if takes_rates {
+            let on = [Expression::name(&pose).borrowed(), Expression::name(&input_rates)];
+            let all = self.mechanism().method("velocity", on).tried();
             body.before.push(Statement::Let(Pattern::Name(rates), all));
         }
-        let body = Body { value: Value::Plain(Expression::vector(results(0..count))), ..body };
-        self.add(self.signatures.reactions(), doc, body);
+        Body { value: Value::Plain(value), ..body }
+    }
+
+    /// The reactions in the motion that follows from a state.
+    fn reactions_in_motion(&self) -> Body {
+        let at = |name: &String| Expression::name(name);
+        let Arguments { time, q, rates, accelerations, input_rates, input_accelerations, pose, .. } =
+            &self.signatures.arguments;
+        let mut body = Body::default();
+        if !self.signatures.scene.contacts.is_empty() {
+            let state = [Expression::own(), at(time), at(q), at(input_rates).method("into", [])];
+            return Body { value: Value::Result(Expression::runtime("reactions", state)), ..body };
+        }
+        let both = Pattern::Tuple(vec![Pattern::Name(rates.clone()), Pattern::Name(input_accelerations.clone())]);
+        let moving = Expression::call("rates", [at(time), at(q), at(input_rates)]).tried();
+        body.before.push(Statement::Let(both, moving));
+        self.pose_at(&mut body);
+        let on = [at(pose).borrowed(), at(rates).borrowed(), at(input_accelerations)];
+        let all = self.mechanism().method("acceleration", on).tried();
+        body.before.push(Statement::Let(Pattern::Name(accelerations.clone()), all));
+        let motion = [at(time), at(q), at(rates).borrowed(), at(accelerations).borrowed()];
+        body.calls.extend(["rates".to_owned(), "reactions_of".to_owned(), self.of_driver("acceleration")]);
+        Body { value: Value::Result(Expression::call("reactions_of", motion)), ..body }
     }
 }

@@ -20,7 +20,9 @@ pub struct SceneSignatures<'a> {
     pub inputs: Table<InputId, String>,
     pub free: Vec<InputId>,
     pub driven: Vec<InputId>,
-    unknowns: usize,
+    /// The type of the forces in its joints.
+    pub reactions_type: String,
+    pub(crate) unknowns: usize,
 }
 
 impl<'a> SceneSignatures<'a> {
@@ -37,6 +39,7 @@ impl<'a> SceneSignatures<'a> {
             inputs: inputs.collect(),
             free,
             driven,
+            reactions_type: format!("{}Reactions", scene.name),
             unknowns: driver.unknowns.len(),
         }
     }
@@ -56,9 +59,13 @@ impl<'a> SceneSignatures<'a> {
             match request {
                 SceneRequest::Energy => all.push(self.energy()),
                 SceneRequest::Power => all.push(self.power()),
-                SceneRequest::Reactions => all.push(self.reactions()),
+                SceneRequest::Reactions => {}
                 SceneRequest::Equilibrium => all.extend([self.equilibrium(), self.balance()]),
             }
+        }
+        if self.has_reactions() {
+            all.push(self.reactions());
+            all.extend(has_inertia.then(|| self.reactions_of()));
         }
         if has_inertia {
             all.push(self.mass_matrix());
@@ -114,8 +121,27 @@ impl<'a> SceneSignatures<'a> {
         fallible("power", self.state(), Type::Runtime("Power", Vec::new()))
     }
 
+    /// True if a statement asks for the force in a joint.
+    pub fn has_reactions(&self) -> bool {
+        self.has_multipliers() || !self.scene.loads.is_empty()
+    }
+
+    pub fn has_multipliers(&self) -> bool {
+        self.scene.requests.contains(&SceneRequest::Reactions)
+    }
+
     pub fn reactions(&self) -> Function<Body> {
-        fallible("reactions", self.state(), Type::Vector(self.unknowns))
+        fallible("reactions", self.state(), Type::Own(self.reactions_type.clone()))
+    }
+
+    /// The reactions of a known motion.
+    pub fn reactions_of(&self) -> Function<Body> {
+        let forces = Type::List(Box::new(Type::Scalar), self.scene.contacts.len());
+        let forces = Argument { name: self.arguments.contact_forces.clone(), passed: Passed::ByReference(forces) };
+        let forces = (!self.scene.contacts.is_empty()).then_some(forces);
+        let motion = self.whole_state().into_iter().chain([self.coordinates(Order::Acceleration)]).chain(forces);
+        let of = Type::Own(self.reactions_type.clone());
+        Function { access: Access::Hidden, ..fallible("reactions_of", motion, of) }
     }
 
     pub fn balance(&self) -> Function<Body> {

@@ -1,0 +1,56 @@
+//! The type of the forces in the joints of a scene.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::expression::literal;
+use super::names::{comment, ident};
+use super::types::derives;
+use crate::model::LoadKind;
+use crate::program::{MULTIPLIERS, SceneSignatures};
+
+pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<TokenStream> {
+    if !signatures.has_reactions() {
+        return None;
+    }
+    let SceneSignatures { mechanism, scene, reactions_type, unknowns, .. } = signatures;
+    let (visibility, name, derives) = (&mechanism.visibility, ident(reactions_type), derives(mechanism, root));
+    let mut members = Vec::new();
+    for &load in &scene.loads {
+        let load = &mechanism.opened.loads[load];
+        let field = &load.field;
+        match &load.kind {
+            LoadKind::Pin { joint, link } => {
+                let doc = comment(&format!(" The force on {link} in the pin at {joint}, along x and y of the ground."));
+                let field = ident(field);
+                members.push(quote!(#[doc = #doc] pub #field: #root::__rt::Vector2<T>));
+            }
+            LoadKind::Guide { coordinate, guide, block, end } => {
+                let end = end.as_deref().unwrap_or("the end of the vector of this length");
+                let normal = format!(
+                    " The normal force of {guide} on {block} in the guide of {coordinate}, positive a quarter turn \
+                     anticlockwise from its direction."
+                );
+                let moment = format!(" The moment of {guide} on {block} about {end} in the guide of {coordinate}.");
+                for (part, doc) in [("normal", normal), ("moment", moment)] {
+                    let (field, doc) = (ident(&format!("{field}_{part}")), comment(&doc));
+                    members.push(quote!(#[doc = #doc] pub #field: T));
+                }
+            }
+        }
+    }
+    if signatures.has_multipliers() {
+        let (field, unknowns) = (ident(MULTIPLIERS), literal(*unknowns));
+        let doc = comment(
+            " The Lagrange multipliers lambda of `M q'' + Psi_q' lambda = F`, two for each `loop` and one for each \
+             `equation`. For a `loop`, lambda is the force of its left side on its right side where they meet.",
+        );
+        members.push(quote!(#[doc = #doc] pub #field: #root::__rt::SVector<T, #unknowns>));
+    }
+    let title = comment(&format!(" The forces in the joints of [`{}`].", scene.name));
+    Some(quote! {
+        #[doc = #title]
+        #derives
+        #visibility struct #name<T: #root::__rt::Scalar = f64> { #(#members),* }
+    })
+}

@@ -1,0 +1,390 @@
+//! The rigid links of a linkage, and the guides on which one slides along another, from the vectors that the user wrote.
+//!
+//! Vectors of constant length that turn with one angle and meet are one link; those of constant direction that begin at
+//! the origin are the ground. A vector whose length is a coordinate is a guide: its end slides, without turning, on the
+//! link from which it begins.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::chain::{Chain, Chains, Link};
+use super::opening::Site;
+use super::places::Places;
+use super::scene::Body;
+use crate::graph::{Function, Graph, NodeId, Number, SymbolId};
+use crate::ids::{BodyId, Table};
+
+/// A rigid link.
+#[derive(Debug, Clone)]
+pub(super) struct RigidLink {
+    /// The name of a body on it, or of the coordinates that it moves with.
+    pub(super) name: String,
+    direction: usize,
+    joints: BTreeSet<usize>,
+}
+
+/// A guide: the joint at its second end, on its second link, slides on its first.
+#[derive(Debug, Clone)]
+pub(super) struct Guide {
+    /// The coordinate that is its length.
+    pub(super) coordinate: SymbolId,
+    pub(super) ends: [usize; 2],
+    pub(super) links: [usize; 2],
+}
+
+/// A vector, or a part of one, that is rigid or slides in one direction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Leg {
+    /// From its start to its end, in the order of the chain.
+    pub(super) vector: [NodeId; 2],
+    /// The index of its direction; 0 for a constant one.
+    direction: usize,
+    /// The length, if it depends on a coordinate.
+    pub(super) length: Option<NodeId>,
+    /// The normal of a guide, a quarter turn from its direction.
+    pub(super) normal: [NodeId; 2],
+}
+
+#[derive(Debug)]
+pub(super) struct Links {
+    /// The symbols of the coordinates.
+    moving: BTreeSet<SymbolId>,
+    places: Places,
+    /// An angle of each direction but the constant one.
+    directions: Vec<NodeId>,
+    /// The ground comes first.
+    links: Vec<RigidLink>,
+    pub(super) guides: Vec<Guide>,
+    /// The link of each body.
+    pub(super) bodies: Table<BodyId, usize>,
+}
+
+/// A leg between two places.
+struct Edge {
+    ends: [usize; 2],
+    direction: usize,
+    length: Option<NodeId>,
+}
+
+/// The index of the ground.
+pub(super) const GROUND: usize = 0;
+
+impl Links {
+    pub(super) fn of(
+        graph: &mut Graph,
+        moving: BTreeSet<SymbolId>,
+        chains: &Chains,
+        bodies: &Table<BodyId, Body>,
+    ) -> Self {
+        let mut links = Self {
+            moving,
+            places: Places::default(),
+            directions: Vec::new(),
+            links: Vec::new(),
+            guides: Vec::new(),
+            bodies: Table::default(),
+        };
+        let zero = graph.zero();
+        let origin = links.places.add([zero; 2]);
+        let mut edges = Vec::new();
+        for [left, right] in &chains.loops {
+            let [one, other] = [left, right].map(|chain| links.trace(graph, chain, &mut edges));
+            if let (Some(one), Some(other)) = (one, other) {
+                links.places.merge(one, other);
+            }
+        }
+        for chain in chains.points.iter().chain(&chains.centers) {
+            links.trace(graph, chain, &mut edges);
+        }
+        links.join(links.places.find(origin), 0, &[]);
+        for edge in &edges {
+            let [from, to] = edge.ends.map(|end| links.places.find(end));
+            match edge.length {
+                None => links.join(from, edge.direction, &[to]),
+                Some(_) => [from, to].into_iter().for_each(|end| links.join(end, edge.direction, &[])),
+            }
+        }
+        links.add_bodies(graph, bodies);
+        for Edge { ends, direction, length } in edges {
+            let ends = ends.map(|end| links.places.find(end));
+            let symbols = length.map(|length| graph.symbols_of(&[length])).unwrap_or_default();
+            let mut coordinates = symbols.into_iter().filter(|symbol| links.moving.contains(symbol));
+            let (Some(coordinate), None) = (coordinates.next(), coordinates.next()) else { continue };
+            let [Some(base), Some(block)] = ends.map(|end| links.link_at(end, direction)) else { continue };
+            if links.guides.iter().all(|guide| guide.ends != ends || guide.coordinate != coordinate) {
+                links.guides.push(Guide { coordinate, ends, links: [base, block] });
+            }
+        }
+        links.name(graph, bodies);
+        links
+    }
+
+    pub(super) fn link(&self, index: usize) -> &RigidLink {
+        &self.links[index]
+    }
+
+    /// The place of a position, if a vector begins or ends there.
+    pub(super) fn place(&self, position: [NodeId; 2]) -> Option<usize> {
+        self.places.known(position)
+    }
+
+    /// The links in which a position is fixed.
+    pub(super) fn holding(&mut self, graph: &mut Graph, position: [NodeId; 2]) -> BTreeSet<usize> {
+        let place = self.places.known(position);
+        let mut holding = BTreeSet::new();
+        for index in 0..self.links.len() {
+            let RigidLink { direction, joints, .. } = self.links[index].clone();
+            let is_joint = place.is_some_and(|place| joints.contains(&place));
+            if is_joint || place.is_none() && self.is_fixed(graph, direction, &joints, position) {
+                holding.insert(index);
+            }
+        }
+        holding
+    }
+
+    /// The link of a direction at a place.
+    pub(super) fn link_at(&self, place: usize, direction: usize) -> Option<usize> {
+        self.links.iter().position(|link| link.direction == direction && link.joints.contains(&place))
+    }
+
+    /// The link on which a leg leaves a place.
+    pub(super) fn link_of(&self, place: usize, leg: &Leg) -> Option<usize> {
+        self.link_at(place, leg.direction)
+    }
+
+    pub(super) fn is_coordinate(&self, symbol: SymbolId) -> bool {
+        self.moving.contains(&symbol)
+    }
+
+    pub(super) fn is_origin(&self, graph: &mut Graph, place: usize) -> bool {
+        let zero = graph.zero();
+        self.places.known([zero; 2]) == Some(place)
+    }
+
+    /// The links at a place.
+    pub(super) fn at(&self, place: usize) -> impl Iterator<Item = usize> {
+        let links = self.links.iter().enumerate();
+        links.filter(move |(_, link)| link.joints.contains(&place)).map(|(index, _)| index)
+    }
+
+    /// Makes a position a joint of the links in which it is fixed.
+    pub(super) fn hold(&mut self, position: [NodeId; 2], holding: &BTreeSet<usize>) -> usize {
+        let place = self.places.add(position);
+        let place = self.places.find(place);
+        for &link in holding {
+            self.links[link].joints.insert(place);
+        }
+        place
+    }
+
+    /// The pins: each link at each place where several meet.
+    pub(super) fn pins(&self) -> Vec<Site> {
+        let places: BTreeSet<usize> = self.links.iter().flat_map(|link| link.joints.iter().copied()).collect();
+        let pins = places.into_iter().filter(|&place| self.at(place).nth(1).is_some());
+        pins.flat_map(|place| self.at(place).map(move |link| Site::Pin { place, link })).collect()
+    }
+
+    /// The pins about which one link turns by an angle relative to another, on this one.
+    pub(super) fn pins_of_angle(&self, graph: &mut Graph, angle: NodeId) -> Vec<Site> {
+        let mut pins = Vec::new();
+        for (index, link) in self.links.iter().enumerate().filter(|(_, link)| link.direction > 0) {
+            for (_, other) in self.links.iter().enumerate().filter(|(other, _)| *other != index) {
+                let mut rest = graph.subtract(angle, self.directions[link.direction - 1]);
+                if let Some(place) = other.direction.checked_sub(1) {
+                    rest = graph.add(rest, self.directions[place]);
+                }
+                if !self.moves(graph, &[rest]) {
+                    let shared = link.joints.intersection(&other.joints);
+                    pins.extend(shared.map(|&place| Site::Pin { place, link: index }));
+                }
+            }
+        }
+        pins.dedup();
+        pins
+    }
+
+    /// True if a link turns with a leg.
+    pub(super) fn has_direction(&self, link: usize, leg: &Leg) -> bool {
+        self.links[link].direction == leg.direction
+    }
+
+    fn moves(&self, graph: &Graph, nodes: &[NodeId]) -> bool {
+        graph.symbols_of(nodes).iter().any(|symbol| self.moving.contains(symbol))
+    }
+
+    /// The index of the direction of an angle.
+    fn direction(&mut self, graph: &mut Graph, angle: NodeId) -> usize {
+        if !self.moves(graph, &[angle]) {
+            return 0;
+        }
+        for place in 0..self.directions.len() {
+            let difference = graph.subtract(angle, self.directions[place]);
+            if !self.moves(graph, &[difference]) {
+                return place + 1;
+            }
+        }
+        self.directions.push(angle);
+        self.directions.len()
+    }
+
+    /// The legs of a vector: its rigid part, and its parts whose lengths move. `None` if it is not written as `r@phi`,
+    /// `(x, y)@phi` or `(x, y)` and moves.
+    pub(super) fn legs(&mut self, graph: &mut Graph, link: &Link) -> Option<Vec<Leg>> {
+        let sign = |graph: &mut Graph, node: NodeId| if link.is_reversed { graph.negate(node) } else { node };
+        let zero = graph.zero();
+        let Some(parts) = link.parts else {
+            if self.moves(graph, &link.vector) {
+                return None;
+            }
+            let vector = link.vector.map(|part| sign(graph, part));
+            return Some(vec![Leg { vector, direction: 0, length: None, normal: [zero; 2] }]);
+        };
+        let direction = link.angle.map_or(0, |angle| self.direction(graph, angle));
+        let angle = link.angle.unwrap_or(zero);
+        let [cosine, sine] = [Function::Cos, Function::Sin].map(|function| graph.call(function, &[angle]));
+        let (along, across) = ([cosine, sine], [graph.negate(sine), cosine]);
+        let backwards = along.map(|part| graph.negate(part));
+        let vector_of = |graph: &mut Graph, length: NodeId, unit: [NodeId; 2]| {
+            unit.map(|part| graph.multiply(length, part)).map(|part| sign(graph, part))
+        };
+        let (mut rigid, mut legs) = ([zero; 2], Vec::new());
+        for (length, unit, normal) in [(parts[0], along, across), (parts[1], across, backwards)] {
+            let vector = vector_of(graph, length, unit);
+            if self.moves(graph, &[length]) {
+                legs.push(Leg { vector, direction, length: Some(length), normal });
+            } else {
+                rigid = [0, 1].map(|axis| graph.add(rigid[axis], vector[axis]));
+            }
+        }
+        if !rigid.iter().all(|&part| graph.is_zero(part)) {
+            legs.insert(0, Leg { vector: rigid, direction, length: None, normal: [zero; 2] });
+        }
+        if link.is_reversed {
+            legs.reverse();
+        }
+        Some(legs)
+    }
+
+    /// Adds the places and the legs of a chain; returns its last place, or `None` if a vector is not understood.
+    fn trace(&mut self, graph: &mut Graph, chain: &Chain, edges: &mut Vec<Edge>) -> Option<usize> {
+        if chain.links.is_empty() && chain.start.is_none() {
+            return None;
+        }
+        let zero = graph.zero();
+        let mut last = self.places.add(chain.start.unwrap_or([zero; 2]));
+        for link in &chain.links {
+            for Leg { vector, direction, length, .. } in self.legs(graph, link)? {
+                let from = self.places.position(last);
+                let next = self.places.add(moved(graph, from, vector));
+                edges.push(Edge { ends: [last, next], direction, length });
+                last = next;
+            }
+        }
+        Some(last)
+    }
+
+    /// Joins a place, and others on the same link, to the links of a direction that hold one of them.
+    fn join(&mut self, place: usize, direction: usize, others: &[usize]) {
+        let mut joints: BTreeSet<usize> = others.iter().copied().chain([place]).collect();
+        let meets = |link: &RigidLink, joints: &BTreeSet<usize>| {
+            link.direction == direction && !link.joints.is_disjoint(joints)
+        };
+        let Some(first) = self.links.iter().position(|link| meets(link, &joints)) else {
+            self.links.push(RigidLink { name: String::new(), direction, joints });
+            return;
+        };
+        let later = self.links.split_off(first + 1);
+        for link in later {
+            match meets(&link, &joints) {
+                true => joints.extend(link.joints),
+                false => self.links.push(link),
+            }
+        }
+        self.links[first].joints.extend(joints);
+    }
+
+    /// Finds the link of each body. A mass without an angle belongs to what slides at its centre, or to the only link
+    /// there; where several links meet, it is a body of its own.
+    fn add_bodies(&mut self, graph: &mut Graph, bodies: &Table<BodyId, Body>) {
+        let mut held = Vec::new();
+        for body in bodies {
+            let angle = body.inertia.map(|(_, angle)| angle);
+            let direction = angle.map(|angle| self.direction(graph, angle));
+            let Some((_, center)) = body.mass else {
+                // A moment of inertia without a mass turns with the first link of its angle.
+                let place = self.places.add([graph.zero(); 2]);
+                let first = self.links.iter().find(|link| Some(link.direction) == direction);
+                held.push(first.map_or((place, direction.unwrap_or(0)), |link| {
+                    (link.joints.first().copied().unwrap_or(place), link.direction)
+                }));
+                continue;
+            };
+            let holding = self.holding(graph, center);
+            let of_angle = |index: &&usize| self.links[**index].direction == direction.unwrap_or(0);
+            let only = || holding.first().filter(|_| direction.is_none() && holding.len() == 1);
+            let found = holding.iter().find(of_angle).or_else(only).copied();
+            let place = self.places.add(center);
+            let place = self.places.find(place);
+            let direction = found.map_or(direction.unwrap_or(0), |index| self.links[index].direction);
+            let beside = found.and_then(|index| self.links[index].joints.first().copied());
+            self.join(place, direction, beside.as_slice());
+            held.push((place, direction));
+        }
+        for (place, direction) in held {
+            self.join(place, direction, &[]);
+            self.bodies.push(self.link_at(place, direction).unwrap_or(GROUND));
+        }
+    }
+
+    /// True if a position is constant in the frame of a link: with d = position - joint and the angle phi of the link,
+    /// d' = phi' (-`d_y`, `d_x`) for each coordinate.
+    fn is_fixed(&self, graph: &mut Graph, direction: usize, joints: &BTreeSet<usize>, position: [NodeId; 2]) -> bool {
+        let angle = match direction.checked_sub(1) {
+            Some(place) => self.directions[place],
+            None => graph.zero(),
+        };
+        let formulas: Vec<[NodeId; 2]> = joints.iter().flat_map(|&joint| self.places.formulas(joint)).collect();
+        formulas.into_iter().any(|joint| {
+            let [x, y] = [0, 1].map(|axis| graph.subtract(position[axis], joint[axis]));
+            self.moving.iter().all(|&symbol| {
+                let derivatives = graph.partial(&[x, y, angle], symbol);
+                let [dx, dy, turned] = [0, 1, 2].map(|at| derivatives[at]);
+                let (across, along) = (graph.multiply(turned, y), graph.multiply(turned, x));
+                let rest = [graph.add(dx, across), graph.subtract(dy, along)];
+                rest.iter().all(|&part| graph.is_zero(part))
+            })
+        })
+    }
+
+    fn name(&mut self, graph: &Graph, bodies: &Table<BodyId, Body>) {
+        self.links[GROUND].name = "ground".to_owned();
+        for (body, &link) in bodies.iter().zip(&self.bodies) {
+            if self.links[link].name.is_empty() {
+                self.links[link].name.clone_from(&body.name.field);
+            }
+        }
+        let mut taken: BTreeMap<String, usize> = self.links.iter().map(|link| (link.name.clone(), 1)).collect();
+        for index in 0..self.links.len() {
+            if !self.links[index].name.is_empty() {
+                continue;
+            }
+            let slides_by = self.guides.iter().find(|guide| guide.links[1] == index).map(|guide| guide.coordinate);
+            let symbols = match self.links[index].direction.checked_sub(1) {
+                Some(place) if slides_by.is_none() => graph.symbols_of(&[self.directions[place]]),
+                _ => slides_by.into_iter().collect(),
+            };
+            let symbols = symbols.into_iter().filter(|symbol| self.moving.contains(symbol));
+            let mut name = symbols.map(|symbol| graph.symbol_name(symbol)).collect::<Vec<_>>().join("_");
+            if name.is_empty() {
+                "link".clone_into(&mut name);
+            }
+            let count = taken.entry(name.clone()).or_default();
+            *count += 1;
+            self.links[index].name = if *count == 1 { name } else { format!("{name}_{count}") };
+        }
+    }
+}
+
+/// The end of a vector from a position.
+pub(super) fn moved(graph: &mut Graph, from: [NodeId; 2], vector: [NodeId; 2]) -> [NodeId; 2] {
+    [0, 1].map(|axis| graph.sum(&[(Number::ONE, from[axis]), (Number::ONE, vector[axis])]))
+}

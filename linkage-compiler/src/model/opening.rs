@@ -1,0 +1,383 @@
+//! Opened joints, for the forces in them.
+//!
+//! A joint is opened by a displacement of one link from the joint: from the pin, or across its guide and about the end
+//! of it. Every vector is then read again as a path over links from the origin. Where it enters the link at the pin it
+//! is displaced, where it leaves it there it is displaced back; a path that ends at the pin ends on the pin, and the
+//! centre of a body on its link. The force in the joint is the generalised force of the displacement (see
+//! `derivation::loads`).
+
+use std::collections::BTreeMap;
+
+use super::chain::{Link, in_order};
+use super::expression::Lowering;
+use super::links::{GROUND, Leg, Links, moved};
+use super::mechanism::Mechanism;
+use super::scene::Body;
+use super::scope::Value;
+use crate::diagnostics::Region;
+use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::ids::{BodyId, SceneId, Table};
+use crate::syntax::{self, Expression, ExpressionId, Expressions, Operator, StatementKind};
+
+/// The force of a joint on a link.
+#[derive(Debug, Clone)]
+pub struct Load {
+    /// The name of its field.
+    pub field: String,
+    pub kind: LoadKind,
+    /// The components of the displacement that opens the joint: along x and y; for a guide, along its normal, and the
+    /// angle about its end.
+    pub displacement: [SymbolId; 2],
+}
+
+/// The kind of an opened joint, with the names of its parts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum LoadKind {
+    /// The force of a pin on a link.
+    Pin { joint: String, link: String },
+    /// The force and the moment of a guide on what slides along it.
+    Guide { coordinate: String, guide: String, block: String, end: Option<String> },
+}
+
+/// What is opened: a link at a place, or a guide by its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Site {
+    Pin { place: usize, link: usize },
+    Guide { ends: [usize; 2], block: usize },
+}
+
+/// The opened joints of a mechanism, and its formulas with all of them displaced.
+#[derive(Debug, Clone, Default)]
+pub struct Opened {
+    pub loads: Vec<Load>,
+    /// The rows of the constraints in order.
+    pub rows: Vec<NodeId>,
+    pub bodies: Table<BodyId, OpenedBody>,
+    pub scenes: Table<SceneId, Paths>,
+}
+
+/// The centre and the angle of a body.
+#[derive(Debug, Clone, Copy)]
+pub struct OpenedBody {
+    pub center: Option<[NodeId; 2]>,
+    pub angle: Option<NodeId>,
+}
+
+/// The scalars that the effects of a scene act along.
+#[derive(Debug, Clone, Default)]
+pub struct Paths {
+    pub laws: Vec<NodeId>,
+    pub contacts: Vec<NodeId>,
+}
+
+/// The second reading of all vectors, with displaced joints.
+pub(super) struct Opening {
+    links: Links,
+    sites: Vec<(Site, [SymbolId; 2])>,
+    /// The values of the first reading.
+    plain: Vec<Value>,
+    /// The vectors that names stand for, and whether the name is that of a point.
+    definitions: BTreeMap<String, (ExpressionId, bool)>,
+    /// The link of the body whose centre is read.
+    owner: Option<usize>,
+    /// A vector that is no path over links.
+    unclear: Option<Region>,
+}
+
+/// A path over links from the origin.
+#[derive(Debug, Clone)]
+struct Path {
+    /// Its end; `None` after a vector that begins elsewhere.
+    position: Option<[NodeId; 2]>,
+    /// The link on which it ends; `None` for a pin.
+    link: Option<usize>,
+    shift: [NodeId; 2],
+    /// True if it has not left the origin.
+    is_fresh: bool,
+}
+
+impl OpenedBody {
+    fn of(body: &Body) -> Self {
+        Self { center: body.mass.map(|(_, center)| center), angle: body.inertia.map(|(_, angle)| angle) }
+    }
+}
+
+impl Lowering<'_> {
+    /// Reads all statements again with displaced joints; `None` after a message.
+    pub(super) fn opened(
+        &mut self,
+        statements: &[syntax::Statement],
+        links: Links,
+        opened: Vec<(Site, Load)>,
+        mut again: Mechanism,
+    ) -> Option<Opened> {
+        let mut definitions = BTreeMap::new();
+        for statement in statements {
+            let (name, value, is_point) = match &statement.kind {
+                StatementKind::Let { name, value } => (name, *value, false),
+                StatementKind::Point { name, value } | StatementKind::Quantity { name, value } => (name, *value, true),
+                _ => continue,
+            };
+            definitions.insert(name.to_string(), (value, is_point));
+        }
+        let sites = opened.iter().map(|(site, load)| (*site, load.displacement)).collect();
+        let plain = std::mem::take(&mut self.values);
+        self.opening = Some(Opening { links, sites, plain, definitions, owner: None, unclear: None });
+        self.scope.forget_values();
+        let messages = self.diagnostics.len();
+        let calls: Vec<usize> = self.externals.iter().map(|external| external.calls.len()).collect();
+        let reading = self.define(statements, &mut again);
+        self.diagnostics.truncate(messages);
+        self.externals.iter_mut().zip(calls).for_each(|(external, calls)| external.calls.truncate(calls));
+        if let Some(region) = self.opening.take().and_then(|opening| opening.unclear) {
+            let message = "the forces in joints need this vector as a sum of vectors `r@phi`, `(x, y)@phi` and points";
+            self.diagnostics.error(region, message);
+            return None;
+        }
+        Some(Opened {
+            loads: opened.into_iter().map(|(_, load)| load).collect(),
+            rows: again.constraints.into_iter().flat_map(|constraint| constraint.rows).collect(),
+            bodies: again.bodies.iter().map(OpenedBody::of).collect(),
+            scenes: reading.paths(),
+        })
+    }
+
+    /// The value of an expression with displaced joints.
+    pub(super) fn displaced(&mut self, index: usize, value: Value) -> Value {
+        let Some(mut opening) = self.opening.take() else { return value };
+        let id = self.expressions.id(index);
+        let displaced = match opening.plain.get(index) {
+            Some(&Value::Vector(x, y)) => {
+                let shift = opening.shift(&mut self.graph, self.expressions, id).unwrap_or_else(|| {
+                    opening.unclear.get_or_insert(self.expressions.region(id));
+                    [self.graph.zero(); 2]
+                });
+                Value::Vector(self.graph.add(x, shift[0]), self.graph.add(y, shift[1]))
+            }
+            _ => value,
+        };
+        self.opening = Some(opening);
+        displaced
+    }
+
+    /// Reads the centre of a body, which is on the link of this body.
+    pub(super) fn center(&mut self, body: BodyId, value: ExpressionId) -> Option<(NodeId, NodeId)> {
+        if let Some(opening) = &mut self.opening {
+            opening.owner = opening.links.bodies.ids().find(|&id| id == body).map(|id| opening.links.bodies[id]);
+        }
+        let center = self.vector(value);
+        if let Some(opening) = &mut self.opening {
+            opening.owner = None;
+        }
+        center
+    }
+
+    /// The angle of a body, which turns with what slides on an opened guide.
+    pub(super) fn turned(&mut self, body: BodyId, angle: NodeId) -> NodeId {
+        let Some(opening) = &self.opening else { return angle };
+        let Some(link) = opening.links.bodies.ids().find(|&id| id == body).map(|id| opening.links.bodies[id]) else {
+            return angle;
+        };
+        let turns =
+            opening.sites.iter().filter(|(site, _)| matches!(site, Site::Guide { block, .. } if *block == link));
+        let turns: Vec<SymbolId> = turns.map(|(_, [_, turn])| *turn).collect();
+        turns.into_iter().fold(angle, |angle, turn| {
+            let turn = self.graph.variable(turn);
+            self.graph.add(angle, turn)
+        })
+    }
+}
+
+impl Opening {
+    /// The displacement of the end of a vector that begins at the origin.
+    fn shift(&mut self, graph: &mut Graph, expressions: &Expressions, id: ExpressionId) -> Option<[NodeId; 2]> {
+        match expressions.get(id) {
+            Expression::Sum(operands) => self.shift_of_sum(graph, expressions, operands, false),
+            Expression::Negate(inner) => {
+                let shift = self.shift(graph, expressions, *inner)?;
+                Some(shift.map(|part| graph.negate(part)))
+            }
+            Expression::Product(operands) => {
+                let mut factors = Vec::new();
+                let mut vector = None;
+                for &(operator, operand) in operands {
+                    match self.plain[operand.index()] {
+                        Value::Scalar(node) => factors.push((node, if operator == Operator::Inverse { -1 } else { 1 })),
+                        Value::Vector(..) => vector = Some(operand),
+                        Value::Poison => return None,
+                    }
+                }
+                let factor = graph.product(&factors);
+                let shift = match expressions.get(vector?) {
+                    // The mean of positions.
+                    Expression::Sum(operands) => self.shift_of_sum(graph, expressions, operands, true)?,
+                    _ => self.shift(graph, expressions, vector?)?,
+                };
+                Some(shift.map(|part| graph.multiply(factor, part)))
+            }
+            Expression::Name(name) => {
+                let (definition, _) = *self.definitions.get(&name.to_string())?;
+                self.shift(graph, expressions, definition)
+            }
+            _ => {
+                let path = self.start(graph);
+                match self.follow(graph, expressions, id, false, path) {
+                    Some(path) => Some(self.end(graph, path).shift),
+                    None => self.is_free(graph, expressions, id).then(|| [graph.zero(); 2]),
+                }
+            }
+        }
+    }
+
+    /// The displacement of a sum. An operand that does not continue the path is a position of its own.
+    fn shift_of_sum(
+        &mut self,
+        graph: &mut Graph,
+        expressions: &Expressions,
+        operands: &[(Operator, ExpressionId)],
+        is_mean: bool,
+    ) -> Option<[NodeId; 2]> {
+        let mut path = self.start(graph);
+        for &(operator, operand) in operands {
+            let is_reversed = operator == Operator::Inverse;
+            let is_position = is_mean && expressions.as_name(operand).is_some();
+            let next = match is_position {
+                true => None,
+                false => self.follow(graph, expressions, operand, is_reversed, path.clone()),
+            };
+            path = match next {
+                Some(next) => next,
+                None => {
+                    let sign = if is_reversed { Number::MINUS_ONE } else { Number::ONE };
+                    let own = self.shift(graph, expressions, operand)?;
+                    let ended = self.end(graph, path);
+                    let shift = [0, 1].map(|axis| graph.sum(&[(Number::ONE, ended.shift[axis]), (sign, own[axis])]));
+                    Path { shift, ..ended }
+                }
+            };
+        }
+        Some(self.end(graph, path).shift)
+    }
+
+    /// Continues a path by a vector; `None` if it does not begin on a link there.
+    fn follow(
+        &mut self,
+        graph: &mut Graph,
+        expressions: &Expressions,
+        id: ExpressionId,
+        is_reversed: bool,
+        mut path: Path,
+    ) -> Option<Path> {
+        match expressions.get(id) {
+            Expression::Sum(operands) => {
+                for (operator, operand) in in_order(operands, is_reversed) {
+                    let is_reversed = is_reversed != (operator == Operator::Inverse);
+                    path = self.follow(graph, expressions, operand, is_reversed, path)?;
+                }
+                Some(path)
+            }
+            Expression::Negate(inner) => self.follow(graph, expressions, *inner, !is_reversed, path),
+            Expression::Name(name) => {
+                let (definition, is_point) = *self.definitions.get(&name.to_string())?;
+                if is_point && (is_reversed || !path.is_fresh) {
+                    return None;
+                }
+                self.follow(graph, expressions, definition, is_reversed, path)
+            }
+            _ => {
+                let (plain, zero) = (&self.plain, graph.zero());
+                let link = Link::of(expressions, id, is_reversed, zero, &mut |id| plain[id.index()])?;
+                if link.vector.iter().all(|&part| graph.is_zero(part)) {
+                    return Some(path);
+                }
+                for leg in self.links.legs(graph, &link)? {
+                    path = self.go(graph, path, &leg)?;
+                }
+                Some(path)
+            }
+        }
+    }
+
+    /// Continues a path by a leg.
+    fn go(&self, graph: &mut Graph, mut path: Path, leg: &Leg) -> Option<Path> {
+        let position = path.position?;
+        let next = moved(graph, position, leg.vector);
+        let here = self.links.place(position);
+        let link = match here.and_then(|place| self.links.link_of(place, leg)) {
+            Some(link) => link,
+            // Between the joints of a link.
+            None => path.link.filter(|&link| leg.length.is_none() && self.links.has_direction(link, leg))?,
+        };
+        if let Some(place) = here {
+            self.step(graph, &mut path, place, Some(link));
+        }
+        path.link = match leg.length {
+            None => Some(link),
+            Some(_) => Some(self.links.link_of(self.links.place(next)?, leg)?),
+        };
+        for (site, [first, turn]) in &self.sites {
+            let Site::Guide { ends: [from, to], block } = *site else { continue };
+            let (first, turn) = (graph.variable(*first), graph.variable(*turn));
+            let [x, y] = leg.vector;
+            let displacement = match leg.length {
+                None if link == block => {
+                    let across = graph.multiply(turn, y);
+                    [graph.negate(across), graph.multiply(turn, x)]
+                }
+                Some(_) if [here, self.links.place(next)] == [Some(from), Some(to)] => {
+                    leg.normal.map(|part| graph.multiply(first, part))
+                }
+                Some(_) if [here, self.links.place(next)] == [Some(to), Some(from)] => {
+                    leg.normal.map(|part| graph.multiply(first, part)).map(|part| graph.negate(part))
+                }
+                _ => continue,
+            };
+            path.shift = moved(graph, path.shift, displacement);
+        }
+        Some(Path { position: Some(next), is_fresh: false, ..path })
+    }
+
+    /// Ends a path on its owner, or else on the pin at its end.
+    fn end(&self, graph: &mut Graph, mut path: Path) -> Path {
+        if let Some(place) = path.position.and_then(|position| self.links.place(position)) {
+            self.step(graph, &mut path, place, self.owner);
+        }
+        Path { position: None, link: None, is_fresh: false, ..path }
+    }
+
+    /// Changes the link of a path at a place.
+    fn step(&self, graph: &mut Graph, path: &mut Path, place: usize, to: Option<usize>) {
+        if path.link == to {
+            return;
+        }
+        for (site, symbols) in &self.sites {
+            let Site::Pin { place: opened, link } = *site else { continue };
+            let sign = match Some(link) {
+                _ if opened != place => continue,
+                link if link == to => Number::ONE,
+                link if link == path.link => Number::MINUS_ONE,
+                _ => continue,
+            };
+            let symbols = symbols.map(|symbol| graph.variable(symbol));
+            path.shift = [0, 1].map(|axis| graph.sum(&[(Number::ONE, path.shift[axis]), (sign, symbols[axis])]));
+        }
+        path.link = to;
+    }
+
+    fn start(&self, graph: &mut Graph) -> Path {
+        let zero = [graph.zero(); 2];
+        Path { position: Some(zero), link: Some(GROUND), shift: zero, is_fresh: true }
+    }
+
+    /// True for a vector that no displacement changes: it turns with no link that an opened guide turns.
+    fn is_free(&mut self, graph: &mut Graph, expressions: &Expressions, id: ExpressionId) -> bool {
+        let (plain, zero) = (&self.plain, graph.zero());
+        let link = Link::of(expressions, id, false, zero, &mut |id| plain[id.index()]);
+        let Some(legs) = link.and_then(|link| self.links.legs(graph, &link)) else { return false };
+        let turns = |leg: &Leg| {
+            let mut sites = self.sites.iter();
+            sites.any(|(site, _)| matches!(site, Site::Guide { block, .. } if self.links.has_direction(*block, leg)))
+        };
+        !legs.iter().any(turns)
+    }
+}

@@ -1,0 +1,225 @@
+//! The joints whose forces scenes need: `reaction at B`, `reaction on s`, `reactions`, and frictions by reaction.
+
+use super::Scene;
+use crate::diagnostics::Region;
+use crate::graph::NodeId;
+use crate::ids::SceneId;
+use crate::model::expression::Lowering;
+use crate::model::links::{GROUND, Links};
+use crate::model::mechanism::Mechanism;
+use crate::model::opening::{Load, LoadKind, Site};
+use crate::syntax::{ExpressionId, Joint};
+
+/// A joint that a scene names, before the links are known.
+#[derive(Debug, Clone)]
+pub(in crate::model) struct Wanted {
+    region: Region,
+    of: WantedOf,
+}
+
+#[derive(Debug, Clone)]
+enum WantedOf {
+    /// The pin at a point, with its text.
+    Pin([NodeId; 2], String),
+    /// The guide of a length.
+    Guide(NodeId),
+    All,
+    /// The joint in which a friction acts along a scalar: the index of the contact.
+    Friction(usize, NodeId),
+}
+
+impl Wanted {
+    pub(super) fn all(region: impl Into<Region>) -> Self {
+        Self { region: region.into(), of: WantedOf::All }
+    }
+
+    pub(super) fn friction(region: Region, contact: usize, along: NodeId) -> Self {
+        Self { region, of: WantedOf::Friction(contact, along) }
+    }
+}
+
+impl Lowering<'_> {
+    /// Evaluates `reaction at P` or `reaction on s`.
+    pub(super) fn joint(&mut self, joint: Joint) -> Option<Wanted> {
+        let id = |joint: Joint| -> ExpressionId {
+            match joint {
+                Joint::At(id) | Joint::On(id) => id,
+            }
+        };
+        let region = self.expressions.region(id(joint));
+        let of = match joint {
+            Joint::At(id) => {
+                let (x, y) = self.vector(id)?;
+                WantedOf::Pin([x, y], self.text(id)?)
+            }
+            Joint::On(id) => WantedOf::Guide(self.scalar(id)?),
+        };
+        Some(Wanted { region, of })
+    }
+
+    /// Finds the joints that scenes name; reports names of no joint.
+    pub(in crate::model) fn joints(&mut self, links: &mut Links, result: &mut Mechanism) -> Vec<(Site, Load)> {
+        let mut finder = Finder { lowering: self, links, result, found: Vec::new() };
+        for scene in finder.result.scenes.ids() {
+            finder.scene(scene);
+        }
+        finder.found
+    }
+}
+
+struct Finder<'f, 'a> {
+    lowering: &'f mut Lowering<'a>,
+    links: &'f mut Links,
+    result: &'f mut Mechanism,
+    found: Vec<(Site, Load)>,
+}
+
+impl Finder<'_, '_> {
+    fn scene(&mut self, id: SceneId) {
+        let mut loads = Vec::new();
+        for Wanted { region, of } in self.result.scenes[id].wanted.clone() {
+            match of {
+                WantedOf::Pin(position, text) => {
+                    let holding = self.links.holding(&mut self.lowering.graph, position);
+                    if holding.is_empty() {
+                        let message = format!("`{text}` is fixed in no body and no link: name a point of a link");
+                        self.lowering.diagnostics.error(region, message);
+                    }
+                    let place = self.links.hold(position, &holding);
+                    for link in holding {
+                        loads.push(self.open(Site::Pin { place, link }));
+                    }
+                }
+                WantedOf::Guide(length) => {
+                    let sites = self.guides(length);
+                    if sites.is_empty() {
+                        let message = "no vector has this length: a guide is a vector `s@phi` or `(s, h)` whose length \
+                                       is a coordinate; for a pin write `reaction at P;`";
+                        self.lowering.diagnostics.error(region, message);
+                    }
+                    loads.extend(sites.into_iter().map(|site| self.open(site)).collect::<Vec<_>>());
+                }
+                WantedOf::All => {
+                    let sites: Vec<Site> = self.links.pins().into_iter().chain(self.all_guides()).collect();
+                    loads.extend(sites.into_iter().map(|site| self.open(site)).collect::<Vec<_>>());
+                }
+                WantedOf::Friction(contact, along) => {
+                    let Some(site) = self.bearing(along, region) else { continue };
+                    let load = self.open(site);
+                    self.result.scenes[id].contacts[contact].bearing = Some(load);
+                }
+            }
+        }
+        loads.sort_unstable();
+        loads.dedup();
+        self.result.scenes[id].loads = loads;
+    }
+
+    fn all_guides(&self) -> Vec<Site> {
+        self.links.guides.iter().map(|guide| Site::Guide { ends: guide.ends, block: guide.links[1] }).collect()
+    }
+
+    /// The guides whose length is this coordinate, up to sign and a constant.
+    fn guides(&mut self, length: NodeId) -> Vec<Site> {
+        let graph = &mut self.lowering.graph;
+        let mut moving = graph.symbols_of(&[length]).into_iter().filter(|&symbol| self.links.is_coordinate(symbol));
+        let (Some(coordinate), None) = (moving.next(), moving.next()) else { return Vec::new() };
+        let slope = graph.partial(&[length], coordinate)[0];
+        if graph.constant_value(slope).is_none_or(|slope| slope.abs() != 1.0) {
+            return Vec::new();
+        }
+        let guides = self.links.guides.iter().filter(|guide| guide.coordinate == coordinate);
+        guides.map(|guide| Site::Guide { ends: guide.ends, block: guide.links[1] }).collect()
+    }
+
+    /// The joint in which a friction acts: the guide of a length, or the pin about which one link turns by this angle
+    /// relative to another. The force is that on the first link of the difference; the other carries the pin.
+    fn bearing(&mut self, along: NodeId, region: Region) -> Option<Site> {
+        let mut sites = self.guides(along);
+        if sites.is_empty() {
+            sites = self.links.pins_of_angle(&mut self.lowering.graph, along);
+        }
+        match *sites.as_slice() {
+            [site] => return Some(site),
+            [] => {
+                let message = "no joint moves by this scalar: name the length of a guide, the angle of a link that turns \
+                               about the ground, or the difference of the angles of two links with a common pin";
+                self.lowering.diagnostics.error(region, message);
+            }
+            _ => {
+                let names: Vec<String> = sites.iter().map(|site| self.load(*site).field).collect();
+                let message = format!("several joints move by this scalar: {}", names.join(", "));
+                self.lowering.diagnostics.error(region, message);
+            }
+        }
+        None
+    }
+
+    /// The index of the load of a site, which is added at its first use.
+    fn open(&mut self, site: Site) -> usize {
+        if let Some(known) = self.found.iter().position(|(other, _)| *other == site) {
+            return known;
+        }
+        let mut load = self.load(site);
+        let same = self.found.iter().filter(|(_, other)| other.field == load.field).count();
+        if same > 0 {
+            load.field = format!("{}_{}", load.field, same + 1);
+        }
+        self.found.push((site, load));
+        self.found.len() - 1
+    }
+
+    fn load(&mut self, site: Site) -> Load {
+        let (field, kind) = match site {
+            Site::Pin { place, link } => {
+                let (joint, field) = self.name_of(place);
+                let link = self.links.link(link).name.clone();
+                (format!("{field}_on_{link}"), LoadKind::Pin { joint, link })
+            }
+            Site::Guide { ends, block } => {
+                let guide = self.links.guides.iter().find(|guide| guide.ends == ends);
+                let base = guide.map_or(GROUND, |guide| guide.links[0]);
+                let coordinate = guide.map(|guide| self.lowering.graph.symbol_name(guide.coordinate).to_owned());
+                let coordinate = coordinate.unwrap_or_default();
+                let [guide, block] = [base, block].map(|link| self.links.link(link).name.clone());
+                let end = self.point_at(ends[1]).map(|(text, _)| text);
+                (coordinate.clone(), LoadKind::Guide { coordinate, guide, block, end })
+            }
+        };
+        let graph = &mut self.lowering.graph;
+        // No identifier has a blank.
+        let displacement = [1, 2].map(|at| graph.symbol(format!("displacement {at} of {field}")));
+        Load { field, kind, displacement }
+    }
+
+    /// The name of the declared point at a place, as written and as a field.
+    fn point_at(&self, place: usize) -> Option<(String, String)> {
+        let mut points = self.result.points.iter();
+        let point = points.find(|point| self.links.place([point.x, point.y]) == Some(place))?;
+        Some((point.name.text.clone(), point.name.field.clone()))
+    }
+
+    /// The name of a joint: that of a point there, the origin, or the links that meet there.
+    fn name_of(&mut self, place: usize) -> (String, String) {
+        if let Some(named) = self.point_at(place) {
+            return named;
+        }
+        if self.links.is_origin(&mut self.lowering.graph, place) {
+            return ("the origin".to_owned(), "origin".to_owned());
+        }
+        let links: Vec<&str> = self.links.at(place).map(|link| self.links.link(link).name.as_str()).collect();
+        (format!("the joint of {}", links.join(" and ")), links.join("_"))
+    }
+}
+
+impl Scene {
+    /// The loads that the scene shows or needs for its frictions, as indices of those of the mechanism.
+    #[must_use]
+    pub fn opened(&self) -> Vec<usize> {
+        let mut all: Vec<usize> = self.loads.clone();
+        all.extend(self.contacts.iter().filter_map(|contact| contact.bearing));
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}
