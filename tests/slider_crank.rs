@@ -111,7 +111,7 @@ fn forces_through_a_turn() {
         close("power", scene.power(t, &q, omega).unwrap().applied, power, 2e-14 * 2e4);
         close("torque", scene.drive_forces(t, &q, omega).unwrap()[0], power / omega, 2e-14 * 130.0);
         // The rod on the block; what holds the rod at the other end turns it about its centre, too.
-        let force = scene.reactions(t, &q, omega).unwrap();
+        let force = scene.reactions(t, &q, omega).unwrap().multipliers;
         close("along", force.x, scene.m3 * x2, 2e-14 * 400.0);
         // About the pin: j psi'' + m (G - P) x G'' = -(B - P) x F.
         let euler = scene.j2 * psi2 + scene.m2 * l / 2.0 * along.perp(&acceleration);

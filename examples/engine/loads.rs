@@ -1,9 +1,9 @@
 //! The joint forces.
 
-use linkage::nalgebra::{Vector2, vector};
+use linkage::nalgebra::Vector2;
 use linkage::{ContactLaw, Error};
 
-use crate::machine::{Engine, Measured, Running};
+use crate::machine::Running;
 use crate::run::Moment;
 
 /// Forces in newtons and torques in newton metres at one time; x along the cylinder.
@@ -38,34 +38,15 @@ impl Loads {
         let mass = scene.mass_matrix(q)?[0];
         let acceleration = (scene.forces(*t, q, rates.phi)?[0] + drag * lever) / mass;
 
-        let Running { g, .. } = *scene;
-        let measured = Measured {
-            mechanism: scene.mechanism.clone(),
-            place: q.phi,
-            speed: rates.phi,
-            gain: acceleration,
-            drag,
-            g,
-            ..Measured::default()
-        };
-        let piston_pin = measured.reactions(0.0, q, rates.phi)?;
-        let [holding] = measured.drive_forces(0.0, q, rates.phi)?;
-
-        // Newton's law for rod and crank.
-        let m: &Engine<f64> = &scene.mechanism;
-        let pose = m.pose_at(q);
-        let velocity = m.velocity(&pose, rates.phi)?;
-        let points = m.point_accelerations(&pose, &velocity, &m.acceleration(&pose, &velocity, acceleration)?)?;
-        let weight = vector![-g, 0.0];
-        let crank_pin = (points.rod - weight) * scene.m3 + piston_pin;
-        let bearing = (points.crank - weight) * scene.m2 + crank_pin;
+        let joints = scene.reactions(*t, q, rates.phi)?;
         Ok(Self {
             phi: q.phi,
-            piston_pin,
-            crank_pin,
-            bearing,
-            side: piston_pin.y,
-            torque: -holding,
+            // The gas acts on the pin: what the rod does not take, the piston takes.
+            piston_pin: -joints.piston_on_rod,
+            crank_pin: joints.pin_on_rod,
+            bearing: joints.bearing_on_crank,
+            side: -joints.z_normal,
+            torque: scene.flywheel * acceleration + scene.brake * rates.phi,
             drag,
             acceleration,
         })

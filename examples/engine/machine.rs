@@ -79,13 +79,12 @@ linkage! {
         param mu = 0.08, tension = 400, face = 8e-4;
         /// An eddy current brake: torque divided by speed.
         param brake = 0.105;
-        /// For the joint forces: angle, rate and acceleration of the crank, and the friction.
-        param place = 0, speed = 0, gain = 0, drag = 0;
 
         input phi;
         unknown psi, z;
         loop r@phi + l@psi = (z, 0);
 
+        point Bearing = (0, 0);
         point Pin = r@phi;
         point Crank = (-b2)@phi;
         point Rod = Pin + b3@psi;
@@ -121,14 +120,10 @@ linkage! {
             damper brake on phi;
             energy;
             power;
-        }
-        /// The given motion without flywheel and brake: the reactions are the shaft torque and the joint forces.
-        scene Measured {
-            inertia crank, rod, piston;
-            gravity (-g, 0);
-            force (-area * (pressure - ambient) + drag, 0) at Piston;
-            drive phi = place + speed * t + gain / 2 * t^2;
-            reactions;
+            reaction at Bearing;
+            reaction at Pin;
+            reaction at Piston;
+            reaction on z;
         }
     }
 }

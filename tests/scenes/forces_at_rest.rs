@@ -19,7 +19,7 @@ fn reactions_hold_every_body() {
         let (velocity, acceleration) = scene.rates(t, &q, rate[0]).unwrap();
         let motion = four_bar.motion(&q, rate[0], acceleration).unwrap();
         let (points, turning) = (motion.points, motion.accelerations);
-        let lambda: Vector2<f64> = scene.reactions(t, &q, rate[0]).unwrap();
+        let lambda: Vector2<f64> = scene.reactions(t, &q, rate[0]).unwrap().multipliers;
         let weight = Vector2::new(0.0, -scene.g);
         let end = points.c.position + Vector2::new(q.theta4.cos(), q.theta4.sin()) * four_bar.l4;
         // The force that holds a body at the joint `from`, and the remaining moment about its centre.

@@ -103,14 +103,15 @@ impl OpenedBody {
 }
 
 impl Lowering<'_> {
-    /// Reads all statements again with displaced joints; `None` after a message.
-    pub(super) fn opened(
+    /// Reads all statements again with displaced joints.
+    pub(super) fn open(
         &mut self,
         statements: &[syntax::Statement],
         links: Links,
-        opened: Vec<(Site, Load)>,
+        joints: &[(Site, Load)],
         mut again: Mechanism,
-    ) -> Option<Opened> {
+        opened: &mut Opened,
+    ) {
         let mut definitions = BTreeMap::new();
         for statement in statements {
             let (name, value, is_point) = match &statement.kind {
@@ -120,7 +121,7 @@ impl Lowering<'_> {
             };
             definitions.insert(name.to_string(), (value, is_point));
         }
-        let sites = opened.iter().map(|(site, load)| (*site, load.displacement)).collect();
+        let sites = joints.iter().map(|(site, load)| (*site, load.displacement)).collect();
         let plain = std::mem::take(&mut self.values);
         self.opening = Some(Opening { links, sites, plain, definitions, owner: None, unclear: None });
         self.scope.forget_values();
@@ -132,18 +133,17 @@ impl Lowering<'_> {
         if let Some(region) = self.opening.take().and_then(|opening| opening.unclear) {
             let message = "the forces in joints need this vector as a sum of vectors `r@phi`, `(x, y)@phi` and points";
             self.diagnostics.error(region, message);
-            return None;
         }
-        Some(Opened {
-            loads: opened.into_iter().map(|(_, load)| load).collect(),
-            rows: again.constraints.into_iter().flat_map(|constraint| constraint.rows).collect(),
-            bodies: again.bodies.iter().map(OpenedBody::of).collect(),
-            scenes: reading.paths(),
-        })
+        opened.rows = again.constraints.into_iter().flat_map(|constraint| constraint.rows).collect();
+        opened.bodies = again.bodies.iter().map(OpenedBody::of).collect();
+        opened.scenes = reading.paths();
     }
 
-    /// The value of an expression with displaced joints.
+    /// The value of an expression with displaced joints; a law is a force, not a path.
     pub(super) fn displaced(&mut self, index: usize, value: Value) -> Value {
+        if self.is_law {
+            return value;
+        }
         let Some(mut opening) = self.opening.take() else { return value };
         let id = self.expressions.id(index);
         let displaced = match opening.plain.get(index) {

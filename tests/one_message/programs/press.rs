@@ -48,6 +48,6 @@ pub fn main() -> Result<(), linkage::Error> {
     let driven = Driven::default();
     let [linkage::Prescribed { rate, .. }] = driven.drives(0.0);
     println!("{} N m", driven.drive_forces(0.0, &q, rate)?[0] + driven.omega);
-    println!("{} N", driven.reactions(0.0, &q, rate)?.norm());
+    println!("{} N", driven.reactions(0.0, &q, rate)?.multipliers.norm());
     Ok(())
 }
