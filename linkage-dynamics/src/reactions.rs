@@ -1,9 +1,33 @@
 //! The forces in the joints of a scene with frictions and stops.
 
-use crate::contact::{Contacts, ReducedEquations};
+use crate::contact::{ContactMotion, Contacts, ReducedEquations};
 use crate::scene::{Coordinates, Inputs};
-use crate::{Equations, MotionError, Scene};
+use crate::{ContactLaw, Equations, MotionError, Scene};
+use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Mechanism, PerInput};
+
+type MotionOf<S> = (
+    ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>,
+    ContactMotion<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>,
+);
+
+/// The power that frictions by reaction dissipate in the motion that starts at a state.
+///
+/// # Errors
+/// Those of [`Contacts::begin`].
+pub fn bearing_loss<S: Scene>(
+    scene: &S,
+    t: S::Scalar,
+    q: &Coordinates<S>,
+    input_rates: Inputs<S>,
+) -> Result<S::Scalar, MotionError> {
+    let (equations, motion) = motion(scene, t, q, input_rates)?;
+    let losses = equations.contacts.iter().zip(&motion.forces).map(|(contact, &force)| match contact.law {
+        ContactLaw::Bearing { .. } => -force * contact.rate(&equations.rates).0,
+        ContactLaw::Friction { .. } | ContactLaw::Stop { .. } => S::Scalar::zero(),
+    });
+    Ok(losses.fold(S::Scalar::zero(), |sum, loss| sum + loss))
+}
 
 /// The forces in the joints in the motion that starts at a state: contacts at rest are held if they can.
 ///
@@ -15,11 +39,24 @@ pub fn reactions<S: Scene>(
     q: &Coordinates<S>,
     input_rates: Inputs<S>,
 ) -> Result<S::Reactions, MotionError> {
-    let rates: PerInput<S::Mechanism> = input_rates.into();
-    let evaluate = |rates: &PerInput<S::Mechanism>| ReducedEquations::of(scene, t, &S::state(q, &(*rates).into()));
-    let (contacts, rates) = Contacts::begin(t, &rates, evaluate)?;
-    let motion = contacts.motion(&evaluate(&rates)?)?;
+    let (equations, motion) = motion(scene, t, q, input_rates)?;
+    let rates = equations.rates;
     let Equations { ratios, bias, .. } = scene.equations(t, &S::state(q, &rates.into()))?;
     let all = S::Mechanism::rates(ratios * rates, rates);
     scene.reactions(t, q, &all, (ratios * motion.acceleration + bias, motion.acceleration), &motion.forces)
+}
+
+/// The equations at a state after any impact there, with the accelerations and the forces of contacts.
+fn motion<S: Scene>(
+    scene: &S,
+    t: S::Scalar,
+    q: &Coordinates<S>,
+    input_rates: Inputs<S>,
+) -> Result<MotionOf<S>, MotionError> {
+    let rates: PerInput<S::Mechanism> = input_rates.into();
+    let evaluate = |rates: &PerInput<S::Mechanism>| ReducedEquations::of(scene, t, &S::state(q, &(*rates).into()));
+    let (contacts, rates) = Contacts::begin(t, &rates, evaluate)?;
+    let equations = evaluate(&rates)?;
+    let motion = contacts.motion(&equations)?;
+    Ok((equations, motion))
 }

@@ -11,7 +11,7 @@ use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Column, Dim, InputError, Mechanism, real};
+use linkage_runtime::{Column, Dim, InputError, Mechanism, PerInput, real};
 
 /// The safety factor of the step-size controller. The speed of a mechanism varies within each turn; with the usual 0.9
 /// every third step is rejected.
@@ -204,12 +204,12 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     pub fn loads(&self) -> Result<Loads<S>, MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.projected(t, self.integration.state())?;
-        let (contacts, drives, joints) = motion.loads(t, &y)?;
-        let drive_power = drives.dot(&motion.velocity(t, &y)?.inputs);
-        if !contacts.iter().chain(drives.iter()).chain([&drive_power]).all(S::Scalar::is_finite) {
+        let loads = motion.loads(t, &y)?;
+        let drives: PerInput<S::Mechanism> = loads.drives.into();
+        if !loads.contacts.iter().chain(drives.iter()).chain([&loads.drive_power]).all(S::Scalar::is_finite) {
             return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
         }
-        Ok(Loads { contacts, drives: drives.into(), drive_power, joints })
+        Ok(loads)
     }
 
     /// The part of the interval that is done, from 0 to 1.

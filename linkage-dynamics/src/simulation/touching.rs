@@ -2,6 +2,7 @@
 
 use super::motion::{Motion, Parametrisation, Reduced};
 use super::scales::{resolution as resolution_of, resolution_by_inputs};
+use super::state::Loads;
 use crate::contact::{Change, Contact, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::integrate::Guard;
 use crate::scene::coordinate_name;
@@ -52,7 +53,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         });
         let coordinates = Column::from_fn(|input| coordinate_name::<S::Mechanism>(S::U::COUNT + input));
         let (mass, forces) = (Matrix::identity(), Column::zeros());
-        Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts })
+        let bearings = Column::repeat(None);
+        Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts, bearings })
     }
 
     /// The event functions of the contacts, at the projected state.
@@ -66,7 +68,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let y = self.projected(t, y).unwrap_or(*y);
         let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
         let equations = if is_free { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
-        self.contacts.guards(&equations)
+        self.contacts.guards(&equations).map_err(|error| error.at(t))
     }
 
     /// The rounding error of each s.
@@ -90,7 +92,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
     pub(super) fn begin(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let mut contacts = self.contacts.with_resolution(self.resolution(t, y)?);
-        let rates = contacts.start(t, &rates, |rates| self.equations(t, &Self::pack(&q, rates)))?;
+        let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
+        let rates = contacts.start(t, &rates, at).map_err(|error| error.at(t))?;
         self.names = self.contacts_alone(t, y)?.contacts.map(|contact| contact.name);
         self.contacts = contacts;
         Ok(Self::pack(&q, &rates))
@@ -126,7 +129,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let mut contacts = self.contacts;
         let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
-        let rates = if has_new_rates { contacts.resume(t, &rates, at)? } else { contacts.settle(t, &rates, at)? };
+        let rates = if has_new_rates { contacts.resume(t, &rates, at) } else { contacts.settle(t, &rates, at) };
+        let rates = rates.map_err(|error| error.at(t))?;
         let after = Self::pack(&q, &rates);
         let done = changes((&self.contacts, &self.equations(t, before)?), (&contacts, &self.equations(t, &after)?));
         self.contacts = contacts;
@@ -146,7 +150,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if contacts.modes.iter().all(|&mode| mode == Mode::Open) && contacts.review(&self.contacts_alone(t, y)?)?.1 {
             return Ok((*y, true));
         }
-        let (rates, holds) = contacts.review(&self.equations(t, y)?)?;
+        let (rates, holds) = contacts.review(&self.equations(t, y)?).map_err(|error| error.at(t))?;
         Ok((Self::pack(&S::parts(y).0, &rates), holds))
     }
 
@@ -154,11 +158,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     ///
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
-    pub(super) fn loads(
-        &self,
-        t: S::Scalar,
-        y: &StateColumn<S>,
-    ) -> Result<(PerContact<S>, PerInput<S::Mechanism>, S::Reactions), MotionError> {
+    pub(super) fn loads(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Loads<S>, MotionError> {
         let (q, _) = S::parts(y);
         let (free, places) = match &self.parametrisation {
             Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
@@ -168,22 +168,28 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 (self.unprescribed_by(independent, &factors, (t, y))?.0, Column::from_fn(place))
             }
         };
-        let motion = self.contacts.motion(&self.equations(t, y)?)?;
+        let motion = self.contacts.motion(&self.equations(t, y)?).map_err(|error| error.at(t))?;
         let mut residual = free.mass * motion.acceleration - free.forces;
         for (contact, &force) in free.contacts.iter().zip(&motion.forces) {
             residual -= contact.row * force;
         }
         let places: Column<Option<usize>, S::V> = places;
         let prescribed = self.prescribed_inputs(t);
-        let drives = Column::from_fn(|input| match places[input] {
+        let drives: PerInput<S::Mechanism> = Column::from_fn(|input| match places[input] {
             Some(place) if prescribed[input] => residual[place],
             _ => S::Scalar::zero(),
         });
         let velocity = self.velocity(t, y)?;
         let rates = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
         let accelerations = self.accelerations(t, y, &motion.acceleration)?;
-        let reactions = self.scene.reactions(t, &q, &rates, accelerations, &motion.forces)?;
-        Ok((motion.forces, drives, reactions))
+        let joints = self.scene.reactions(t, &q, &rates, accelerations, &motion.forces)?;
+        Ok(Loads {
+            contacts: motion.forces,
+            are_unique: motion.are_unique,
+            drives: drives.into(),
+            drive_power: drives.dot(&velocity.inputs),
+            joints,
+        })
     }
 
     /// u'' and v'' from the accelerations of the independent coordinates.
