@@ -45,6 +45,6 @@ pub use joints::{Joint, Joints};
 pub use limits::Bound;
 pub use linear::{Form, Row, Solutions, System, solve_closed};
 pub use position_formulas::ClosedForm;
-pub use scene::{Contact, ContactFormula, Equilibrium, Multipliers, Prescribed, Reactions, Scene};
+pub use scene::{BearingRow, Contact, ContactFormula, Equilibrium, Multipliers, Prescribed, Reactions, Scene};
 pub use skeleton::{Part, Skeleton};
 pub use step::{ChordGeometry, Step, merged, needed, needed_names};

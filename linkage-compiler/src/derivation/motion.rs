@@ -137,11 +137,14 @@ impl Derivation {
             }
         }
         let contacts = self.derive_contacts(mechanism, scene);
-        for Contact { label, rate, law, .. } in &contacts {
+        for (Contact { label, rate, law, .. }, model) in contacts.iter().zip(&scene.contacts) {
             // A slipping contact dissipates limit |s'|; for a sticking one s' = 0.
             if let ContactFormula::Friction { limit, given } = law {
-                let rate = self.graph.call(Function::Abs, &[*rate]);
-                dissipated.push((Number::ONE, self.graph.multiply(*limit, rate)));
+                // The limit by a reaction follows from the motion.
+                if model.bearing.is_none() {
+                    let rate = self.graph.call(Function::Abs, &[*rate]);
+                    dissipated.push((Number::ONE, self.graph.multiply(*limit, rate)));
+                }
                 masses.extend(given.iter().map(|&factor| (label.clone(), factor)));
             }
         }

@@ -7,6 +7,8 @@
 //! The rows of Psi may be those of an elimination, row j less m times row i. With lambda_i - sum m lambda_j in place of
 //! lambda_i, `Psi_q'` lambda is that of the rows as written.
 
+use rustc_hash::FxHashMap;
+
 use super::data::Derivation;
 use super::jacobian::along_rates;
 use super::linear::{Form, solve_closed};
@@ -124,6 +126,20 @@ impl Derivation {
             values[row] = self.graph.variable(multipliers.names[row]);
         }
         steps
+    }
+
+    /// An expression in the multipliers of the rows of Psi instead of those as written.
+    pub(super) fn in_solved(&mut self, node: NodeId, multipliers: &Multipliers) -> NodeId {
+        let names = multipliers.names.iter().zip(&multipliers.solved);
+        let mut solved: FxHashMap<NodeId, NodeId> =
+            names.map(|(&name, &solved)| (self.graph.variable(name), self.graph.variable(solved))).collect();
+        for step in self.as_written(multipliers) {
+            if let Step::Let { symbol, node } = step {
+                let value = self.graph.replace(&[node], &solved)[0];
+                solved.insert(self.graph.variable(symbol), value);
+            }
+        }
+        self.graph.replace(&[node], &solved)[0]
     }
 
     /// The sum of the magnitudes of the entries of a row.

@@ -7,10 +7,10 @@
 use rustc_hash::FxHashMap;
 
 use super::data::Derivation;
-use super::scene::Reactions;
-use crate::graph::{NodeId, Number, SymbolId};
+use super::scene::{BearingRow, Multipliers, Reactions};
+use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::SceneId;
-use crate::model::{self, Mechanism};
+use crate::model::{self, LoadKind, Mechanism};
 
 impl Derivation {
     pub(super) fn derive_reactions(
@@ -60,7 +60,44 @@ impl Derivation {
                 self.simplest(sum)
             }));
         }
-        Reactions { opened: scene.opened(), contact_forces, multipliers, forces }
+        let opened = scene.opened();
+        let mut bearings = Vec::new();
+        for contact in &scene.contacts {
+            let place = contact.bearing.and_then(|load| opened.iter().position(|&other| other == load));
+            bearings.push(place.map(|place| {
+                let is_guide = matches!(mechanism.opened.loads[opened[place]].kind, LoadKind::Guide { .. });
+                let [first, second] = forces[place];
+                // The moment of a guide is no force.
+                let second = if is_guide { self.graph.zero() } else { second };
+                [first, second].map(|force| self.bearing_row(force, &multipliers, &contact_forces))
+            }));
+        }
+        Reactions { opened, contact_forces, multipliers, forces, bearings }
+    }
+
+    /// The parts of a component of a reaction.
+    fn bearing_row(&mut self, force: NodeId, multipliers: &Multipliers, contacts: &[SymbolId]) -> BearingRow {
+        let force = self.in_solved(force, multipliers);
+        let slopes = |graph: &mut Graph, symbols: &[SymbolId]| -> Vec<NodeId> {
+            symbols.iter().map(|&symbol| graph.partial(&[force], symbol)[0]).collect()
+        };
+        let accelerations: Vec<SymbolId> = self.coordinates.iter().map(|c| c.acceleration).collect();
+        let by_accelerations = slopes(&mut self.graph, &accelerations);
+        let by_multipliers = slopes(&mut self.graph, &multipliers.solved);
+        let by_contacts = slopes(&mut self.graph, contacts);
+        let zero = self.graph.zero();
+        let all = accelerations.iter().chain(&multipliers.solved).chain(contacts);
+        let none: FxHashMap<NodeId, NodeId> = all.map(|&symbol| (self.graph.variable(symbol), zero)).collect();
+        let constant = self.graph.replace(&[force], &none)[0];
+        let is_nonzero = |graph: &Graph, node: NodeId| !graph.is_zero(node);
+        let accelerations = self.coordinates.ids().zip(by_accelerations);
+        let rows = multipliers.solved.ids().zip(by_multipliers);
+        BearingRow {
+            constant,
+            accelerations: accelerations.filter(|(_, node)| is_nonzero(&self.graph, *node)).collect(),
+            multipliers: rows.filter(|(_, node)| is_nonzero(&self.graph, *node)).collect(),
+            contacts: by_contacts,
+        }
     }
 
     /// The symbols of the forces of frictions and stops along their scalars.

@@ -105,6 +105,18 @@ pub struct Reactions {
     pub multipliers: Multipliers,
     /// The two components of each.
     pub forces: Vec<[NodeId; 2]>,
+    /// The reactions that limit frictions, by contact.
+    pub bearings: Vec<Option<[BearingRow; 2]>>,
+}
+
+/// A component of a reaction, R = constant + b q'' + c lambda + d f, with the multipliers lambda of the rows of Psi and
+/// the forces f of contacts.
+#[derive(Debug, Clone)]
+pub struct BearingRow {
+    pub constant: NodeId,
+    pub accelerations: Row<ColumnId>,
+    pub multipliers: Row<RowId>,
+    pub contacts: Vec<NodeId>,
 }
 
 /// The formulas of the equilibrium of a scene, in terms of q, t, W and L.

@@ -290,6 +290,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
     };
     let state = quote!(__rt::Column<T, __rt::D<#n>>);
     let (reactions, joints) = reactions(signatures, on);
+    let bearings = bearings(signatures);
     let result = |of: TokenStream| quote!(__rt::Result<#of, __rt::MotionError>);
     let (nothing, derivative) = (result(quote!(())), result(state.clone()));
     let [all_contacts, all_equations, all_unreduced] = [
@@ -334,6 +335,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
                 #contacts
             }
             #joints
+            #bearings
             fn unreduced(&self, t: T, q: &#coordinates<T>, rates: &#rates<T>) -> #all_unreduced {
                 self.unreduced(t, q, rates)
             }
@@ -382,4 +384,34 @@ fn reactions(signatures: &SceneSignatures, driver: &Driver) -> (TokenStream, Tok
         }
     };
     (of, function)
+}
+
+/// The constant and the function of `Scene` for the reactions that limit frictions, if there are any.
+fn bearings(signatures: &SceneSignatures) -> Option<TokenStream> {
+    let SceneSignatures { scene, types, inputs, unknowns, .. } = signatures;
+    let [coordinates, rates] = [&types.coordinates, &types.rates].map(|name| ident(name));
+    let [u, v, c] = [*unknowns, inputs.len(), scene.contacts.len()].map(literal);
+    let count = signatures.count_bearings();
+    let names: Vec<Ident> = (1..=count).map(|number| ident(&format!("bearing_{number}"))).collect();
+    let mut left = names.iter();
+    let all = scene.contacts.iter().map(|contact| match contact.bearing.and_then(|_| left.next()) {
+        Some(name) => quote!(__rt::Some(#name)),
+        None => quote!(__rt::None),
+    });
+    let all: Vec<TokenStream> = all.collect();
+    let bearing = quote!(__rt::Bearing<T, __rt::D<#u>, __rt::D<#v>, __rt::D<#c>>);
+    (count > 0).then(|| {
+        quote! {
+            const BEARINGS: bool = true;
+            fn bearings(
+                &self,
+                t: T,
+                q: &#coordinates<T>,
+                rates: &#rates<T>,
+            ) -> __rt::Result<__rt::Column<__rt::Option<#bearing>, __rt::D<#c>>, __rt::MotionError> {
+                let [#(#names),*] = self.bearings(t, q, rates)?;
+                __rt::Ok([#(#all),*].into())
+            }
+        }
+    })
 }

@@ -80,8 +80,8 @@ pub(super) struct Opening {
     definitions: BTreeMap<String, (ExpressionId, bool)>,
     /// The link of the body whose centre is read.
     owner: Option<usize>,
-    /// A vector that is no path over links.
-    unclear: Option<Region>,
+    /// The vectors that are no paths over links, by expression.
+    unclear: BTreeMap<usize, Region>,
 }
 
 /// A path over links from the origin.
@@ -123,14 +123,14 @@ impl Lowering<'_> {
         }
         let sites = joints.iter().map(|(site, load)| (*site, load.displacement)).collect();
         let plain = std::mem::take(&mut self.values);
-        self.opening = Some(Opening { links, sites, plain, definitions, owner: None, unclear: None });
+        self.opening = Some(Opening { links, sites, plain, definitions, owner: None, unclear: BTreeMap::new() });
         self.scope.forget_values();
         let messages = self.diagnostics.len();
         let calls: Vec<usize> = self.externals.iter().map(|external| external.calls.len()).collect();
         let reading = self.define(statements, &mut again);
         self.diagnostics.truncate(messages);
         self.externals.iter_mut().zip(calls).for_each(|(external, calls)| external.calls.truncate(calls));
-        if let Some(region) = self.opening.take().and_then(|opening| opening.unclear) {
+        if let Some(region) = self.opening.take().and_then(|opening| opening.unclear.into_values().next()) {
             let message = "the forces in joints need this vector as a sum of vectors `r@phi`, `(x, y)@phi` and points";
             self.diagnostics.error(region, message);
         }
@@ -148,8 +148,13 @@ impl Lowering<'_> {
         let id = self.expressions.id(index);
         let displaced = match opening.plain.get(index) {
             Some(&Value::Vector(x, y)) => {
-                let shift = opening.shift(&mut self.graph, self.expressions, id).unwrap_or_else(|| {
-                    opening.unclear.get_or_insert(self.expressions.region(id));
+                let shift = opening.shift(&mut self.graph, self.expressions, id);
+                // An operand of a sum is no position by itself.
+                for operand in vectors_of(self.expressions.get(id)) {
+                    opening.unclear.remove(&operand.index());
+                }
+                let shift = shift.unwrap_or_else(|| {
+                    opening.unclear.insert(index, self.expressions.region(id));
                     [self.graph.zero(); 2]
                 });
                 Value::Vector(self.graph.add(x, shift[0]), self.graph.add(y, shift[1]))
@@ -379,5 +384,14 @@ impl Opening {
             sites.any(|(site, _)| matches!(site, Site::Guide { block, .. } if self.links.has_direction(*block, leg)))
         };
         !legs.iter().any(turns)
+    }
+}
+
+/// The operands of a vector expression that may be vectors.
+fn vectors_of(expression: &Expression) -> Vec<ExpressionId> {
+    match expression {
+        Expression::Sum(operands) | Expression::Product(operands) => operands.iter().map(|(_, id)| *id).collect(),
+        Expression::Negate(inner) | Expression::At(inner, _) => vec![*inner],
+        _ => Vec::new(),
     }
 }

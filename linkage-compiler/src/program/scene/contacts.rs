@@ -1,8 +1,9 @@
 //! The functions of a scene with frictions and stops: its contacts, and the equations of motion before they are solved.
 
 use super::ScenePlan;
-use crate::derivation::ContactFormula;
+use crate::derivation::{BearingRow, ContactFormula};
 use crate::graph::{NodeId, SymbolId};
+use crate::ids::ColumnId;
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Value, results};
@@ -13,11 +14,12 @@ impl ScenePlan<'_, '_, '_> {
     /// `contacts`: each friction and stop with its scalar s, the derivatives of s, and its limits.
     pub(super) fn contacts(&mut self) {
         let mut doc = lines(["The frictions and stops at a position and the rates q', in the order of the scene."]);
-        let formulas = self.scene.contacts.iter().map(|contact| {
+        let formulas = self.scene.contacts.iter().enumerate().map(|(place, contact)| {
             let value = self.plan.text(contact.value);
             match &contact.law {
                 ContactFormula::Friction { limit, .. } => {
-                    format!("{}: |f| <= {} along {value}", contact.label, self.plan.text(*limit))
+                    let reaction = if self.bearing(place).is_some() { " |R|" } else { "" };
+                    format!("{}: |f| <= {}{reaction} along {value}", contact.label, self.plan.text(*limit))
                 }
                 ContactFormula::Stop { range: [lower, upper], restitution } => {
                     let [lower, upper, restitution] = [lower, upper, restitution].map(|&node| self.plan.text(node));
@@ -36,7 +38,7 @@ impl ScenePlan<'_, '_, '_> {
         let derivation = &self.plan.derivation;
         let (u, v) = (derivation.unknowns.len(), derivation.inputs.len());
         let (mut nodes, mut contacts): (Vec<NodeId>, Vec<Expression>) = (Vec::new(), Vec::new());
-        for contact in &self.scene.contacts {
+        for (place, contact) in self.scene.contacts.iter().enumerate() {
             let first = nodes.len();
             let entries = derivation.unknowns.iter().chain(&derivation.inputs);
             nodes.extend(entries.map(|index| contact.row.get(index).copied().unwrap_or(zero)));
@@ -44,7 +46,10 @@ impl ScenePlan<'_, '_, '_> {
             let (law, numbers): (_, &[&str]) = match &contact.law {
                 ContactFormula::Friction { limit, .. } => {
                     nodes.push(*limit);
-                    ("ContactLaw::Friction", &["limit"])
+                    match self.bearing(place) {
+                        Some(_) => ("ContactLaw::Bearing", &["factor"]),
+                        None => ("ContactLaw::Friction", &["limit"]),
+                    }
                 }
                 ContactFormula::Stop { range, restitution } => {
                     nodes.extend(range);
@@ -74,6 +79,60 @@ impl ScenePlan<'_, '_, '_> {
         let valid = Expression::runtime("validate_contacts", [Expression::mechanism(), Expression::List(contacts)]);
         let body = Body { value: Value::Result(valid), ..body };
         self.add(self.signatures.contacts(), doc, body);
+    }
+
+    /// The reaction that limits a friction.
+    fn bearing(&self, contact: usize) -> Option<&[BearingRow; 2]> {
+        self.scene.reactions.as_ref()?.bearings.get(contact)?.as_ref()
+    }
+
+    /// `bearings`: the reactions that limit frictions, before the motion is known.
+    pub(super) fn bearings(&mut self) {
+        let contacts = 0..self.scene.contacts.len();
+        let bearings: Vec<[BearingRow; 2]> = contacts.filter_map(|place| self.bearing(place).cloned()).collect();
+        if bearings.is_empty() {
+            return;
+        }
+        let zero = self.plan.derivation.graph.zero();
+        let derivation = &self.plan.derivation;
+        let (mut nodes, mut values): (Vec<NodeId>, Vec<Expression>) = (Vec::new(), Vec::new());
+        for components in &bearings {
+            let rows = components.iter().map(|row| {
+                let mut entries = |entries: Vec<NodeId>| {
+                    let first = nodes.len();
+                    nodes.extend(&entries);
+                    Expression::sized_vector(results(first..first + entries.len()))
+                };
+                let accelerations = |places: &[ColumnId]| -> Vec<NodeId> {
+                    places.iter().map(|place| row.accelerations.get(place).copied().unwrap_or(zero)).collect()
+                };
+                let multipliers = derivation.residual.ids();
+                let multipliers = multipliers.map(|at| row.multipliers.get(&at).copied().unwrap_or(zero)).collect();
+                let members = [
+                    ("unknowns", entries(accelerations(&derivation.unknowns))),
+                    ("inputs", entries(accelerations(&derivation.inputs))),
+                    ("rows", entries(multipliers)),
+                    ("contacts", entries(row.contacts.clone())),
+                ];
+                nodes.push(row.constant);
+                let constant = [("constant", Expression::Result(nodes.len() - 1))];
+                structure("ReactionRow", constant.into_iter().chain(members))
+            });
+            let rows = rows.collect();
+            values.push(structure("Bearing", [("components", Expression::List(rows))]));
+        }
+        let count = nodes.len();
+        let sources = vec![self.plan.coordinates(Order::Rate)];
+        let body = self.on_coordinates(sources, Vec::new(), unnamed(nodes));
+        let body = body.checked("the reactions", results(0..count));
+        let body = Body { value: Value::Plain(Expression::List(values)), ..body };
+        let doc = lines([
+            "The reactions that limit frictions, in terms of the accelerations, the multipliers and the forces of contacts.",
+            "",
+            "# Errors",
+            "`PositionError::NotFinite` if a number is not finite.",
+        ]);
+        self.add(self.signatures.bearings(), doc, body);
     }
 
     /// `equations`: M, Q, W and u'' at v'' = 0.

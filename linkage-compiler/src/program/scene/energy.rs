@@ -45,7 +45,7 @@ impl ScenePlan<'_, '_, '_> {
             Output { node: self.scene.applied, name: (!are_drives_known).then(|| "applied".to_owned()) },
             Output::named(self.scene.dissipated, "dissipated"),
         ];
-        let (body, applied) = if are_drives_known {
+        let (mut body, applied) = if are_drives_known {
             let speeds = self.plan.rates(&self.plan.derivation.inputs).at(&driven);
             let speeds = self.plan.variables(&speeds);
             outputs.extend(speeds.into_iter().map(Output::from));
@@ -63,7 +63,15 @@ impl ScenePlan<'_, '_, '_> {
         } else {
             (self.on_motion(outputs, None), Expression::Result(0))
         };
-        let values = [applied, Expression::Result(1)];
+        let mut dissipated = Expression::Result(1);
+        if self.signatures.count_bearings() > 0 {
+            let arguments = &self.signatures.arguments;
+            let state = [&arguments.time, &arguments.q, &arguments.input_rates].map(Expression::name);
+            let call = Expression::runtime("bearing_loss", std::iter::once(Expression::own()).chain(state)).tried();
+            let sum = Expression::Sum(vec![(false, dissipated), (false, call)]);
+            dissipated = body.bound("all_dissipated".to_owned(), sum);
+        }
+        let values = [applied, dissipated];
         let body = self.checked_with_effects(body, "the power", values.to_vec());
         let body = self.with_rates(body);
         let members = ["applied", "dissipated"].map(str::to_owned).into_iter().zip(values);

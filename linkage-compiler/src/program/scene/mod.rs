@@ -92,6 +92,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
         planned.reactions();
         if !scene.contacts.is_empty() {
             planned.contacts();
+            planned.bearings();
             planned.equations();
         }
         planned.check();

@@ -76,7 +76,9 @@ impl<'a> SceneSignatures<'a> {
         }
         all.push(self.check());
         if !scene.contacts.is_empty() {
-            all.extend([self.contacts(), self.equations()]);
+            all.push(self.contacts());
+            all.extend((self.count_bearings() > 0).then(|| self.bearings()));
+            all.push(self.equations());
         }
         all
     }
@@ -158,6 +160,17 @@ impl<'a> SceneSignatures<'a> {
         let contact = Type::Sized("Contact", vec![self.unknowns, self.inputs.len()]);
         let of = Type::List(Box::new(contact), self.scene.contacts.len());
         Function { access: Access::Hidden, ..fallible("contacts", self.whole_state(), of) }
+    }
+
+    /// The number of frictions by reaction.
+    pub fn count_bearings(&self) -> usize {
+        self.scene.contacts.iter().filter(|contact| contact.bearing.is_some()).count()
+    }
+
+    pub fn bearings(&self) -> Function<Body> {
+        let sizes = vec![self.unknowns, self.inputs.len(), self.scene.contacts.len()];
+        let of = Type::List(Box::new(Type::Sized("Bearing", sizes)), self.count_bearings());
+        Function { access: Access::Hidden, ..fallible("bearings", self.whole_state(), of) }
     }
 
     pub fn equations(&self) -> Function<Body> {
