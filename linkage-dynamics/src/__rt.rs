@@ -5,6 +5,6 @@ pub use crate::equilibrium::equilibrium;
 pub use crate::inertia::reduced;
 pub use crate::scene::{Kinematics, finite_each, not_negative};
 pub use crate::{
-    Balance, Contact, ContactCoordinate, ContactLaw, Energy, Equations, MotionError, Power, Prescribed, Scene,
-    Unreduced,
+    Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Energy, Equations, MotionError, Power, Prescribed,
+    ReactionRow, Scene, Unreduced,
 };

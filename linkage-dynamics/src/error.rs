@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use linkage_runtime::{InputError, PathError, PositionError};
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::{InputError, PathError, PositionError, Real};
 
 /// The reason why forces, accelerations or a motion cannot be computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +26,33 @@ pub enum MotionError {
         scene: &'static str,
         /// A contact that is involved.
         contact: &'static str,
+    },
+    /// No acceleration satisfies the law of every contact, as in Painleve's paradox.
+    NoMotion {
+        /// The scene.
+        scene: &'static str,
+        /// The friction by a reaction that is involved.
+        contact: &'static str,
+        /// The time, in a simulation.
+        t: Option<f64>,
+    },
+    /// Several accelerations satisfy the law of every contact, as in Painleve's paradox.
+    SeveralMotions {
+        /// The scene.
+        scene: &'static str,
+        /// A friction that differs between them.
+        contact: &'static str,
+        /// The time, in a simulation.
+        t: Option<f64>,
+    },
+    /// The number of accelerations that satisfy the law of every contact was not found.
+    UndecidedMotion {
+        /// The scene.
+        scene: &'static str,
+        /// The friction by a reaction that is involved.
+        contact: &'static str,
+        /// The time, in a simulation.
+        t: Option<f64>,
     },
     /// A scene with frictions or stops is simulated backwards in time: dissipated energy cannot be recovered.
     Irreversible {
@@ -76,6 +104,27 @@ pub enum MotionError {
     Input(InputError),
 }
 
+impl MotionError {
+    /// Adds the time of a simulation to an error of contacts that has none.
+    pub(crate) fn at<T: Real>(mut self, now: T) -> Self {
+        if let Self::NoMotion { t, .. } | Self::SeveralMotions { t, .. } | Self::UndecidedMotion { t, .. } = &mut self
+            && t.is_none()
+        {
+            *t = Some(to_f64(now));
+        }
+        self
+    }
+}
+
+/// ` at t = 2`, or nothing.
+struct At(Option<f64>);
+
+impl fmt::Display for At {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |t| write!(f, " at t = {t}"))
+    }
+}
+
 impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -91,6 +140,23 @@ impl fmt::Display for MotionError {
                      through a stop, or stops contradict each other"
                 )
             }
+            Self::NoMotion { scene, contact, t } => write!(
+                f,
+                "no acceleration of {scene} satisfies the law of {contact}{}: reduce the friction or give a given limit",
+                At(*t)
+            ),
+            Self::SeveralMotions { scene, contact, t } => write!(
+                f,
+                "several accelerations of {scene} satisfy the law of {contact}{}: reduce the friction or give a given \
+                 limit",
+                At(*t)
+            ),
+            Self::UndecidedMotion { scene, contact, t } => write!(
+                f,
+                "the motion of {scene} was not found, nor shown not to exist, with {contact}{}: reduce the friction or \
+                 the number of contacts at rest",
+                At(*t)
+            ),
             Self::Irreversible { scene, contact } => {
                 write!(
                     f,

@@ -22,7 +22,7 @@ pub mod integrate;
 mod scene;
 pub mod simulation;
 
-pub use contact::{Contact, ContactCoordinate, ContactLaw, Mode};
+pub use contact::{Bearing, Contact, ContactCoordinate, ContactLaw, Mode, ReactionRow};
 pub use equations::Equations;
 pub use equilibrium::Balance;
 pub use error::MotionError;

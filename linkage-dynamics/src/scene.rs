@@ -2,7 +2,7 @@
 
 use crate::contact::within;
 use crate::simulation::scales::resolution_by_inputs;
-use crate::{Contact, ContactLaw, Equations, MotionError};
+use crate::{Bearing, Contact, ContactLaw, Equations, MotionError};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::Scales;
@@ -88,6 +88,21 @@ pub trait Scene {
         q: &Coordinates<Self>,
         rates: &Rates<Self>,
     ) -> Result<ContactsOf<Self>, MotionError>;
+    /// True if a friction depends on the reaction of its joint. Without one [`bearings`](Self::bearings) is not called.
+    const BEARINGS: bool = false;
+
+    /// The reactions of the contacts with the law [`ContactLaw::Bearing`], at a position and the rates q'.
+    ///
+    /// # Errors
+    /// [`PositionError::NotFinite`] with the name of the effect whose value is not finite.
+    fn bearings(
+        &self,
+        _: Self::Scalar,
+        _: &Coordinates<Self>,
+        _: &Rates<Self>,
+    ) -> Result<BearingsOf<Self>, MotionError> {
+        Ok(Column::repeat(None))
+    }
     /// M and F of M q'' + Psi_q' lambda = F in all coordinates, at the rates q': they hold for any choice of
     /// independent coordinates.
     ///
@@ -169,6 +184,10 @@ pub type StateColumn<S> = Column<<S as Scene>::Scalar, <S as Scene>::State>;
 
 type EquationsOf<S> = Equations<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 type UnreducedOf<S> = Unreduced<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
+type BearingsOf<S> = Column<
+    Option<Bearing<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V, <S as Scene>::Contacts>>,
+    <S as Scene>::Contacts,
+>;
 type ContactsOf<S> = Column<Contact<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>, <S as Scene>::Contacts>;
 
 /// The prescribed motion of an input at one time.

@@ -48,6 +48,7 @@ fn random(random: &mut SmallRng) -> ReducedEquations<f64, D<V>, D<C>> {
         forces: forces.into(),
         rates: Column::zeros(),
         contacts,
+        bearings: Column::repeat(None),
     }
 }
 
@@ -153,6 +154,7 @@ fn stops_that_contradict_each_other_are_an_error_in_every_unit() {
             forces: Column::zeros(),
             rates: Column::zeros(),
             contacts: Column::from([stop("left", 1.0), stop("right", -1.0)]),
+            bearings: Column::repeat(None),
         };
         let at = |rates: &Column<f64, D<1>>| Ok::<_, MotionError>(ReducedEquations { rates: *rates, ..equations });
         let found = Contacts::begin(0.0, &Column::zeros(), at).map(|_| ());
@@ -180,6 +182,7 @@ fn slip_that_has_just_begun_goes_on_where_it_grows() {
             bias: -belt,
             law: ContactLaw::Friction { limit: 0.5 },
         }]),
+        bearings: Column::repeat(None),
     };
     for (push, belt, mode, wrong) in [
         (1.0, 0.0, Mode::SlipForward, -1e-17),

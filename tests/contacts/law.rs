@@ -93,7 +93,8 @@ fn the_law_holds_for_random_contacts() {
             ReducedContact { name: "a contact", value, row, drift: 0.0, bias: 0.0, law }
         });
         let (coordinates, rates) = (Column::repeat(""), Column::zeros());
-        let equations = ReducedEquations { scene: "random", coordinates, mass, forces, rates, contacts };
+        let bearings = Column::repeat(None);
+        let equations = ReducedEquations { scene: "random", coordinates, mass, forces, rates, contacts, bearings };
         let (state, rates) = Contacts::begin(0.0, &rates, |_| Ok(equations)).unwrap();
         assert_eq!(rates, Column::zeros());
         let motion = state.motion(&equations).unwrap();
@@ -107,7 +108,7 @@ fn the_law_holds_for_random_contacts() {
             let second = contact.row.dot(&motion.acceleration);
             let limit = match contact.law {
                 ContactLaw::Friction { limit } => limit,
-                ContactLaw::Stop { .. } => f64::INFINITY,
+                ContactLaw::Bearing { .. } | ContactLaw::Stop { .. } => f64::INFINITY,
             };
             let fits = match mode {
                 Mode::Stick => second.abs() < 1e-11 && force.abs() <= limit * (1.0 + 1e-12),

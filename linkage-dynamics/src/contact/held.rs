@@ -169,7 +169,7 @@ pub(super) struct Held<T: Real, V: Dim, C: Dim> {
     pub forces: Column<T, C>,
 }
 
-/// The force along s of a slipping contact.
+/// The force along s of a slipping contact with a given limit.
 pub(super) fn slipping<T: Real>(mode: Mode, law: &ContactLaw<T>) -> T {
     match (mode, law) {
         (Mode::SlipForward, ContactLaw::Friction { limit }) => -*limit,
@@ -182,8 +182,20 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// # Errors
     /// Those of [`Response::new`].
     pub(super) fn new(equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Result<Self, MotionError> {
-        let forces: Column<T, C> = Column::from_fn(|place| slipping(modes[place], &equations.contacts[place].law));
-        let response = Response::new(equations, &forces, |place| modes[place].is_held())?;
+        let forces = Column::from_fn(|place| slipping(modes[place], &equations.contacts[place].law));
+        Self::with_forces(equations, modes, &forces)
+    }
+
+    /// Solves for the held contacts at these forces of the others.
+    ///
+    /// # Errors
+    /// Those of [`Response::new`].
+    pub(super) fn with_forces(
+        equations: &ReducedEquations<T, V, C>,
+        modes: &Column<Mode, C>,
+        forces: &Column<T, C>,
+    ) -> Result<Self, MotionError> {
+        let response = Response::new(equations, forces, |place| modes[place].is_held())?;
         let (mut order, mut count) = (Column::repeat(0), 0);
         for place in (0..C::COUNT).filter(|&place| modes[place].is_held()) {
             order[count] = place;

@@ -47,7 +47,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count) {
                 let limit = match equations.contacts[contact].law {
                     ContactLaw::Friction { limit } => limit,
-                    ContactLaw::Stop { .. } => T::zero(),
+                    ContactLaw::Bearing { .. } | ContactLaw::Stop { .. } => T::zero(),
                 };
                 margin += (limit + self.force_tolerance(contact)) * moved.abs();
             }

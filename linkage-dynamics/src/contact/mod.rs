@@ -12,12 +12,19 @@
 //! complementarity problem: its bounded forces minimise a convex function, so that v'' is unique, however many joints
 //! stick at once. The forces are not unique where contacts are redundant. A held contact is released only where its
 //! force exceeds the limit by 1024 ulps, so that a block pushed exactly with its friction limit stays.
+//!
+//! The limit of [`ContactLaw::Bearing`] is a factor times the reaction of its joint, which depends on the accelerations
+//! and on all contact forces. Then all combinations of modes at rest are examined: there may be one acceleration, none
+//! or several ([`MotionError::NoMotion`](crate::MotionError::NoMotion),
+//! [`MotionError::SeveralMotions`](crate::MotionError::SeveralMotions)). Between events a motion continues in its modes
+//! while they satisfy every law.
 
 mod bounded;
 mod change;
 mod held;
 mod impact;
 mod margin;
+mod reaction;
 mod reduced;
 mod settle;
 mod state;
@@ -27,6 +34,8 @@ use linkage_runtime::{Column, Dim, Real};
 
 pub use change::Change;
 pub(crate) use change::changes;
+pub(crate) use reaction::Reduction;
+pub use reaction::{Bearing, ReactionRow, ReducedBearing, ReducedReaction};
 pub use reduced::{ReducedContact, ReducedEquations};
 pub use state::{ContactMotion, Contacts};
 pub(crate) use state::{sum_tolerance, within};
@@ -63,6 +72,12 @@ pub enum ContactLaw<T> {
     Friction {
         /// The greatest force (for an angle, torque); not negative.
         limit: T,
+    },
+    /// Dry friction by the reaction R of its joint, a [`Bearing`]: |f| <= factor |R| while it sticks,
+    /// f = -sign(s') factor |R| while it slips. Without load, R = 0, it slips with f = 0.
+    Bearing {
+        /// The limit divided by |R|: the coefficient of friction, for a pin times its radius; not negative.
+        factor: T,
     },
     /// Stops at both ends of a range: lower <= s <= upper.
     Stop {

@@ -1,5 +1,6 @@
 //! The equations of motion and the contacts in any choice of independent coordinates.
 
+use super::reaction::{ReducedBearing, Reduction};
 use super::{Contact, ContactLaw};
 use crate::scene::{Rates, StateColumn, coordinate_name};
 use crate::{Equations, MotionError, Scene};
@@ -23,6 +24,8 @@ pub struct ReducedEquations<T: Real, V: Dim, C: Dim> {
     pub rates: Column<T, V>,
     /// The contacts in the order of the scene.
     pub contacts: Column<ReducedContact<T, V>, C>,
+    /// The reactions of the contacts with the law [`ContactLaw::Bearing`].
+    pub bearings: Column<Option<ReducedBearing<T, V, C>>, C>,
 }
 
 /// A contact in the independent coordinates.
@@ -73,7 +76,7 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
     /// Builds the equations of a scene in its inputs, with the prescribed motions applied.
     ///
     /// # Errors
-    /// Those of [`Scene::equations`] and [`Scene::contacts`].
+    /// Those of [`Scene::equations`], [`Scene::contacts`] and [`Scene::bearings`].
     pub fn of<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<Self, MotionError>
     where
         S: Scene<Scalar = T, V = V, Contacts = C>,
@@ -105,11 +108,26 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
         let input_rates: PerInput<S::Mechanism> = input_rates.into();
         let rates = S::Mechanism::rates(ratios * input_rates, input_rates);
         let (identity, none) = (Matrix::identity(), Column::zeros());
-        let contacts = scene
-            .contacts(t, &q, &rates)?
-            .map(|contact| ReducedContact::new(&contact, (&ratios, &identity), (&bias, &none)));
+        let (basis, bias) = ((&ratios, &identity), (&bias, &none));
+        let found = scene.contacts(t, &q, &rates)?;
+        let mut bearings = Column::repeat(None);
+        if S::BEARINGS {
+            let mechanism = scene.mechanism();
+            let pose = mechanism.pose_at(&q);
+            let all = scene.unreduced(t, &q, &rates)?;
+            let reduction = Reduction { basis, bias, all: &all, contacts: &found };
+            bearings = reduction.bearings(S::NAME, &scene.bearings(t, &q, &rates)?, |rows| {
+                Ok((mechanism.solve_jacobian(&pose, rows)?, Column::zeros()))
+            })?;
+        }
+        let contacts = found.map(|contact| ReducedContact::new(&contact, basis, bias));
         let coordinates = Column::from_fn(|input| coordinate_name::<S::Mechanism>(S::U::COUNT + input));
-        Ok((Self { scene: S::NAME, coordinates, mass, forces, rates: input_rates, contacts }, rates))
+        Ok((Self { scene: S::NAME, coordinates, mass, forces, rates: input_rates, contacts, bearings }, rates))
+    }
+
+    /// True if the limit of a friction depends on a reaction.
+    pub(super) fn has_bearings(&self) -> bool {
+        self.contacts.iter().any(|contact| matches!(contact.law, ContactLaw::Bearing { .. }))
     }
 
     /// Prescribes the acceleration of a coordinate. Its row and column of M become those of the identity, its terms

@@ -5,7 +5,7 @@ use super::held::{Held, Response, held_tolerance, slipping};
 use super::impact::{After, Struck, impact};
 use super::reduced::ReducedEquations;
 use super::state::{Contacts, ZERO_ULPS, is_negligible, slip_or_stick};
-use super::{ContactLaw, Mode};
+use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
 use linkage_runtime::{Column, Dim, Real, real};
 
@@ -17,7 +17,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// the rates v' after the event. `evaluate` computes the equations of this state with other rates v'.
     ///
     /// # Errors
-    /// [`MotionError::NoContactForces`] if no contact forces satisfy a prescribed motion, and those of `evaluate`.
+    /// [`MotionError::NoContactForces`] if no contact forces satisfy a prescribed motion, and those of `evaluate`. With a
+    /// [`Bearing`](ContactLaw::Bearing) [`MotionError::NoMotion`], [`MotionError::SeveralMotions`] or
+    /// [`MotionError::UndecidedMotion`].
     pub fn settle<V: Dim>(
         &mut self,
         t: T,
@@ -51,7 +53,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
                 (gap <= tolerance && is_negligible((rate, size))).then_some(side)
             }
-            (Mode::Open, ContactLaw::Friction { .. }) => None,
+            (Mode::Open, ContactLaw::Friction { .. } | ContactLaw::Bearing { .. }) => None,
         }
     }
 
@@ -125,7 +127,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             let (rate, size) = contact.rate(&after.rates);
             let none = is_negligible((rate, size + equations.contacts[place].rate(&equations.rates).1));
             match contact.law {
-                ContactLaw::Friction { .. } => {
+                ContactLaw::Friction { .. } | ContactLaw::Bearing { .. } => {
                     at_rest[place] = none.then_some(Mode::Stick);
                     self.modes[place] = slip_or_stick((rate, size));
                 }
@@ -151,6 +153,13 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         equations: &ReducedEquations<T, V, C>,
         at_rest: &Column<Option<Mode>, C>,
     ) -> Result<(), MotionError> {
+        if equations.has_bearings() {
+            self.modes = reaction::choose(equations, &self.modes, at_rest)?;
+            for (hardest, _) in self.hardest.iter_mut().zip(at_rest).filter(|(_, side)| side.is_some()) {
+                *hardest = T::zero();
+            }
+            return Ok(());
+        }
         let slips = |place: usize| at_rest[place].is_none();
         let forces = Column::from_fn(|place| {
             if slips(place) { slipping(self.modes[place], &equations.contacts[place].law) } else { T::zero() }

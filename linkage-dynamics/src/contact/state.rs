@@ -3,7 +3,7 @@
 use super::bounded::{Bounds, bounded};
 use super::held::{Held, Response, slipping};
 use super::reduced::{ReducedContact, ReducedEquations};
-use super::{ContactLaw, Mode};
+use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
 use crate::integrate::{Crossing, Guard};
 use linkage_runtime::__shared::to_f64;
@@ -39,6 +39,8 @@ pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
     /// The force of each contact along its s: its work is f ds. With redundant contacts the forces are not unique; this
     /// is one solution.
     pub forces: Column<T, C>,
+    /// False if other forces give the same motion: contacts are redundant.
+    pub are_unique: bool,
 }
 
 impl Mode {
@@ -108,9 +110,15 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         self.resume(t, rates, evaluate)
     }
 
+    /// Contacts in given modes, for [`motion`](Self::motion) at one state.
+    #[must_use]
+    pub fn in_modes(modes: Column<Mode, C>) -> Self {
+        Self { modes, hardest: Column::zeros(), resolution: Column::zeros() }
+    }
+
     /// All contacts open.
     pub(crate) fn open() -> Self {
-        Self { modes: Column::repeat(Mode::Open), hardest: Column::zeros(), resolution: Column::zeros() }
+        Self::in_modes(Column::repeat(Mode::Open))
     }
 
     /// Sets the error of each s where it exceeds the rounding error of its value: a solved coordinate is only as
@@ -149,7 +157,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         for (mode, contact) in self.modes.iter_mut().zip(&equations.contacts) {
             let rate = contact.rate(rates);
             match contact.law {
-                ContactLaw::Friction { .. } => *mode = slip_or_stick(rate),
+                ContactLaw::Friction { .. } | ContactLaw::Bearing { .. } => *mode = slip_or_stick(rate),
                 ContactLaw::Stop { .. } if is_negligible(rate) => {}
                 ContactLaw::Stop { .. } => *mode = Mode::Open,
             }
@@ -161,8 +169,13 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ///
     /// # Errors
     /// [`MotionError::NoInertia`], [`PositionError::NotFinite`](linkage_runtime::PositionError::NotFinite) as for the
-    /// accelerations of free inputs.
+    /// accelerations of free inputs. With a [`Bearing`](ContactLaw::Bearing) [`MotionError::NoMotion`] or
+    /// [`MotionError::SeveralMotions`] where none or several accelerations satisfy the laws in these modes, and
+    /// [`MotionError::UndecidedMotion`].
     pub fn motion<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<ContactMotion<T, V, C>, MotionError> {
+        if equations.has_bearings() {
+            return reaction::motion(equations, &self.modes);
+        }
         let held = Held::new(equations, &self.modes)?;
         let mut forces = Column::<T, C>::zeros();
         for (place, contact) in equations.contacts.iter().enumerate() {
@@ -180,7 +193,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 forces[contact] = force;
             }
         }
-        Ok(ContactMotion { acceleration: held.acceleration(equations), forces })
+        let are_unique = held.factors.rank == held.factors.count;
+        Ok(ContactMotion { acceleration: held.acceleration(equations), forces, are_unique })
     }
 
     /// Computes v'' alone.
@@ -188,6 +202,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// # Errors
     /// Those of [`motion`](Self::motion).
     pub fn acceleration<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, V>, MotionError> {
+        if equations.has_bearings() {
+            return Ok(reaction::motion(equations, &self.modes)?.acceleration);
+        }
         Ok(Held::new(equations, &self.modes)?.acceleration(equations))
     }
 
@@ -199,7 +216,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     pub fn events<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, C>, MotionError> {
         let mut values = Column::repeat(T::one());
         if self.modes.iter().any(|mode| mode.is_held()) {
-            values = Held::new(equations, &self.modes)?.margins(equations, &self.modes);
+            values = if equations.has_bearings() {
+                reaction::margins(equations, &self.modes)?
+            } else {
+                Held::new(equations, &self.modes)?.margins(equations, &self.modes)
+            };
         }
         for ((value, mode), contact) in values.iter_mut().zip(self.modes).zip(&equations.contacts) {
             match (mode, contact.law) {

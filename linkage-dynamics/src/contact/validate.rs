@@ -1,4 +1,4 @@
-//! Validation of contacts: finite numbers, limits that are not negative, ranges that are not empty.
+//! Validation of contacts: finite numbers, limits and factors that are not negative, ranges that are not empty.
 
 use super::{Contact, ContactCoordinate, ContactLaw};
 use crate::MotionError;
@@ -6,7 +6,7 @@ use crate::scene::negative;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Dim, InputError, PositionError, Real};
 
-/// Returns the contacts if their numbers are finite and no friction limit is negative.
+/// Returns the contacts if their numbers are finite and no friction limit or factor is negative.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] or [`InputError::OutOfRange`] with the name of the first that is invalid.
@@ -17,7 +17,7 @@ pub fn validate_contacts<T: Real, U: Dim, V: Dim, const C: usize>(
     for Contact { name, along, law } in &contacts {
         let ContactCoordinate { value, unknowns, inputs, bias } = along;
         let [a, b, c] = match *law {
-            ContactLaw::Friction { limit } => [limit, T::zero(), T::zero()],
+            ContactLaw::Friction { limit } | ContactLaw::Bearing { factor: limit } => [limit, T::zero(), T::zero()],
             ContactLaw::Stop { lower, upper, restitution } => [lower, upper, restitution],
         };
         let mut all =
@@ -25,7 +25,7 @@ pub fn validate_contacts<T: Real, U: Dim, V: Dim, const C: usize>(
         if !all.all(|number| number.is_finite()) {
             return Err(PositionError::NotFinite { mechanism: scene, quantity: name }.into());
         }
-        if let ContactLaw::Friction { limit } = *law
+        if let ContactLaw::Friction { limit } | ContactLaw::Bearing { factor: limit } = *law
             && limit < T::zero()
         {
             return Err(negative(scene, name, limit).into());

@@ -89,6 +89,10 @@ impl<S: Scene, W> Motion<'_, S, W> {
         direction: S::Scalar,
         tolerance: S::Scalar,
     ) -> Result<Ahead<S::Scalar, S::State>, MotionError> {
+        // At a change point reactions are infinite or undetermined, and with them these frictions.
+        if S::BEARINGS {
+            return Ok(Ahead::Clear);
+        }
         let (q, rates) = Self::unpack(y);
         let factors = self.factors(independent, &q);
         let velocity = factors.rates(&rates);

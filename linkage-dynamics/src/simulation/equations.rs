@@ -5,7 +5,7 @@
 
 use super::motion::{Choice, FactorsOf, LEAST_PIVOT_RATIO, Motion, Parametrisation, Reduced};
 use super::watch::Watch;
-use crate::contact::{ReducedContact, ReducedEquations};
+use crate::contact::{ReducedContact, ReducedEquations, Reduction};
 use crate::integrate::{Crossing, Guard, System};
 use crate::scene::coordinate_name;
 use crate::{Mode, MotionError, Rates, Scene, StateColumn};
@@ -21,12 +21,16 @@ impl<S: Scene, W> Motion<'_, S, W> {
         factors: &FactorsOf<S>,
         (t, y): (S::Scalar, &StateColumn<S>),
     ) -> Result<StateColumn<S>, MotionError> {
-        self.rate_of(&self.equations_by(independent, factors, (t, y))?)
+        self.rate_of(t, &self.equations_by(independent, factors, (t, y))?)
     }
 
     /// y' from the equations and q'.
-    fn rate_of(&self, (equations, rates): &(Reduced<S>, Rates<S>)) -> Result<StateColumn<S>, MotionError> {
-        let accelerations = self.contacts.acceleration(equations)?;
+    fn rate_of(
+        &self,
+        t: S::Scalar,
+        (equations, rates): &(Reduced<S>, Rates<S>),
+    ) -> Result<StateColumn<S>, MotionError> {
+        let accelerations = self.contacts.acceleration(equations).map_err(|error| error.at(t))?;
         all_finite(S::NAME, "the acceleration", accelerations.iter())?;
         // y' is packed in the layout of y.
         let (unknowns, inputs) = S::Mechanism::rate_parts(rates);
@@ -72,12 +76,21 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let left_unknowns = all.unknown_forces - all.unknowns * bias.unknowns - all.mixed * bias.inputs;
         let left_inputs = all.input_forces - all.mixed.tr_mul(&bias.unknowns) - all.inputs * bias.inputs;
         let forces = unknowns.tr_mul(&left_unknowns) + inputs.tr_mul(&left_inputs);
-        let contacts = self
-            .scene
-            .contacts(t, &q, &rates)?
-            .map(|contact| ReducedContact::new(&contact, (&unknowns, &inputs), (&bias.unknowns, &bias.inputs)));
+        let (basis, bias) = ((&unknowns, &inputs), (&bias.unknowns, &bias.inputs));
+        let found = self.scene.contacts(t, &q, &rates)?;
+        let mut bearings = Column::repeat(None);
+        if S::BEARINGS {
+            let reduction = Reduction { basis, bias, all: &all, contacts: &found };
+            bearings = reduction.bearings(S::NAME, &self.scene.bearings(t, &q, &rates)?, |rows| {
+                let solution = factors.solve(rows);
+                Ok((solution.unknowns, solution.inputs))
+            })?;
+        }
+        let contacts = found.map(|contact| ReducedContact::new(&contact, basis, bias));
         let coordinates = independent.free.map(coordinate_name::<S::Mechanism>);
-        Ok((ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates: free_rates, contacts }, rates))
+        let reduced =
+            ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates: free_rates, contacts, bearings };
+        Ok((reduced, rates))
     }
 }
 
@@ -94,7 +107,7 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
             if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) {
                 return self.scene.derivative(t, y);
             }
-            return self.rate_of(&ReducedEquations::with_rates(self.scene, t, y)?);
+            return self.rate_of(t, &ReducedEquations::with_rates(self.scene, t, y)?);
         };
         let (q, _) = Self::unpack(y);
         let factors = self.factors(independent, &q);

@@ -50,6 +50,8 @@ pub struct Loads<S: Scene> {
     /// The force of each friction and stop along its scalar s, in the order of declaration: its work is f ds. With
     /// redundant contacts the forces are not unique; this is one solution.
     pub contacts: Column<S::Scalar, S::Contacts>,
+    /// False if other forces of the contacts give the same motion.
+    pub are_unique: bool,
     /// The force (for an angle, torque) of each drive; zero for inputs without a drive.
     pub drives: Inputs<S>,
     /// The power of the drives. dE/dt = this + the power of the scene's other forces - the dissipation of frictions and
@@ -57,4 +59,4 @@ pub struct Loads<S: Scene> {
     pub drive_power: S::Scalar,
 }
 
-linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, drives, drive_power });
+linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, are_unique, drives, drive_power });

@@ -49,7 +49,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         });
         let coordinates = Column::from_fn(|input| coordinate_name::<S::Mechanism>(S::U::COUNT + input));
         let (mass, forces) = (Matrix::identity(), Column::zeros());
-        Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts })
+        let bearings = Column::repeat(None);
+        Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts, bearings })
     }
 
     /// The event functions of the contacts, at the projected state.
@@ -63,7 +64,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let y = self.projected(t, y).unwrap_or(*y);
         let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
         let equations = if is_free { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
-        self.contacts.guards(&equations)
+        self.contacts.guards(&equations).map_err(|error| error.at(t))
     }
 
     /// The rounding error of each s.
@@ -87,7 +88,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
     pub(super) fn begin(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let mut contacts = self.contacts.with_resolution(self.resolution(t, y)?);
-        let rates = contacts.start(t, &rates, |rates| self.equations(t, &Self::pack(&q, rates)))?;
+        let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
+        let rates = contacts.start(t, &rates, at).map_err(|error| error.at(t))?;
         self.names = self.contacts_alone(t, y)?.contacts.map(|contact| contact.name);
         self.contacts = contacts;
         Ok(Self::pack(&q, &rates))
@@ -123,7 +125,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let mut contacts = self.contacts;
         let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
-        let rates = if has_new_rates { contacts.resume(t, &rates, at)? } else { contacts.settle(t, &rates, at)? };
+        let rates = if has_new_rates { contacts.resume(t, &rates, at) } else { contacts.settle(t, &rates, at) };
+        let rates = rates.map_err(|error| error.at(t))?;
         let after = Self::pack(&q, &rates);
         let done = changes((&self.contacts, &self.equations(t, before)?), (&contacts, &self.equations(t, &after)?));
         self.contacts = contacts;
@@ -143,11 +146,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if contacts.modes.iter().all(|&mode| mode == Mode::Open) && contacts.review(&self.contacts_alone(t, y)?)?.1 {
             return Ok((*y, true));
         }
-        let (rates, holds) = contacts.review(&self.equations(t, y)?)?;
+        let (rates, holds) = contacts.review(&self.equations(t, y)?).map_err(|error| error.at(t))?;
         Ok((Self::pack(&S::parts(y).0, &rates), holds))
     }
 
-    /// The forces of the contacts, and of the drives by input, zero without a drive.
+    /// The forces of the contacts, and of the drives by input, zero without a drive; true if they are unique.
     ///
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
@@ -155,7 +158,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         &self,
         t: S::Scalar,
         y: &StateColumn<S>,
-    ) -> Result<(PerContact<S>, PerInput<S::Mechanism>), MotionError> {
+    ) -> Result<(PerContact<S>, PerInput<S::Mechanism>, bool), MotionError> {
         let (q, _) = S::parts(y);
         let (free, places) = match &self.parametrisation {
             Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
@@ -165,7 +168,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 (self.unprescribed_by(independent, &factors, (t, y))?.0, Column::from_fn(place))
             }
         };
-        let motion = self.contacts.motion(&self.equations(t, y)?)?;
+        let motion = self.contacts.motion(&self.equations(t, y)?).map_err(|error| error.at(t))?;
         let mut residual = free.mass * motion.acceleration - free.forces;
         for (contact, &force) in free.contacts.iter().zip(&motion.forces) {
             residual -= contact.row * force;
@@ -176,6 +179,6 @@ impl<S: Scene, W> Motion<'_, S, W> {
             Some(place) if prescribed[input] => residual[place],
             _ => S::Scalar::zero(),
         });
-        Ok((motion.forces, drives))
+        Ok((motion.forces, drives, motion.are_unique))
     }
 }

@@ -10,7 +10,7 @@ use linkage::position::{newton, newton_any_branch, newton_step};
 use linkage::simulation::simulate;
 use linkage::singularity::{accuracy, report, sigma_min};
 use linkage::{
-    Column, Contact, D, Equations, Group, Matrix, Mechanism, MotionError, PathError, PerInput, PerUnknown,
+    Bearing, Column, Contact, D, Equations, Group, Matrix, Mechanism, MotionError, PathError, PerInput, PerUnknown,
     PositionError, Prescribed, Scene, Unreduced,
 };
 
@@ -108,6 +108,7 @@ impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
     type Mechanism = Counted<'a, S::Mechanism>;
 
     const NAME: &'static str = S::NAME;
+    const BEARINGS: bool = S::BEARINGS;
 
     fn mechanism(&self) -> &Counted<'a, S::Mechanism> {
         &self.mechanism
@@ -136,6 +137,14 @@ impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
         rates: &Rates<S>,
     ) -> Result<Column<Contact<f64, S::U, S::V>, S::Contacts>, MotionError> {
         self.scene.contacts(t, q, rates)
+    }
+    fn bearings(
+        &self,
+        t: f64,
+        q: &Q<S>,
+        rates: &Rates<S>,
+    ) -> Result<Column<Option<Bearing<f64, S::U, S::V, S::Contacts>>, S::Contacts>, MotionError> {
+        self.scene.bearings(t, q, rates)
     }
     fn unreduced(&self, t: f64, q: &Q<S>, rates: &Rates<S>) -> Result<Unreduced<f64, S::U, S::V>, MotionError> {
         self.scene.unreduced(t, q, rates)

@@ -147,7 +147,7 @@ parts! {
         State { t, q, rates, event, contacts } => t q rates event contacts
     }
     [S: Scene<Scalar = f64, Mechanism: Mechanism<Inputs: Finite>>] Loads<S> {
-        Loads { contacts, drives, drive_power } => contacts drives drive_power
+        Loads { contacts, are_unique: _, drives, drive_power } => contacts drives drive_power
     }
     [] GroupMeasure<f64> {
         GroupMeasure { name: _, determinant, regularity, sigma_min, is_regular: _ } => determinant regularity sigma_min
@@ -158,7 +158,7 @@ parts! {
 impl Finite for ContactLaw<f64> {
     fn all_finite(&self) -> bool {
         match self {
-            Self::Friction { limit } => limit.all_finite(),
+            Self::Friction { limit } | Self::Bearing { factor: limit } => limit.all_finite(),
             Self::Stop { lower, upper, restitution } => [*lower, *upper, *restitution].all_finite(),
         }
     }
