@@ -31,17 +31,28 @@ pub(super) struct Guide {
     pub(super) links: [usize; 2],
 }
 
-/// A vector, or a part of one, that is rigid or slides in one direction.
+/// A vector, or a part of one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Leg {
     /// From its start to its end, in the order of the chain.
     pub(super) vector: [NodeId; 2],
-    /// The index of its direction; 0 for a constant one.
-    direction: usize,
-    /// The length, if it depends on a coordinate.
-    pub(super) length: Option<NodeId>,
-    /// The normal of a guide, a quarter turn from its direction.
-    pub(super) normal: [NodeId; 2],
+    pub(super) of: LegOf,
+}
+
+/// What a leg is part of; directions are by index, 0 for a constant one.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum LegOf {
+    Rigid {
+        direction: usize,
+    },
+    /// A guide whose length depends on a coordinate, with its normal, a quarter turn from its direction.
+    Guide {
+        direction: usize,
+        length: NodeId,
+        normal: [NodeId; 2],
+    },
+    /// Two coordinates: its end moves freely.
+    Free,
 }
 
 #[derive(Debug)]
@@ -61,8 +72,7 @@ pub(super) struct Links {
 /// A leg between two places.
 struct Edge {
     ends: [usize; 2],
-    direction: usize,
-    length: Option<NodeId>,
+    of: LegOf,
 }
 
 /// The index of the ground.
@@ -98,15 +108,19 @@ impl Links {
         links.join(links.places.find(origin), 0, &[]);
         for edge in &edges {
             let [from, to] = edge.ends.map(|end| links.places.find(end));
-            match edge.length {
-                None => links.join(from, edge.direction, &[to]),
-                Some(_) => [from, to].into_iter().for_each(|end| links.join(end, edge.direction, &[])),
+            match edge.of {
+                LegOf::Rigid { direction } => links.join(from, direction, &[to]),
+                LegOf::Guide { direction, .. } => {
+                    [from, to].into_iter().for_each(|end| links.join(end, direction, &[]))
+                }
+                LegOf::Free => {}
             }
         }
         links.add_bodies(graph, bodies);
-        for Edge { ends, direction, length } in edges {
+        for Edge { ends, of } in edges {
+            let LegOf::Guide { direction, length, .. } = of else { continue };
             let ends = ends.map(|end| links.places.find(end));
-            let symbols = length.map(|length| graph.symbols_of(&[length])).unwrap_or_default();
+            let symbols = graph.symbols_of(&[length]);
             let mut coordinates = symbols.into_iter().filter(|symbol| links.moving.contains(symbol));
             let (Some(coordinate), None) = (coordinates.next(), coordinates.next()) else { continue };
             let [Some(base), Some(block)] = ends.map(|end| links.link_at(end, direction)) else { continue };
@@ -144,11 +158,6 @@ impl Links {
     /// The link of a direction at a place.
     pub(super) fn link_at(&self, place: usize, direction: usize) -> Option<usize> {
         self.links.iter().position(|link| link.direction == direction && link.joints.contains(&place))
-    }
-
-    /// The link on which a leg leaves a place.
-    pub(super) fn link_of(&self, place: usize, leg: &Leg) -> Option<usize> {
-        self.link_at(place, leg.direction)
     }
 
     pub(super) fn is_coordinate(&self, symbol: SymbolId) -> bool {
@@ -202,9 +211,9 @@ impl Links {
         pins
     }
 
-    /// True if a link turns with a leg.
-    pub(super) fn has_direction(&self, link: usize, leg: &Leg) -> bool {
-        self.links[link].direction == leg.direction
+    /// True if a link has a direction.
+    pub(super) fn has_direction(&self, link: usize, direction: usize) -> bool {
+        self.links[link].direction == direction
     }
 
     fn moves(&self, graph: &Graph, nodes: &[NodeId]) -> bool {
@@ -236,7 +245,7 @@ impl Links {
                 return None;
             }
             let vector = link.vector.map(|part| sign(graph, part));
-            return Some(vec![Leg { vector, direction: 0, length: None, normal: [zero; 2] }]);
+            return Some(vec![Leg { vector, of: LegOf::Rigid { direction: 0 } }]);
         };
         let direction = link.angle.map_or(0, |angle| self.direction(graph, angle));
         let angle = link.angle.unwrap_or(zero);
@@ -246,17 +255,21 @@ impl Links {
         let vector_of = |graph: &mut Graph, length: NodeId, unit: [NodeId; 2]| {
             unit.map(|part| graph.multiply(length, part)).map(|part| sign(graph, part))
         };
+        if parts.iter().all(|&part| self.moves(graph, &[part])) {
+            let vector = link.vector.map(|part| sign(graph, part));
+            return Some(vec![Leg { vector, of: LegOf::Free }]);
+        }
         let (mut rigid, mut legs) = ([zero; 2], Vec::new());
         for (length, unit, normal) in [(parts[0], along, across), (parts[1], across, backwards)] {
             let vector = vector_of(graph, length, unit);
             if self.moves(graph, &[length]) {
-                legs.push(Leg { vector, direction, length: Some(length), normal });
+                legs.push(Leg { vector, of: LegOf::Guide { direction, length, normal } });
             } else {
                 rigid = [0, 1].map(|axis| graph.add(rigid[axis], vector[axis]));
             }
         }
         if !rigid.iter().all(|&part| graph.is_zero(part)) {
-            legs.insert(0, Leg { vector: rigid, direction, length: None, normal: [zero; 2] });
+            legs.insert(0, Leg { vector: rigid, of: LegOf::Rigid { direction } });
         }
         if link.is_reversed {
             legs.reverse();
@@ -272,10 +285,10 @@ impl Links {
         let zero = graph.zero();
         let mut last = self.places.add(chain.start.unwrap_or([zero; 2]));
         for link in &chain.links {
-            for Leg { vector, direction, length, .. } in self.legs(graph, link)? {
+            for Leg { vector, of } in self.legs(graph, link)? {
                 let from = self.places.position(last);
                 let next = self.places.add(moved(graph, from, vector));
-                edges.push(Edge { ends: [last, next], direction, length });
+                edges.push(Edge { ends: [last, next], of });
                 last = next;
             }
         }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use super::chain::{Link, in_order};
 use super::expression::Lowering;
-use super::links::{GROUND, Leg, Links, moved};
+use super::links::{GROUND, Leg, LegOf, Links, moved};
 use super::mechanism::Mechanism;
 use super::scene::Body;
 use super::scope::Value;
@@ -307,33 +307,38 @@ impl Opening {
     fn go(&self, graph: &mut Graph, mut path: Path, leg: &Leg) -> Option<Path> {
         let position = path.position?;
         let next = moved(graph, position, leg.vector);
-        let here = self.links.place(position);
-        let link = match here.and_then(|place| self.links.link_of(place, leg)) {
-            Some(link) => link,
-            // Between the joints of a link.
-            None => path.link.filter(|&link| leg.length.is_none() && self.links.has_direction(link, leg))?,
+        let [here, there] = [position, next].map(|position| self.links.place(position));
+        let at = |place: Option<usize>, direction: usize| self.links.link_at(place?, direction);
+        let [on, ends_on] = match leg.of {
+            LegOf::Rigid { direction } => {
+                // Between the joints of a link its position is no place.
+                let own = path.link.filter(|&link| self.links.has_direction(link, direction));
+                [at(here, direction).or(own)?; 2].map(Some)
+            }
+            LegOf::Guide { direction, .. } => [Some(at(here, direction)?), Some(at(there, direction)?)],
+            LegOf::Free => {
+                there?;
+                [None; 2]
+            }
         };
         if let Some(place) = here {
-            self.step(graph, &mut path, place, Some(link));
+            self.step(graph, &mut path, place, on);
         }
-        path.link = match leg.length {
-            None => Some(link),
-            Some(_) => Some(self.links.link_of(self.links.place(next)?, leg)?),
-        };
+        path.link = ends_on;
         for (site, [first, turn]) in &self.sites {
-            let Site::Guide { ends: [from, to], block } = *site else { continue };
+            let Site::Guide { ends, block } = *site else { continue };
             let (first, turn) = (graph.variable(*first), graph.variable(*turn));
             let [x, y] = leg.vector;
-            let displacement = match leg.length {
-                None if link == block => {
+            let displacement = match leg.of {
+                LegOf::Rigid { .. } if on == Some(block) => {
                     let across = graph.multiply(turn, y);
                     [graph.negate(across), graph.multiply(turn, x)]
                 }
-                Some(_) if [here, self.links.place(next)] == [Some(from), Some(to)] => {
-                    leg.normal.map(|part| graph.multiply(first, part))
+                LegOf::Guide { normal, .. } if [here, there] == ends.map(Some) => {
+                    normal.map(|part| graph.multiply(first, part))
                 }
-                Some(_) if [here, self.links.place(next)] == [Some(to), Some(from)] => {
-                    leg.normal.map(|part| graph.multiply(first, part)).map(|part| graph.negate(part))
+                LegOf::Guide { normal, .. } if [there, here] == ends.map(Some) => {
+                    normal.map(|part| graph.multiply(first, part)).map(|part| graph.negate(part))
                 }
                 _ => continue,
             };
@@ -380,8 +385,11 @@ impl Opening {
         let link = Link::of(expressions, id, false, zero, &mut |id| plain[id.index()]);
         let Some(legs) = link.and_then(|link| self.links.legs(graph, &link)) else { return false };
         let turns = |leg: &Leg| {
+            let LegOf::Rigid { direction } = leg.of else { return false };
             let mut sites = self.sites.iter();
-            sites.any(|(site, _)| matches!(site, Site::Guide { block, .. } if self.links.has_direction(*block, leg)))
+            sites.any(
+                |(site, _)| matches!(site, Site::Guide { block, .. } if self.links.has_direction(*block, direction)),
+            )
         };
         !legs.iter().any(turns)
     }

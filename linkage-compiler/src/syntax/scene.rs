@@ -378,6 +378,9 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
         }
         "potential" => EffectKind::Potential(expression::parse(stream, expressions)?),
         "friction" => {
+            if names_reaction(stream) {
+                return Err(expected(stream, "friction mu, radius, reaction on phi;` or `friction mu, reaction on s;"));
+            }
             let mut factors = vec![expression::parse(stream, expressions)?];
             let mut is_by_reaction = false;
             while factors.len() < 3 && stream.parse::<Option<Token![,]>>()?.is_some() {

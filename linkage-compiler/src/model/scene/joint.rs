@@ -19,7 +19,7 @@ pub(in crate::model) struct Wanted {
 
 #[derive(Debug, Clone)]
 enum WantedOf {
-    /// The pin at a point, with its text.
+    /// The pin at a point, with its name for messages.
     Pin([NodeId; 2], String),
     /// The guide of a length.
     Guide(NodeId),
@@ -50,7 +50,8 @@ impl Lowering<'_> {
         let of = match joint {
             Joint::At(id) => {
                 let (x, y) = self.vector(id)?;
-                WantedOf::Pin([x, y], self.text(id)?)
+                let name = self.expressions.as_name(id).map_or("this point".to_owned(), |name| format!("`{name}`"));
+                WantedOf::Pin([x, y], name)
             }
             Joint::On(id) => WantedOf::Guide(self.scalar(id)?),
         };
@@ -82,7 +83,7 @@ impl Finder<'_, '_> {
                 WantedOf::Pin(position, text) => {
                     let holding = self.links.holding(&mut self.lowering.graph, position);
                     if holding.is_empty() {
-                        let message = format!("`{text}` is fixed in no body and no link: name a point of a link");
+                        let message = format!("{text} is fixed in no body and no link: name a point of a link");
                         self.lowering.diagnostics.error(region, message);
                     }
                     let place = self.links.hold(position, &holding);
