@@ -67,8 +67,8 @@ pub enum EffectKind {
     Friction {
         /// The factors of the largest force.
         factors: Vec<ExpressionId>,
-        /// True if the force in the joint is another factor.
-        is_by_reaction: bool,
+        /// Where the force in the joint is another factor, and the pin if it is named.
+        reaction: Option<Option<ExpressionId>>,
         on: ExpressionId,
     },
     Stop {
@@ -382,11 +382,12 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
                 return Err(expected(stream, "friction mu, radius, reaction on phi;` or `friction mu, reaction on s;"));
             }
             let mut factors = vec![expression::parse(stream, expressions)?];
-            let mut is_by_reaction = false;
+            let mut reaction = None;
             while factors.len() < 3 && stream.parse::<Option<Token![,]>>()?.is_some() {
-                is_by_reaction = names_reaction(stream);
-                if is_by_reaction {
+                if names_reaction(stream) {
                     stream.parse::<Ident>()?;
+                    let pin = tokens::word(stream, "at").then(|| expression::parse(stream, expressions));
+                    reaction = Some(pin.transpose()?);
                     break;
                 }
                 factors.push(expression::parse(stream, expressions)?);
@@ -394,7 +395,7 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
             if !tokens::word(stream, "on") {
                 return Err(expected(stream, "friction mu, radius, normal on phi;` or `friction mu, normal on s;"));
             }
-            EffectKind::Friction { factors, is_by_reaction, on: expression::parse(stream, expressions)? }
+            EffectKind::Friction { factors, reaction, on: expression::parse(stream, expressions)? }
         }
         "reaction" => {
             let joint = match tokens::word(stream, "at") {
@@ -437,10 +438,10 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
     Ok(Effect { keyword, kind })
 }
 
-/// True before `reaction on`: the force in the joint, not a name.
+/// True before `reaction on` and `reaction at`: the force in the joint, not a name.
 fn names_reaction(stream: ParseStream) -> bool {
     let ahead = stream.fork();
-    tokens::word(&ahead, "reaction") && tokens::word(&ahead, "on")
+    tokens::word(&ahead, "reaction") && (tokens::word(&ahead, "on") || tokens::word(&ahead, "at"))
 }
 
 /// Parses `on phi` or `between P and Q`.

@@ -9,7 +9,7 @@ impl Lowering<'_> {
     /// Evaluates a friction or a stop: all its expressions, also after a mistake in one.
     pub(super) fn contact(&mut self, kind: &EffectKind) -> Option<Contact> {
         match kind {
-            EffectKind::Friction { factors, on, .. } => {
+            EffectKind::Friction { factors, reaction, on } => {
                 let mut nodes = Vec::new();
                 for &factor in factors {
                     let node = self.law(factor);
@@ -18,6 +18,9 @@ impl Lowering<'_> {
                         self.diagnostics.error(self.expressions.region(factor), message);
                     }
                     nodes.push(node);
+                }
+                if let Some(Some(pin)) = reaction {
+                    self.vector(*pin);
                 }
                 let along = self.moving(*on);
                 let label = format!("friction on {}", self.text(*on)?);

@@ -116,10 +116,11 @@ impl Lowering<'_> {
             EffectKind::Friction { .. } | EffectKind::Stop { .. } => {
                 scene.contact.get_or_insert_with(|| (keyword.span(), keyword.to_string()));
                 let contact = self.contact(&effect.kind);
-                if let (EffectKind::Friction { is_by_reaction: true, on, .. }, Some(contact)) = (&effect.kind, &contact)
+                if let (EffectKind::Friction { reaction: Some(pin), on, .. }, Some(contact)) = (&effect.kind, &contact)
                 {
                     let region = self.expressions.region(*on);
-                    scene.wanted.push(Wanted::friction(region, scene.contacts.len(), contact.along));
+                    let pin = pin.and_then(|pin| self.vector(pin)).map(|(x, y)| [x, y]);
+                    scene.wanted.push(Wanted::friction(region, scene.contacts.len(), (contact.along, pin)));
                 }
                 scene.contacts.extend(contact);
             }

@@ -24,8 +24,9 @@ enum WantedOf {
     /// The guide of a length.
     Guide(NodeId),
     All,
-    /// The joint in which a friction acts along a scalar: the index of the contact.
-    Friction(usize, NodeId),
+    /// The joint in which a friction acts along a scalar: the index of the contact, the scalar, and the pin if it is
+    /// named.
+    Friction(usize, NodeId, Option<[NodeId; 2]>),
 }
 
 impl Wanted {
@@ -33,8 +34,8 @@ impl Wanted {
         Self { region: region.into(), of: WantedOf::All }
     }
 
-    pub(super) fn friction(region: Region, contact: usize, along: NodeId) -> Self {
-        Self { region, of: WantedOf::Friction(contact, along) }
+    pub(super) fn friction(region: Region, contact: usize, (along, pin): (NodeId, Option<[NodeId; 2]>)) -> Self {
+        Self { region, of: WantedOf::Friction(contact, along, pin) }
     }
 }
 
@@ -104,8 +105,8 @@ impl Finder<'_, '_> {
                     let sites: Vec<Site> = self.links.pins().into_iter().chain(self.all_guides()).collect();
                     loads.extend(sites.into_iter().map(|site| self.open(site)).collect::<Vec<_>>());
                 }
-                WantedOf::Friction(contact, along) => {
-                    let Some(site) = self.bearing(along, region) else { continue };
+                WantedOf::Friction(contact, along, pin) => {
+                    let Some(site) = self.bearing(along, pin, region) else { continue };
                     let load = self.open(site);
                     self.result.scenes[id].contacts[contact].bearing = Some(load);
                 }
@@ -135,10 +136,14 @@ impl Finder<'_, '_> {
 
     /// The joint in which a friction acts: the guide of a length, or the pin about which one link turns by this angle
     /// relative to another. The force is that on the first link of the difference; the other carries the pin.
-    fn bearing(&mut self, along: NodeId, region: Region) -> Option<Site> {
-        let mut sites = self.guides(along);
+    fn bearing(&mut self, along: NodeId, pin: Option<[NodeId; 2]>, region: Region) -> Option<Site> {
+        let mut sites = if pin.is_some() { Vec::new() } else { self.guides(along) };
         if sites.is_empty() {
             sites = self.links.pins_of_angle(&mut self.lowering.graph, along);
+        }
+        if let Some(pin) = pin {
+            let pin = self.links.place(pin);
+            sites.retain(|site| matches!(site, Site::Pin { place, .. } if Some(*place) == pin));
         }
         match *sites.as_slice() {
             [site] => return Some(site),
@@ -149,7 +154,10 @@ impl Finder<'_, '_> {
             }
             _ => {
                 let names: Vec<String> = sites.iter().map(|site| self.load(*site).field).collect();
-                let message = format!("several joints move by this scalar: {}", names.join(", "));
+                let message = format!(
+                    "several joints move by this scalar ({}): write `reaction at P on …` with the pin",
+                    names.join(", ")
+                );
                 self.lowering.diagnostics.error(region, message);
             }
         }
