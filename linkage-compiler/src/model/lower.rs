@@ -84,6 +84,12 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
         lowering.open_joints(&statements, &chains, &mut result);
         result.loops = chains.loops;
         result.points.iter_mut().zip(chains.points).for_each(|(point, chain)| point.chain = chain);
+    } else {
+        // For the stub.
+        let messages = lowering.diagnostics.len();
+        let chains = lowering.chains(&statements);
+        lowering.open_joints(&statements, &chains, &mut result);
+        lowering.diagnostics.truncate(messages);
     }
     let Lowering { graph, scope, undeclared_kinds, undeclared_symbols, externals, extreme, diagnostics, .. } = lowering;
     (result.graph, result.extreme) = (graph, extreme);
