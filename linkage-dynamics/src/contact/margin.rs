@@ -18,6 +18,19 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// force: the contact slips or opens where it falls through zero. The tolerance of the force is added, so that a
     /// contact loaded exactly to its limit holds.
     pub(super) fn margins(&self, equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Column<T, C> {
+        let limits = equations.contacts.map(|contact| match contact.law {
+            ContactLaw::Friction { limit } => limit,
+            ContactLaw::Bearing { .. } | ContactLaw::Stop { .. } => T::zero(),
+        });
+        self.margins_by(modes, |_| Some(limits))
+    }
+
+    /// The same with the limits in each motion, given by s' of the contacts; a motion without limits is left out.
+    pub(super) fn margins_by(
+        &self,
+        modes: &Column<Mode, C>,
+        mut limits: impl FnMut(&Column<T, C>) -> Option<Column<T, C>>,
+    ) -> Column<T, C> {
         let (rank, count) = (self.factors.rank, self.factors.count);
         let mut margins = Column::repeat(T::one());
         let mut found = Column::<_, C>::repeat(false);
@@ -43,13 +56,14 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             if !(0..count).all(is_allowed) {
                 return;
             }
+            let mut rates = Column::zeros();
+            for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count) {
+                rates[contact] = moved;
+            }
+            let Some(limits) = limits(&rates) else { return };
             let mut margin = self.forces.iter().zip(z).take(rank).fold(T::zero(), |sum, (&h, &z)| sum + h * z);
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count) {
-                let limit = match equations.contacts[contact].law {
-                    ContactLaw::Friction { limit } => limit,
-                    ContactLaw::Bearing { .. } | ContactLaw::Stop { .. } => T::zero(),
-                };
-                margin += (limit + self.force_tolerance(contact)) * moved.abs();
+                margin += (limits[contact] + self.force_tolerance(contact)) * moved.abs();
             }
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count).filter(|(_, s)| !s.is_zero()) {
                 let force = margin / moved.abs();

@@ -77,7 +77,7 @@ impl Mechanism for Sideways {
         [self.determinant(pose)].into()
     }
     fn gamma(&self, [phi, ..]: &[f64; 3], [rate, ..]: &[f64; 3]) -> Column<f64, D<2>> {
-        [LENGTH * phi.sin() * rate * rate, LENGTH * phi.cos() * rate * rate].into()
+        [LENGTH * phi.sin() * rate * rate, -LENGTH * phi.cos() * rate * rate].into()
     }
     fn solve_jacobian(&self, pose: &[f64; 3], right: &Column<f64, D<2>>) -> Result<Column<f64, D<2>>, PositionError> {
         let determinant = self.determinant(pose);
@@ -168,8 +168,8 @@ fn a_bearing_acts_in_any_coordinates() {
     let particle =
         Particle { path, mass: MASS, inertia: 0.0, gravity: GRAVITY, push: |_| 0.0, factors: [factor], normal: None };
     let (x, y) = (LENGTH * angle.sin(), -LENGTH * angle.cos());
-    let mut one = simulate(&journal, (0.0, [angle, y, x], [0.0].into()), 12.0, 1e-11).unwrap();
-    let mut other = simulate(&particle, (0.0, [x, y, angle], [0.0].into()), 12.0, 1e-11).unwrap();
+    let mut one = simulate(&journal, (0.0, [angle, y, x], [0.0]), 12.0, 1e-11).unwrap();
+    let mut other = simulate(&particle, (0.0, [x, y, angle], [0.0]), 12.0, 1e-11).unwrap();
     for k in 0..=60 {
         let t = f64::from(k) * 0.2;
         let one = one.at([t]).next().unwrap().unwrap();

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::Equations;
-use linkage_dynamics::{ContactLaw, Mode};
+use linkage_dynamics::ContactLaw;
 use linkage_runtime::Matrix;
 use linkage_runtime::nalgebra::SMatrix;
 

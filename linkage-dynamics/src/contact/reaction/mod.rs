@@ -18,7 +18,7 @@ mod slip;
 pub(crate) use bearing::Reduction;
 pub use bearing::{Bearing, ReactionRow, ReducedBearing, ReducedReaction};
 
-use super::held::Held as HeldContacts;
+use super::held::{Held as HeldContacts, held_tolerance};
 use super::state::ContactMotion;
 use super::{ContactLaw, Mode, ReducedEquations};
 use crate::MotionError;
@@ -56,6 +56,8 @@ struct InModes<T: Real, C: Dim> {
     are_unique: bool,
     /// The forces of held contacts are within their bounds; None if each is to be compared with its own.
     are_admissible: Option<bool>,
+    /// True if they are within their bounds.
+    is_within: bool,
 }
 
 /// Chooses the modes of the contacts at rest.
@@ -89,7 +91,8 @@ pub(super) fn motion<T: Real, V: Dim, C: Dim>(
 }
 
 /// The distances of the forces of held contacts from their bounds, with their rounding errors added. Where held contacts
-/// are redundant: 1 if admissible forces were found, else -1.
+/// are redundant, the margins of the motions that could begin, each with the limits at the forces of its own slip:
+/// negative if and only if no admissible forces were found.
 ///
 /// # Errors
 /// Those of [`choose`].
@@ -100,11 +103,51 @@ pub(super) fn margins<T: Real, V: Dim, C: Dim>(
     let problem = Problem::new(equations)?;
     let found = in_modes(&problem, modes).map_err(|failure| failure.of(equations.scene))?;
     let forces = &found.forces;
-    Ok(Column::from_fn(|place| match found.are_admissible {
+    let Some(are_admissible) = found.are_admissible else {
+        return Ok(Column::from_fn(|place| {
+            let mode = modes[place];
+            if !mode.is_held() {
+                return T::one();
+            }
+            problem.margin(place, mode, forces) + problem.force_tolerance(place, forces)
+        }));
+    };
+    let moving = Column::from_fn(|place| if modes[place].is_held() { T::zero() } else { forces[place] });
+    let held = HeldContacts::with_forces(equations, modes, &moving)?;
+    let margins = held.margins_by(modes, |rates| limits_in(&problem, modes, rates, forces));
+    let least = -held_tolerance::<T>();
+    Ok(Column::from_fn(|place| match margins[place] {
         _ if !modes[place].is_held() => T::one(),
-        Some(are_admissible) => real(if are_admissible { 1.0 } else { -1.0 }),
-        None => problem.margin(place, modes[place], forces) + problem.force_tolerance(place, forces),
+        margin if are_admissible => margin.max(T::zero()),
+        margin => margin.min(least),
     }))
+}
+
+/// The limits in the motion that begins with these rates of the held contacts; None if none begins so. `otherwise` has
+/// the forces to take where they are not unique.
+fn limits_in<T: Real, V: Dim, C: Dim>(
+    problem: &Problem<'_, T, V, C>,
+    modes: &Column<Mode, C>,
+    rates: &Column<T, C>,
+    otherwise: &Column<T, C>,
+) -> Option<Column<T, C>> {
+    let moving = Column::from_fn(|place| match modes[place] {
+        Mode::Stick if rates[place] > T::zero() => Mode::SlipForward,
+        Mode::Stick if rates[place] < T::zero() => Mode::SlipBackward,
+        Mode::AtLower | Mode::AtUpper if !rates[place].is_zero() => Mode::Open,
+        mode => mode,
+    });
+    let family = Family::new(problem, &moving);
+    let mut forces = *otherwise;
+    if family.spares == 0 {
+        let roots = family.slips(problem).solve(&mut Budget::new());
+        match roots.as_slice() {
+            [] if roots.is_complete => return None,
+            [root] if roots.is_complete => forces = family.with_slips(root).base,
+            _ => {}
+        }
+    }
+    Some(Column::from_fn(|place| problem.limit(place, &forces)))
 }
 
 fn in_modes<T: Real, V: Dim, C: Dim>(
@@ -121,26 +164,40 @@ fn in_modes<T: Real, V: Dim, C: Dim>(
         }
         let found = in_family(&held, &family, &mut budget);
         let are_admissible = Some(found.is_some() && family.is_consistent);
-        return Ok(InModes { forces: found.unwrap_or(family.base), are_unique: false, are_admissible });
+        let is_within = found.is_some();
+        return Ok(InModes { forces: found.unwrap_or(family.base), are_unique: false, are_admissible, is_within });
     }
     let roots = family.slips(problem).solve(&mut budget);
-    let root = match roots.as_slice() {
-        _ if !roots.is_complete => return Err(Failure::Undecided(problem.strongest())),
-        [] => return Err(Failure::NoMotion(problem.strongest())),
-        [root] => root,
-        [root, ..] if family.is_still(problem) => root,
-        _ => return Err(Failure::Several(problem.strongest())),
-    };
-    let are_unique = !is_redundant && roots.as_slice().len() == 1;
-    let family = family.with_slips(root);
-    if !is_redundant {
-        return Ok(InModes { forces: family.base, are_unique, are_admissible: None });
+    if !roots.is_complete {
+        return Err(Failure::Undecided(problem.strongest()));
     }
-    let found = match held.admissible(&family, &mut budget) {
-        Existence::Found(forces) if family.is_consistent => Some(forces),
-        _ => None,
-    };
-    Ok(InModes { forces: found.unwrap_or(family.base), are_unique, are_admissible: Some(found.is_some()) })
+    let is_still = family.is_still(problem);
+    let mut found: Option<InModes<T, C>> = None;
+    for root in roots.as_slice() {
+        let family = family.with_slips(root);
+        let admissible = match held.admissible(&family, &mut budget) {
+            Existence::Found(forces) if family.is_consistent => Some(forces),
+            _ => None,
+        };
+        let are_admissible = admissible.is_some();
+        match &found {
+            // Forces that exceed a bound do not count, unless there are no others: then the event functions are negative.
+            Some(known) if known.is_within || !are_admissible => {
+                if are_admissible && !is_still {
+                    return Err(Failure::Several(problem.strongest()));
+                }
+            }
+            _ => {
+                found = Some(InModes {
+                    forces: admissible.unwrap_or(family.base),
+                    are_unique: !is_redundant && roots.as_slice().len() == 1,
+                    are_admissible: is_redundant.then_some(are_admissible),
+                    is_within: are_admissible,
+                });
+            }
+        }
+    }
+    found.ok_or(Failure::NoMotion(problem.strongest()))
 }
 
 /// The bearings that slip in these modes.

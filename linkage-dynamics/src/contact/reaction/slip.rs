@@ -180,30 +180,26 @@ impl<T: Real, C: Dim> Slips<T, C> {
         None
     }
 
-    /// The t of one bearing: (1 - c^2 p^2) t^2 - 2 c^2 r . p t - c^2 r^2 = 0, whose discriminant is
-    /// c^2 (r^2 - c^2 (r x p)^2).
+    /// The t of one bearing: t = c |r| x with x^2 = 1 + 2 a x + (a^2 + b^2) x^2, where a and b are the components of c p
+    /// along r and across it. The roots are 1 / (d - a) and -1 / (d + a) with d^2 = 1 - b^2.
     fn quadratic(&self, roots: &mut Roots<T, C>) {
         let (c, r, p) = (self.factors[0], self.base[0], self.by[0][0]);
-        let (load, gain) = (length(r), c * length(p));
+        let load = length(r);
         if load.is_zero() || c.is_zero() {
             roots.add(Column::zeros());
-            roots.is_complete &= gain != T::one();
+            roots.is_complete &= c * length(p) != T::one();
             return;
         }
-        // Divided by |r|: t = |r| x.
         let [x, y] = r.map(|component| component / load);
         let (along, across) = (c * (x * p[0] + y * p[1]), c * (x * p[1] - y * p[0]));
-        let discriminant = (T::one() - across) * (T::one() + across);
-        if discriminant < -sum_tolerance(T::one()) {
+        let square = (T::one() - across) * (T::one() + across);
+        if square < T::zero() {
             return;
         }
-        let root = discriminant.max(T::zero()).sqrt();
-        let lead = (T::one() - gain) * (T::one() + gain);
-        // x / c = (along +- root) / lead = -1 / (along -+ root).
-        let sum = if along >= T::zero() { along + root } else { along - root };
-        for x in [sum / lead, -sum.recip()] {
-            let t = c * load * x;
-            if t >= T::zero() && t.is_finite() {
+        let root = square.sqrt();
+        for divisor in [root - along, -root - along] {
+            let t = c * load / divisor;
+            if divisor > T::zero() && t.is_finite() {
                 roots.add(Column::from_fn(|row| if row == 0 { t } else { T::zero() }));
             }
         }
