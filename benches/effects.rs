@@ -109,6 +109,18 @@ fn main() {
         Row::in_contact("+ stop, open", Stopped::default(), [Mode::Open]),
         Row::in_contact("+ friction, slips", Rough::default(), [Mode::SlipForward]),
         Row::in_contact("+ friction, sticks", Rough::default(), [Mode::Stick]),
+        Row::in_contact("+ friction by reaction, slips", Worn::default(), [Mode::SlipForward]),
+        Row::in_contact("+ friction by reaction, sticks", Worn::default(), [Mode::Stick]),
+        Row::new("  reaction at a pin", ("Measured", &["reactions"]), Measured::default(), |scene, y| {
+            let (q, rates) = Measured::parts(y);
+            let force = scene.reactions(0.5, &q, rates)?.c_on_rocker;
+            Ok(State::from([0.0, 0.0, force.x, force.y]))
+        }),
+        Row::new("  all reactions", ("Loaded", &["reactions"]), Loaded::default(), |scene, y| {
+            let (q, rates) = Loaded::parts(y);
+            let all = scene.reactions(0.5, &q, rates)?;
+            Ok(State::from([all.c_on_rocker.x, all.origin_on_crank.y, all.multipliers[0], all.multipliers[1]]))
+        }),
         Row::in_contact("all but the drive", Everything::default(), [Mode::SlipForward, Mode::Open]),
     ];
     let mechanism = FourBar::default();

@@ -11,7 +11,7 @@ use linkage_compiler::program::Operations;
 use proc_macro2::TokenStream;
 use work::{Work, work};
 
-const SCENES: [&str; 13] = [
+const SCENES: [&str; 16] = [
     "Bare",
     "Weighed",
     "Sprung",
@@ -21,6 +21,9 @@ const SCENES: [&str; 13] = [
     "Turned",
     "Rough",
     "Stopped",
+    "Worn",
+    "Measured",
+    "Loaded",
     "Driven",
     "Mounted",
     "Smooth",
@@ -90,7 +93,7 @@ fn a_scene_holds_the_parameters_of_its_effects_and_no_others() {
     let all = with_scenes(|_| true);
     let bare = fields(&all, "Bare");
     assert_eq!(bare, ["mechanism", "j2", "m3", "j3", "a3", "b3", "m4", "j4", "a4"]);
-    let own: [(&str, &[&str]); 9] = [
+    let own: [(&str, &[&str]); 12] = [
         ("Weighed", &["g"]),
         ("Sprung", &["k", "s0", "xp", "yp"]),
         ("Twisted", &["kt", "phi0"]),
@@ -99,6 +102,9 @@ fn a_scene_holds_the_parameters_of_its_effects_and_no_others() {
         ("Turned", &["t0", "kw"]),
         ("Rough", &["mu", "radius", "load"]),
         ("Stopped", &["lower", "upper", "e"]),
+        ("Worn", &["mu", "radius"]),
+        ("Measured", &[]),
+        ("Loaded", &[]),
         ("Driven", &["omega"]),
     ];
     for (scene, own) in own {
@@ -131,6 +137,10 @@ fn an_effect_costs_what_it_takes_by_hand() {
         // The runtime receives the forces of contacts separately from the derivative.
         ("Rough", [0, 0, 0, 0]),
         ("Stopped", [0, 0, 0, 0]),
+        // Reactions follow from the motion, in functions of their own.
+        ("Worn", [0, 0, 0, 0]),
+        ("Measured", [0, 0, 0, 0]),
+        ("Loaded", [0, 0, 0, 0]),
     ];
     for (scene, [functions, divisions, multiplications, additions]) in limits {
         let found = rates(scene);

@@ -54,6 +54,9 @@ linkage! {
         scene Turned { inertia; torque t0 - kw * rate(theta2) + sin(t) on theta2; }
         scene Rough { inertia; friction mu, radius, load on theta4; }
         scene Stopped { inertia; stop theta4 in lower..upper, restitution e; }
+        scene Worn { inertia; friction mu, radius, reaction on theta4; }
+        scene Measured { inertia; reaction at C; }
+        scene Loaded { inertia; reactions; }
         scene Driven { inertia; drive theta2 = omega * t + sin(3 * t); }
         scene Mounted { inertia; gravity (0, -g); spring k, s0 between C and (xp, yp); damper c on theta4; }
         scene Smooth { inertia; gravity (0, -g); spring k, s0 between C and (xp, yp); spring kt, phi0 on theta4; damper c on theta4; force (0, -f * t) at C; torque t0 - kw * rate(theta2) + sin(t) on theta2; }
