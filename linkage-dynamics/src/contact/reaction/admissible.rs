@@ -85,7 +85,7 @@ impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
         (0..C::COUNT).filter(|&place| self.is_bounded[place])
     }
 
-    fn is_admissible(&self, forces: &Column<T, C>) -> bool {
+    pub(super) fn is_admissible(&self, forces: &Column<T, C>) -> bool {
         forces.is_finite() && self.bounded().all(|place| self.problem.is_within(place, self.modes[place], forces))
     }
 
@@ -146,7 +146,7 @@ impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
     }
 
     /// The scale of a parameter.
-    fn unit(&self, family: &Family<T, C>, at: usize) -> T {
+    pub(super) fn unit(&self, family: &Family<T, C>, at: usize) -> T {
         let column = &family.columns[at];
         let units = self.bounded().filter(|&place| !column[place].is_zero());
         let units = units.map(|place| self.problem.force_scale(place, &family.base) / column[place].abs());

@@ -119,6 +119,11 @@ impl<T: Real, C: Dim> Slips<T, C> {
         contraction(&self.gain(), Column::repeat(T::one()), self.count)
     }
 
+    /// True if t is unique at any r.
+    pub(super) fn is_contraction(&self) -> bool {
+        self.weights().is_some()
+    }
+
     /// r + P t of one row.
     pub(super) fn reaction(&self, row: usize, t: &Column<T, C>) -> [T; 2] {
         let terms = self.by[row].iter().zip(t).take(self.count);
