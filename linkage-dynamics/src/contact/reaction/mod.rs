@@ -19,7 +19,7 @@ pub(crate) use bearing::Reduction;
 pub use bearing::{Bearing, ReactionRow, ReducedBearing, ReducedReaction};
 
 use super::held::{Held as HeldContacts, held_tolerance};
-use super::state::{ContactMotion, is_negligible};
+use super::state::{ContactMotion, is_negligible, nearer, sum_tolerance};
 use super::{ContactLaw, Mode, ReducedEquations};
 use crate::MotionError;
 use admissible::{Existence, Held};
@@ -204,7 +204,7 @@ fn in_modes<T: Real, V: Dim, C: Dim>(
     found.ok_or(Failure::NoMotion(problem.strongest()))
 }
 
-/// True if the contacts that slip with s' = 0 accelerate in their direction.
+/// True if the contacts that slip with s' = 0 accelerate in their direction, and open stops that s touches away from them.
 fn departs<T: Real, V: Dim, C: Dim>(
     problem: &Problem<'_, T, V, C>,
     modes: &Column<Mode, C>,
@@ -214,6 +214,13 @@ fn departs<T: Real, V: Dim, C: Dim>(
     (0..C::COUNT).all(|place| match modes[place] {
         mode @ (Mode::SlipForward | Mode::SlipBackward) if is_beginning(place) => {
             problem.departs(place, (mode, Mode::Stick), forces)
+        }
+        Mode::Open if is_beginning(place) => {
+            let contact = &problem.equations.contacts[place];
+            let ContactLaw::Stop { lower, upper, .. } = contact.law else { return true };
+            let (side, gap) = nearer(contact, lower, upper);
+            let touches = gap <= sum_tolerance(contact.value.abs() + lower.abs().max(upper.abs()));
+            !touches || problem.departs(place, (Mode::Open, side), forces)
         }
         _ => true,
     })
