@@ -4,10 +4,11 @@
 //! force are quadratic inequalities in y: the least distance from all bounds is evaluated at all their roots and
 //! between them. In more dimensions, in this order:
 //!
-//! 1. forces for fixed limits, by the active-set method, with the limits updated until they repeat;
-//! 2. lines on which all but one of the bounds that are flat are active: they decide if all bounds are flat, those of
+//! 1. the path from slip backward to slip forward, where there is one motion ([`path`](super::path));
+//! 2. forces for fixed limits, by the active-set method, with the limits updated until they repeat;
+//! 3. lines on which all but one of the bounds that are flat are active: they decide if all bounds are flat, those of
 //!    given limits, stops and guides;
-//! 3. a subdivision that finds forces, or excludes them.
+//! 4. a subdivision that finds forces, or excludes them.
 
 use super::family::Family;
 use super::linear::contraction;
@@ -52,6 +53,9 @@ impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
             0 => return Existence::Excluded,
             1 => return self.on_line(family).map_or(Existence::Excluded, Existence::Found),
             _ => {}
+        }
+        if let Some(existence) = self.on_path(&family.base) {
+            return existence;
         }
         if let Some(forces) = self.by_updates(&family.base) {
             return Existence::Found(forces);

@@ -11,6 +11,7 @@ mod bearing;
 mod choice;
 mod family;
 mod linear;
+mod path;
 mod problem;
 mod search;
 mod slip;
