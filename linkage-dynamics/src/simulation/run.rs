@@ -204,7 +204,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     pub fn loads(&self) -> Result<Loads<S>, MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.projected(t, self.integration.state())?;
-        let (contacts, drives, are_unique) = motion.loads(t, &y)?;
+        let ((contacts, are_unique), drives) = motion.loads(t, &y)?;
         let drive_power = drives.dot(&motion.velocity(t, &y)?.inputs);
         if !contacts.iter().chain(drives.iter()).chain([&drive_power]).all(S::Scalar::is_finite) {
             return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });

@@ -11,6 +11,8 @@ use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput};
 
 /// A number for each contact of a scene.
 type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;
+/// The force of each contact, and true if they are unique.
+type ForcesOf<S> = (PerContact<S>, bool);
 /// y, and the change of each contact.
 type Changed<S> = (StateColumn<S>, Column<Option<Change>, <S as Scene>::Contacts>);
 
@@ -150,7 +152,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((Self::pack(&S::parts(y).0, &rates), holds))
     }
 
-    /// The forces of the contacts, and of the drives by input, zero without a drive; true if they are unique.
+    /// The forces of the contacts, true if they are unique, and the forces of the drives by input, zero without a drive.
     ///
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
@@ -158,7 +160,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         &self,
         t: S::Scalar,
         y: &StateColumn<S>,
-    ) -> Result<(PerContact<S>, PerInput<S::Mechanism>, bool), MotionError> {
+    ) -> Result<(ForcesOf<S>, PerInput<S::Mechanism>), MotionError> {
         let (q, _) = S::parts(y);
         let (free, places) = match &self.parametrisation {
             Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
@@ -179,6 +181,6 @@ impl<S: Scene, W> Motion<'_, S, W> {
             Some(place) if prescribed[input] => residual[place],
             _ => S::Scalar::zero(),
         });
-        Ok((motion.forces, drives, motion.are_unique))
+        Ok(((motion.forces, motion.are_unique), drives))
     }
 }

@@ -85,7 +85,7 @@ impl Outcomes {
                 self.motions += 1;
                 self.redundant += usize::from(!motion.are_unique);
                 check(equations, &laws, &contacts.modes, (&motion.acceleration, &motion.forces), seed);
-                if is_small && seed % 4 == 0 {
+                if is_small && seed.is_multiple_of(4) {
                     let goes = laws.along_all(motion.forces.as_slice());
                     for other in laws.motions(angles, 1e-9) {
                         let scale = |place: usize| laws.scale(place, motion.forces.as_slice());

@@ -284,11 +284,11 @@ impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
         let mut radius = Column::zeros();
         for at in 0..family.spares {
             let only = |place: usize| {
-                let others = (0..family.spares).filter(|&other| other != at);
+                let mut others = (0..family.spares).filter(|&other| other != at);
                 self.is_bounded[place]
                     && family.columns[at][place].abs() == T::one()
                     && family.base[place].is_zero()
-                    && others.fold(true, |none, other| none && family.columns[other][place].is_zero())
+                    && others.all(|other| family.columns[other][place].is_zero())
             };
             radius[at] = most[(0..C::COUNT).find(|&place| only(place))?] * real(1.0 + 1e-9);
         }
