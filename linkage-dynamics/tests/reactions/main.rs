@@ -15,6 +15,10 @@ use linkage_dynamics::{ContactLaw, MotionError};
 use linkage_runtime::{Column, D, Matrix};
 
 type Equations<const V: usize, const C: usize> = ReducedEquations<f64, D<V>, D<C>>;
+/// A contact and its reaction.
+type Touching<const V: usize, const C: usize> = (ReducedContact<f64, D<V>>, Option<ReducedBearing<f64, D<V>, D<C>>>);
+/// The modes, and the motion in them.
+type Moved<const V: usize, const C: usize> = (Contacts<f64, D<C>>, ContactMotion<f64, D<V>, D<C>>);
 type Reaction<const V: usize, const C: usize> = ReducedReaction<f64, D<V>, D<C>>;
 
 /// R = constant + accelerations . z'' + contacts . f.
@@ -41,7 +45,7 @@ fn bearing<const V: usize>(name: &'static str, factor: f64, row: [f64; V], rate:
 fn equations<const V: usize, const C: usize>(
     mass: [[f64; V]; V],
     forces: [f64; V],
-    contacts: [(ReducedContact<f64, D<V>>, Option<ReducedBearing<f64, D<V>, D<C>>>); C],
+    contacts: [Touching<V, C>; C],
 ) -> Equations<V, C> {
     ReducedEquations {
         scene: "Scene",
@@ -55,9 +59,7 @@ fn equations<const V: usize, const C: usize>(
 }
 
 /// The modes at this state, the accelerations and the forces.
-fn solved<const V: usize, const C: usize>(
-    equations: &Equations<V, C>,
-) -> Result<(Contacts<f64, D<C>>, ContactMotion<f64, D<V>, D<C>>), MotionError> {
+fn solved<const V: usize, const C: usize>(equations: &Equations<V, C>) -> Result<Moved<V, C>, MotionError> {
     let at = |rates: &Column<f64, D<V>>| Ok(ReducedEquations { rates: *rates, ..*equations });
     let (contacts, _) = Contacts::begin(0.0, &Column::zeros(), at)?;
     Ok((contacts, contacts.motion(equations)?))

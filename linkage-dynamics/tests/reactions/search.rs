@@ -8,6 +8,9 @@ use linkage_dynamics::ContactLaw;
 use linkage_runtime::Matrix;
 use linkage_runtime::nalgebra::SMatrix;
 
+/// r and a row of P.
+type Row = (f64, Vec<f64>);
+
 /// s'' = b + A f and R = r + P f of the contacts.
 pub struct Laws {
     pub names: Vec<&'static str>,
@@ -15,7 +18,7 @@ pub struct Laws {
     pub bias: Vec<f64>,
     pub matrix: Vec<Vec<f64>>,
     /// r and P of both components.
-    pub reactions: Vec<Option<[(f64, Vec<f64>); 2]>>,
+    pub reactions: Vec<Option<[Row; 2]>>,
 }
 
 /// A contact and its state.
@@ -283,9 +286,8 @@ fn solve(mut matrix: Vec<Vec<f64>>, mut side: Vec<f64>) -> Option<Vec<f64>> {
         side.swap(step, pivot);
         for row in step + 1..count {
             let factor = matrix[row][step] / matrix[step][step];
-            for column in step..count {
-                matrix[row][column] -= factor * matrix[step][column];
-            }
+            let above = matrix[step].clone();
+            matrix[row].iter_mut().zip(&above).for_each(|(entry, above)| *entry -= factor * above);
             side[row] -= factor * side[step];
         }
     }

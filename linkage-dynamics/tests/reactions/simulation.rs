@@ -126,6 +126,22 @@ fn a_pendulum_in_a_journal_bearing_comes_to_rest_within_the_friction_circle() {
     }
 }
 
+/// At each turning point all frictions of a joint stand at once, as in a linkage with one input.
+#[test]
+fn several_frictions_of_one_motion_come_to_rest() {
+    let scene = pendulum([0.03, 0.05, 0.02, 0.01]);
+    let [point, ..] = scene.path.0.at(1.4);
+    let mut motion = simulate(&scene, (0.0, [point[0], point[1], 1.4], [0.0]), 20.0, 1e-9).unwrap();
+    let mut reversals = 0;
+    while let Some(state) = motion.advance().unwrap() {
+        reversals += usize::from(state.changes().next().is_some());
+    }
+    let state = motion.state();
+    assert!(reversals > 2 && state.contacts.iter().all(|touch| touch.mode == Mode::Stick), "{reversals} {state:?}");
+    assert!(state.q[2].sin().abs() <= 0.11 / 0.8);
+    assert!(!motion.loads().unwrap().are_unique);
+}
+
 /// The abscissae and weights of Gauss's rule of order 10 on [0, 1].
 const GAUSS: [(f64, f64); 5] = [
     (0.046_910_077_030_668, 0.118_463_442_528_094_5),

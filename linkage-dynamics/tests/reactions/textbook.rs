@@ -1,8 +1,9 @@
 //! Blocks, wedges, toggles, ladders, drawers and rods of textbooks.
 
 use super::{Equations, bearing, equations, guide, reaction, solved};
-use linkage_dynamics::contact::{ReducedBearing, ReducedReaction};
+use linkage_dynamics::contact::{Contacts, ReducedBearing, ReducedReaction};
 use linkage_dynamics::{Mode, MotionError};
+use linkage_runtime::Column;
 
 /// One part in 1e12 is about four times the 1024 ulps of a held force.
 const NEXT: f64 = 1e-12;
@@ -140,6 +141,59 @@ fn a_drawer_jams_at_the_textbook_ratio() {
             assert_eq!(contacts.modes[0] == Mode::Stick, locks, "{eccentricity} {friction} {length}: {motion:?}");
             assert_eq!(motion.acceleration[0] == 0.0, locks, "{motion:?}");
             assert_eq!(motion.are_unique, !locks);
+        }
+    }
+}
+
+/// A slider-crank with journals at both ends of the crank and friction of its slider, under a torque: three contacts of
+/// one motion, each reaction depends on all frictions.
+fn slider_crank(torque: f64) -> Equations<1, 3> {
+    let pin = |load: [f64; 2], by: [f64; 3]| {
+        let components = [reaction(load[0], [0.2], by), reaction(load[1], [-0.1], [by[1], -by[2], by[0]])];
+        Some(ReducedBearing { components })
+    };
+    let contacts = [
+        (bearing("friction at O", 0.002, [1.0], 0.0), pin([30.0, 12.0], [4.0, 3.0, 0.6])),
+        (bearing("friction at A", 0.002, [1.25], 0.0), pin([25.0, -8.0], [9.0, -6.0, 1.0])),
+        (bearing("friction on s", 0.1, [-0.08], 0.0), guide(reaction(6.0, [0.05], [2.0, -2.5, 0.25]))),
+    ];
+    equations([[0.02]], [torque], contacts)
+}
+
+/// It holds up to a torque either way and slips beyond; no torque is undecided.
+#[test]
+fn a_slider_crank_with_friction_in_its_joints_holds_or_slips() {
+    let mode = |torque: f64| {
+        let equations = slider_crank(torque);
+        let (contacts, motion) = solved(&equations).unwrap();
+        assert_eq!(motion.acceleration[0] == 0.0, contacts.modes[0] == Mode::Stick, "{torque}");
+        assert_eq!(motion.are_unique, contacts.modes[0] != Mode::Stick, "{torque}");
+        assert!(contacts.review(&equations).unwrap().1, "{torque}");
+        // The margin of all frictions that stick is negative where they slip.
+        let stuck = Contacts::in_modes(Column::repeat(Mode::Stick));
+        let margins = stuck.events(&equations).unwrap();
+        assert_eq!(margins[0] >= 0.0, contacts.modes[0] == Mode::Stick, "{torque} {margins:?}");
+        contacts.modes[0]
+    };
+    for (direction, slips) in [(1.0, Mode::SlipForward), (-1.0, Mode::SlipBackward)] {
+        let [mut holds, mut moves] = [0.0, 1.0];
+        for _ in 0..52 {
+            let middle = 0.5 * (holds + moves);
+            match mode(direction * middle) {
+                Mode::Stick => holds = middle,
+                found => {
+                    assert_eq!(found, slips);
+                    moves = middle;
+                }
+            }
+        }
+        // At the limit slip begins with s'' = 0.
+        let (_, motion) = solved(&slider_crank(direction * moves)).unwrap();
+        assert!(motion.acceleration[0].abs() * 0.02 <= 1e-12 * moves, "{motion:?}");
+        for k in 0..100 {
+            let share = f64::from(k) / 100.0;
+            assert_eq!(mode(direction * share * holds), Mode::Stick);
+            assert_eq!(mode(direction * moves * (1.0 + 3.0 * share)), slips);
         }
     }
 }

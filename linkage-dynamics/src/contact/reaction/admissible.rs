@@ -4,10 +4,11 @@
 //! force are quadratic inequalities in y: the least distance from all bounds is evaluated at all their roots and
 //! between them. In more dimensions, in this order:
 //!
-//! 1. forces for fixed limits, by the active-set method, with the limits updated until they repeat;
-//! 2. lines on which all but one of the bounds that are flat are active: they decide if all bounds are flat, those of
+//! 1. the path from slip backward to slip forward, where there is one motion ([`path`](super::path));
+//! 2. forces for fixed limits, by the active-set method, with the limits updated until they repeat;
+//! 3. lines on which all but one of the bounds that are flat are active: they decide if all bounds are flat, those of
 //!    given limits, stops and guides;
-//! 3. a subdivision that finds forces, or excludes them.
+//! 4. a subdivision that finds forces, or excludes them.
 
 use super::family::Family;
 use super::linear::contraction;
@@ -53,6 +54,9 @@ impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
             1 => return self.on_line(family).map_or(Existence::Excluded, Existence::Found),
             _ => {}
         }
+        if let Some(existence) = self.on_path(&family.base) {
+            return existence;
+        }
         if let Some(forces) = self.by_updates(&family.base) {
             return Existence::Found(forces);
         }
@@ -85,7 +89,7 @@ impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
         (0..C::COUNT).filter(|&place| self.is_bounded[place])
     }
 
-    fn is_admissible(&self, forces: &Column<T, C>) -> bool {
+    pub(super) fn is_admissible(&self, forces: &Column<T, C>) -> bool {
         forces.is_finite() && self.bounded().all(|place| self.problem.is_within(place, self.modes[place], forces))
     }
 
@@ -146,7 +150,7 @@ impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
     }
 
     /// The scale of a parameter.
-    fn unit(&self, family: &Family<T, C>, at: usize) -> T {
+    pub(super) fn unit(&self, family: &Family<T, C>, at: usize) -> T {
         let column = &family.columns[at];
         let units = self.bounded().filter(|&place| !column[place].is_zero());
         let units = units.map(|place| self.problem.force_scale(place, &family.base) / column[place].abs());
@@ -280,11 +284,11 @@ impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
         let mut radius = Column::zeros();
         for at in 0..family.spares {
             let only = |place: usize| {
-                let others = (0..family.spares).filter(|&other| other != at);
+                let mut others = (0..family.spares).filter(|&other| other != at);
                 self.is_bounded[place]
                     && family.columns[at][place].abs() == T::one()
                     && family.base[place].is_zero()
-                    && others.fold(true, |none, other| none && family.columns[other][place].is_zero())
+                    && others.all(|other| family.columns[other][place].is_zero())
             };
             radius[at] = most[(0..C::COUNT).find(|&place| only(place))?] * real(1.0 + 1e-9);
         }

@@ -49,6 +49,9 @@ pub struct ReducedReaction<T: Real, V: Dim, C: Dim> {
     pub contacts: Column<T, C>,
 }
 
+/// The reactions of the contacts that have one.
+pub(crate) type Bearings<T, V, C> = Column<Option<ReducedBearing<T, V, C>>, C>;
+
 impl<T: Real, U: Dim, V: Dim, C: Dim> ReactionRow<T, U, V, C> {
     /// A component that is zero: the second one of a guide.
     #[must_use]
@@ -97,7 +100,7 @@ impl<T: Real, U: Dim, V: Dim, C: Dim> Reduction<'_, T, U, V, C> {
         scene: &'static str,
         bearings: &Column<Option<Bearing<T, U, V, C>>, C>,
         mut solve: impl FnMut(&Column<T, U>) -> Result<(Column<T, U>, Column<T, V>), MotionError>,
-    ) -> Result<Column<Option<ReducedBearing<T, V, C>>, C>, MotionError> {
+    ) -> Result<Bearings<T, V, C>, MotionError> {
         let mut reduced = Column::repeat(None);
         for (place, bearing) in bearings.iter().enumerate() {
             let Some(Bearing { components }) = bearing else { continue };

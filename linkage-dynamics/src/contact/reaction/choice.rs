@@ -3,12 +3,17 @@
 //! Each friction at rest sticks or begins to slip either way, each closed stop holds or opens. All combinations are
 //! solved; the motion is unique if those that satisfy every law have one acceleration. Combinations without redundant
 //! contacts come first; forces of redundant contacts are searched for only where their acceleration is new.
+//!
+//! Where the force of a slipping bearing depends on the force y of a redundant contact, the motions are a curve in y,
+//! unique for each y if the slipping forces are a contraction. Samples search for them, far ones included. A curve that
+//! ends does so where a contact at rest is at its limit and stands still; the ends are motions of other modes. So there
+//! is no such curve if the only motion is not at a limit. Closed curves between the samples are not excluded.
 
 use super::admissible::{Existence, Held};
 use super::family::Family;
 use super::problem::Problem;
 use super::search::Budget;
-use super::{Failure, in_family, slipping_within};
+use super::{Failure, in_family, samples, slipping_within};
 use crate::contact::held::{Factors, held_tolerance};
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::{Column, Dim, Real, real};
@@ -41,6 +46,8 @@ struct Enumeration<'a, T: Real, V: Dim, C: Dim> {
     /// True while combinations with redundant contacts are examined.
     is_redundant: bool,
     is_undecided: bool,
+    /// True if some modes may contain curves of motions.
+    has_curves: bool,
 }
 
 /// Finds the modes of the contacts at rest. `modes` has those of the others.
@@ -54,13 +61,23 @@ pub(super) fn choose<T: Real, V: Dim, C: Dim>(
     if combinations > MOST_COMBINATIONS {
         return by_updates(problem, modes, at_rest).ok_or(Failure::Undecided(problem.strongest()));
     }
-    let mut enumeration =
-        Enumeration { problem, at_rest, found: None, budget: Budget::new(), is_redundant: false, is_undecided: false };
+    let mut enumeration = Enumeration {
+        problem,
+        at_rest,
+        found: None,
+        budget: Budget::new(),
+        is_redundant: false,
+        is_undecided: false,
+        has_curves: false,
+    };
     let mut modes = *modes;
     enumeration.visit(0, &mut modes)?;
     enumeration.is_redundant = true;
     enumeration.visit(0, &mut modes)?;
     match enumeration.found {
+        Some(found) if enumeration.has_curves && !enumeration.is_strict(&found) => {
+            Err(Failure::Undecided(problem.strongest()))
+        }
         _ if enumeration.is_undecided => Err(Failure::Undecided(problem.strongest())),
         Some(found) => Ok(found.modes),
         None => Err(Failure::NoMotion(problem.strongest())),
@@ -139,13 +156,22 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
             return Ok(());
         }
         let held = Held { problem, modes, is_bounded };
-        match in_family(&held, family, &mut self.budget) {
-            Some(forces) if is_still && self.departs(modes, &forces) => self.add(Found { forces, ..found }),
-            _ => {
-                self.is_undecided = true;
-                Ok(())
+        if is_still && let Some(forces) = in_family(&held, family, &mut self.budget) {
+            return self.add(Found { forces, ..found });
+        }
+        // The motion depends on the forces of redundant contacts: samples may show several.
+        let mut is_found = false;
+        for forces in samples(&held, family, &mut Budget::new()) {
+            if self.departs(modes, &forces) {
+                let (acceleration, size) = problem.acceleration(&forces);
+                self.add(Found { modes: *modes, forces, acceleration, size })?;
+                is_found = true;
             }
         }
+        let is_curve = family.spares == 1 && family.slips(problem).is_contraction();
+        self.has_curves |= is_curve && !is_found && !is_still;
+        self.is_undecided |= is_found || !is_curve;
+        Ok(())
     }
 
     /// True if every contact that is not held departs in the direction of its mode.
@@ -172,6 +198,21 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
         (0..C::COUNT)
             .filter(|&place| is_free(place))
             .any(|place| rank(Some(place)) == of_held && problem.stands(place, &family.base))
+    }
+
+    /// True if no contact at rest is at its limit and stands still, and no held contact is redundant.
+    fn is_strict(&self, found: &Found<T, V, C>) -> bool {
+        let (problem, forces) = (self.problem, &found.forces);
+        let is_clear = |place: usize| {
+            let mode = found.modes[place];
+            if mode.is_held() {
+                let tolerance = problem.force_tolerance(place, forces);
+                return problem.margin(place, mode, forces) > tolerance;
+            }
+            !problem.stands(place, forces)
+        };
+        let is_at_rest = |place: usize| self.at_rest[place].is_some();
+        Family::new(problem, &found.modes).spares == 0 && (0..C::COUNT).filter(|&place| is_at_rest(place)).all(is_clear)
     }
 
     fn is_known(&self, found: &Found<T, V, C>) -> bool {

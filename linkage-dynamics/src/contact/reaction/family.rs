@@ -89,6 +89,11 @@ impl<T: Real, C: Dim> Family<T, C> {
         Self { base: self.at(&set), columns, slips: 0, ..*self }
     }
 
+    /// The family with a change of one x.
+    pub(super) fn shifted(&self, at: usize, change: T) -> Self {
+        Self { base: self.base + self.columns[at] * change, ..*self }
+    }
+
     /// The family in which the magnitudes of the slipping forces are free too.
     pub(super) fn relaxed(&self) -> Self {
         Self { slips: 0, spares: self.slips + self.spares, ..*self }

@@ -11,6 +11,7 @@ mod bearing;
 mod choice;
 mod family;
 mod linear;
+mod path;
 mod problem;
 mod search;
 mod slip;
@@ -19,7 +20,7 @@ pub(crate) use bearing::Reduction;
 pub use bearing::{Bearing, ReactionRow, ReducedBearing, ReducedReaction};
 
 use super::held::{Held as HeldContacts, held_tolerance};
-use super::state::ContactMotion;
+use super::state::{ContactMotion, is_negligible, nearer, sum_tolerance};
 use super::{ContactLaw, Mode, ReducedEquations};
 use crate::MotionError;
 use admissible::{Existence, Held};
@@ -30,6 +31,9 @@ use search::Budget;
 
 /// The limit on updates of slipping forces that depend on the forces of redundant contacts.
 const MOST_UPDATES: usize = 40;
+
+/// The forces of redundant contacts at which slipping forces are sampled, divided by their scale.
+const SAMPLES: [f64; 12] = [0.0, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 5.0, 20.0, 100.0, 1e6];
 
 /// The reason why no motion is chosen, with the name of a contact.
 #[derive(Debug, Clone, Copy)]
@@ -56,7 +60,7 @@ struct InModes<T: Real, C: Dim> {
     are_unique: bool,
     /// The forces of held contacts are within their bounds; None if each is to be compared with its own.
     are_admissible: Option<bool>,
-    /// True if they are within their bounds.
+    /// True if they are within their bounds, and slip that begins accelerates in its direction.
     is_within: bool,
 }
 
@@ -180,10 +184,11 @@ fn in_modes<T: Real, V: Dim, C: Dim>(
             _ => None,
         };
         let are_admissible = admissible.is_some();
+        let is_within = are_admissible && departs(problem, modes, &family.base);
         match &found {
             // Forces that exceed a bound do not count, unless there are no others: then the event functions are negative.
-            Some(known) if known.is_within || !are_admissible => {
-                if are_admissible && !is_still {
+            Some(known) if known.is_within || !is_within => {
+                if is_within && !is_still {
                     return Err(Failure::Several(problem.strongest()));
                 }
             }
@@ -192,12 +197,34 @@ fn in_modes<T: Real, V: Dim, C: Dim>(
                     forces: admissible.unwrap_or(family.base),
                     are_unique: !is_redundant && roots.as_slice().len() == 1,
                     are_admissible: is_redundant.then_some(are_admissible),
-                    is_within: are_admissible,
+                    is_within,
                 });
             }
         }
     }
     found.ok_or(Failure::NoMotion(problem.strongest()))
+}
+
+/// True if the contacts that slip with s' = 0 accelerate in their direction, and open stops that s touches away from them.
+fn departs<T: Real, V: Dim, C: Dim>(
+    problem: &Problem<'_, T, V, C>,
+    modes: &Column<Mode, C>,
+    forces: &Column<T, C>,
+) -> bool {
+    let is_beginning = |place: usize| is_negligible(problem.equations.contacts[place].rate(&problem.equations.rates));
+    (0..C::COUNT).all(|place| match modes[place] {
+        mode @ (Mode::SlipForward | Mode::SlipBackward) if is_beginning(place) => {
+            problem.departs(place, (mode, Mode::Stick), forces)
+        }
+        Mode::Open if is_beginning(place) => {
+            let contact = &problem.equations.contacts[place];
+            let ContactLaw::Stop { lower, upper, .. } = contact.law else { return true };
+            let (side, gap) = nearer(contact, lower, upper);
+            let touches = gap <= sum_tolerance(contact.value.abs() + lower.abs().max(upper.abs()));
+            !touches || problem.departs(place, (Mode::Open, side), forces)
+        }
+        _ => true,
+    })
 }
 
 /// The bearings that slip in these modes.
@@ -212,7 +239,7 @@ fn slipping_within<T: Real, V: Dim, C: Dim>(
 }
 
 /// Forces within their bounds where the slipping forces depend on those of redundant contacts: both are updated until
-/// they repeat.
+/// they repeat, or some samples are tried.
 fn in_family<T: Real, V: Dim, C: Dim>(
     held: &Held<'_, T, V, C>,
     family: &Family<T, C>,
@@ -225,7 +252,7 @@ fn in_family<T: Real, V: Dim, C: Dim>(
     };
     let mut slips = magnitudes(&family.base);
     for _ in 0..MOST_UPDATES {
-        let Existence::Found(forces) = held.admissible(&family.with_slips(&slips), budget) else { return None };
+        let Existence::Found(forces) = held.admissible(&family.with_slips(&slips), budget) else { break };
         let next = magnitudes(&forces);
         let change = (next - slips).largest();
         if change <= real::<T>(16.0) * T::default_epsilon() * next.largest() {
@@ -233,5 +260,25 @@ fn in_family<T: Real, V: Dim, C: Dim>(
         }
         slips = next;
     }
-    None
+    samples(held, family, budget).next()
+}
+
+/// Forces within their bounds at some forces of the redundant contacts, each alone.
+fn samples<'a, T: Real, V: Dim, C: Dim>(
+    held: &'a Held<'_, T, V, C>,
+    family: &'a Family<T, C>,
+    budget: &'a mut Budget,
+) -> impl Iterator<Item = Column<T, C>> + 'a {
+    let relaxed = family.relaxed();
+    let shares = SAMPLES.into_iter().flat_map(|share| [-share, share]);
+    let spares = (family.slips..family.slips + family.spares).flat_map(move |spare| {
+        let unit = held.unit(&relaxed, spare);
+        shares.clone().map(move |share| (spare, unit * real(share)))
+    });
+    spares.filter_map(move |(spare, change)| {
+        let shifted = family.shifted(spare, change);
+        let roots = shifted.slips(held.problem).solve(budget);
+        let mut forces = roots.as_slice().iter().map(|root| shifted.with_slips(root).base);
+        forces.find(|forces| held.is_admissible(forces))
+    })
 }

@@ -7,7 +7,7 @@
 
 use super::linear::solve;
 use super::problem::length;
-use super::slip::{Roots, Slips};
+use super::slip::{Homogeneous, Roots, Slips};
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// The number of cells that one decision may take, some milliseconds.
@@ -145,7 +145,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
     /// only one was found.
     fn is_decided(&self, cell: &Cell<T, C>, fixed: Option<usize>, unit: T, roots: &mut Roots<T, C>) -> bool {
         let count = self.count;
-        let (slope, by_scale, residual) = self.homogeneous(cell.scale[0], &cell.centre);
+        let Homogeneous { slope, by_scale, residual } = self.homogeneous(cell.scale[0], &cell.centre);
         let square = |slope: &Matrix<T, C, C>, by_scale: &Column<T, C>| {
             let mut square = *slope;
             if let Some(fixed) = fixed {
@@ -183,7 +183,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
         }
         let (mut scale, mut t) = (cell.scale[0], cell.centre);
         for _ in 0..MOST_ITERATIONS {
-            let (slope, by_scale, residual) = self.homogeneous(scale, &t);
+            let Homogeneous { slope, by_scale, residual } = self.homogeneous(scale, &t);
             let Some(step) = solve(square(&slope, &by_scale), residual, count) else { return false };
             for at in 0..count {
                 let own = if fixed == Some(at) { &mut scale } else { &mut t[at] };
@@ -194,7 +194,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
             }
         }
         let moved = |at: usize| if fixed == Some(at) { scale - cell.scale[0] } else { t[at] - cell.centre[at] };
-        let (_, _, residual) = self.homogeneous(scale, &t);
+        let Homogeneous { residual, .. } = self.homogeneous(scale, &t);
         let is_root = residual.largest() <= T::default_epsilon() * real(1024.0);
         if !is_root || (0..count).any(|at| moved(at).abs() > wide(at)) {
             return false;

@@ -30,6 +30,15 @@ pub(super) struct Slips<T: Real, C: Dim> {
     pub by: Column<Column<[T; 2], C>, C>,
 }
 
+/// The equations in homogeneous coordinates t and s.
+pub(super) struct Homogeneous<T: Real, C: Dim> {
+    /// The derivative by t.
+    pub slope: Matrix<T, C, C>,
+    /// The derivative by s.
+    pub by_scale: Column<T, C>,
+    pub residual: Column<T, C>,
+}
+
 /// The solutions that were found.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Roots<T: Real, C: Dim> {
@@ -117,6 +126,11 @@ impl<T: Real, C: Dim> Slips<T, C> {
     /// Weights w > 0 with G w < w: in their maximum norm the right side is a contraction.
     fn weights(&self) -> Option<Column<T, C>> {
         contraction(&self.gain(), Column::repeat(T::one()), self.count)
+    }
+
+    /// True if t is unique at any r.
+    pub(super) fn is_contraction(&self) -> bool {
+        self.weights().is_some()
     }
 
     /// r + P t of one row.
@@ -297,10 +311,9 @@ impl<T: Real, C: Dim> Slips<T, C> {
     }
 
     /// The derivative and the residual in homogeneous coordinates: t_j = c_j |r_j s + P t|, with the number s.
-    pub(super) fn homogeneous(&self, s: T, t: &Column<T, C>) -> (Matrix<T, C, C>, Column<T, C>, Column<T, C>) {
+    pub(super) fn homogeneous(&self, s: T, t: &Column<T, C>) -> Homogeneous<T, C> {
         let scaled = Self { base: self.base.map(|base| base.map(|component| component * s)), ..*self };
         let residual = Column::from_fn(|row| if row < self.count { t[row] } else { T::zero() }) - scaled.image(t);
-        // The derivative by s.
         let mut by_scale = Column::zeros();
         for row in 0..self.count {
             let reaction = scaled.reaction(row, t);
@@ -310,6 +323,6 @@ impl<T: Real, C: Dim> Slips<T, C> {
                 by_scale[row] = -self.factors[row] * dot / size;
             }
         }
-        (scaled.slope(t), by_scale, residual)
+        Homogeneous { slope: scaled.slope(t), by_scale, residual }
     }
 }
