@@ -137,9 +137,13 @@ impl Lowering<'_> {
         let moving = result.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
         let mut links = Links::of(&mut self.graph, moving, chains, &result.bodies);
         let joints = self.joints(&mut links, result);
+        // A stub has these fields too.
+        result.opened.loads = joints.iter().map(|(_, load)| load.clone()).collect();
         if self.diagnostics.is_empty() {
             let again = Mechanism::named(Vec::new(), Vec::new(), result.visibility.clone(), result.name.clone());
-            result.opened = self.opened(statements, links, joints, again).unwrap_or_default();
+            if let Some(opened) = self.opened(statements, links, joints, again) {
+                result.opened = opened;
+            }
         }
     }
 

@@ -6,7 +6,7 @@
 //! centre of a body on its link. The force in the joint is the generalised force of the displacement (see
 //! `derivation::loads`).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::chain::{Link, in_order};
 use super::expression::Lowering;
@@ -14,7 +14,6 @@ use super::links::{GROUND, Leg, Links, moved};
 use super::mechanism::Mechanism;
 use super::scene::Body;
 use super::scope::Value;
-use crate::diagnostics::Region;
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{BodyId, SceneId, Table};
 use crate::syntax::{self, Expression, ExpressionId, Expressions, Operator, StatementKind};
@@ -80,8 +79,8 @@ pub(super) struct Opening {
     definitions: BTreeMap<String, (ExpressionId, bool)>,
     /// The link of the body whose centre is read.
     owner: Option<usize>,
-    /// A vector that is no path over links.
-    unclear: Option<Region>,
+    /// Vectors that are no paths over links from the origin.
+    unclear: Vec<ExpressionId>,
 }
 
 /// A path over links from the origin.
@@ -122,14 +121,15 @@ impl Lowering<'_> {
         }
         let sites = opened.iter().map(|(site, load)| (*site, load.displacement)).collect();
         let plain = std::mem::take(&mut self.values);
-        self.opening = Some(Opening { links, sites, plain, definitions, owner: None, unclear: None });
+        self.opening = Some(Opening { links, sites, plain, definitions, owner: None, unclear: Vec::new() });
         self.scope.forget_values();
         let messages = self.diagnostics.len();
         let calls: Vec<usize> = self.externals.iter().map(|external| external.calls.len()).collect();
         let reading = self.define(statements, &mut again);
         self.diagnostics.truncate(messages);
         self.externals.iter_mut().zip(calls).for_each(|(external, calls)| external.calls.truncate(calls));
-        if let Some(region) = self.opening.take().and_then(|opening| opening.unclear) {
+        if let Some(id) = self.opening.take().and_then(|opening| opening.unclear(self.expressions)) {
+            let region = self.expressions.region(id);
             let message = "the forces in joints need this vector as a sum of vectors `r@phi`, `(x, y)@phi` and points";
             self.diagnostics.error(region, message);
             return None;
@@ -149,7 +149,7 @@ impl Lowering<'_> {
         let displaced = match opening.plain.get(index) {
             Some(&Value::Vector(x, y)) => {
                 let shift = opening.shift(&mut self.graph, self.expressions, id).unwrap_or_else(|| {
-                    opening.unclear.get_or_insert(self.expressions.region(id));
+                    opening.unclear.push(id);
                     [self.graph.zero(); 2]
                 });
                 Value::Vector(self.graph.add(x, shift[0]), self.graph.add(y, shift[1]))
@@ -250,13 +250,35 @@ impl Opening {
                 None => {
                     let sign = if is_reversed { Number::MINUS_ONE } else { Number::ONE };
                     let own = self.shift(graph, expressions, operand)?;
-                    let ended = self.end(graph, path);
+                    // The origin is not the end of a path that has not begun.
+                    let ended = match path.is_fresh {
+                        true => Path { position: None, link: None, is_fresh: false, ..path },
+                        false => self.end(graph, path),
+                    };
                     let shift = [0, 1].map(|axis| graph.sum(&[(Number::ONE, ended.shift[axis]), (sign, own[axis])]));
                     Path { shift, ..ended }
                 }
             };
         }
         Some(self.end(graph, path).shift)
+    }
+
+    /// The first vector without a meaning that is more than a part of another.
+    fn unclear(self, expressions: &Expressions) -> Option<ExpressionId> {
+        let lets = self.definitions.values().filter(|(_, is_point)| !is_point);
+        let mut parts: BTreeSet<usize> = lets.map(|(id, _)| id.index()).collect();
+        for index in 0..self.plain.len() {
+            match expressions.get(expressions.id(index)) {
+                Expression::Sum(operands) | Expression::Product(operands) => {
+                    parts.extend(operands.iter().map(|(_, operand)| operand.index()));
+                }
+                Expression::Negate(part) | Expression::At(part, _) => {
+                    parts.insert(part.index());
+                }
+                _ => {}
+            }
+        }
+        self.unclear.into_iter().find(|id| !parts.contains(&id.index()))
     }
 
     /// Continues a path by a vector; `None` if it does not begin on a link there.
