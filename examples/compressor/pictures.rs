@@ -81,7 +81,7 @@ pub fn page(
             Plot::new("Pressure", "way of the piston, mm", "MPa")
                 .curve("", bare.iter().map(way))
                 .marks("valves open", opening),
-            "Compression and expansion of what is left in the clearance; the valves open at inlet and outlet pressure.",
+            "Compression, and expansion of the air in the clearance; the valves open at inlet and outlet pressure.",
         ),
         (
             Plot::new("Forces", crank, "kN")

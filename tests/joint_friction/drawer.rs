@@ -1,4 +1,4 @@
-//! A drawer that is pulled beside its middle, guided at two corners a length L apart: it jams where 2 mu e >= L, whatever
+//! A drawer that is pulled off its middle, guided at two corners a length L apart: it jams where 2 mu e >= L, whatever
 //! the pull (F. P. Beer, E. R. Johnston, *Vector Mechanics for Engineers: Statics*, problems of chapter 8).
 
 use linkage::simulation::simulate;

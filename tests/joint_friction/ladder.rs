@@ -33,7 +33,9 @@ fn it_stays_above_the_textbook_angle() {
         let (floor, wall): (f64, f64) = (random.random_range(0.1..0.7), random.random_range(0.0..0.7));
         let scene = Leaning { floor, wall, ..Leaning::default() };
         let limit = ((1.0 - floor * wall) / (2.0 * floor)).atan();
-        for (angle, stays) in [(limit + 1e-10, true), (limit + 0.05, true), (limit - 1e-10, false), (limit - 0.05, false)] {
+        for (angle, stays) in
+            [(limit + 1e-10, true), (limit + 0.05, true), (limit - 1e-10, false), (limit - 0.05, false)]
+        {
             let q = scene.mechanism.branches(angle).unwrap().next().unwrap().pose.coordinates();
             let simulation = simulate(&scene, (0.0, q, 0.0), 1.0, 1e-9).unwrap();
             let state = simulation.state();
@@ -43,9 +45,7 @@ fn it_stays_above_the_textbook_angle() {
             // Two frictions and one motion: the forces of a ladder at rest are not unique, those given satisfy all laws.
             assert_eq!(loads.are_unique, !stays);
             let weight = scene.m * scene.g;
-            for (contact, mu, normal) in
-                [(0, floor, loads.joints.x_normal), (1, wall, loads.joints.y_normal)]
-            {
+            for (contact, mu, normal) in [(0, floor, loads.joints.x_normal), (1, wall, loads.joints.y_normal)] {
                 let room = mu * normal.abs() - loads.contacts[contact].abs();
                 assert!(room >= -1e-11 * weight, "{floor} {wall} {angle}: {room}");
             }

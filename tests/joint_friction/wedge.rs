@@ -42,7 +42,9 @@ fn it_locks_exactly_at_the_angle_of_friction() {
     let mut random = SmallRng::seed_from_u64(20);
     for _ in 0..200 {
         let alpha: f64 = random.random_range(0.02..1.4);
-        for (mu, is_locked) in [(alpha.tan(), true), (alpha.tan() * (1.0 + 1e-12), true), (alpha.tan() * (1.0 - 1e-12), false)] {
+        for (mu, is_locked) in
+            [(alpha.tan(), true), (alpha.tan() * (1.0 + 1e-12), true), (alpha.tan() * (1.0 - 1e-12), false)]
+        {
             let scene = wedge(alpha, mu);
             let q = at(&scene, random.random_range(-2.0..2.0));
             let simulation = simulate(&scene, (0.0, q, 0.0), 1.0, 1e-9).unwrap();

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::expression::Lowering;
 use super::scope::Value;
-use crate::graph::NodeId;
+use crate::graph::{NodeId, Number};
 use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Statement, StatementKind};
 
 /// One vector of a chain.
@@ -59,6 +59,13 @@ pub struct Chain {
     pub links: Vec<Link>,
 }
 
+/// A position as a mean of points, and a vector from it.
+#[derive(Debug, Clone)]
+pub(super) struct Mean {
+    pub(super) points: Vec<[NodeId; 2]>,
+    pub(super) offset: [NodeId; 2],
+}
+
 /// The longest chain; a longer one has no named joints.
 const LONGEST: usize = 256;
 
@@ -71,6 +78,8 @@ pub(super) struct Chains {
     pub(super) loops: Vec<[Chain; 2]>,
     pub(super) points: Vec<Chain>,
     pub(super) centers: Vec<Chain>,
+    /// The centres that are means of points, by body.
+    pub(super) means: Vec<Option<Mean>>,
 }
 
 impl Lowering<'_> {
@@ -94,6 +103,8 @@ impl Lowering<'_> {
                     let center = body.properties.iter().find(|(word, _)| word == "center");
                     let chain = center.and_then(|(_, value)| self.chain(*value, &named));
                     chains.centers.push(chain.unwrap_or_default());
+                    let mean = center.and_then(|(_, value)| self.mean(*value));
+                    chains.means.push(mean);
                 }
                 _ => {}
             }
@@ -105,6 +116,58 @@ impl Lowering<'_> {
         let mut chain = Chain::default();
         self.add_links(id, false, named, &mut chain)?;
         (chain.links.len() <= LONGEST).then_some(chain)
+    }
+
+    /// The points of which an expression is a mean: their weights add up to 1.
+    fn mean(&mut self, id: ExpressionId) -> Option<Mean> {
+        let zero = self.graph.zero();
+        let mut mean = Mean { points: Vec::new(), offset: [zero; 2] };
+        let one = self.graph.number(Number::ONE);
+        let weight = self.add_points(id, one, &mut mean)?;
+        let rest = self.graph.subtract(weight, one);
+        (mean.points.len() > 1 && self.graph.is_zero(rest)).then_some(mean)
+    }
+
+    /// Adds the points of an expression to a mean, and its other vectors to the offset; returns the sum of the weights.
+    fn add_points(&mut self, id: ExpressionId, weight: NodeId, mean: &mut Mean) -> Option<NodeId> {
+        let expressions = self.expressions;
+        let Value::Vector(x, y) = self.value(id) else { return None };
+        match expressions.get(id) {
+            Expression::Sum(operands) => {
+                let mut sum = self.graph.zero();
+                for &(operator, operand) in operands {
+                    let weight = if operator == Operator::Inverse { self.graph.negate(weight) } else { weight };
+                    let added = self.add_points(operand, weight, mean)?;
+                    sum = self.graph.add(sum, added);
+                }
+                Some(sum)
+            }
+            Expression::Negate(inner) => {
+                let weight = self.graph.negate(weight);
+                self.add_points(*inner, weight, mean)
+            }
+            Expression::Product(operands) => {
+                let (mut factors, mut vector) = (vec![(weight, 1)], None);
+                for &(operator, operand) in operands {
+                    match self.value(operand) {
+                        Value::Scalar(node) => factors.push((node, if operator == Operator::Inverse { -1 } else { 1 })),
+                        Value::Vector(..) => vector = Some(operand),
+                        Value::Poison => return None,
+                    }
+                }
+                let weight = self.graph.product(&factors);
+                self.add_points(vector?, weight, mean)
+            }
+            Expression::Name(_) => {
+                mean.points.push([x, y]);
+                Some(weight)
+            }
+            _ => {
+                let added = [x, y].map(|part| self.graph.multiply(weight, part));
+                mean.offset = [0, 1].map(|axis| self.graph.add(mean.offset[axis], added[axis]));
+                Some(self.graph.zero())
+            }
+        }
     }
 
     /// Adds the vectors of an expression to a chain; None if one is not understood.

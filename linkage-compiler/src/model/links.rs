@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::chain::{Chain, Chains, Link};
+use super::chain::{Chain, Chains, Link, Mean};
 use super::opening::Site;
 use super::places::Places;
 use super::scene::Body;
@@ -39,7 +39,7 @@ pub(super) struct Leg {
     pub(super) of: LegOf,
 }
 
-/// What a leg is part of; directions are by index, 0 for a constant one.
+/// The kind of a leg; directions are by index, 0 for a constant one.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum LegOf {
     Rigid {
@@ -116,7 +116,7 @@ impl Links {
                 LegOf::Free => {}
             }
         }
-        links.add_bodies(graph, bodies);
+        links.add_bodies(graph, bodies, &chains.means);
         for Edge { ends, of } in edges {
             let LegOf::Guide { direction, length, .. } = of else { continue };
             let ends = ends.map(|end| links.places.find(end));
@@ -153,6 +153,18 @@ impl Links {
             }
         }
         holding
+    }
+
+    /// The links in which a mean of points is fixed, although the points may be written across a loop.
+    fn holding_mean(&mut self, graph: &mut Graph, mean: &Mean) -> BTreeSet<usize> {
+        let zero = graph.zero();
+        let mut holding: BTreeSet<usize> = (0..self.links.len()).collect();
+        for &point in &mean.points {
+            let of_point = self.holding(graph, point);
+            holding.retain(|link| of_point.contains(link));
+        }
+        let turns_with = |link: &usize| self.turns_with(graph, self.links[*link].direction, [zero; 2], mean.offset);
+        holding.into_iter().filter(turns_with).collect()
     }
 
     /// The link of a direction at a place.
@@ -317,9 +329,9 @@ impl Links {
 
     /// Finds the link of each body. A mass without an angle belongs to what slides at its centre, or to the only link
     /// there; where several links meet, it is a body of its own.
-    fn add_bodies(&mut self, graph: &mut Graph, bodies: &Table<BodyId, Body>) {
+    fn add_bodies(&mut self, graph: &mut Graph, bodies: &Table<BodyId, Body>, means: &[Option<Mean>]) {
         let mut held = Vec::new();
-        for body in bodies {
+        for (at, body) in bodies.iter().enumerate() {
             let angle = body.inertia.map(|(_, angle)| angle);
             let direction = angle.map(|angle| self.direction(graph, angle));
             let Some((_, center)) = body.mass else {
@@ -331,7 +343,10 @@ impl Links {
                 }));
                 continue;
             };
-            let holding = self.holding(graph, center);
+            let mut holding = self.holding(graph, center);
+            if let Some(mean) = means.get(at).and_then(Option::as_ref) {
+                holding.extend(self.holding_mean(graph, mean));
+            }
             let of_angle = |index: &&usize| self.links[**index].direction == direction.unwrap_or(0);
             let only = || holding.first().filter(|_| direction.is_none() && holding.len() == 1);
             let found = holding.iter().find(of_angle).or_else(only).copied();
@@ -351,20 +366,23 @@ impl Links {
     /// True if a position is constant in the frame of a link: with d = position - joint and the angle phi of the link,
     /// d' = phi' (-`d_y`, `d_x`) for each coordinate.
     fn is_fixed(&self, graph: &mut Graph, direction: usize, joints: &BTreeSet<usize>, position: [NodeId; 2]) -> bool {
+        let formulas: Vec<[NodeId; 2]> = joints.iter().flat_map(|&joint| self.places.formulas(joint)).collect();
+        formulas.into_iter().any(|joint| self.turns_with(graph, direction, joint, position))
+    }
+
+    /// True if the vector between two positions turns with a direction.
+    fn turns_with(&self, graph: &mut Graph, direction: usize, from: [NodeId; 2], to: [NodeId; 2]) -> bool {
         let angle = match direction.checked_sub(1) {
             Some(place) => self.directions[place],
             None => graph.zero(),
         };
-        let formulas: Vec<[NodeId; 2]> = joints.iter().flat_map(|&joint| self.places.formulas(joint)).collect();
-        formulas.into_iter().any(|joint| {
-            let [x, y] = [0, 1].map(|axis| graph.subtract(position[axis], joint[axis]));
-            self.moving.iter().all(|&symbol| {
-                let derivatives = graph.partial(&[x, y, angle], symbol);
-                let [dx, dy, turned] = [0, 1, 2].map(|at| derivatives[at]);
-                let (across, along) = (graph.multiply(turned, y), graph.multiply(turned, x));
-                let rest = [graph.add(dx, across), graph.subtract(dy, along)];
-                rest.iter().all(|&part| graph.is_zero(part))
-            })
+        let [x, y] = [0, 1].map(|axis| graph.subtract(to[axis], from[axis]));
+        self.moving.iter().all(|&symbol| {
+            let derivatives = graph.partial(&[x, y, angle], symbol);
+            let [dx, dy, turned] = [0, 1, 2].map(|at| derivatives[at]);
+            let (across, along) = (graph.multiply(turned, y), graph.multiply(turned, x));
+            let rest = [graph.add(dx, across), graph.subtract(dy, along)];
+            rest.iter().all(|&part| graph.is_zero(part))
         })
     }
 

@@ -39,7 +39,7 @@ pub enum LoadKind {
     Guide { coordinate: String, guide: String, block: String, end: Option<String> },
 }
 
-/// What is opened: a link at a place, or a guide by its ends.
+/// An opened joint: a link at a place, or a guide by its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Site {
     Pin { place: usize, link: usize },
@@ -130,7 +130,7 @@ impl Lowering<'_> {
         let reading = self.define(statements, &mut again);
         self.diagnostics.truncate(messages);
         self.externals.iter_mut().zip(calls).for_each(|(external, calls)| external.calls.truncate(calls));
-        if let Some(region) = self.opening.take().and_then(|opening| opening.unclear.into_values().next()) {
+        if let Some(region) = self.opening.take().and_then(Opening::unclear) {
             let message = "the forces in joints need this vector as a sum of vectors `r@phi`, `(x, y)@phi` and points";
             self.diagnostics.error(region, message);
         }
@@ -194,6 +194,14 @@ impl Lowering<'_> {
 }
 
 impl Opening {
+    /// The first vector that is no path over links; a `let` may be a part of one.
+    fn unclear(mut self) -> Option<Region> {
+        for (part, _) in self.definitions.values().filter(|(_, is_point)| !is_point) {
+            self.unclear.remove(&part.index());
+        }
+        self.unclear.into_values().next()
+    }
+
     /// The displacement of the end of a vector that begins at the origin.
     fn shift(&mut self, graph: &mut Graph, expressions: &Expressions, id: ExpressionId) -> Option<[NodeId; 2]> {
         match expressions.get(id) {
@@ -255,7 +263,11 @@ impl Opening {
                 None => {
                     let sign = if is_reversed { Number::MINUS_ONE } else { Number::ONE };
                     let own = self.shift(graph, expressions, operand)?;
-                    let ended = self.end(graph, path);
+                    // The origin is not the end of a path that has not begun.
+                    let ended = match path.is_fresh {
+                        true => Path { position: None, link: None, is_fresh: false, ..path },
+                        false => self.end(graph, path),
+                    };
                     let shift = [0, 1].map(|axis| graph.sum(&[(Number::ONE, ended.shift[axis]), (sign, own[axis])]));
                     Path { shift, ..ended }
                 }

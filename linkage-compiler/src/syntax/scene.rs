@@ -67,7 +67,7 @@ pub enum EffectKind {
     Friction {
         /// The factors of the largest force.
         factors: Vec<ExpressionId>,
-        /// Where the force in the joint is another factor, and the pin if it is named.
+        /// `Some` if the force in the joint is another factor, with the pin if it is named.
         reaction: Option<Option<ExpressionId>>,
         on: ExpressionId,
     },
