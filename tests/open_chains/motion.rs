@@ -247,7 +247,7 @@ fn an_equilibrium_that_is_not_isolated_is_an_error() {
     close("phi", found.phi, -FRAC_PI_2, 1e-15);
 }
 
-/// Where an input moves no inertia, its acceleration is undetermined.
+/// The acceleration of an input that moves no inertia is undetermined.
 #[test]
 fn a_chain_without_inertia_is_an_error() {
     let q = cart_pendulum::CartPendulumCoordinates { x: 0.0, phi: FRAC_PI_2 };

@@ -52,7 +52,7 @@ linkage! {
 fn main() {
     // The stubs have the functions of open chains.
     let arm = Pendulum::default();
-    let still = PendulumInputs { theta: 0.0, phi: 0.0 };
+    let still = PendulumInputs { theta: 0.0 };
     let found = arm.full_kinematics(still, PendulumBranch::new(), still, still);
     println!("{:?}", found.map(|found| found.points.a.position));
     let _ = Turning::default().acceleration(0.0, &RodCoordinates { theta: 0.0 }, 0.0);

@@ -88,6 +88,7 @@ pub(crate) const MOTION: GeneralEquation = GeneralEquation {
 /// The headings and introductory sentences of the sections.
 pub(crate) mod words {
     pub(crate) const COORDINATES: &str = "Coordinates";
+    pub(crate) const OPEN_CHAIN: &str = "Open chain";
     pub(crate) const CONSTRAINTS: &str = "Constraint equations";
     pub(crate) const JACOBIAN: &str = "Jacobian";
     pub(crate) const STRUCTURE: &str = "Order of solution";
@@ -108,7 +109,7 @@ pub(crate) mod words {
     pub(crate) const UNKNOWN: &str = "Unknown";
 
     pub(crate) const LEAD_OPEN_CHAIN: &str =
-        "This is an open chain: the driven coordinates determine the position, and no equation is solved.";
+        "The driven coordinates determine the position, and no equation is solved.";
     pub(crate) const LEAD_CONSTRAINTS: &str = "The mechanism is assembled where";
     pub(crate) const LEAD_IMPLIED: &str = "These equations follow, and are checked at each position:";
     pub(crate) const LEAD_JACOBIAN: &str =
@@ -165,7 +166,10 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     }
 
     match derivation.unknowns {
-        [] => pen.lead(words::LEAD_OPEN_CHAIN)?,
+        [] => {
+            pen.heading(words::OPEN_CHAIN)?;
+            pen.lead(words::LEAD_OPEN_CHAIN)?;
+        }
         _ => solved(derivation, pen, &mut number)?,
     }
 

@@ -22,7 +22,7 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     let mut page = Page::default();
     page.header(sheet);
     if derivation.unknowns.is_empty() {
-        page.lead(words::LEAD_OPEN_CHAIN);
+        page.section(words::OPEN_CHAIN, |page| page.lead(words::LEAD_OPEN_CHAIN));
     } else {
         page.constraints(derivation);
         page.jacobian(derivation);
