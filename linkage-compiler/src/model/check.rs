@@ -175,8 +175,8 @@ pub(super) fn open_chain(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     for (request, &span) in &mechanism.requests_at {
         let message = match request {
             Request::Limits => "an open chain has no limits: remove `limits`, or add a `loop`",
-            Request::Sensitivity | Request::VelocityRatioDerivatives if !has_quantities => {
-                "an open chain has no unknowns to derive: add a `point` or an `output`"
+            Request::Sensitivity | Request::VelocityRatioDerivatives | Request::Lanes if !has_quantities => {
+                "an open chain has no unknowns to compute: add a `point` or an `output`"
             }
             _ => continue,
         };

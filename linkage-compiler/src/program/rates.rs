@@ -307,11 +307,15 @@ impl Plan<'_, '_> {
         if !is_fallible {
             signature.arguments.pop();
         }
-        let nodes: Vec<NodeId> = kernel.steps.iter().flat_map(Step::nodes).collect();
-        let nodes: Vec<NodeId> = nodes.into_iter().chain(kernel.results.iter().map(|output| output.node)).collect();
+        Function { is_fallible, is_method: self.reads_parameters(kernel), ..signature }
+    }
+
+    /// True if a kernel depends on a parameter of the mechanism.
+    pub(super) fn reads_parameters(&self, kernel: &Kernel) -> bool {
+        let nodes = kernel.steps.iter().flat_map(Step::nodes);
+        let nodes: Vec<NodeId> = nodes.chain(kernel.results.iter().map(|output| output.node)).collect();
         let symbols = self.derivation.graph.symbols_of(&nodes);
         let parameters = &self.signatures.mechanism.parameters;
-        let is_method = parameters.iter().any(|parameter| symbols.contains(&parameter.symbol));
-        Function { is_fallible, is_method, ..signature }
+        parameters.iter().any(|parameter| symbols.contains(&parameter.symbol))
     }
 }
