@@ -127,6 +127,7 @@ snapshots! {
     every_operation: functions("every_function", "EveryFunction", &["outputs"]);
     scene: functions("slider_crank_scenes", "Steady", &["drive_forces", "effects"]);
     trait_implementation: implementation("scotch_yoke", "ScotchYoke", "Mechanism");
+    open_chain: implementation("cart_pendulum", "CartPendulum", "Mechanism");
     columns: structures(expand(source::tokens_of("scotch_yoke")), &["ScotchYokeColumns"]);
     lanes: implementation("scotch_yoke", "ScotchYoke", "Lanes");
     derivation_constant: derivation("scotch_yoke", &["mechanism", "inputs", "residual", "blocks", "ratios"]);

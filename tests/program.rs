@@ -111,6 +111,13 @@ snapshots! {
     scene_checks: "four_bar_scenes" "Idle" ["check", "check_effects"];
 }
 
+// Open chains.
+snapshots! {
+    open_chain: "cart_pendulum" "CartPendulum"
+        ["assemble", "kinematics", "velocity", "acceleration", "length_scale", "coordinate_rates"];
+    open_chain_in_motion: "cart_pendulum" "Rolling" ["rates", "mass_matrix", "equilibrium"];
+}
+
 // Contacts.
 snapshots! {
     contacts_with_friction: "five_bar_contacts" "Braked" ["contacts"];

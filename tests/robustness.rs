@@ -89,6 +89,27 @@ fn deep_names_need_no_deep_stack() {
     }
 }
 
+/// Matrices of points, outputs and masses by the inputs are counted, zeros too: an open chain has no loops to limit them.
+#[test]
+fn wide_open_chains_are_within_the_budget() {
+    let list = |count: usize, one: &dyn Fn(usize) -> String| (0..count).map(one).collect::<Vec<_>>();
+    let points = |count: usize| {
+        let (inputs, points) =
+            (list(count, &|i| format!("x{i}")), list(count, &|i| format!("point P{i} = (x{i}, 0);")));
+        format!("mechanism M {{ input {}; {} }}", inputs.join(", "), points.concat())
+    };
+    let masses = |count: usize| {
+        let inputs = list(count, &|i| format!("x{i}"));
+        let body = format!("body all {{ mass 1; center ({}, 0); }}", inputs.join(" + "));
+        format!("mechanism M {{ input {}; {body} scene S {{ inertia; }} }}", inputs.join(", "))
+    };
+    for (source, is_within) in [(points(40), true), (points(3000), false), (masses(10), true), (masses(3000), false)] {
+        let found = expansion_messages(&source);
+        assert_eq!(found.len(), usize::from(!is_within), "{found:?}");
+        assert!(found.iter().all(|message| message.contains("budget of work")), "{found:?}");
+    }
+}
+
 /// Third derivatives and a full du/dp are rejected as well, before they take long.
 #[test]
 fn higher_orders_of_huge_inputs() {

@@ -22,7 +22,7 @@ pub use crate::motion::{
     finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
 };
 pub use crate::position::newton_group;
-pub use crate::scalar::unit;
+pub use crate::scalar::{largest, unit};
 pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::error::all_finite;
 use crate::linear::same_signs;
+use crate::scalar::arithmetic::*;
 use crate::{Column, Dim, Matrix, PositionError, Real};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
@@ -24,7 +25,7 @@ pub type PerUnknown<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::U>;
 pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
 
 /// A mechanism with constraints Psi(q) = 0, q = (u, v), which determine its dependent coordinates u from its
-/// independent coordinates v.
+/// independent coordinates v. An open chain has none: U and G are 0, and J, without rows, is regular.
 ///
 /// `linkage!` implements it for every mechanism and every driver of one. Functions that do not return a `Result` check
 /// nothing: for numbers that are not finite their results are not finite or have no meaning.
@@ -99,6 +100,12 @@ pub trait Mechanism {
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the solution is not finite.
     fn solve_jacobian(&self, pose: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError>;
 
+    /// The scale of lengths that are inputs and occur in no constraint, as in an open chain: about the longest arm, or 1
+    /// if there is none.
+    #[inline]
+    fn length_scale(&self, _: &Self::Pose) -> Self::Scalar {
+        Self::Scalar::one()
+    }
     /// Checks that the loops and equations that are declared as implied close at a position.
     ///
     /// # Errors

@@ -15,7 +15,8 @@ fn assur_groups() {
                 groups.collect::<Vec<_>>().join(" ")
             })
             .collect();
-        format!("{file:22} {}", drivers.join(" | "))
+        let groups = if mechanism.is_open() { "open chain".to_owned() } else { drivers.join(" | ") };
+        format!("{file:22} {groups}")
     };
     insta::assert_snapshot!(FILES.iter().map(groups_of).collect::<Vec<_>>().join("\n"));
 }

@@ -149,6 +149,9 @@ fn by_short_steps<M: Mechanism<Scalar = f64, V = D<1>>>(
 trait Inputs: Dim {
     fn closed<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count;
     fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
+    fn open<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+        Self::closed(m, steps, random)
+    }
 }
 
 impl Inputs for D<1> {

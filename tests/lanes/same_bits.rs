@@ -8,8 +8,8 @@ use linkage::lanes::{Batch, Given, Lanes, Values};
 use linkage::nalgebra::ComplexField;
 use linkage::{Dim, Real, real};
 use linkage_gallery::{
-    cam_rocker, crank_shaper, every_function, five_bar, geared_five_bar, geneva, inverted_slider_crank, jansen, klann,
-    norton_four_bar, offset_slider_crank, scotch_yoke, stephenson_ii,
+    cam_rocker, cart_pendulum, crank_shaper, every_function, five_bar, geared_five_bar, geneva, inverted_slider_crank,
+    jansen, klann, norton_four_bar, offset_slider_crank, scotch_yoke, stephenson_ii, three_link_arm,
 };
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -167,6 +167,7 @@ macro_rules! same_bits {
 // The share of random lanes that can be assembled differs.
 same_bits! {
     cam_rocker: CamRocker CamRockerBranch 0.1;
+    cart_pendulum: CartPendulum CartPendulumBranch 0.99;
     crank_shaper: CrankShaper CrankShaperBranch 0.1;
     every_function: EveryFunction EveryFunctionBranch 0.1;
     five_bar: FiveBar FiveBarBranch 0.1;
@@ -179,4 +180,5 @@ same_bits! {
     offset_slider_crank: OffsetSliderCrank OffsetSliderCrankBranch 0.1;
     scotch_yoke: ScotchYoke ScotchYokeBranch 0.1;
     stephenson_ii: StephensonII StephensonIIBranch 0.1;
+    three_link_arm: ThreeLinkArm ThreeLinkArmBranch 0.99;
 }

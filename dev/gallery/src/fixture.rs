@@ -135,15 +135,15 @@ pub trait ClosedForm: Assembly {
 macro_rules! fixtures {
     ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
         $(
-            $crate::fixture::kinematics!($file $Mechanism);
+            $crate::fixture::kinematics!($file $Mechanism $method);
             $crate::fixture::position!($file $Mechanism $method);
         )+
-        $crate::fixture::higher_orders!($file [$($Mechanism)+] $($orders)?);
+        $crate::fixture::higher_orders!($file [$($Mechanism $method)+] $($orders)?);
     )*};
 }
 
 macro_rules! kinematics {
-    ($file:ident $Mechanism:ident) => {
+    ($file:ident $Mechanism:ident $method:ident) => {
         impl<T: Real> Kinematics<T> for $file::$Mechanism<T> {
             fn with_parameters(parameters: &[T]) -> Self {
                 array(parameters).into()
@@ -164,15 +164,7 @@ macro_rules! kinematics {
             fn inputs_of(q: &[T]) -> Vec<T> {
                 <Self as Mechanism>::inputs(&Self::named(q)).iter().copied().collect()
             }
-            fn jacobian(&self, pose: &Self::Pose) -> DMatrix<T> {
-                matrix(self.jacobian(pose))
-            }
-            fn velocity_ratios(&self, pose: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
-                self.velocity_ratios(pose).map(matrix)
-            }
-            fn gamma_of(&self, pose: &Self::Pose, rates: &[T]) -> Vec<T> {
-                self.gamma(pose, &named(rates)).as_slice().to_vec()
-            }
+            $crate::fixture::equations!($method);
             fn velocity(&self, pose: &Self::Pose, input_rates: &[T]) -> Result<Vec<T>, PositionError> {
                 self.velocity(pose, inputs::<Self>(input_rates)).map(column)
             }
@@ -230,6 +222,32 @@ macro_rules! kinematics {
     };
 }
 
+macro_rules! equations {
+    // An open chain has no constraints and no unknowns.
+    (open) => {
+        fn jacobian(&self, _: &Self::Pose) -> DMatrix<T> {
+            DMatrix::zeros(0, Self::INPUTS.len())
+        }
+        fn velocity_ratios(&self, _: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
+            Ok(DMatrix::zeros(0, Self::INPUTS.len()))
+        }
+        fn gamma_of(&self, _: &Self::Pose, _: &[T]) -> Vec<T> {
+            Vec::new()
+        }
+    };
+    ($method:ident) => {
+        fn jacobian(&self, pose: &Self::Pose) -> DMatrix<T> {
+            matrix(self.jacobian(pose))
+        }
+        fn velocity_ratios(&self, pose: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
+            self.velocity_ratios(pose).map(matrix)
+        }
+        fn gamma_of(&self, pose: &Self::Pose, rates: &[T]) -> Vec<T> {
+            self.gamma(pose, &named(rates)).as_slice().to_vec()
+        }
+    };
+}
+
 macro_rules! position {
     ($file:ident $Mechanism:ident $method:ident) => {
         impl Fixture for $file::$Mechanism {
@@ -237,7 +255,7 @@ macro_rules! position {
             type Of<T: Real> = $file::$Mechanism<T>;
 
             fn solved(&self, guess: &[f64]) -> Result<Vec<f64>, PositionError> {
-                self.solve(&Self::named(guess)).map(|solution| column(solution.coordinates))
+                newton(self, &Self::named(guess)).map(|solution| column(solution.coordinates))
             }
             $crate::fixture::position!(@ $method);
         }
@@ -291,6 +309,9 @@ macro_rules! position {
             self.assemble(inputs::<Self>(&Self::inputs_of(q)), Self::all_branches()[branch])
         }
     };
+    (@ open) => {
+        $crate::fixture::position!(@ closed);
+    };
     (@ newton) => {
         $crate::fixture::position!(@ moving kinematics_near full_kinematics_near assemble_near, |m, q, _branch| &Self::named(q), m.branch_of(&m.pose(q)));
         fn branch_count() -> usize {
@@ -304,7 +325,7 @@ macro_rules! position {
 
 macro_rules! closed_form {
     ($file:ident $Mechanism:ident newton) => {};
-    ($file:ident $Mechanism:ident closed) => {
+    ($file:ident $Mechanism:ident $method:ident) => {
         impl<T: Real> ClosedForm for $file::$Mechanism<T> {
             fn all_branches() -> Vec<Self::Branch> {
                 <Self as Assembly>::Branch::all().collect()
@@ -317,8 +338,8 @@ macro_rules! closed_form {
 }
 
 macro_rules! higher_orders {
-    ($file:ident [$($Mechanism:ident)+]) => {};
-    ($file:ident [$($Mechanism:ident)+] orders) => {$(
+    ($file:ident [$($Mechanism:ident $method:ident)+]) => {};
+    ($file:ident [$($Mechanism:ident $method:ident)+] orders) => {$(
         impl WithHigherOrders for $file::$Mechanism {
             type OfOrders<T: Real> = $file::$Mechanism<T>;
         }
@@ -334,18 +355,13 @@ macro_rules! higher_orders {
             fn output_jerks(&self, pose: &Self::Pose, [rates, bent, jerk]: [&[T]; 3]) -> Result<Vec<T>, PositionError> {
                 self.output_jerks(pose, &named(rates), &named(bent), &named(jerk)).map(list)
             }
-            fn velocity_ratio_derivatives(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
-                self.velocity_ratio_derivatives(pose).map(matrices)
-            }
+            $crate::fixture::orders_of_unknowns!($method);
             fn point_ratio_derivatives(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
                 let points: [[_; 2]; _] = self.point_ratio_derivatives(pose)?.into();
                 Ok(points.into_iter().flat_map(matrices).collect())
             }
             fn output_ratio_derivatives(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
                 self.output_ratio_derivatives(pose).map(|outputs| matrices(outputs.into()))
-            }
-            fn sensitivity(&self, pose: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
-                self.sensitivity(pose).map(matrix)
             }
             fn point_sensitivities(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
                 self.point_sensitivities(pose).map(|points| matrices(points.into()))
@@ -357,7 +373,26 @@ macro_rules! higher_orders {
     )+};
 }
 
-pub(crate) use {closed_form, fixtures, higher_orders, kinematics, position};
+macro_rules! orders_of_unknowns {
+    (open) => {
+        fn velocity_ratio_derivatives(&self, _: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
+            Ok(Vec::new())
+        }
+        fn sensitivity(&self, _: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
+            Ok(DMatrix::zeros(0, Self::PARAMETERS.len()))
+        }
+    };
+    ($method:ident) => {
+        fn velocity_ratio_derivatives(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
+            self.velocity_ratio_derivatives(pose).map(matrices)
+        }
+        fn sensitivity(&self, pose: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
+            self.sensitivity(pose).map(matrix)
+        }
+    };
+}
+
+pub(crate) use {closed_form, equations, fixtures, higher_orders, kinematics, orders_of_unknowns, position};
 
 /// The entries of a list as an array.
 pub(crate) fn array<T: Copy, const N: usize>(list: &[T]) -> [T; N] {

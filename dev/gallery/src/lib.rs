@@ -14,7 +14,7 @@ pub use fixture::{ClosedForm, Fixture, HigherOrders, Kinematics, Motion, Moving,
 /// Calls a macro with the list of all mechanisms.
 ///
 /// A line is a file of `src/mechanisms` and its mechanism, or one name for each driver. After the name stands how a
-/// position is found: `closed` form or `newton`. A line ends in `orders` if the file derives jerk, the derivatives of the
+/// position is found: `closed` form or `newton`, or that the mechanism is an `open` chain. A line ends in `orders` if the file derives jerk, the derivatives of the
 /// velocity ratios and sensitivities.
 ///
 /// ```
@@ -34,12 +34,14 @@ macro_rules! all_mechanisms {
             cam_follower: CamFollower closed;
             cam_rocker: CamRocker closed;
             cardan: Cardan closed;
+            cart_pendulum: CartPendulum open, orders;
             chebyshev: ChebyshevRocker closed ChebyshevCoupler closed;
             components: Components closed, orders;
             coupled_wheels: CoupledWheels closed;
             crank_shaper: CrankShaper closed;
             distances: Distances closed, orders;
             double_butterfly: DoubleButterfly newton, orders;
+            double_pendulum: DoublePendulum open, orders;
             drag_link_drive: DragLinkDrive closed;
             elliptic_trammel: EllipticTrammel closed, orders;
             every_function: EveryFunction closed, orders;
@@ -68,6 +70,7 @@ macro_rules! all_mechanisms {
             one_window: OneWindow closed;
             pantograph: Pantograph closed;
             peaucellier: Peaucellier closed;
+            pendulum: Pendulum open, orders;
             pin_and_slot: PinAndSlot closed;
             rack_steering: RackSteering closed, orders;
             roberts: Roberts closed;
@@ -83,6 +86,7 @@ macro_rules! all_mechanisms {
             stephenson_i: StephensonI closed;
             stephenson_ii: StephensonII newton;
             stephenson_iii: StephensonIII closed;
+            three_link_arm: ThreeLinkArm open, orders;
             three_together: ThreeTogether newton;
             two_windows: TwoWindows closed;
             v_twin: VTwin closed;
@@ -111,6 +115,7 @@ macro_rules! modules {
 all_mechanisms!(modules);
 
 mod implementations {
+    use linkage::position::newton;
     use linkage::{Assembly, Mechanism, PositionError, Real};
     use nalgebra::DMatrix;
 

@@ -14,18 +14,24 @@ pub const LARGEST: usize = 40_000;
 /// about 80 bytes.
 const STEPS_OF_AN_ENTRY: usize = 100;
 
-/// The budget steps of the matrices of a driver, including zeros: J, W, and those of `derive` statements.
+/// The budget steps of the matrices of a driver, including zeros: J, W, those of points and outputs, M, and those of
+/// `derive` statements.
 #[must_use]
 pub fn matrices(mechanism: &Mechanism, driver: &Driver) -> usize {
     let (unknowns, inputs) = (driver.unknowns.len(), driver.inputs.len());
+    let components = 2 * mechanism.points.len() + mechanism.outputs.len();
+    let square = inputs.saturating_mul(inputs);
     let of_driver = |scene: &&Scene| mechanism.drivers[scene.driver].name == driver.name;
-    let balanced =
-        mechanism.scenes.iter().filter(of_driver).filter(|scene| scene.requests.contains(&SceneRequest::Equilibrium));
+    let scenes = || mechanism.scenes.iter().filter(of_driver);
+    let balanced = scenes().filter(|scene| scene.requests.contains(&SceneRequest::Equilibrium)).count();
+    let inert = scenes().filter(|scene| scene.inertia.is_some()).count();
     let is_wanted = |request| usize::from(mechanism.requests.contains(&request));
-    let second = is_wanted(Request::VelocityRatioDerivatives) + balanced.count();
-    let columns = unknowns + inputs + second * inputs.saturating_mul(inputs);
-    let columns = columns + is_wanted(Request::Sensitivity) * mechanism.parameters.len();
-    STEPS_OF_AN_ENTRY.saturating_mul(unknowns).saturating_mul(columns)
+    let (second, first) = (is_wanted(Request::VelocityRatioDerivatives), is_wanted(Request::Sensitivity));
+    let derived = inputs + second * square + first * mechanism.parameters.len();
+    let of_unknowns = unknowns.saturating_mul(unknowns + derived + balanced * square);
+    let of_quantities = components.saturating_mul(derived);
+    let entries = of_unknowns.saturating_add(of_quantities).saturating_add((inert + balanced).saturating_mul(square));
+    STEPS_OF_AN_ENTRY.saturating_mul(entries)
 }
 
 /// Reports mechanisms that are wrong for all values of the parameters; returns true if there are no mistakes.

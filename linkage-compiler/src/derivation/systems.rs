@@ -1,6 +1,6 @@
 //! Linear systems in J: its columns, right sides, determinant, and the effect of a solution on points and outputs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::data::{Coordinate, Derivation, Quantity};
 use super::linear::{Row, System};
@@ -44,6 +44,15 @@ impl Derivation {
     pub fn jacobian_scales(&mut self) -> (Table<RowId, Row<UnknownId>>, Table<RowId, Row<InputId>>) {
         let (unknowns, inputs) = (self.jacobian_unknowns(), self.jacobian_inputs());
         (scales(&mut self.graph, unknowns), scales(&mut self.graph, inputs))
+    }
+
+    /// Upper bounds of the magnitudes of the derivatives of the points by some coordinates.
+    pub fn point_scales(&mut self, columns: &[ColumnId]) -> Vec<NodeId> {
+        let rows = self.points.iter().flat_map(|point| &point.jacobian);
+        let entries = rows.flat_map(|row| columns.iter().filter_map(|column| row.get(column).copied()));
+        let entries: BTreeSet<NodeId> = entries.collect();
+        let scales: BTreeSet<NodeId> = entries.into_iter().map(|entry| scale::of(&mut self.graph, entry)).collect();
+        scales.into_iter().collect()
     }
 
     fn columns<C: Id + Ord>(&self, columns: &Table<C, ColumnId>) -> Table<RowId, Row<C>> {

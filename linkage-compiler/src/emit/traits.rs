@@ -120,20 +120,41 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     };
     let of_parts = [composed("coordinates", &coordinates), composed("rates", &rates)];
     let parts = [divided("parts", "q", &coordinates), divided("rate_parts", "rates", &rates)];
+    let is_open = program.signatures.is_open();
+    let [vector, matrix] = [quote!(__rt::Column), quote!(__rt::Matrix)];
     let of_pose = [
-        ("residual", &by_unknowns),
-        ("residual_scales", &by_unknowns),
-        ("jacobian_unknowns", &square),
-        ("jacobian_inputs", &mixed),
-        ("jacobian_unknowns_scales", &square),
-        ("jacobian_inputs_scales", &mixed),
-        ("block_determinants", &quote!(__rt::Column<T, __rt::D<#g>>)),
+        ("residual", &by_unknowns, &vector),
+        ("residual_scales", &by_unknowns, &vector),
+        ("jacobian_unknowns", &square, &matrix),
+        ("jacobian_inputs", &mixed, &matrix),
+        ("jacobian_unknowns_scales", &square, &matrix),
+        ("jacobian_inputs_scales", &mixed, &matrix),
+        ("block_determinants", &quote!(__rt::Column<T, __rt::D<#g>>), &vector),
     ];
-    let of_pose = of_pose.map(|(function, of)| {
-        let function = ident(function);
+    // An open chain has no equations: all of these are empty.
+    let of_pose = of_pose.map(|(function, of, kind)| {
+        let (function, pose) = (ident(function), argument("pose", !is_open));
+        let value = if is_open { quote!(#kind::zeros()) } else { quote!(self.#function(pose).into()) };
         quote! {
-            fn #function(&self, pose: &Self::Pose) -> #of {
-                self.#function(pose).into()
+            fn #function(&self, #pose: &Self::Pose) -> #of {
+                #value
+            }
+        }
+    });
+    let [pose_argument, rates_argument] = ["pose", "rates"].map(|name| argument(name, !is_open));
+    let (determinant, gamma, solution) = match is_open {
+        true => (quote!(T::one()), quote!(__rt::Column::zeros()), quote!(*right)),
+        false => (
+            quote!(self.determinant(pose)),
+            quote!(self.gamma(pose, rates).into()),
+            quote!(self.solve_jacobian(pose, &(*right).into())?.into()),
+        ),
+    };
+    let has_scale = program.functions.iter().any(|function| function.name == "length_scale");
+    let length_scale = has_scale.then(|| {
+        quote! {
+            fn length_scale(&self, pose: &Self::Pose) -> T {
+                self.length_scale(pose)
             }
         }
     });
@@ -169,19 +190,20 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
                 pose.is_finite()
             }
             #(#of_pose)*
-            fn determinant(&self, pose: &Self::Pose) -> T {
-                self.determinant(pose)
+            fn determinant(&self, #pose_argument: &Self::Pose) -> T {
+                #determinant
             }
-            fn gamma(&self, pose: &Self::Pose, rates: &Self::Rates) -> #by_unknowns {
-                self.gamma(pose, rates).into()
+            fn gamma(&self, #pose_argument: &Self::Pose, #rates_argument: &Self::Rates) -> #by_unknowns {
+                #gamma
             }
             fn solve_jacobian(
                 &self,
-                pose: &Self::Pose,
+                #pose_argument: &Self::Pose,
                 right: &#by_unknowns,
             ) -> __rt::Result<#by_unknowns, __rt::PositionError> {
-                __rt::Ok(self.solve_jacobian(pose, &(*right).into())?.into())
+                __rt::Ok(#solution)
             }
+            #length_scale
             #implied
         }
         #assembly
@@ -191,6 +213,14 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
 /// Implements `Assembly`.
 fn assembly(program: &Program<Code>) -> TokenStream {
     let (name, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
+    let is_open = program.signatures.is_open();
+    let (pose, of_pose) = (
+        argument("pose", !is_open),
+        match is_open {
+            true => quote!(#branch::new()),
+            false => quote!(self.branch_of(pose)),
+        },
+    );
     let near = (!program.position.turns.is_empty()).then(|| {
         quote! {
             fn assemble_near(
@@ -213,8 +243,8 @@ fn assembly(program: &Program<Code>) -> TokenStream {
                 self.assemble(inputs, branch)
             }
             #near
-            fn branch_of(&self, pose: &Self::Pose) -> Self::Branch {
-                self.branch_of(pose)
+            fn branch_of(&self, #pose: &Self::Pose) -> Self::Branch {
+                #of_pose
             }
         }
     }

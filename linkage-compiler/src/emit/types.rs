@@ -466,8 +466,10 @@ fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     let Position { sides, turns, is_closed, .. } = &program.position;
     let turns = if *is_closed { turns.as_slice() } else { &[] };
     let derives = derives(program.signatures.mechanism, root);
-    let title =
-        comment(&format!(" The assembly mode of [`{driver}`]: one of the two solutions of each group that has two."));
+    let title = comment(&match program.signatures.is_open() {
+        true => format!(" The branch of [`{driver}`]: an open chain has a single one."),
+        false => format!(" The assembly mode of [`{driver}`]: one of the two solutions of each group that has two."),
+    });
     let example = (1..=MOST_ARGUMENTS).contains(&sides.len()).then(|| {
         let sides: Vec<String> =
             sides.iter().map(|Side { choice, .. }| format!("{}::{}", choice.name(), choice.variants()[0])).collect();

@@ -229,7 +229,8 @@ impl Graph {
         self.intern(Node::Symbol(symbol))
     }
 
-    /// `function(arguments)`; signs and quarter turns are moved out of sines and cosines.
+    /// `function(arguments)`; signs and quarter turns are moved out of sines and cosines, roots and magnitudes of numbers
+    /// are numbers.
     pub fn call(&mut self, function: Function, arguments: &[NodeId]) -> NodeId {
         match (function, arguments) {
             (Function::Sin | Function::Cos, &[angle]) => self.circular(function, angle),
@@ -240,6 +241,10 @@ impl Graph {
                     None => self.intern(Node::Call(function, vec![x])),
                 }
             }
+            (Function::Abs, &[x]) => match self.as_number(x) {
+                Some(number) => self.number(number.absolute()),
+                None => self.intern(Node::Call(function, vec![x])),
+            },
             _ => self.intern(Node::Call(function, arguments.to_vec())),
         }
     }
@@ -311,6 +316,19 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The magnitudes of two parts that are zero add up to zero, not to a constant out of range.
+    #[test]
+    fn magnitudes_of_numbers_are_numbers() {
+        let mut g = Graph::default();
+        let parts = [Number::integer(0), Number::integer(0), Number::ratio(-3, 2)].map(|number| {
+            let part = g.number(number);
+            (Number::ONE, g.call(Function::Abs, &[part]))
+        });
+        let sum = g.sum(&parts);
+        assert_eq!(g.as_number(sum), Some(Number::ratio(3, 2)));
+        assert_eq!(g.take_fault(), None);
     }
 
     #[test]

@@ -6,6 +6,8 @@ use proc_macro2::Span;
 
 use super::mechanism::{Driver, Mechanism, misnamed};
 use super::name::Name;
+use super::request::Request;
+use super::scene::SceneRequest;
 use super::scope::Scope;
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
@@ -118,7 +120,7 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
             let last = driver.unknowns.last().map(|&index| mechanism.coordinates[index].name.span);
             let span = if mechanism.is_driven_by_choice() { at(driver) } else { last.unwrap_or_else(|| at(driver)) };
             let advice = match (rows < unknowns, driver.inputs.is_empty()) {
-                (true, _) if rows == 0 => "add a `loop` or an `equation`".to_owned(),
+                (true, _) if rows == 0 => "add a `loop` or an `equation`, or declare all as `input`".to_owned(),
                 (true, true) => format!("there is no `input`; declare {} of the unknowns as `input`", unknowns - rows),
                 (true, false) => "add a `loop` or an `equation`, or declare unknowns as `input`".to_owned(),
                 (false, _) => {
@@ -133,8 +135,12 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
         if driver.inputs.is_empty() {
             diagnostics.error(at(driver), "this mechanism has no input: declare one with `input`");
         }
-        if rows == 0 {
-            diagnostics.error(at(driver), "a mechanism needs at least one `loop` or `equation`");
+        if mechanism.is_empty() {
+            let message = format_args!(
+                "nothing depends on the inputs of `{}`: add a `loop`, an `equation`, a `point`, an `output` or a `scene`",
+                driver.name
+            );
+            diagnostics.error(at(driver), message);
         }
         let symbols: BTreeSet<SymbolId> =
             driver.unknowns.iter().map(|&index| mechanism.coordinates[index].symbol).collect();
@@ -157,6 +163,29 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
                 Err(singular) => singularity(mechanism, &mechanism.drivers[id], &singular, diagnostics),
             }
         }
+    }
+}
+
+/// Reports requests that an open chain cannot answer.
+pub(super) fn open_chain(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
+    if !mechanism.is_open() {
+        return;
+    }
+    let has_quantities = !mechanism.points.is_empty() || !mechanism.outputs.is_empty();
+    for (request, &span) in &mechanism.requests_at {
+        let message = match request {
+            Request::Limits => "an open chain has no limits: remove `limits`, or add a `loop`",
+            Request::Sensitivity | Request::VelocityRatioDerivatives | Request::Lanes if !has_quantities => {
+                "an open chain has no unknowns to compute: add a `point` or an `output`"
+            }
+            _ => continue,
+        };
+        diagnostics.error(span, message);
+    }
+    for scene in mechanism.scenes.iter().filter(|scene| scene.requests.contains(&SceneRequest::Reactions)) {
+        let name = &scene.name;
+        let message = format!("`reactions` are forces in loops, and `{name}` has none: remove `reactions;`");
+        diagnostics.error(name.span(), message);
     }
 }
 

@@ -110,12 +110,15 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     if diagnostics.is_empty() {
         check::types(&result, diagnostics);
         check::fields(&result, diagnostics);
-        // Without equations nearly all names are unused.
-        if diagnostics.is_empty() && !result.constraints.is_empty() {
+        // Where equations are missing nearly all names are unused.
+        if diagnostics.is_empty() && !lacks_equations(&result) {
             check::usage(&result, &scope, diagnostics);
         }
         let is_idle = !diagnostics.is_empty();
         check::constraints(&mut result, &scope, diagnostics);
+        if diagnostics.is_empty() {
+            check::open_chain(&result, diagnostics);
+        }
         if is_idle {
             guess::without_idle(&mut result, &scope);
         }
@@ -124,6 +127,11 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
         guess::complete(&mut result, &statements, &scope, &undeclared_kinds, &undeclared_symbols);
     }
     (result, own)
+}
+
+/// True if the mechanism has unknowns without any equation, or nothing at all.
+pub(super) fn lacks_equations(mechanism: &Mechanism) -> bool {
+    mechanism.is_empty() || (mechanism.constraints.is_empty() && !mechanism.is_open())
 }
 
 /// The coordinates declared as `input`, `unknown` and `coordinate`.

@@ -205,6 +205,18 @@ impl Mechanism {
         !matches!(&*self.drivers, [only] if only.name == self.name)
     }
 
+    /// True for an open chain: no loop or equation, and every coordinate is an input.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.constraints.is_empty() && self.drivers.iter().all(|driver| driver.unknowns.is_empty())
+    }
+
+    /// True if there is nothing to compute from the coordinates.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.constraints.is_empty() && self.points.is_empty() && self.outputs.is_empty() && self.scenes.is_empty()
+    }
+
     /// The place of the statement that a function of a driver comes from.
     #[must_use]
     pub fn place_of(&self, driver: &Driver, function: &str) -> Span {

@@ -2,6 +2,7 @@
 
 use super::expression::Lowering;
 use super::kind::{Kind, bare_symbols};
+use super::lower::lacks_equations;
 use super::mechanism::Mechanism;
 use super::name::Name;
 use crate::diagnostics::Region;
@@ -90,7 +91,7 @@ impl Lowering<'_> {
 
     /// Reports each `let` that is not used.
     pub(super) fn unused_lets(&mut self, statements: &[Statement], result: &Mechanism) {
-        if result.constraints.is_empty() {
+        if lacks_equations(result) {
             return;
         }
         for statement in statements {

@@ -34,6 +34,11 @@ pub fn count(operations: Operations) -> String {
     text
 }
 
+/// Removes the error of a singular J, for functions of a mechanism that has no J.
+pub fn without_singular(docs: Vec<String>) -> Vec<String> {
+    docs.into_iter().map(|line| line.replace("`PositionError::Singular` if J is singular, ", "")).collect()
+}
+
 /// Adds to the doc comment of a function without `Result` what it returns for arguments that are not finite.
 pub fn without_result(mut docs: Vec<String>) -> Vec<String> {
     docs.extend(lines([

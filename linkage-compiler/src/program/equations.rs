@@ -186,6 +186,9 @@ impl Body {
         rows: usize,
         columns: usize,
     ) -> Expression {
+        if rows == 0 {
+            return Expression::zeros(of);
+        }
         if rows * columns <= LARGEST_DENSE || 2 * entries.len() >= rows * columns {
             let mut flat = vec![Expression::zero(); rows * columns];
             for (row, column, value) in entries {
@@ -194,7 +197,7 @@ impl Body {
             return Expression::made(of, Expression::listed(&flat, rows));
         }
         if entries.is_empty() {
-            return Expression::associated(super::Type::Runtime(of, Vec::new()), "zeros", []);
+            return Expression::zeros(of);
         }
         let matrix = self.local("matrix");
         let Expression::Local(place) = matrix else { return matrix };

@@ -232,7 +232,12 @@ impl Expression {
 
     /// A matrix with its dimensions as types, from its entries column by column.
     pub fn sized_matrix(entries: &[Self], rows: usize) -> Self {
-        Self::made("Matrix", Self::listed(entries, rows))
+        if rows == 0 { Self::zeros("Matrix") } else { Self::made("Matrix", Self::listed(entries, rows)) }
+    }
+
+    /// The zero matrix of a type of the runtime.
+    pub fn zeros(of: &'static str) -> Self {
+        Self::associated(Type::Runtime(of, Vec::new()), "zeros", [])
     }
 
     /// The columns, as lists of `rows` entries each.

@@ -184,7 +184,7 @@ impl Shape {
 
     /// The columns of a matrix with this number of rows.
     pub fn columns(rows: usize, symbols: &[SymbolId]) -> Self {
-        Self::List(symbols.chunks(rows).map(Self::list).collect())
+        Self::List(symbols.chunks(rows.max(1)).map(Self::list).collect())
     }
 }
 

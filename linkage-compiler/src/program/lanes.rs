@@ -16,12 +16,13 @@ impl Plan<'_, '_> {
         }
         let (kernel, conditions) = self.kinematics_kernel(Failure::Flag);
         let value = self.kinematics_of_results(&kernel);
+        let is_method = !self.signatures.is_open() || self.reads_parameters(&kernel);
         let mut body = flagged(kernel, vec![value]);
         body.before = self.turns_of_branch();
         body.after.extend(accepted(conditions));
         let doc =
             lines(["`kinematics` without branches; false if `kinematics` takes another way or returns an error."]);
-        self.add(self.signatures.kinematics_in_lane(), doc, body);
+        self.add(Function { is_method, ..self.signatures.kinematics_in_lane() }, doc, body);
         if self.signatures.has_quantities() {
             let kernel = self.quantities_kernel(Failure::Flag);
             let count = kernel.results.len();

@@ -11,6 +11,7 @@ mod function;
 mod implied;
 mod kinematics;
 mod lanes;
+mod length_scale;
 mod limits;
 mod names;
 mod operations;

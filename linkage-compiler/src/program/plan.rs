@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 
 use super::branch::Position;
+use super::doc::without_singular;
 use super::expression::{Expression, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source, results};
 use super::names::Order;
@@ -40,7 +41,10 @@ impl<'d, 'a> Plan<'d, 'a> {
         if wants(Request::Limits) {
             plan.limits();
         }
-        plan.equations();
+        match plan.signatures.is_open() {
+            true => plan.length_scale(),
+            false => plan.equations(),
+        }
         plan.velocity();
         plan.acceleration();
         if wants(Request::Jerk) {
@@ -106,6 +110,7 @@ impl<'d, 'a> Plan<'d, 'a> {
 
     /// Adds a function with its doc comment and its body.
     pub(super) fn add(&mut self, signature: Function<Body>, doc: Vec<String>, body: Body) {
+        let doc = if self.signatures.is_open() { without_singular(doc) } else { doc };
         self.functions.push(Function { doc, body: Some(body), ..signature });
     }
 

@@ -18,9 +18,17 @@ const ASSEMBLE: [&str; 5] = [
     "as between joints that coincide, `PositionError::NotFinite` if a number is not finite.",
 ];
 
+const ASSEMBLE_OPEN: [&str; 4] =
+    ["The position at these inputs.", "", "# Errors", "`PositionError::NotFinite` if a number is not finite."];
+
 impl Plan<'_, '_> {
     pub(super) fn position(&mut self) {
         self.pose_at();
+        if self.signatures.is_open() {
+            // The inputs are the position: nothing is solved, and there are no branches.
+            self.assemble();
+            return;
+        }
         self.solve();
         self.check_implied();
         self.assemble();
@@ -133,6 +141,8 @@ impl Plan<'_, '_> {
             let doc = self.near_doc();
             self.add(self.signatures.assemble_near(), doc, body);
             self.no_assemble();
+        } else if self.signatures.is_open() {
+            self.add(self.signatures.assemble(), lines(ASSEMBLE_OPEN), body);
         } else if self.position.turns.is_empty() {
             self.add(self.signatures.assemble(), lines(ASSEMBLE), body);
         } else {

@@ -115,11 +115,13 @@ impl Plan<'_, '_> {
         }
         let count = nodes.len();
         let ratios: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
-        let kernel = self.on_pose(vec![self.columns("velocity_ratios", &ratios)], Vec::new(), unnamed(nodes));
+        // The count includes the operations of `velocity_ratios`, which it calls.
+        let called = if self.signatures.is_open() { None } else { Some("velocity_ratios") };
+        let sources = called.iter().map(|function| self.columns(function, &ratios)).collect();
+        let kernel = self.on_pose(sources, Vec::new(), unnamed(nodes));
         let values = Expression::List(Expression::nested(results(0..count), &[v, dimension]));
         let value = Expression::runtime("finite_matrices", [Expression::mechanism(), Expression::text(word), values]);
-        // The count includes the operations of `velocity_ratios`, which it calls.
-        let calls = vec!["velocity_ratios".to_owned()];
+        let calls = called.into_iter().map(str::to_owned).collect();
         let body = Body { kernel: Some(kernel), calls, ..Body::result(value) };
         self.add(self.signatures.quantity_ratios(family), doc, body);
     }

@@ -13,8 +13,10 @@ use crate::ids::{ColumnId, Table, UnknownId};
 
 impl Plan<'_, '_> {
     pub(super) fn velocity(&mut self) {
-        self.solve_jacobian();
-        self.velocity_ratios();
+        if !self.signatures.is_open() {
+            self.solve_jacobian();
+            self.velocity_ratios();
+        }
         let unknowns = self.rates(&self.derivation.unknowns);
         let side = self.derivation.velocity_side();
         let steps = self.derivation.solution(&[(side, unknowns)], Form::Factored);
@@ -95,7 +97,17 @@ impl Plan<'_, '_> {
     /// The private functions that scenes call: W, q' = (W v', v'), and u'' at v'' = 0. They check determinants only;
     /// their callers check that results are finite.
     pub(super) fn layers(&mut self) {
-        let Arguments { input_rates, ratios, error_name, .. } = self.signatures.arguments.clone();
+        if self.signatures.is_open() {
+            self.coordinate_rates();
+            return;
+        }
+        self.ratio_columns();
+        self.coordinate_rates();
+        self.kinematics_at();
+    }
+
+    fn ratio_columns(&mut self) {
+        let error_name = self.signatures.arguments.error_name.clone();
         let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
         let steps = self.ratio_steps(Form::Entries);
         let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
@@ -103,9 +115,13 @@ impl Plan<'_, '_> {
         let kernel = self.on_pose(Vec::new(), steps, unnamed(nodes));
         let columns = Expression::List(Expression::nested(results(0..u * v), &[u]));
         let signature = self.layer(self.signatures.ratio_columns(), &kernel);
-        let kernel = Kernel { error_name: signature.is_fallible.then(|| error_name.clone()), ..kernel };
+        let kernel = Kernel { error_name: signature.is_fallible.then_some(error_name), ..kernel };
         self.add(signature, lines(["W = -J^-1 A, column by column."]), Body::of(kernel, columns));
+    }
 
+    fn coordinate_rates(&mut self) {
+        let Arguments { input_rates, ratios, .. } = self.signatures.arguments.clone();
+        let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
         let rates = self.rates(&self.derivation.inputs.clone());
         let rates = self.variables(&rates);
         let mut nodes = BTreeMap::new();
@@ -118,14 +134,14 @@ impl Plan<'_, '_> {
         }
         nodes.extend(self.derivation.inputs.iter().copied().zip(rates));
         let by_value = Source { from: Expression::name(&input_rates), ..self.inputs(Order::Rate) };
-        let columns = Source { from: Expression::name(&ratios).dereferenced(), shape: Shape::columns(u, &names) };
-        let outputs = unnamed(nodes.into_values());
-        let kernel = Kernel { sources: vec![columns, by_value], results: outputs, ..Kernel::default() };
+        let u = self.signatures.unknowns();
+        let columns = (u > 0).then(|| Shape::columns(u, &names));
+        let columns = columns.map(|shape| Source { from: Expression::name(&ratios).dereferenced(), shape });
+        let sources = columns.into_iter().chain([by_value]).collect();
+        let kernel = Kernel { sources, results: unnamed(nodes.into_values()), ..Kernel::default() };
         let body = Body::of(kernel, self.coordinates_of(Order::Rate, 0));
-        let doc = without_result(lines(["The rates q' = (W v', v')."]));
-        self.add(self.signatures.coordinate_rates(), doc, body);
-
-        self.kinematics_at();
+        let text = if u > 0 { "The rates q' = (W v', v')." } else { "The rates q' = v'." };
+        self.add(self.signatures.coordinate_rates(), without_result(lines([text])), body);
     }
 
     /// `kinematics_at`: the pose, W, q' and u'' at v'' = 0.
@@ -175,7 +191,7 @@ impl Plan<'_, '_> {
         self.add(signature, doc, body);
     }
 
-    pub(super) fn acceleration(&mut self) {
+    fn gamma(&mut self) {
         let gamma = self.derivation.gamma.clone();
         let mut doc = lines(["The quadratic velocity term gamma = `(Psi_q q')_q q'`."]);
         doc.extend(self.numbered("gamma", &gamma));
@@ -183,7 +199,12 @@ impl Plan<'_, '_> {
         let kernel = self.on_pose(vec![self.coordinates(Order::Rate)], Vec::new(), unnamed(gamma));
         let body = Body::of(kernel, Expression::vector(results(0..count)));
         self.add(self.signatures.gamma(), without_result(doc), body);
+    }
 
+    pub(super) fn acceleration(&mut self) {
+        if !self.signatures.is_open() {
+            self.gamma();
+        }
         let unknowns = self.accelerations(&self.derivation.unknowns);
         let side = self.derivation.acceleration_side();
         let steps = self.derivation.solution(&[(side, unknowns)], Form::Entries);
@@ -193,8 +214,14 @@ impl Plan<'_, '_> {
         let kernel = Kernel { conclusive: 0..all.len(), ..self.on_pose(sources, steps, unnamed(nodes)) };
         let body = Body::of(kernel, self.coordinates_of(Order::Acceleration, 0));
         let body = body.checked("acceleration", self.checked(0));
+        let text = match self.signatures.is_open() {
+            true => "The accelerations q'' of all coordinates: the input accelerations v''.",
+            false => {
+                "The accelerations q'' of all coordinates at the rates q' and the input accelerations v'': J u'' = -(A v'' + gamma)."
+            }
+        };
         let doc = lines([
-            "The accelerations q'' of all coordinates at the rates q' and the input accelerations v'': J u'' = -(A v'' + gamma).",
+            text,
             "",
             "# Errors",
             "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if an acceleration is not finite.",
@@ -203,10 +230,13 @@ impl Plan<'_, '_> {
     }
 
     pub(super) fn jerk(&mut self) {
-        let mut doc = lines([
-            "The jerks q''' of all coordinates at the rates q', the accelerations q'' and the input jerks v''':",
-            "J u''' = -(A v''' + eta) with eta = `3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q'`.",
-        ]);
+        let mut doc = match self.signatures.is_open() {
+            true => lines(["The jerks q''' of all coordinates: the input jerks v'''."]),
+            false => lines([
+                "The jerks q''' of all coordinates at the rates q', the accelerations q'' and the input jerks v''':",
+                "J u''' = -(A v''' + eta) with eta = `3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q'`.",
+            ]),
+        };
         let eta = self.derivation.eta.clone().unwrap_or_default();
         doc.extend(self.numbered("eta", &eta));
         doc.extend(lines([
@@ -277,11 +307,15 @@ impl Plan<'_, '_> {
         if !is_fallible {
             signature.arguments.pop();
         }
-        let nodes: Vec<NodeId> = kernel.steps.iter().flat_map(Step::nodes).collect();
-        let nodes: Vec<NodeId> = nodes.into_iter().chain(kernel.results.iter().map(|output| output.node)).collect();
+        Function { is_fallible, is_method: self.reads_parameters(kernel), ..signature }
+    }
+
+    /// True if a kernel depends on a parameter of the mechanism.
+    pub(super) fn reads_parameters(&self, kernel: &Kernel) -> bool {
+        let nodes = kernel.steps.iter().flat_map(Step::nodes);
+        let nodes: Vec<NodeId> = nodes.chain(kernel.results.iter().map(|output| output.node)).collect();
         let symbols = self.derivation.graph.symbols_of(&nodes);
         let parameters = &self.signatures.mechanism.parameters;
-        let is_method = parameters.iter().any(|parameter| symbols.contains(&parameter.symbol));
-        Function { is_fallible, is_method, ..signature }
+        parameters.iter().any(|parameter| symbols.contains(&parameter.symbol))
     }
 }

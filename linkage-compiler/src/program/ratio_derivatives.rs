@@ -32,6 +32,17 @@ impl Plan<'_, '_> {
     }
 
     pub(super) fn ratio_derivatives(&mut self) {
+        if !self.signatures.is_open() {
+            self.unknown_ratio_derivatives();
+        }
+        for family in [Family::Points, Family::Outputs] {
+            if self.signatures.has(family) {
+                self.quantity_ratio_derivatives(family);
+            }
+        }
+    }
+
+    fn unknown_ratio_derivatives(&mut self) {
         let mut doc = lines([
             "The derivatives of the velocity ratios, d2u/dv dv: for each unknown a symmetric matrix `L` with",
             "u'' = W v'' + v' . `L` v'; from `J L_jk = -(Psi_q w_j)_q w_k`, where `w_j = (W_j, e_j)`.",
@@ -54,11 +65,6 @@ impl Plan<'_, '_> {
         let body = Body::of(kernel, Expression::List(matrices.collect()));
         let body = body.checked("velocity ratio derivatives", all);
         self.add(self.signatures.ratio_derivatives(), doc, body);
-        for family in [Family::Points, Family::Outputs] {
-            if self.signatures.has(family) {
-                self.quantity_ratio_derivatives(family);
-            }
-        }
     }
 
     fn quantity_ratio_derivatives(&mut self, family: Family) {

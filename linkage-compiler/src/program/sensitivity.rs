@@ -7,7 +7,7 @@ use super::function::{Body, Value};
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
 use crate::algebra::simplify;
-use crate::derivation::{Form, Solutions, Step, needed};
+use crate::derivation::{Form, Solutions, Step, System, needed};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{Id, ParameterId, Table, UnknownId};
 
@@ -19,6 +19,25 @@ const ERRORS: [&str; 3] = [
 
 impl Plan<'_, '_> {
     pub(super) fn sensitivity(&mut self) {
+        let systems = self.derivation.sensitivity_systems();
+        let (steps, solved) = self.derivation.solve(&systems, Form::Factored);
+        let solved = Table::from(solved);
+        if !self.signatures.is_open() {
+            self.unknown_sensitivity(&systems, steps, &solved);
+        }
+        for family in [Family::Points, Family::Outputs] {
+            if self.signatures.has(family) {
+                self.quantity_sensitivities(family, &solved);
+            }
+        }
+    }
+
+    fn unknown_sensitivity(
+        &mut self,
+        systems: &Table<ParameterId, System>,
+        mut steps: Vec<Step>,
+        solved: &Solutions<ParameterId, NodeId>,
+    ) {
         let (u, p) = (self.signatures.unknowns(), self.signatures.mechanism.parameters.len());
         let columns = self.signatures.mechanism.parameters.iter();
         let columns: Vec<String> = columns.map(|parameter| format!("`{}`", parameter.name.text)).collect();
@@ -26,15 +45,12 @@ impl Plan<'_, '_> {
             "The sensitivity du/dp = -J^-1 `Psi_p` of the unknowns to the parameters, at fixed inputs; its columns",
             &format!("are {}.", columns.join(", ")),
         ]);
-        let systems = self.derivation.sensitivity_systems();
         let names = systems.iter().flat_map(|(_, names)| names);
         let laws = names.zip(self.formulas.sensitivities.iter().flatten());
         let laws = laws.filter_map(|(&name, formula)| Some((name, (*formula)?)));
         let laws = laws.filter(|(_, formula)| !self.derivation.graph.is_zero(*formula));
         doc.extend(fenced(laws.map(|(name, formula)| self.law(self.derivation.graph.symbol_name(name), formula))));
         doc.extend(lines(ERRORS));
-        let (mut steps, solved) = self.derivation.solve(&systems, Form::Factored);
-        let solved = Table::from(solved);
         // The derivative by a link length is a unit vector along a column of J, so that cos^2 + sin^2 = 1 shortens it.
         let given = self.pose.angles().collect();
         for step in &mut steps {
@@ -56,19 +72,15 @@ impl Plan<'_, '_> {
         let value = body.finite_matrix("sensitivity", "sensitivity", matrix);
         let body = Body { value: Value::Plain(value), ..body };
         self.add(self.signatures.sensitivity(), doc, body);
-        for family in [Family::Points, Family::Outputs] {
-            if self.signatures.has(family) {
-                self.quantity_sensitivities(family, &solved);
-            }
-        }
     }
 
     fn quantity_sensitivities(&mut self, family: Family, solved: &Solutions<ParameterId, NodeId>) {
         let (word, dimension) = (family.word(), family.dimension());
         let names = family.names(self.signatures.mechanism);
+        let open = self.signatures.is_open();
         let mut doc = vec![
             format!("The total derivatives of the {word}s with respect to the parameters, at fixed inputs:"),
-            "`dl/dp = l_p + l_u du/dp`.".to_owned(),
+            if open { "`dl/dp = l_p`." } else { "`dl/dp = l_p + l_u du/dp`." }.to_owned(),
         ];
         let mut laws = Vec::new();
         for (name, formulas) in names.iter().zip(self.formulas_of(family)) {
@@ -86,10 +98,11 @@ impl Plan<'_, '_> {
         }
         let first = self.derivation.sensitivity.iter();
         let symbols: Vec<SymbolId> = first.flat_map(|first| first.names.iter().flatten()).copied().collect();
-        let source = self.columns("sensitivity", &symbols);
-        let kernel = self.on_pose(vec![source], Vec::new(), unnamed(nodes.iter().copied()));
         // The count includes the operations of `sensitivity`, which it calls.
-        let calls = vec!["sensitivity".to_owned()];
+        let called = if open { None } else { Some("sensitivity") };
+        let sources = called.iter().map(|function| self.columns(function, &symbols)).collect();
+        let kernel = self.on_pose(sources, Vec::new(), unnamed(nodes.iter().copied()));
+        let calls = called.into_iter().map(str::to_owned).collect();
         let mut body = Body { kernel: Some(kernel), calls, ..Body::default() };
         let columns = nodes.len() / (names.len() * dimension);
         let entries: Vec<_> = nodes.iter().enumerate().collect();

@@ -71,7 +71,10 @@ impl<'a> Signatures<'a> {
         }
         all.push(self.motion());
         all.extend(self.assemblies(position));
-        all.extend([self.branch_of(), self.branch_near(), self.solve(), self.solve_any_branch(), self.pose_at()]);
+        if !self.is_open() {
+            all.extend([self.branch_of(), self.branch_near(), self.solve(), self.solve_any_branch()]);
+        }
+        all.push(self.pose_at());
         if !self.mechanism.implied.is_empty() {
             all.push(self.check_implied());
         }
@@ -85,21 +88,31 @@ impl<'a> Signatures<'a> {
         if wants(Request::Limits) {
             all.extend(self.driver.inputs.ids().map(|place| self.limits(position, place)));
         }
-        all.push(self.velocity_ratios());
+        if !self.is_open() {
+            all.push(self.velocity_ratios());
+        }
         all.extend(families().map(|family| self.quantity_ratios(family)));
         if wants(Request::VelocityRatioDerivatives) {
-            all.push(self.ratio_derivatives());
+            all.extend((!self.is_open()).then(|| self.ratio_derivatives()));
             all.extend(families().map(|family| self.quantity_ratio_derivatives(family)));
         }
         if wants(Request::Sensitivity) {
-            all.push(self.sensitivity());
+            all.extend((!self.is_open()).then(|| self.sensitivity()));
             all.extend(families().map(|family| self.quantity_sensitivities(family)));
         }
         if wants(Request::Drawing) {
             // The number of joints is that of the finished mechanism.
             all.push(self.joints(0));
         }
-        all.extend([
+        if !self.is_open() {
+            all.extend(self.equations(position));
+        }
+        all
+    }
+
+    /// Psi, its derivatives, and linear systems in J.
+    fn equations(&self, position: &Position) -> [Function<Body>; 11] {
+        [
             self.residual(),
             self.residual_scales(),
             self.jacobian(),
@@ -111,8 +124,12 @@ impl<'a> Signatures<'a> {
             self.block_determinants(position.blocks),
             self.gamma(),
             self.solve_jacobian(),
-        ]);
-        all
+        ]
+    }
+
+    /// True for an open chain, which has no equations.
+    pub fn is_open(&self) -> bool {
+        self.mechanism.is_open()
     }
 
     /// True if points, or outputs, are declared.
@@ -172,7 +189,7 @@ impl<'a> Signatures<'a> {
         if !position.turns.is_empty() {
             all.push(self.assemble_near());
         }
-        if position.has_few_branches() {
+        if position.has_few_branches() && !self.is_open() {
             all.push(self.branches());
         }
         all
@@ -270,6 +287,10 @@ impl<'a> Signatures<'a> {
         total("block_determinants", [self.pose()], Type::List(Box::new(Type::Scalar), blocks))
     }
 
+    pub fn length_scale(&self) -> Function<Body> {
+        hidden("length_scale", [self.pose()], Type::Scalar)
+    }
+
     // Linear systems in J.
 
     pub fn solve_jacobian(&self) -> Function<Body> {
@@ -295,7 +316,8 @@ impl<'a> Signatures<'a> {
 
     pub fn coordinate_rates(&self) -> Function<Body> {
         let ratios = Argument { name: self.arguments.ratios.clone(), passed: Passed::ByReference(self.columns()) };
-        let arguments = [ratios, self.input_rates()];
+        let ratios = (!self.is_open()).then_some(ratios);
+        let arguments = ratios.into_iter().chain([self.input_rates()]);
         let rates = layer(total("coordinate_rates", arguments, self.coordinates_type(Order::Rate)));
         Function { is_method: false, ..rates }
     }

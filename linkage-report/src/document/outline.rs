@@ -88,6 +88,7 @@ pub(crate) const MOTION: GeneralEquation = GeneralEquation {
 /// The headings and introductory sentences of the sections.
 pub(crate) mod words {
     pub(crate) const COORDINATES: &str = "Coordinates";
+    pub(crate) const OPEN_CHAIN: &str = "Open chain";
     pub(crate) const CONSTRAINTS: &str = "Constraint equations";
     pub(crate) const JACOBIAN: &str = "Jacobian";
     pub(crate) const STRUCTURE: &str = "Order of solution";
@@ -107,6 +108,8 @@ pub(crate) mod words {
     pub(crate) const DRIVEN: &str = "Driven";
     pub(crate) const UNKNOWN: &str = "Unknown";
 
+    pub(crate) const LEAD_OPEN_CHAIN: &str =
+        "The driven coordinates determine the position, and no equation is solved.";
     pub(crate) const LEAD_CONSTRAINTS: &str = "The mechanism is assembled where";
     pub(crate) const LEAD_IMPLIED: &str = "These equations follow, and are checked at each position:";
     pub(crate) const LEAD_JACOBIAN: &str =
@@ -158,17 +161,43 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
         (words::DRIVEN, derivation.inputs),
         (words::UNKNOWN, derivation.unknowns),
     ];
-    for (role, symbols) in roles {
+    for (role, symbols) in roles.into_iter().filter(|(_, symbols)| !symbols.is_empty()) {
         pen.list(role, &mut symbols.iter().map(|symbol| symbol.formula))?;
     }
 
+    match derivation.unknowns {
+        [] => {
+            pen.heading(words::OPEN_CHAIN)?;
+            pen.lead(words::LEAD_OPEN_CHAIN)?;
+        }
+        _ => solved(derivation, pen, &mut number)?,
+    }
+
+    quantities(pen, &mut number, words::POINTS, derivation.points)?;
+    quantities(pen, &mut number, words::OUTPUTS, derivation.outputs)?;
+    if !derivation.kernels.is_empty() {
+        pen.heading(words::OPERATIONS)?;
+        pen.kernels(derivation.kernels)?;
+    }
+    if !derivation.conditions.is_empty() {
+        pen.heading(words::CONDITIONS)?;
+        pen.lead(words::LEAD_CONDITIONS)?;
+        for condition in derivation.conditions {
+            pen.display(condition)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes the constraint equations, and the solutions for position, velocity and acceleration.
+fn solved(derivation: &Derivation, pen: &mut dyn Pen, number: &mut usize) -> fmt::Result {
     pen.heading(words::CONSTRAINTS)?;
     pen.lead(words::LEAD_CONSTRAINTS)?;
     pen.general_equation(&CONSTRAINTS)?;
-    equations(pen, &mut number, derivation.residual)?;
+    equations(pen, number, derivation.residual)?;
     if !derivation.implied.is_empty() {
         pen.lead(words::LEAD_IMPLIED)?;
-        equations(pen, &mut number, derivation.implied)?;
+        equations(pen, number, derivation.implied)?;
     }
 
     pen.heading(words::JACOBIAN)?;
@@ -187,13 +216,13 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
         pen.block(index + 1, block)?;
         pen.list(words::UNKNOWN, &mut block.unknowns.iter().copied())?;
         pen.lead(if block.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION })?;
-        equations(pen, &mut number, block.position)?;
+        equations(pen, number, block.position)?;
         if let Some(root) = &block.root {
             pen.branches(root)?;
         }
         pen.lead(&system(block))?;
         if let Some(determinant) = block.determinant {
-            equations(pen, &mut number, &[determinant])?;
+            equations(pen, number, &[determinant])?;
         }
         if let Some(inverse) = &block.inverse {
             pen.matrix(inverse)?;
@@ -202,7 +231,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
 
     if let (Some(determinant), [_, _, ..]) = (derivation.determinant, derivation.blocks) {
         pen.lead(words::LEAD_DETERMINANT)?;
-        equations(pen, &mut number, &[determinant])?;
+        equations(pen, number, &[determinant])?;
     }
 
     pen.heading(words::RATIOS)?;
@@ -210,7 +239,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     pen.general_equation(&RATIOS)?;
     pen.lead(words::LEAD_VELOCITY)?;
     pen.general_equation(&VELOCITY)?;
-    equations(pen, &mut number, derivation.ratios)?;
+    equations(pen, number, derivation.ratios)?;
 
     pen.heading(words::ACCELERATION)?;
     pen.lead(words::LEAD_ACCELERATION)?;
@@ -218,20 +247,20 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
     if !derivation.gamma.is_empty() {
         pen.lead(words::LEAD_GAMMA)?;
     }
-    equations(pen, &mut number, derivation.gamma)?;
+    equations(pen, number, derivation.gamma)?;
 
     if let Some(formulas) = derivation.ratio_derivatives {
         pen.heading(words::RATIO_DERIVATIVES)?;
         pen.lead(words::LEAD_RATIO_DERIVATIVES)?;
         pen.general_equation(&RATIO_DERIVATIVES)?;
-        equations(pen, &mut number, formulas)?;
+        equations(pen, number, formulas)?;
     }
     if let Some(eta) = derivation.jerk {
         pen.heading(words::JERK)?;
         pen.lead(words::LEAD_JERK)?;
         pen.general_equation(&JERK)?;
         pen.lead(words::LEAD_ETA)?;
-        equations(pen, &mut number, eta)?;
+        equations(pen, number, eta)?;
     }
     if let Some(sensitivity) = derivation.sensitivity {
         pen.heading(words::SENSITIVITY)?;
@@ -239,21 +268,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
         pen.general_equation(&SENSITIVITY)?;
         pen.lead(words::LEAD_PARAMETERS)?;
         pen.matrix(&sensitivity.jacobian)?;
-        equations(pen, &mut number, sensitivity.formulas)?;
-    }
-
-    quantities(pen, &mut number, words::POINTS, derivation.points)?;
-    quantities(pen, &mut number, words::OUTPUTS, derivation.outputs)?;
-    if !derivation.kernels.is_empty() {
-        pen.heading(words::OPERATIONS)?;
-        pen.kernels(derivation.kernels)?;
-    }
-    if !derivation.conditions.is_empty() {
-        pen.heading(words::CONDITIONS)?;
-        pen.lead(words::LEAD_CONDITIONS)?;
-        for condition in derivation.conditions {
-            pen.display(condition)?;
-        }
+        equations(pen, number, sensitivity.formulas)?;
     }
     Ok(())
 }

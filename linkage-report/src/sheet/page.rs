@@ -21,12 +21,16 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     let derivation = sheet.derivation;
     let mut page = Page::default();
     page.header(sheet);
-    page.constraints(derivation);
-    page.jacobian(derivation);
-    page.structure(derivation);
-    page.ratios(derivation);
-    page.acceleration(derivation);
-    page.requests(derivation);
+    if derivation.unknowns.is_empty() {
+        page.section(words::OPEN_CHAIN, |page| page.lead(words::LEAD_OPEN_CHAIN));
+    } else {
+        page.constraints(derivation);
+        page.jacobian(derivation);
+        page.structure(derivation);
+        page.ratios(derivation);
+        page.acceleration(derivation);
+        page.requests(derivation);
+    }
     page.quantities(words::POINTS, derivation.points);
     page.quantities(words::OUTPUTS, derivation.outputs);
     for scene in &sheet.scenes {

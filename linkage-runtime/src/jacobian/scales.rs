@@ -6,7 +6,7 @@ use crate::{Column, Dim, Matrix, Mechanism, Real};
 
 /// Divisors that make coordinates, residuals and the entries of [J A] nondimensional, so that no test depends on a
 /// unit. The divisor of an angle is 1, that of a length the largest derivative of its loop equation by an angle, which
-/// is about the longest link.
+/// is about the longest link; for a length in no loop equation see [`Mechanism::length_scale`].
 ///
 /// They are computed from the largest values that the entries of [J A] can have at the lengths of the mechanism, not
 /// from the entries at one position, and hold for the whole of a motion.
@@ -39,9 +39,10 @@ impl<T: Real, U: Dim, V: Dim> Scales<T, U, V> {
             let of_angles = larger(of_unknowns, of_angles(&by_inputs.row(row), M::INPUT_ANGLES));
             scale_or_one(if of_angles.is_zero() { terms[row] } else { of_angles })
         });
+        let free = scale_or_one(mechanism.length_scale(pose));
         let coordinates = Vector {
-            unknowns: of_coordinates(&by_unknowns, &residuals, M::UNKNOWN_ANGLES),
-            inputs: of_coordinates(&by_inputs, &residuals, M::INPUT_ANGLES),
+            unknowns: of_coordinates(&by_unknowns, &residuals, M::UNKNOWN_ANGLES, T::one()),
+            inputs: of_coordinates(&by_inputs, &residuals, M::INPUT_ANGLES, free),
         };
         Self { residuals, coordinates }
     }
@@ -87,13 +88,19 @@ fn of_angles<T: Real, C: Dim>(sizes: &Column<T, C>, angles: &[bool]) -> T {
     largest(sizes.iter().zip(angles).filter(|&(_, &is_angle)| is_angle).map(|(&size, _)| size))
 }
 
+/// The scales of coordinates; `free` is that of lengths without an entry.
 fn of_coordinates<T: Real, U: Dim, C: Dim>(
     sizes: &Matrix<T, U, C>,
     residuals: &Column<T, U>,
     angles: &[bool],
+    free: T,
 ) -> Column<T, C> {
     let entries = largest_entries(sizes, residuals);
-    Column::from_fn(|place| if angles[place] { T::one() } else { scale_or_one(entries[place]).recip() })
+    Column::from_fn(|place| match entries[place] {
+        _ if angles[place] => T::one(),
+        none if none.is_zero() => free,
+        entry => entry.recip(),
+    })
 }
 
 fn relative_to<T: Real, U: Dim, C: Dim>(

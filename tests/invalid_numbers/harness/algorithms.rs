@@ -86,6 +86,9 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     fn solve_jacobian(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {
         self.0.solve_jacobian(pose, right)
     }
+    fn length_scale(&self, pose: &M::Pose) -> f64 {
+        self.0.length_scale(pose)
+    }
 }
 
 /// A scene whose positions and equations are counted.

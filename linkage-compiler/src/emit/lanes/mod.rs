@@ -80,6 +80,15 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         return None;
     }
     let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound(&quote!([lane])));
+    let is_open = program.signatures.is_open();
+    let is_method =
+        program.functions.iter().any(|function| function.name == "kinematics_in_lane" && function.is_method);
+    let on = if is_method { quote!(self.) } else { quote!(Self::) };
+    // The coordinates of an open chain are given: only points and outputs read its kinematics.
+    let (found, taken) = match is_open && !has("quantities_in_lane") {
+        true => (quote!(_), TokenStream::new()),
+        false => (quote!(kinematics), quote!(let #kinematics { pose, rates, accelerations } = kinematics;)),
+    };
     let store_coordinates = stored_in_lane(columns.coordinates.iter().map(|column| column.value.clone()), 0);
     let quantities = match columns.quantities.is_empty() {
         false if !has("quantities_in_lane") => quote!(false),
@@ -99,8 +108,8 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
     };
     Some(quote! {
         #bound
-        let (kinematics, is_accepted) = self.kinematics_in_lane(start, branch, rates, accelerations);
-        let #kinematics { pose, rates, accelerations } = kinematics;
+        let (#found, is_accepted) = #on kinematics_in_lane(start, branch, rates, accelerations);
+        #taken
         #store_coordinates
         if QUANTITIES { #quantities } else { is_accepted }
     })
@@ -137,14 +146,21 @@ fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStre
         false => (["kinematics_near", "full_kinematics_near"], quote!(&start)),
     };
     let [function, full_function] = names.map(ident);
-    let plain = quote! {
-        let #kinematics { pose, rates, accelerations } = self.#function(#start, branch, rates, accelerations)?;
+    let is_open = program.signatures.is_open();
+    let plain = match is_open {
+        true => quote!(self.#function(#start, branch, rates, accelerations)?;),
+        false => quote! {
+            let #kinematics { pose, rates, accelerations } = self.#function(#start, branch, rates, accelerations)?;
+        },
     };
     let families = [(Family::Points, "points"), (Family::Outputs, "outputs")];
     let families = families.into_iter().filter(|(family, _)| program.signatures.has(*family));
     let families: Vec<Ident> = families.map(|(_, word)| ident(word)).collect();
     let full = match families.as_slice() {
         [] => plain.clone(),
+        families if is_open => quote! {
+            let #full_kinematics { #(#families,)* .. } = self.#full_function(#start, branch, rates, accelerations)?;
+        },
         families => quote! {
             let #full_kinematics { pose, rates, accelerations, #(#families),* } =
                 self.#full_function(#start, branch, rates, accelerations)?;

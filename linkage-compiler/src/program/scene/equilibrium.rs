@@ -19,13 +19,17 @@ impl ScenePlan<'_, '_, '_> {
         };
         let (free, driven) = (names(&self.signatures.free), names(&self.signatures.driven));
         let start = free.iter().map(|input| Expression::name(&guess).field(input)).collect();
-        let members = free.iter().chain(&driven).map(|input| (input.clone(), Expression::name(input)));
-        let near = Expression::Struct(
-            Type::Bare(self.signatures.types.coordinates.clone()),
-            members.collect(),
-            Some(Box::new(Expression::name(&guess).dereferenced())),
-        );
-        let found = self.mechanism().method("solve", [near.borrowed()]).tried().field("coordinates");
+        let is_open = self.plan.signatures.is_open();
+        // In an open chain these are all coordinates, in the order of the fields.
+        let given = if is_open { self.plan.fields() } else { [free.as_slice(), &driven].concat() };
+        let members = given.into_iter().map(|input| (input.clone(), Expression::name(input)));
+        let others = (!is_open).then(|| Box::new(Expression::name(&guess).dereferenced()));
+        let coordinates = Type::Bare(self.signatures.types.coordinates.clone());
+        let near = Expression::Struct(coordinates, members.collect(), others);
+        let found = match is_open {
+            true => near,
+            false => self.mechanism().method("solve", [near.borrowed()]).tried().field("coordinates"),
+        };
         let balance = Expression::call("balance", [Expression::name(&time), Expression::name(&q).borrowed()]).tried();
         let both = Expression::Tuple(vec![Expression::name(&q), balance]);
         let function = Expression::Closure {
@@ -45,14 +49,21 @@ impl ScenePlan<'_, '_, '_> {
             let drives = Expression::call("drives", [Expression::name(&time)]);
             body.before = vec![Statement::Let(Pattern::List(laws.collect()), drives)];
         }
-        let doc = lines([
+        let mut doc = lines([
             "The position of static equilibrium near the guess, stable or unstable, by Newton's method: the forces of the free",
             "inputs at rest are zero.",
             "",
             "# Errors",
-            "`PositionError::NotConverged` if none is found, `PositionError::OtherBranch` if a position near the guess is on another",
-            "branch, `PositionError::NotFinite` if a number is not finite.",
         ]);
+        doc.extend(match is_open {
+            true => lines([
+                "`PositionError::NotConverged` if none is found, `PositionError::NotFinite` if a number is not finite.",
+            ]),
+            false => lines([
+                "`PositionError::NotConverged` if none is found, `PositionError::OtherBranch` if a position near the guess is on another",
+                "branch, `PositionError::NotFinite` if a number is not finite.",
+            ]),
+        });
         self.add(self.signatures.equilibrium(), doc, body);
     }
 

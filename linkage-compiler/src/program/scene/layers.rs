@@ -163,6 +163,18 @@ impl ScenePlan<'_, '_, '_> {
         let arguments = &self.signatures.arguments;
         let input_rates = Expression::name(&arguments.input_rates);
         let mut body = Body::default();
+        let driver = Type::Bare(self.signatures.types.driver.clone());
+        if self.plan.signatures.is_open() {
+            if reads.contains(&Read::Pose) {
+                self.pose_at(&mut body);
+            }
+            if reads.contains(&Read::Rates) {
+                let call = Expression::associated(driver, "coordinate_rates", [input_rates]);
+                body.before.push(Statement::Let(Pattern::Name(arguments.rates.clone()), call));
+                body.calls.push(self.of_driver("coordinate_rates"));
+            }
+            return body;
+        }
         if reads.contains(&Read::Bias) {
             let found = [
                 (Read::Pose, "pose", &arguments.pose),
@@ -188,7 +200,6 @@ impl ScenePlan<'_, '_, '_> {
             false => Statement::Do(call),
         });
         if reads.contains(&Read::Rates) {
-            let driver = Type::Bare(self.signatures.types.driver.clone());
             let on = [Expression::name(&arguments.ratios).borrowed(), input_rates];
             let call = Expression::associated(driver, "coordinate_rates", on);
             body.before.push(Statement::Let(Pattern::Name(arguments.rates.clone()), call));

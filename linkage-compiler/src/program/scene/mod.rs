@@ -12,6 +12,7 @@ mod signatures;
 mod unreduced;
 mod validity;
 
+use super::doc::without_singular;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
 use super::names::Order;
@@ -109,6 +110,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
 
 impl ScenePlan<'_, '_, '_> {
     fn add(&mut self, signature: Function<Body>, doc: Vec<String>, body: Body) {
+        let doc = if self.plan.signatures.is_open() { without_singular(doc) } else { doc };
         self.functions.push(Function { doc, body: Some(body), ..signature });
     }
 

@@ -146,9 +146,10 @@ impl ScenePlan<'_, '_, '_> {
                 "`MotionError::NoInertia` if M is singular: some inputs could accelerate without a force.".to_owned(),
             );
         }
-        let mut doc = lines([
-            "The rates q' = (W v', v') and the input accelerations v'' from M v'' = Q: the right-hand side for an integrator.",
-        ]);
+        let rates = if self.plan.signatures.is_open() { "v'" } else { "(W v', v')" };
+        let mut doc = vec![format!(
+            "The rates q' = {rates} and the input accelerations v'' from M v'' = Q: the right-hand side for an integrator."
+        )];
         doc.extend(errors.clone());
         self.add(self.signatures.rates(), doc, body);
 

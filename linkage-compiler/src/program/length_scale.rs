@@ -1,0 +1,30 @@
+//! `length_scale` of an open chain with lengths as inputs: no loop equation gives these a scale.
+
+use super::doc::{lines, without_result};
+use super::expression::Expression;
+use super::function::{Body, results};
+use super::plan::{Plan, unnamed};
+use crate::ids::ColumnId;
+use crate::model::Kind;
+
+impl Plan<'_, '_> {
+    /// max |d point / d angle|, which is about the reach of the longest arm.
+    pub(super) fn length_scale(&mut self) {
+        let coordinates = &self.signatures.mechanism.coordinates;
+        let inputs = self.signatures.driver.inputs.iter().zip(&self.derivation.inputs);
+        let (angles, others): (Vec<_>, Vec<_>) = inputs.partition(|(id, _)| coordinates[**id].kind == Kind::Angle);
+        let angles: Vec<ColumnId> = angles.into_iter().map(|(_, &column)| column).collect();
+        if others.is_empty() {
+            return;
+        }
+        let nodes = self.derivation.point_scales(&angles);
+        if nodes.is_empty() {
+            return;
+        }
+        let all = Expression::List(results(0..nodes.len()));
+        let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
+        let body = Body::of(kernel, Expression::runtime("largest", [all]));
+        let doc = lines(["The largest derivative that a point can have by an angle at these lengths."]);
+        self.add(self.signatures.length_scale(), without_result(doc), body);
+    }
+}
