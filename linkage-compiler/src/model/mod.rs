@@ -26,3 +26,4 @@ pub use mechanism::{
 pub use name::Name;
 pub use request::Request;
 pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, SceneRequest};
+pub use scope::VECTOR_FUNCTIONS;
