@@ -102,7 +102,10 @@ fn invocations(tokens: TokenStream) -> Vec<TokenStream> {
 /// True if a method is called: `.sqrt()`.
 fn has_method(tokens: TokenStream) -> bool {
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-    let is_method = |three: &[TokenTree]| matches!(three, [TokenTree::Punct(dot), TokenTree::Ident(_), TokenTree::Group(_)] if dot.as_char() == '.');
+    let is_method = |three: &[TokenTree]| match three {
+        [TokenTree::Punct(dot), TokenTree::Ident(_), TokenTree::Group(_)] => dot.as_char() == '.',
+        _ => false,
+    };
     tokens.windows(3).any(is_method)
         || tokens.iter().any(|token| matches!(token, TokenTree::Group(group) if has_method(group.stream())))
 }

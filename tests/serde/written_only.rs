@@ -65,7 +65,7 @@ fn singular_positions() {
     let m = Parallelogram::default();
     let report =
         singularity::report(&m, &m.pose_at(&ParallelogramCoordinates { theta: 0.0, phi: 0.0, psi: 0.0 })).unwrap();
-    let written = to_value(&report).unwrap();
+    let written = to_value(report).unwrap();
     assert_eq!((&written["rank"], &written["groups"][0]["name"]), (&json!(1), &json!("phi, psi")));
     assert_eq!(written["free"].as_array().unwrap().len(), report.free().count());
     assert_eq!(written["admissible"].as_array().unwrap().len(), report.admissible().count());
