@@ -9,6 +9,7 @@ use linkage_runtime::{InputError, PathError, PositionError};
 /// Any error of this crate, for functions that return several kinds: `?` converts the other error types to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Error {
     /// A number or a setting is invalid.
     Input(InputError),

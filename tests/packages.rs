@@ -71,3 +71,14 @@ fn packages_hold_what_users_need() {
         assert!(others.is_empty(), "{name} has {others:?}");
     }
 }
+
+/// Without the feature `serde` no crate of that name is built.
+#[test]
+fn serde_is_built_on_request_only() {
+    let tree = |features: &str| {
+        cargo(&["tree", "--package=linkage", "--edges=normal", "--prefix=none", "--no-default-features", features])
+    };
+    let has_serde = |tree: &str| tree.lines().any(|line| line.starts_with("serde"));
+    assert!(!has_serde(&tree("--features=std,dynamics,drawing,sheet,double-double,simd")));
+    assert!(has_serde(&tree("--features=std,serde")));
+}

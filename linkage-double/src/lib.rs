@@ -36,11 +36,30 @@ use nalgebra::ComplexField;
 /// assert!((third.low() - 1.850_371_707_708_594e-17).abs() < 1e-32);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Parts"))]
 pub struct DoubleDouble {
     /// The double nearest to the number.
     high: f64,
     /// The rest, at most half an ulp of `high`.
     low: f64,
+}
+
+/// Two doubles that have been read, not yet checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Parts {
+    high: f64,
+    low: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Parts> for DoubleDouble {
+    type Error = &'static str;
+
+    fn try_from(Parts { high, low }: Parts) -> Result<Self, Self::Error> {
+        let is_nearest = !high.is_finite() || high + low == high;
+        if is_nearest { Ok(Self { high, low }) } else { Err("`high` is not the double nearest to `high + low`") }
+    }
 }
 
 impl DoubleDouble {

@@ -6,6 +6,11 @@ use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
 
 /// The equations of motion in the inputs, without frictions and stops: M v'' = Q, u' = W v', u'' = W v'' + `bias`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Equations<T: Real, U: Dim, V: Dim> {
     /// M.
     pub mass: Matrix<T, V, V>,

@@ -12,12 +12,23 @@ const SCALE_FACTOR: f64 = 64.0;
 
 /// The generalised forces of the free inputs at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Copy + core::fmt::Debug + serde::Serialize",
+        deserialize = "T: Copy + core::fmt::Debug + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Balance<T, const N: usize> {
     /// The generalised forces: zero in equilibrium.
+    #[cfg_attr(feature = "serde", serde(with = "linkage_runtime::__shared::array"))]
     pub forces: [T; N],
     /// The scale of each force: the sum of the magnitudes of its terms.
+    #[cfg_attr(feature = "serde", serde(with = "linkage_runtime::__shared::array"))]
     pub scales: [T; N],
     /// The derivatives of the forces with respect to the inputs, column by column.
+    #[cfg_attr(feature = "serde", serde(with = "linkage_runtime::__shared::columns"))]
     pub slopes: [[T; N]; N],
 }
 

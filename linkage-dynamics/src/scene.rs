@@ -224,6 +224,11 @@ pub(crate) fn coordinate_name<M: Mechanism>(column: usize) -> &'static str {
 
 /// Inertia and forces in all coordinates, M q'' + Psi_q' lambda = F, split into unknowns u and inputs v.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Unreduced<T: Real, U: Dim, V: Dim> {
     /// M_uu.
     pub unknowns: Matrix<T, U, U>,

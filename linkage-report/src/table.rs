@@ -29,6 +29,7 @@ use linkage_runtime::{Dim, InputError};
 /// # Ok::<(), linkage::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Table {
     names: Vec<&'static str>,
     columns: Vec<Vec<f64>>,

@@ -29,12 +29,19 @@ pub use crate::{
     AnyBranch, Assembled, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion,
     PointMotion, PositionError, Real, Slider, Slope, Solution, lane, newton, newton_any_branch, real,
 };
-#[cfg(feature = "serde")]
-pub use serde;
 
 /// The types of emitted derivations.
 pub mod derivation {
     pub use crate::derivation as prelude;
+}
+
+/// The crate `serde`, and names for its attributes.
+#[cfg(feature = "serde")]
+pub mod serde {
+    pub use ::serde::*;
+
+    pub use crate::Real;
+    pub use crate::written::direction;
 }
 
 /// Traits imported without a name, for the methods that emitted code calls.

@@ -5,6 +5,8 @@ pub use crate::linear::{Factorization, product_of_pivots, same_signs};
 pub use crate::newton::{Constraints, search};
 pub use crate::position::hadamard_ratio;
 pub use crate::scalar::{arithmetic, larger, largest, smallest, to_f64};
+#[cfg(feature = "serde")]
+pub use crate::written::{array, columns};
 
 /// Implements `Clone`, `Copy`, `PartialEq` and `Debug` field by field for a struct whose fields have associated types
 /// of its parameter: `derive` would require the traits of the parameter itself.

@@ -15,20 +15,18 @@ use crate::{D, Dim, Real};
 #[derive(Clone, Copy)]
 pub struct Column<X: Copy + Debug, R: Dim>(R::Array<X>);
 
-/// A column is written as a sequence.
-#[cfg(feature = "serde")]
-impl<X: Copy + Debug + serde::Serialize, R: Dim> serde::Serialize for Column<X, R> {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self)
-    }
-}
-
 impl<X: Copy + Debug, R: Dim> Column<X, R> {
     /// Builds the column whose entry at index i is `entry(i)`.
     #[inline]
     #[must_use]
     pub fn from_fn(entry: impl FnMut(usize) -> X) -> Self {
         Self(R::array(entry))
+    }
+
+    /// Builds the column of these entries; `None` if their number is not that of the column.
+    #[cfg(feature = "serde")]
+    pub(crate) fn from_slice(entries: &[X]) -> Option<Self> {
+        R::from_slice(entries).map(Self)
     }
 
     /// Builds a column of equal entries.

@@ -18,6 +18,8 @@ pub trait Dim: Copy + Debug + Eq + 'static {
 
     /// Builds the array whose entry at index i is `entry(i)`.
     fn array<X: Copy + Debug>(entry: impl FnMut(usize) -> X) -> Self::Array<X>;
+    /// Builds the array of these entries; `None` if their number is not [`COUNT`](Self::COUNT).
+    fn from_slice<X: Copy + Debug>(entries: &[X]) -> Option<Self::Array<X>>;
     /// Applies a function to each entry, without bounds checks.
     fn map<X: Copy + Debug, Y: Copy + Debug>(entries: Self::Array<X>, f: impl FnMut(X) -> Y) -> Self::Array<Y>;
 }
@@ -33,6 +35,10 @@ impl<const N: usize> Dim for D<N> {
     #[inline]
     fn array<X: Copy + Debug>(entry: impl FnMut(usize) -> X) -> [X; N] {
         core::array::from_fn(entry)
+    }
+
+    fn from_slice<X: Copy + Debug>(entries: &[X]) -> Option<[X; N]> {
+        entries.try_into().ok()
     }
 
     #[inline]

@@ -50,6 +50,8 @@ mod sine;
 pub mod singularity;
 pub mod skeleton;
 mod turn;
+#[cfg(feature = "serde")]
+mod written;
 
 pub use branch::{Assembled, Elbow, Side, Slider, Slope};
 pub use column::Column;

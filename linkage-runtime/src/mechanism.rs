@@ -9,6 +9,7 @@ use crate::{Column, Dim, Matrix, PositionError, Real};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Group {
     /// The unknowns by name, as in error messages.
     pub name: &'static str,

@@ -60,11 +60,16 @@ mod decomposition;
 
 use core::fmt;
 
+#[cfg(feature = "serde")]
+use serde::ser::SerializeStruct;
+
 use crate::error::{all_finite, finite};
 use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::jacobian::{Blocks, largest_entries, scale_or_one};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
+#[cfg(feature = "serde")]
+use crate::written::Sequence;
 use crate::{Column, Dim, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real, real};
 use decomposition::Decomposition;
 
@@ -319,23 +324,53 @@ impl<M: Mechanism> Singularity<M> {
 
     /// A basis of the rates u' that are possible while the inputs rest; empty if J is regular. The rate of the largest
     /// entry of each is 1.
-    pub fn free(&self) -> impl Iterator<Item = PerUnknown<M>> {
+    pub fn free(&self) -> impl Iterator<Item = PerUnknown<M>> + Clone {
         (self.rank..M::U::COUNT).map(|column| self.free.column(column))
     }
 
     /// A basis of the possible rates v' of the inputs: as many as there are inputs if J is regular.
-    pub fn admissible(&self) -> impl Iterator<Item = PerInput<M>> {
+    pub fn admissible(&self) -> impl Iterator<Item = PerInput<M>> + Clone {
         (M::V::COUNT - self.admissible_count..M::V::COUNT).map(|column| self.admissible.column(column))
     }
 
     /// The exchanges of one input for one unknown that make J regular.
-    pub fn drivers(&self) -> impl Iterator<Item = Exchange<M::Scalar>> {
+    pub fn drivers(&self) -> impl Iterator<Item = Exchange<M::Scalar>> + Clone {
         let pairs = (0..M::V::COUNT).flat_map(|input| (0..M::U::COUNT).map(move |unknown| (unknown, input)));
         pairs.filter_map(|(unknown, input)| {
             let sigma_min = self.exchanges[(unknown, input)];
             let exchange = Exchange { unknown: M::UNKNOWNS[unknown], input: M::INPUTS[input], sigma_min };
             (sigma_min > M::Scalar::zero()).then_some(exchange)
         })
+    }
+}
+
+/// The results of the functions are written, each under its name.
+#[cfg(feature = "serde")]
+impl<M: Mechanism<Scalar: serde::Serialize>> serde::Serialize for Singularity<M> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct("Singularity", 8)?;
+        fields.serialize_field("determinant", &self.determinant)?;
+        fields.serialize_field("rank", &self.rank)?;
+        fields.serialize_field("rank_with_inputs", &self.rank_with_inputs)?;
+        fields.serialize_field("sigma_min", &self.sigma_min)?;
+        fields.serialize_field("groups", &self.groups)?;
+        fields.serialize_field("free", &Sequence(self.free()))?;
+        fields.serialize_field("admissible", &Sequence(self.admissible()))?;
+        fields.serialize_field("drivers", &Sequence(self.drivers()))?;
+        fields.end()
+    }
+}
+
+/// The results of the functions are written, each under its name.
+#[cfg(feature = "serde")]
+impl<M: Mechanism<Scalar: serde::Serialize>> serde::Serialize for Accuracy<M> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct("Accuracy", 4)?;
+        fields.serialize_field("residual", &self.residual)?;
+        fields.serialize_field("sigma_min", &self.sigma_min)?;
+        fields.serialize_field("attainable", &self.attainable())?;
+        fields.serialize_field("unknowns", &self.unknowns())?;
+        fields.end()
     }
 }
 

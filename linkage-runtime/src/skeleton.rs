@@ -5,6 +5,7 @@ use crate::{Column, Dim, Mechanism};
 /// A part of a drawing. Joints are given by their index in [`Skeleton::JOINTS`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Part {
     /// A pivot on the ground.
     Ground(usize),

@@ -6,6 +6,7 @@ use crate::SweepError;
 
 /// A column asked for. A given and a found column may have the same name.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Column {
     /// A given column.
     Given(Key),
@@ -15,6 +16,7 @@ pub enum Column {
 
 /// The name or index of a column.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Key {
     /// The name.
     Name(String),
@@ -52,6 +54,7 @@ pub fn found(key: impl Into<Key>) -> Column {
 
 /// The place of a column of a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Place {
     /// The index in [`Lanes::GIVEN`].
     Given(usize),

@@ -8,6 +8,7 @@ use crate::{Sweep, SweepError};
 
 /// The progress of a sweep, after one more chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Progress {
     /// The rows done.
     pub rows_done: u64,

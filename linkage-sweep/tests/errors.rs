@@ -135,3 +135,32 @@ fn a_stored_plan_is_the_same_plan() {
     assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), common::plan());
     assert!(serde_json::from_str::<Plan>(&text.replace("seed", "sead")).is_err());
 }
+
+/// Results of reducers come back with their bits; errors of rejected rows are written only.
+#[cfg(feature = "serde")]
+#[test]
+fn results_can_be_stored() {
+    use linkage_sweep::{Bins, Bounds, Extreme, Kind, Place, Progress, Ranked, RejectedKind, Rejections, Unbeaten};
+    use serde_json::{from_str, json, to_string, to_value};
+
+    macro_rules! there_and_back {
+        ($($Type:ty: $value:expr;)*) => {$(
+            let text = to_string(&$value).unwrap();
+            assert_eq!(from_str::<$Type>(&text).unwrap(), $value, "{text}");
+        )*};
+    }
+    there_and_back! {
+        Ranked: Ranked { score: 0.1, case: 3, first_row: 36 };
+        Unbeaten<2>: Unbeaten { scores: [0.1, 1.0 / 3.0], case: 3, first_row: 36 };
+        Bounds<f64>: Bounds { least: Some(Extreme { value: 0.1, row: 3 }), most: None };
+        Bins: Bins { from: 0.1, to: 0.7, counts: vec![1, 2], below: 3, above: 4 };
+        Progress: Progress { rows_done: 1, rows: 2, chunks_done: 3, chunks: 4, rejected: 5 };
+        (Column, Place): (given("theta2"), Place::Found(3));
+    }
+    let scores = r#"{ "scores": [0.1], "case": 3, "first_row": 36 }"#;
+    let error = from_str::<Unbeaten<2>>(scores).unwrap_err().to_string();
+    assert!(error.contains("invalid length 1, expected a sequence of length 2"), "{error}");
+    let kinds = vec![RejectedKind { kind: Kind::Singular, count: 2, first_row: 5, error: None }];
+    let expected = json!({ "kinds": [{ "kind": "Singular", "count": 2, "first_row": 5, "error": null }] });
+    assert_eq!(to_value(Rejections { kinds }).unwrap(), expected);
+}

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::names::{comment, ident};
-use super::types::derives;
+use super::types::{derives, derives_of_pose};
 use crate::model::Mechanism;
 use crate::program::TypeNames;
 
@@ -22,7 +22,7 @@ pub(super) fn kinematics(mechanism: &Mechanism, name: &Ident, types: &TypeNames,
         #[doc = " The accelerations q''."]
         pub accelerations: #accelerations<T>,
     };
-    let derives = quote!(#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]);
+    let derives = derives_of_pose(mechanism, root);
     let title = comment(&format!(" A position of [`{name}`] with its rates and accelerations."));
     let of_quantities = moving_quantities(mechanism, types, root);
     let full = (!of_quantities.is_empty()).then(|| {

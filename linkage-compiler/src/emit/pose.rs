@@ -6,6 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::names::{comment, ident};
+use super::types::serde_of_direction;
 use crate::derivation::Derivation;
 use crate::graph::Texts;
 use crate::model::{Coordinate, Driver, Kind, Mechanism};
@@ -30,23 +31,29 @@ pub(super) fn guessed(mechanism: &Mechanism, driver: &Driver, root: &TokenStream
 }
 
 /// The fields of a pose.
-pub(super) fn fields(derived: &Derived, derivation: &Derivation, root: &TokenStream) -> TokenStream {
+pub(super) fn fields(
+    mechanism: &Mechanism,
+    derived: &Derived,
+    derivation: &Derivation,
+    root: &TokenStream,
+) -> TokenStream {
+    let checked = serde_of_direction(mechanism);
     let plan = &derived.pose;
     let mut texts = Texts::default();
     let mut members = TokenStream::new();
-    let mut member = |name: &str, text: String, of: TokenStream| {
+    let mut member = |name: &str, text: String, attribute: Option<&TokenStream>, of: TokenStream| {
         let (name, text) = (ident(name), comment(&text));
-        members.extend(quote!(#[doc = #text] pub #name: #of,));
+        members.extend(quote!(#[doc = #text] #attribute pub #name: #of,));
     };
     for (angle, name) in &plan.directions {
         let text = format!(" The direction of `{}`.", texts.of(&derivation.graph, *angle));
-        member(name, text, quote!(#root::__rt::UnitComplex<T>));
+        member(name, text, checked.as_ref(), quote!(#root::__rt::UnitComplex<T>));
     }
     for (index, name, _) in &plan.values {
-        member(name, format!(" The coordinate `{}`.", derivation.coordinates[*index].name), quote!(T));
+        member(name, format!(" The coordinate `{}`.", derivation.coordinates[*index].name), None, quote!(T));
     }
     for (node, name, _) in &plan.externals {
-        member(name, format!(" `{}`.", texts.of(&derivation.graph, *node)), quote!(T));
+        member(name, format!(" `{}`.", texts.of(&derivation.graph, *node)), None, quote!(T));
     }
     for (block, name, _) in &plan.determinants {
         let block = &derivation.blocks[*block];
@@ -56,7 +63,7 @@ pub(super) fn fields(derived: &Derived, derivation: &Derivation, root: &TokenStr
             _ => format!("The determinant of the block of `{}`,", block.names(derivation).replace(", ", "`, `")),
         };
         let formula = texts.of(&derivation.graph, determinant.value);
-        member(name, format!(" {of} = `{formula}`."), quote!(T));
+        member(name, format!(" {of} = `{formula}`."), None, quote!(T));
     }
     members
 }

@@ -31,3 +31,4 @@ pub use opening::{Load, LoadKind, Opened};
 pub use places::Places;
 pub use request::Request;
 pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, SceneRequest};
+pub use scope::VECTOR_FUNCTIONS;

@@ -27,7 +27,8 @@ pub enum Request {
 }
 
 impl Request {
-    const ALL: [(&str, Self); 7] = [
+    /// The keywords.
+    pub const ALL: [(&str, Self); 7] = [
         ("limits", Self::Limits),
         ("jerk", Self::Jerk),
         ("velocity_ratio_derivatives", Self::VelocityRatioDerivatives),

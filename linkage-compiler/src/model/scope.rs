@@ -64,7 +64,7 @@ pub(super) struct Undeclared {
 }
 
 /// The functions of the language besides the operation table, with their number of arguments.
-pub(super) const VECTOR_FUNCTIONS: [(&str, usize); 7] =
+pub const VECTOR_FUNCTIONS: [(&str, usize); 7] =
     [("x", 1), ("y", 1), ("norm", 1), ("angle", 1), ("dot", 2), ("cross", 2), ("powi", 2)];
 
 impl Scope {

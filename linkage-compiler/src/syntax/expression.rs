@@ -51,6 +51,11 @@ pub enum Unit {
     Radians,
 }
 
+impl Unit {
+    /// The units by name.
+    pub const ALL: [(&str, Self); 2] = [("deg", Self::Degrees), ("rad", Self::Radians)];
+}
+
 /// A name in an expression with a syntax error.
 #[derive(Debug, Clone)]
 pub struct Unread {
@@ -405,13 +410,12 @@ fn number(literal: &Lit, arena: &mut Expressions) -> syn::Result<ExpressionId> {
         Lit::Float(float) => (float.base10_digits().to_owned(), float.suffix().to_owned()),
         other => return Err(foreign::not_a_number(other)),
     };
-    let unit = match suffix.as_str() {
-        "" => Unit::None,
-        "deg" => Unit::Degrees,
-        "rad" => Unit::Radians,
-        unknown => {
-            arena.unit(unknown, literal.span().into(), &digits);
-            if unknown.starts_with("deg") { Unit::Degrees } else { Unit::None }
+    let unit = match Unit::ALL.iter().find(|(name, _)| *name == suffix) {
+        Some((_, unit)) => *unit,
+        None if suffix.is_empty() => Unit::None,
+        None => {
+            arena.unit(&suffix, literal.span().into(), &digits);
+            if suffix.starts_with("deg") { Unit::Degrees } else { Unit::None }
         }
     };
     Ok(arena.push(Expression::Number { digits, unit }, literal.span().into()))
@@ -423,9 +427,8 @@ fn unknown_unit(suffix: &str, digits: &str) -> String {
     if is_type.contains(&suffix) {
         return format!("a number has no type: write `{digits}`");
     }
-    let angle = ["deg", "rad"].into_iter().find(|unit| suffix.starts_with(unit));
-    match angle {
-        Some(unit) => format!("unknown unit `{suffix}`: write `{digits}{unit}`"),
+    match Unit::ALL.iter().find(|(unit, _)| suffix.starts_with(unit)) {
+        Some((unit, _)) => format!("unknown unit `{suffix}`: write `{digits}{unit}`"),
         None => format!(
             "unknown unit `{suffix}`: write `{digits}`, with all numbers in one system of units; an angle may have `deg`"
         ),

@@ -86,7 +86,8 @@ impl StatementKind {
     }
 }
 
-pub(super) const KEYWORDS: [&str; 15] = [
+/// The words that begin a statement.
+pub const KEYWORDS: [&str; 15] = [
     "param",
     "input",
     "unknown",

@@ -20,8 +20,8 @@ use syn::parse::{ParseStream, Parser};
 use crate::diagnostics::Diagnostics;
 pub use expression::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
 pub(crate) use foreign::constant_of_rust;
-pub use kind::StatementKind;
-pub use scene::{Body, Effect, EffectKind, Joint, Place, Scene};
+pub use kind::{KEYWORDS, StatementKind};
+pub use scene::{Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Place, Scene};
 pub use statement::Statement;
 
 /// One `mechanism NAME { … }`.

@@ -101,7 +101,8 @@ pub enum Place {
     Between(ExpressionId, ExpressionId),
 }
 
-pub(super) const EFFECTS: [&str; 15] = [
+/// The words that begin an effect.
+pub const EFFECTS: [&str; 15] = [
     "inertia",
     "gravity",
     "spring",
@@ -119,7 +120,8 @@ pub(super) const EFFECTS: [&str; 15] = [
     "equilibrium",
 ];
 
-pub(super) const PROPERTIES: [&str; 4] = ["mass", "inertia", "center", "angle"];
+/// The words that begin a property of a body.
+pub const PROPERTIES: [&str; 4] = ["mass", "inertia", "center", "angle"];
 
 /// Words that are written for an effect or a property.
 const SYNONYMS: [(&str, &str); 21] = [

@@ -43,6 +43,11 @@ pub use validate::{validate_contacts, validate_stops};
 
 /// The scalar s(q), a coordinate or an output, along which a friction or a stop acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ContactCoordinate<T: Real, U: Dim, V: Dim> {
     /// s.
     pub value: T,
@@ -56,6 +61,7 @@ pub struct ContactCoordinate<T: Real, U: Dim, V: Dim> {
 
 /// A friction or a stop, evaluated at one state.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound(serialize = "T: serde::Serialize")))]
 pub struct Contact<T: Real, U: Dim, V: Dim> {
     /// The name used in errors: `friction on theta3`.
     pub name: &'static str,
@@ -67,6 +73,7 @@ pub struct Contact<T: Real, U: Dim, V: Dim> {
 
 /// The law of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ContactLaw<T> {
     /// Dry friction: |f| <= limit while it sticks, f = -sign(s') limit while it slips.
     Friction {

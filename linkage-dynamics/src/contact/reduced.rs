@@ -11,6 +11,7 @@ use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput, Real};
 ///
 /// No force accelerates a coordinate whose motion is prescribed: see [`prescribe`](Self::prescribe).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound(serialize = "T: serde::Serialize")))]
 pub struct ReducedEquations<T: Real, V: Dim, C: Dim> {
     /// The name of the scene, used in errors.
     pub scene: &'static str,
@@ -30,6 +31,7 @@ pub struct ReducedEquations<T: Real, V: Dim, C: Dim> {
 
 /// A contact in the independent coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound(serialize = "T: serde::Serialize")))]
 pub struct ReducedContact<T: Real, V: Dim> {
     /// The name used in errors.
     pub name: &'static str,

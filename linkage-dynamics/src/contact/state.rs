@@ -22,6 +22,11 @@ pub(super) const ZERO_ULPS: f64 = 16.0;
 /// greatest impact rate since it last rested, or where the rebound would be shorter than the rounding error of the
 /// time, or lower than that of the gap ([`with_resolution`](Self::with_resolution), which simulations call).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Contacts<T: Real, C: Dim> {
     /// The mode of each contact, in the order of the scene.
     pub modes: Column<Mode, C>,
@@ -33,6 +38,11 @@ pub struct Contacts<T: Real, C: Dim> {
 
 /// The accelerations, and the forces of the contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
     /// v''.
     pub acceleration: Column<T, V>,

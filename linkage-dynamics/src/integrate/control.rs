@@ -18,9 +18,35 @@ const LEAST_TOLERANCE_ULPS: f64 = 10.0;
 
 /// The allowed local error of component i: `relative` (`scale_i` + |`y_i`|).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"),
+        try_from = "Written<T, N>"
+    )
+)]
 pub struct Tolerance<T: Real, N: Dim> {
     relative: f64,
     scale: Column<T, N>,
+}
+
+/// A tolerance that has been read, not yet checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(bound(deserialize = "T: serde::Deserialize<'de>"))]
+struct Written<T: Real, N: Dim> {
+    relative: f64,
+    scale: Column<T, N>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, N: Dim> TryFrom<Written<T, N>> for Tolerance<T, N> {
+    type Error = InputError;
+
+    fn try_from(Written { relative, scale }: Written<T, N>) -> Result<Self, InputError> {
+        Self::new(relative, scale)
+    }
 }
 
 impl<T: Real, N: Dim> Tolerance<T, N> {

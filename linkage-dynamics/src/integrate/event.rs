@@ -22,6 +22,7 @@ const EQUAL_ULPS: f64 = 16.0;
 
 /// The direction in which an event function passes through zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Crossing {
     /// From negative to positive.
     Rising,

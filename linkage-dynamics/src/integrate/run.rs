@@ -35,6 +35,11 @@ pub struct Counts {
 
 /// A point of an integration: the end of a step, or an event within one.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Step<T: Real, N: Dim> {
     /// The time.
     pub t: T,

@@ -51,6 +51,7 @@ const LEAST_CLEARANCE: f64 = 0.15;
 
 /// The behaviour of a simulation at a singularity of the inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AtSingularity {
     /// Continue: in other coordinates at a dead point, straight on at a change point.
     #[default]

@@ -5,6 +5,13 @@ use crate::{Coordinates, Inputs, Mode, Rates, Scene};
 use linkage_runtime::Column;
 
 /// The state of a simulation at one time.
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound(
+        serialize = "S::Scalar: serde::Serialize, Coordinates<S>: serde::Serialize, Rates<S>: serde::Serialize"
+    ))
+)]
 pub struct State<S: Scene> {
     /// The time.
     pub t: S::Scalar,
@@ -21,6 +28,7 @@ pub struct State<S: Scene> {
 
 /// The state of a friction or a stop at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Touch {
     /// The name: `friction on theta3`.
     pub name: &'static str,
@@ -46,6 +54,15 @@ impl<S: Scene> State<S> {
 linkage_runtime::__by_fields!([S: Scene] State<S> { t, q, rates, event, contacts });
 
 /// The forces of frictions, stops, drives and joints.
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "S::Scalar: serde::Serialize, Inputs<S>: serde::Serialize, S::Reactions: serde::Serialize",
+        deserialize = "S::Scalar: serde::Deserialize<'de>, Inputs<S>: serde::Deserialize<'de>, \
+                       S::Reactions: serde::Deserialize<'de>"
+    ))
+)]
 pub struct Loads<S: Scene> {
     /// The force of each friction and stop along its scalar s, in the order of declaration: its work is f ds. With
     /// redundant contacts the forces are not unique; this is one solution.

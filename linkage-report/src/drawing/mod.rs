@@ -81,6 +81,7 @@ struct Units {
 /// The error of a drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum DrawingError {
     /// The drawing is empty.
     Empty,

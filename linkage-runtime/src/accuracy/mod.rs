@@ -107,6 +107,7 @@ impl<M: Assembly> PositionMethod<M> for ClosedForm {
 
 /// Coordinates and their pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reached<Q, P> {
     /// The coordinates; angles are continuous over full turns.
     pub coordinates: Q,

@@ -16,6 +16,7 @@ pub struct Along<M, F> {
 
 /// Coordinates of a mechanism and the parameter of its inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AlongCoordinates<Q, T = f64> {
     /// The coordinates of the mechanism. Their inputs are unused: [`Along::position`] returns those at the parameter.
     pub q: Q,
@@ -25,6 +26,7 @@ pub struct AlongCoordinates<Q, T = f64> {
 
 /// Rates of the coordinates of a mechanism and of the parameter of its inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AlongRates<R, T = f64> {
     /// The rates of the coordinates. Those of the inputs are unused: they are dv/ds s'.
     pub rates: R,

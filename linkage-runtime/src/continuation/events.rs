@@ -13,6 +13,7 @@ use crate::{D, Dim, Mechanism, PathError, PositionError, real};
 
 /// An event of a path. The step ends at the event, located to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Event<R> {
     /// The determinant of a group of unknowns changes its sign: the input reverses, and the path continues.
     DeadPoint {

@@ -6,6 +6,7 @@ use crate::{InputError, Real, real};
 
 /// The policy at a change point, where motions of the mechanism cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AtChangePoint {
     /// The path continues smoothly: a parallelogram stays a parallelogram.
     #[default]
@@ -20,6 +21,7 @@ pub enum AtChangePoint {
 
 /// The initial direction of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Direction<R> {
     /// The input increases.
     Increasing,
@@ -33,6 +35,7 @@ pub enum Direction<R> {
 /// The options of path following. Distances are nondimensional: angles in radians, lengths divided by the lengths of
 /// their loops. There are no tolerances: positions and events are accurate to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Options<T = f64> {
     /// The longest step, by default 1/4.
     pub longest_step: T,

@@ -13,6 +13,13 @@ use crate::scalar::to_f64;
 use crate::{D, Dim, InputError, Mechanism, PathError, PositionError, position, real};
 
 /// The end of a step of a path.
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound(
+        serialize = "M::Scalar: serde::Serialize, M::Coordinates: serde::Serialize, M::Rates: serde::Serialize"
+    ))
+)]
 pub struct PathStep<M: Mechanism> {
     /// The position.
     pub position: M::Coordinates,

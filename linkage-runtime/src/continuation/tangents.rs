@@ -2,6 +2,12 @@
 
 use core::ops::Index;
 
+#[cfg(feature = "serde")]
+use serde::ser::SerializeStruct;
+
+#[cfg(feature = "serde")]
+use crate::written::Sequence;
+
 /// The most tangents of one change point: three parallelograms side by side, singular at once, have 2^3, seven in a
 /// chain 7 + 1. Every event takes the memory for this many sets of coordinates.
 pub(super) const MOST_TANGENTS: usize = 8;
@@ -44,6 +50,17 @@ impl<R: Copy> Tangents<R> {
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.is_complete
+    }
+}
+
+/// The rates are written as a sequence of [`len`](Tangents::len) entries.
+#[cfg(feature = "serde")]
+impl<R: serde::Serialize> serde::Serialize for Tangents<R> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct("Tangents", 2)?;
+        fields.serialize_field("rates", &Sequence(self.rates.iter().flatten()))?;
+        fields.serialize_field("is_complete", &self.is_complete)?;
+        fields.end()
     }
 }
 

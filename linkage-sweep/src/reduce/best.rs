@@ -20,6 +20,7 @@ pub struct Best<F, const N: usize> {
 
 /// A case and its score.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ranked {
     /// The score.
     pub score: f64,

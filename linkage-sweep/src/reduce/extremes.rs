@@ -13,6 +13,7 @@ pub struct Extremes {
 
 /// The least and the largest number of a column; none if no row is accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bounds<T> {
     /// The least number.
     pub least: Option<Extreme<T>>,
@@ -22,6 +23,7 @@ pub struct Bounds<T> {
 
 /// A number and the first row that has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extreme<T> {
     /// The number.
     pub value: T,

@@ -21,8 +21,10 @@ pub struct Front<F, const N: usize, const K: usize> {
 
 /// A case that no other beats, and its scores.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unbeaten<const K: usize> {
     /// The scores.
+    #[cfg_attr(feature = "serde", serde(with = "linkage_runtime::__shared::array"))]
     pub scores: [f64; K],
     /// The number of the case.
     pub case: u64,

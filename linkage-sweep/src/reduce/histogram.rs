@@ -18,6 +18,7 @@ pub struct Histogram {
 
 /// The counts of a histogram.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bins {
     /// The lower end of the first bin.
     pub from: f64,

@@ -14,6 +14,7 @@ pub struct Rejected;
 
 /// The rejected rows of a sweep.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Rejections {
     /// The kinds that occur, each once, in the order of [`Kind`].
     pub kinds: Vec<RejectedKind>,
@@ -21,6 +22,7 @@ pub struct Rejections {
 
 /// The rejected rows of one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RejectedKind {
     /// The kind.
     pub kind: Kind,
@@ -35,6 +37,7 @@ pub struct RejectedKind {
 /// The variants of [`PositionError`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Kind {
     /// [`PositionError::Singular`].
     Singular,

@@ -10,6 +10,11 @@ use linkage_runtime::{Column, Dim, Matrix, PositionError, Real};
 /// The reaction R of a joint with friction. Its limit is `factor` |R|, see
 /// [`ContactLaw::Bearing`](crate::ContactLaw::Bearing).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Bearing<T: Real, U: Dim, V: Dim, C: Dim> {
     /// The components of R: two of a pin, the normal force of a guide and zero.
     pub components: [ReactionRow<T, U, V, C>; 2],
@@ -18,6 +23,11 @@ pub struct Bearing<T: Real, U: Dim, V: Dim, C: Dim> {
 /// A component of a reaction: R = `constant` + `unknowns` . u'' + `inputs` . v'' + `rows` . lambda + `contacts` . f,
 /// where lambda are the multipliers in M q'' + Psi_q' lambda = F + S' f and f the forces of the contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ReactionRow<T: Real, U: Dim, V: Dim, C: Dim> {
     /// Its value without accelerations, multipliers and contact forces.
     pub constant: T,
@@ -33,6 +43,11 @@ pub struct ReactionRow<T: Real, U: Dim, V: Dim, C: Dim> {
 
 /// A reaction in independent coordinates z.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ReducedBearing<T: Real, V: Dim, C: Dim> {
     /// The components of R.
     pub components: [ReducedReaction<T, V, C>; 2],
@@ -40,6 +55,11 @@ pub struct ReducedBearing<T: Real, V: Dim, C: Dim> {
 
 /// A component of a reaction in independent coordinates z: R = `constant` + `accelerations` . z'' + `contacts` . f.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ReducedReaction<T: Real, V: Dim, C: Dim> {
     /// Its value without accelerations and contact forces.
     pub constant: T,

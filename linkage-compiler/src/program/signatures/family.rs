@@ -1,0 +1,108 @@
+//! Functions of points and outputs.
+
+use super::Signatures;
+use super::form::fallible;
+use crate::model::{Mechanism, Request};
+use crate::program::expression::Type;
+use crate::program::function::{Body, Function};
+use crate::program::names::Order;
+
+/// The points or the outputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    Points,
+    Outputs,
+}
+
+impl Family {
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Points => "point",
+            Self::Outputs => "output",
+        }
+    }
+
+    /// The components of one: 2 of a point, 1 of an output.
+    pub fn dimension(self) -> usize {
+        self.axes().len()
+    }
+
+    /// The endings of the names of the components.
+    pub fn axes(self) -> &'static [&'static str] {
+        match self {
+            Self::Points => &["_x", "_y"],
+            Self::Outputs => &[""],
+        }
+    }
+
+    /// The field names of all points or outputs.
+    pub fn names(self, mechanism: &Mechanism) -> Vec<String> {
+        match self {
+            Self::Points => mechanism.points.iter().map(|point| point.name.field.clone()).collect(),
+            Self::Outputs => mechanism.outputs.iter().map(|output| output.name.field.clone()).collect(),
+        }
+    }
+}
+
+/// The endings of function names, by the order of the derivative with respect to time.
+pub const ORDERS: [&str; 4] = ["s", "_velocities", "_accelerations", "_jerks"];
+
+impl Signatures<'_> {
+    /// True if points, or outputs, are declared.
+    pub fn has(&self, family: Family) -> bool {
+        match family {
+            Family::Points => !self.mechanism.points.is_empty(),
+            Family::Outputs => !self.mechanism.outputs.is_empty(),
+        }
+    }
+
+    /// True if points or outputs are declared.
+    pub fn has_quantities(&self) -> bool {
+        self.has(Family::Points) || self.has(Family::Outputs)
+    }
+
+    /// The number of functions of points and outputs: values, velocities, accelerations, with `derive jerk` jerks.
+    pub fn orders(&self) -> usize {
+        if self.mechanism.requests.contains(&Request::Jerk) { 4 } else { 3 }
+    }
+
+    /// Values, rates, accelerations or jerks.
+    pub fn quantities(&self, family: Family, order: usize) -> Function<Body> {
+        let motion = Order::ALL.into_iter().skip(1).take(order).map(|order| self.coordinates(order));
+        let arguments = std::iter::once(self.pose()).chain(motion);
+        let item = match (family, order) {
+            (Family::Points, 0) => Type::Point,
+            (Family::Points, _) => Type::Plane,
+            (Family::Outputs, _) => Type::Scalar,
+        };
+        fallible(format!("{}{}", family.word(), ORDERS[order]), arguments, self.each(family, item))
+    }
+
+    pub fn quantity_ratios(&self, family: Family) -> Function<Body> {
+        let item = Type::Matrix(family.dimension(), self.inputs());
+        fallible(format!("{}_ratios", family.word()), [self.pose()], self.each(family, item))
+    }
+
+    pub fn quantity_ratio_derivatives(&self, family: Family) -> Function<Body> {
+        let matrix = Type::Matrix(self.inputs(), self.inputs());
+        let item = if family == Family::Points { Type::List(Box::new(matrix), 2) } else { matrix };
+        fallible(format!("{}_ratio_derivatives", family.word()), [self.pose()], self.each(family, item))
+    }
+
+    pub fn quantity_sensitivities(&self, family: Family) -> Function<Body> {
+        let item = Type::Matrix(family.dimension(), self.mechanism.parameters.len());
+        fallible(format!("{}_sensitivities", family.word()), [self.pose()], self.each(family, item))
+    }
+
+    fn each(&self, family: Family, item: Type) -> Type {
+        Type::Each(self.each_name(family).to_owned(), Box::new(item))
+    }
+
+    /// The type with one field for each point or output.
+    pub fn each_name(&self, family: Family) -> &str {
+        match family {
+            Family::Points => &self.types.points,
+            Family::Outputs => &self.types.outputs,
+        }
+    }
+}

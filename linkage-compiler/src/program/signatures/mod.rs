@@ -1,0 +1,152 @@
+//! The signatures of the functions of a driver: names, arguments and return types. A stub has nothing else.
+
+mod equations;
+mod family;
+mod form;
+mod motion;
+mod position;
+
+use super::branch::Position;
+use super::expression::Type;
+use super::function::{Argument, Body, Function, Passed};
+use super::names::{Arguments, Order, TypeNames};
+use crate::model::{Driver, Mechanism, Request};
+pub use family::{Family, ORDERS};
+pub use form::{fallible, total};
+
+/// The functions of one driver of a mechanism, without bodies.
+pub struct Signatures<'a> {
+    pub mechanism: &'a Mechanism,
+    pub driver: &'a Driver,
+    pub types: TypeNames,
+    pub arguments: Arguments,
+}
+
+impl<'a> Signatures<'a> {
+    pub fn new(mechanism: &'a Mechanism, driver: &'a Driver) -> Self {
+        let (types, arguments) = (TypeNames::new(mechanism, driver), Arguments::new(mechanism));
+        Self { mechanism, driver, types, arguments }
+    }
+
+    /// All signatures in the order of emission: the most used first.
+    pub fn all(&self, position: &Position) -> Vec<Function<Body>> {
+        let wants = |request| self.mechanism.requests.contains(&request);
+        let families = || [Family::Points, Family::Outputs].into_iter().filter(|&family| self.has(family));
+        let mut all = vec![self.kinematics(position)];
+        if self.has_quantities() {
+            all.push(self.full_kinematics(position));
+        }
+        all.push(self.motion());
+        all.extend(self.assemblies(position));
+        if !self.is_open() {
+            all.extend([self.branch_of(), self.branch_near(), self.solve(), self.solve_any_branch()]);
+        }
+        all.push(self.pose_at());
+        if !self.mechanism.implied.is_empty() {
+            all.push(self.check_implied());
+        }
+        all.extend([self.velocity(), self.acceleration()]);
+        if wants(Request::Jerk) {
+            all.push(self.jerk());
+        }
+        for family in families() {
+            all.extend((0..self.orders()).map(|order| self.quantities(family, order)));
+        }
+        if wants(Request::Limits) {
+            all.extend(self.driver.inputs.ids().map(|place| self.limits(position, place)));
+        }
+        if !self.is_open() {
+            all.push(self.velocity_ratios());
+        }
+        all.extend(families().map(|family| self.quantity_ratios(family)));
+        if wants(Request::VelocityRatioDerivatives) {
+            all.extend((!self.is_open()).then(|| self.ratio_derivatives()));
+            all.extend(families().map(|family| self.quantity_ratio_derivatives(family)));
+        }
+        if wants(Request::Sensitivity) {
+            all.extend((!self.is_open()).then(|| self.sensitivity()));
+            all.extend(families().map(|family| self.quantity_sensitivities(family)));
+        }
+        if wants(Request::Drawing) {
+            // The number of joints is that of the finished mechanism.
+            all.push(self.joints(0));
+        }
+        if !self.is_open() {
+            all.extend(self.equations(position));
+        }
+        all
+    }
+
+    /// Psi, its derivatives, and linear systems in J.
+    fn equations(&self, position: &Position) -> [Function<Body>; 11] {
+        [
+            self.residual(),
+            self.residual_scales(),
+            self.jacobian(),
+            self.jacobian_unknowns(),
+            self.jacobian_inputs(),
+            self.jacobian_unknowns_scales(),
+            self.jacobian_inputs_scales(),
+            self.determinant(),
+            self.block_determinants(position.blocks),
+            self.gamma(),
+            self.solve_jacobian(),
+        ]
+    }
+
+    /// True for an open chain, which has no equations.
+    pub fn is_open(&self) -> bool {
+        self.mechanism.is_open()
+    }
+
+    pub fn unknowns(&self) -> usize {
+        self.driver.unknowns.len()
+    }
+
+    pub fn inputs(&self) -> usize {
+        self.driver.inputs.len()
+    }
+
+    pub(super) fn pose(&self) -> Argument {
+        Argument { name: self.arguments.pose.clone(), passed: Passed::ByReference(self.pose_type()) }
+    }
+
+    pub(super) fn branch(&self) -> Argument {
+        let of = Type::Bare(self.types.branch.clone());
+        Argument { name: self.arguments.branch.clone(), passed: Passed::ByValue(of) }
+    }
+
+    fn error_name(&self) -> Argument {
+        Argument { name: self.arguments.error_name.clone(), passed: Passed::ByValue(Type::Text) }
+    }
+
+    /// All coordinates, or their derivatives with respect to time.
+    fn coordinates(&self, order: Order) -> Argument {
+        let passed = Passed::ByReference(self.coordinates_type(order));
+        Argument { name: self.arguments.of(order).to_owned(), passed }
+    }
+
+    fn guess(&self) -> Argument {
+        Argument { name: self.arguments.guess.clone(), ..self.coordinates(Order::Value) }
+    }
+
+    /// The inputs, or their derivatives with respect to time, as `impl Into`.
+    fn inputs_by(&self, order: Order) -> Argument {
+        let of = Type::Own(self.types.inputs.clone());
+        Argument { name: self.arguments.of_inputs(order).to_owned(), passed: Passed::Converted(of) }
+    }
+
+    /// The rates of the inputs by value.
+    fn input_rates(&self) -> Argument {
+        let of = Type::Own(self.types.inputs.clone());
+        Argument { name: self.arguments.input_rates.clone(), passed: Passed::ByValue(of) }
+    }
+
+    pub fn pose_type(&self) -> Type {
+        Type::Own(self.types.pose.clone())
+    }
+
+    pub fn coordinates_type(&self, order: Order) -> Type {
+        Type::Own(self.types.of(order).to_owned())
+    }
+}
