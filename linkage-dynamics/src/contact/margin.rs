@@ -25,7 +25,8 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         self.margins_by(modes, |_| Some(limits))
     }
 
-    /// The margins with the limits in each motion, given by s' of the contacts; a motion without limits is left out.
+    /// Returns the margins with the limits in each motion, given by s' of the contacts; a motion without limits is left
+    /// out.
     pub(super) fn margins_by(
         &self,
         modes: &Column<Mode, C>,
