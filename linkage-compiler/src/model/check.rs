@@ -7,7 +7,6 @@ use proc_macro2::Span;
 use super::mechanism::{Driver, Mechanism, misnamed};
 use super::name::Name;
 use super::request::Request;
-use super::scene::SceneRequest;
 use super::scope::Scope;
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
@@ -181,11 +180,6 @@ pub(super) fn open_chain(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
             _ => continue,
         };
         diagnostics.error(span, message);
-    }
-    for scene in mechanism.scenes.iter().filter(|scene| scene.requests.contains(&SceneRequest::Reactions)) {
-        let name = &scene.name;
-        let message = format!("`reactions` are forces in loops, and `{name}` has none: remove `reactions;`");
-        diagnostics.error(name.span(), message);
     }
 }
 

@@ -5,7 +5,7 @@ linkage! {
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism Machine {
         param r = 0.05, l = 0.18;
-        param m2 = 0.8, j2 = 1.2e-3, m3 = 0.6, j3 = 2e-3, m4 = 0.9, g = 9.81, c = 40, k = 900, z0 = 0.15, speed = 80;
+        param m2 = 0.8, j2 = 1.2e-3, m3 = 0.6, j3 = 2e-3, m4 = 0.9, g = 9.81, c = 40, k = 900, z0 = 0.15, speed = 80, mu = 0.1, rp = 8e-3;
         coordinate phi, psi, z;
         loop r@phi + l@psi = (z, 0);
         drive Crank by phi;
@@ -25,6 +25,16 @@ linkage! {
             gravity (0, -g);
             force (-c * rate(z), 0) at (z, 0);
             spring k, z0 on z;
+            energy;
+            power;
+        }
+        /// Friction by the forces in a pin and in the guide.
+        scene Worn of Crank {
+            inertia;
+            gravity (0, -g);
+            friction mu, rp, reaction on psi - phi;
+            friction mu, reaction on z;
+            reactions;
             energy;
             power;
         }

@@ -28,6 +28,7 @@ linkage! {
             force (8 * cos(2 * t), 3) at Tool;
             damper 0.5 + 0.1 * rate(phi2)^2 on phi2;
             friction mu, rub on phi3;
+            reactions;
             energy;
             power;
         }

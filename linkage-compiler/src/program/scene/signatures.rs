@@ -129,7 +129,7 @@ impl<'a> SceneSignatures<'a> {
     }
 
     pub fn has_multipliers(&self) -> bool {
-        self.scene.requests.contains(&SceneRequest::Reactions)
+        self.scene.requests.contains(&SceneRequest::Reactions) && self.unknowns > 0
     }
 
     pub fn reactions(&self) -> Function<Body> {
