@@ -38,7 +38,7 @@ pub enum LoadKind {
     Guide { coordinate: String, guide: String, block: String, end: Option<String> },
 }
 
-/// What is opened: a link at a place, or a guide by its ends.
+/// An opened joint: a link at a place, or a guide by its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Site {
     Pin { place: usize, link: usize },
