@@ -8,13 +8,13 @@ use linkage_compiler::diagnostics::Diagnostics;
 use linkage_compiler::graph::OPERATIONS;
 use linkage_compiler::model::{Request, VECTOR_FUNCTIONS};
 use linkage_compiler::syntax::{
-    self, EFFECTS, EffectKind, Expression, Expressions, KEYWORDS, Mechanism, Operator, PROPERTIES, Place,
+    self, EFFECTS, EffectKind, Expression, Expressions, Joint, KEYWORDS, Mechanism, Operator, PROPERTIES, Place,
     StatementKind, Unit,
 };
 use proc_macro2::{TokenStream, TokenTree};
 
 /// Constructs that no list of the compiler has: forms of statements, effects and expressions, and attributes.
-const FORMS: [&str; 43] = [
+const FORMS: [&str; 48] = [
     "attribute of a mechanism",
     "attribute of `param`",
     "attribute of `drive`",
@@ -47,6 +47,11 @@ const FORMS: [&str; 43] = [
     "`damper c on s;`",
     "`friction mu, n on s;`",
     "`friction mu, r, n on s;`",
+    "`friction mu, reaction on s;`",
+    "`friction mu, r, reaction on phi;`",
+    "`friction mu, r, reaction at P on phi;`",
+    "`reaction at P;`",
+    "`reaction on s;`",
     "`r@phi`",
     "`(x, y)`",
     "`(x, y)@phi`",
@@ -224,8 +229,18 @@ impl Found {
                 let is_between = matches!(place, Place::Between(..));
                 self.one_of(is_between, ["`damper c between P and Q;`", "`damper c on s;`"]);
             }
-            EffectKind::Friction { factors, .. } => {
+            EffectKind::Friction { factors, reaction: None, .. } => {
                 self.one_of(factors.len() == 2, ["`friction mu, n on s;`", "`friction mu, r, n on s;`"]);
+            }
+            EffectKind::Friction { reaction: Some(Some(_)), .. } => {
+                self.add("`friction mu, r, reaction at P on phi;`");
+            }
+            EffectKind::Friction { factors, reaction: Some(None), .. } => {
+                let forms = ["`friction mu, reaction on s;`", "`friction mu, r, reaction on phi;`"];
+                self.one_of(factors.len() == 1, forms);
+            }
+            EffectKind::Reaction(joint) => {
+                self.one_of(matches!(joint, Joint::At(_)), ["`reaction at P;`", "`reaction on s;`"]);
             }
             EffectKind::Torque { .. }
             | EffectKind::Force { .. }

@@ -33,7 +33,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("it locks up to", format!("{:.6}° = atan(mu)", steepest.to_degrees())),
         ("friction in the pins of the toggle, radius", format!("{:.2}, {:.0} mm", closed.mu, closed.radius * 1e3)),
         ("it stays closed up to", format!("{:.6}° of the lever", knee.to_degrees())),
-        ("height of the knee there", format!("{:.6} mm, twice the friction circle of {:.1} mm", height * 1e3, circle * 1e3)),
+        (
+            "height of the knee there",
+            format!("{:.6} mm, twice the friction circle of {:.1} mm", height * 1e3, circle * 1e3),
+        ),
     ];
     let rows = rows.map(|(name, value)| [name.to_owned(), value]);
     for [name, value] in &rows {

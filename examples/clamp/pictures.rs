@@ -26,7 +26,13 @@ fn sliding(alpha: f64) -> Picture {
         let (toe, block) = (points.toe, points.block);
         let heel = point![toe.x - 0.45, 0.0];
         let top = toe - slope * (0.45 / alpha.cos());
-        picture.frame([("Toe", toe), ("Heel", heel), ("Top", top), ("Block", block), ("Head", block + vector![0.0, 0.12])]);
+        picture.frame([
+            ("Toe", toe),
+            ("Heel", heel),
+            ("Top", top),
+            ("Block", block),
+            ("Head", block + vector![0.0, 0.12]),
+        ]);
     }
     picture.link(&["Toe", "Heel", "Top"]).link(&["Block", "Head"]);
     picture.ground_line([[-0.4, -0.012], [0.75, -0.012]].map(Point2::from));

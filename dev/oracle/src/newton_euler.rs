@@ -62,7 +62,7 @@ struct Body {
 pub struct Machine {
     bodies: Vec<Body>,
     near: Vec<f64>,
-    /// What joints keep, with its value.
+    /// The scalars that joints keep, with their values.
     joints: Vec<(Along, f64)>,
     /// s, s' of what the position is found from.
     inputs: Vec<(Along, [f64; 2])>,
@@ -115,7 +115,7 @@ impl Machine {
         Line { from: self.point(link, from), direction: [cosine, sine] }
     }
 
-    /// Where a point is near the guess.
+    /// The position of a point at the guess.
     #[must_use]
     pub fn place(&self, point: &Point) -> [f64; 2] {
         let near: Vec<Big> = self.near.iter().map(|&value| big(value)).collect();

@@ -76,6 +76,8 @@ type Named = BTreeMap<String, Option<Chain>>;
 #[derive(Debug, Default)]
 pub(super) struct Chains {
     pub(super) loops: Vec<[Chain; 2]>,
+    /// The sides of loops that are zero.
+    pub(super) zeros: Vec<[bool; 2]>,
     pub(super) points: Vec<Chain>,
     pub(super) centers: Vec<Chain>,
     /// The centres that are means of points, by body.
@@ -97,7 +99,12 @@ impl Lowering<'_> {
                     named.insert(name.to_string(), None);
                 }
                 StatementKind::Loop { left, right, .. } => {
-                    chains.loops.push([left, right].map(|&side| self.chain(side, &named).unwrap_or_default()));
+                    let sides = [left, right].map(|&side| self.chain(side, &named));
+                    let is_zero = |side: &Option<Chain>| {
+                        side.as_ref().is_some_and(|chain| chain.links.is_empty() && chain.start.is_none())
+                    };
+                    chains.zeros.push(sides.each_ref().map(is_zero));
+                    chains.loops.push(sides.map(Option::unwrap_or_default));
                 }
                 StatementKind::Body(body) => {
                     let center = body.properties.iter().find(|(word, _)| word == "center");

@@ -6,6 +6,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rustc_hash::FxHashMap;
+
 use super::chain::{Chain, Chains, Link, Mean};
 use super::opening::Site;
 use super::places::Places;
@@ -67,11 +69,14 @@ pub(super) struct Links {
     pub(super) guides: Vec<Guide>,
     /// The link of each body.
     pub(super) bodies: Table<BodyId, usize>,
+    /// The loops that begin at a joint which they do not name.
+    pub(super) floating: Vec<usize>,
 }
 
 /// A leg between two places.
 struct Edge {
     ends: [usize; 2],
+    vector: [NodeId; 2],
     of: LegOf,
 }
 
@@ -92,12 +97,17 @@ impl Links {
             links: Vec::new(),
             guides: Vec::new(),
             bodies: Table::default(),
+            floating: Vec::new(),
         };
         let zero = graph.zero();
         let origin = links.places.add([zero; 2]);
         let mut edges = Vec::new();
-        for [left, right] in &chains.loops {
-            let [one, other] = [left, right].map(|chain| links.trace(graph, chain, &mut edges));
+        for (sides, zeros) in chains.loops.iter().zip(&chains.zeros) {
+            let mut end = |side: usize| match zeros[side] {
+                true => Some(origin),
+                false => links.trace(graph, &sides[side], &mut edges),
+            };
+            let [one, other] = [end(0), end(1)];
             if let (Some(one), Some(other)) = (one, other) {
                 links.places.merge(one, other);
             }
@@ -105,6 +115,7 @@ impl Links {
         for chain in chains.points.iter().chain(&chains.centers) {
             links.trace(graph, chain, &mut edges);
         }
+        links.merge_parallel(graph, &edges);
         links.join(links.places.find(origin), 0, &[]);
         for edge in &edges {
             let [from, to] = edge.ends.map(|end| links.places.find(end));
@@ -117,7 +128,7 @@ impl Links {
             }
         }
         links.add_bodies(graph, bodies, &chains.means);
-        for Edge { ends, of } in edges {
+        for Edge { ends, of, .. } in edges {
             let LegOf::Guide { direction, length, .. } = of else { continue };
             let ends = ends.map(|end| links.places.find(end));
             let symbols = graph.symbols_of(&[length]);
@@ -128,8 +139,65 @@ impl Links {
                 links.guides.push(Guide { coordinate, ends, links: [base, block] });
             }
         }
+        let floating = chains.loops.iter().enumerate();
+        links.floating = floating.filter(|(_, chains)| links.floats(graph, chains)).map(|(index, _)| index).collect();
         links.name(graph, bodies);
         links
+    }
+
+    /// Merges the ends of equal vectors that begin at one place, until no more are found.
+    fn merge_parallel(&mut self, graph: &mut Graph, edges: &[Edge]) {
+        let mut directed = Vec::new();
+        for Edge { ends: [from, to], vector, .. } in edges {
+            directed.push((*from, *vector, *to));
+            directed.push((*to, vector.map(|part| graph.negate(part)), *from));
+        }
+        let mut is_changed = true;
+        while is_changed {
+            is_changed = false;
+            let mut reached = FxHashMap::default();
+            for &(from, vector, to) in &directed {
+                let to = self.places.find(to);
+                let other = *reached.entry((self.places.find(from), vector)).or_insert(to);
+                if self.places.find(other) != to {
+                    self.places.merge(other, to);
+                    is_changed = true;
+                }
+            }
+        }
+    }
+
+    /// True for a loop whose sides both leave the origin on moving links, one of which is elsewhere in other statements:
+    /// it is written from another joint, which only the user knows.
+    fn floats(&self, graph: &mut Graph, [left, right]: &[Chain; 2]) -> bool {
+        if left.start.is_some() || right.start.is_some() {
+            return false;
+        }
+        let ends = [left.links.first().or(right.links.last()), right.links.first().or(left.links.last())];
+        let directions = ends.map(|end| end.and_then(|link| self.direction_of(graph, link)).unwrap_or(0));
+        let Some(origin) = self.links[GROUND].joints.first().copied() else { return false };
+        let is_elsewhere = |direction: usize| {
+            let home = self.link_at(origin, direction);
+            let slides = |link: usize| {
+                let mut guides = self.guides.iter();
+                guides
+                    .any(|Guide { links, .. }| links.contains(&link) && home.is_some_and(|home| links.contains(&home)))
+            };
+            let mut links = self.links.iter().enumerate();
+            links.any(|(index, link)| link.direction == direction && Some(index) != home && !slides(index))
+        };
+        directions.iter().all(|&direction| direction > 0) && directions.into_iter().any(is_elsewhere)
+    }
+
+    /// The index of the known direction of a vector.
+    fn direction_of(&self, graph: &mut Graph, link: &Link) -> Option<usize> {
+        let angle = link.angle?;
+        let mut known = self.directions.iter();
+        let is_parallel = |&other: &NodeId| {
+            let difference = graph.subtract(angle, other);
+            !self.moves(graph, &[difference])
+        };
+        known.position(is_parallel).map(|place| place + 1)
     }
 
     pub(super) fn link(&self, index: usize) -> &RigidLink {
@@ -300,7 +368,7 @@ impl Links {
             for Leg { vector, of } in self.legs(graph, link)? {
                 let from = self.places.position(last);
                 let next = self.places.add(moved(graph, from, vector));
-                edges.push(Edge { ends: [last, next], of });
+                edges.push(Edge { ends: [last, next], vector, of });
                 last = next;
             }
         }

@@ -150,6 +150,15 @@ impl Lowering<'_> {
         }
         let moving = result.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
         let mut links = Links::of(&mut self.graph, moving, chains, &result.bodies);
+        let loops = statements.iter().filter_map(|statement| match statement.kind {
+            StatementKind::Loop { left, .. } => Some(left),
+            _ => None,
+        });
+        for left in loops.enumerate().filter(|(index, _)| links.floating.contains(index)).map(|(_, left)| left) {
+            let message = "the forces in joints need the joint from which this loop is written: begin both sides with it, \
+                           as `P + …`";
+            self.diagnostics.error(self.expressions.region(left), message);
+        }
         let joints = self.joints(&mut links, result);
         result.opened.loads = joints.iter().map(|(_, load)| load.clone()).collect();
         if self.diagnostics.is_empty() {
@@ -361,7 +370,9 @@ impl Lowering<'_> {
             }
             // `loop … = 0`: the zero vector.
             (Value::Vector(x, y), Value::Scalar(zero)) if self.graph.is_zero(zero) => {
-                self.close(attributes, left, right, vec![x, y], constraints);
+                let [zx, zy] = self.displaced_origin();
+                let rows = vec![self.graph.subtract(x, zx), self.graph.subtract(y, zy)];
+                self.close(attributes, left, right, rows, constraints);
             }
             (Value::Scalar(_), Value::Scalar(_)) => {
                 self.diagnostics

@@ -165,6 +165,14 @@ impl Lowering<'_> {
         displaced
     }
 
+    /// The pin at the origin, at which a loop `… = 0` ends.
+    pub(super) fn displaced_origin(&mut self) -> [NodeId; 2] {
+        let zero = [self.graph.zero(); 2];
+        let Some(opening) = &self.opening else { return zero };
+        let path = opening.start(&mut self.graph);
+        opening.end(&mut self.graph, path).shift
+    }
+
     /// Reads the centre of a body, which is on the link of this body.
     pub(super) fn center(&mut self, body: BodyId, value: ExpressionId) -> Option<(NodeId, NodeId)> {
         if let Some(opening) = &mut self.opening {

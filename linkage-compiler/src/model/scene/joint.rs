@@ -104,7 +104,8 @@ impl Finder<'_, '_> {
                 WantedOf::All => {
                     let sites: Vec<Site> = self.links.pins().into_iter().chain(self.all_guides()).collect();
                     if sites.is_empty() && self.result.constraints.is_empty() {
-                        let message = "there is no joint: write points and centres of bodies as sums of vectors `r@phi`";
+                        let message =
+                            "there is no joint: write points and centres of bodies as sums of vectors `r@phi`";
                         self.lowering.diagnostics.error(region, message);
                     }
                     loads.extend(sites.into_iter().map(|site| self.open(site)).collect::<Vec<_>>());
