@@ -72,6 +72,7 @@ pub fn page([steepest, knee]: [f64; 2], rows: &[[String; 2]]) -> Picture {
         ),
         (
             Plot::new("Toggle", "angle of the lever, degrees", "N m")
+                .every(4.0)
                 .curve("without friction", curve(0))
                 .curve("opens below", curve(1))
                 .curve("closes above", curve(2))

@@ -9,3 +9,4 @@ pub use crate::{
     Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Energy, Equations, MotionError, Power, Prescribed,
     ReactionRow, Scene, Unreduced,
 };
+pub use linkage_runtime::jacobian::Vector;

@@ -1,7 +1,7 @@
 //! The forces in the joints of a scene with frictions and stops.
 
 use crate::contact::{ContactMotion, Contacts, ReducedEquations};
-use crate::scene::{Coordinates, Inputs};
+use crate::scene::{Accelerations, Coordinates, Inputs};
 use crate::{ContactLaw, Equations, MotionError, Scene};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Mechanism, PerInput};
@@ -43,7 +43,9 @@ pub fn reactions<S: Scene>(
     let rates = equations.rates;
     let Equations { ratios, bias, .. } = scene.equations(t, &S::state(q, &rates.into()))?;
     let all = S::Mechanism::rates(ratios * rates, rates);
-    scene.reactions(t, q, &all, (ratios * motion.acceleration + bias, motion.acceleration), &motion.forces)
+    let accelerations =
+        Accelerations::<S> { unknowns: ratios * motion.acceleration + bias, inputs: motion.acceleration };
+    scene.reactions(t, q, &all, &accelerations, &motion.forces)
 }
 
 /// The equations at a state after any impact there, with the accelerations and the forces of contacts.

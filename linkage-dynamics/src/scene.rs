@@ -5,7 +5,7 @@ use crate::simulation::scales::resolution_by_inputs;
 use crate::{Bearing, Contact, ContactLaw, Equations, MotionError};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
-use linkage_runtime::jacobian::Scales;
+use linkage_runtime::jacobian::{Scales, Vector};
 use linkage_runtime::{Column, Dim, InputError, Matrix, Mechanism, PerInput, PositionError, Real, newton};
 
 /// Values shared by the functions of a scene, at one position and one set of input rates.
@@ -126,7 +126,7 @@ pub trait Scene {
         t: Self::Scalar,
         q: &Coordinates<Self>,
         rates: &Rates<Self>,
-        accelerations: (Column<Self::Scalar, Self::U>, Column<Self::Scalar, Self::V>),
+        accelerations: &Accelerations<Self>,
         contact_forces: &Column<Self::Scalar, Self::Contacts>,
     ) -> Result<Self::Reactions, MotionError>;
     /// The prescribed motion of each input, or None.
@@ -194,6 +194,8 @@ pub type Coordinates<S> = <<S as Scene>::Mechanism as Mechanism>::Coordinates;
 pub type Rates<S> = <<S as Scene>::Mechanism as Mechanism>::Rates;
 /// The inputs v of a scene by name, or their rates.
 pub type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
+/// The accelerations (u'', v'') of all coordinates of a scene.
+pub type Accelerations<S> = Vector<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The state y = (q, v') of a scene as one column.
 pub type StateColumn<S> = Column<<S as Scene>::Scalar, <S as Scene>::State>;
 

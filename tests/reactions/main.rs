@@ -5,6 +5,7 @@ mod at_rest;
 mod excavator;
 mod five_bar;
 mod jansen;
+mod laws;
 mod several_ways;
 mod slider_crank;
 mod whitworth;

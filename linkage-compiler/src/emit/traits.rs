@@ -394,7 +394,7 @@ fn reactions(signatures: &SceneSignatures, driver: &Driver) -> (TokenStream, Tok
         let inputs = Members::of(mechanism, &driver.inputs).fields;
         let forces = (!scene.contacts.is_empty()).then(|| quote!(&(*contact_forces).into()));
         quote! {
-            let ([#(#unknowns),*], [#(#inputs),*]): ([T; #u], [T; #v]) = (accelerations.0.into(), accelerations.1.into());
+            let ([#(#unknowns),*], [#(#inputs),*]): ([T; #u], [T; #v]) = (accelerations.unknowns.into(), accelerations.inputs.into());
             let accelerations = #accelerations { #(#unknowns,)* #(#inputs),* };
             self.reactions_of(t, q, rates, &accelerations, #forces)
         }
@@ -407,7 +407,7 @@ fn reactions(signatures: &SceneSignatures, driver: &Driver) -> (TokenStream, Tok
             #t: T,
             #q: &#coordinates<T>,
             #of_rates: &#rates<T>,
-            #of_accelerations: (__rt::Column<T, __rt::D<#u>>, __rt::Column<T, __rt::D<#v>>),
+            #of_accelerations: &__rt::Vector<T, __rt::D<#u>, __rt::D<#v>>,
             #forces: &__rt::Column<T, __rt::D<#c>>,
         ) -> __rt::Result<Self::Reactions, __rt::MotionError> {
             #value

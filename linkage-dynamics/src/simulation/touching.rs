@@ -6,15 +6,12 @@ use super::state::Loads;
 use crate::contact::{Change, Contact, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::integrate::Guard;
 use crate::scene::coordinate_name;
-use crate::{Equations, Mode, MotionError, Scene, StateColumn};
+use crate::{Accelerations, Equations, Mode, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput};
 
 /// A number for each contact of a scene.
 type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;
-/// u'' and v''.
-type AccelerationsOf<S> =
-    (Column<<S as Scene>::Scalar, <S as Scene>::U>, Column<<S as Scene>::Scalar, <S as Scene>::V>);
 /// y, and the change of each contact.
 type Changed<S> = (StateColumn<S>, Column<Option<Change>, <S as Scene>::Contacts>);
 
@@ -182,7 +179,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let velocity = self.velocity(t, y)?;
         let rates = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
         let accelerations = self.accelerations(t, y, &motion.acceleration)?;
-        let joints = self.scene.reactions(t, &q, &rates, accelerations, &motion.forces)?;
+        let joints = self.scene.reactions(t, &q, &rates, &accelerations, &motion.forces)?;
         Ok(Loads {
             contacts: motion.forces,
             are_unique: motion.are_unique,
@@ -198,11 +195,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
         t: S::Scalar,
         y: &StateColumn<S>,
         free: &PerInput<S::Mechanism>,
-    ) -> Result<AccelerationsOf<S>, MotionError> {
+    ) -> Result<Accelerations<S>, MotionError> {
         let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
         else {
             let Equations { ratios, bias, .. } = self.scene.equations(t, y)?;
-            return Ok((ratios * *free + bias, *free));
+            return Ok(Accelerations::<S> { unknowns: ratios * *free + bias, inputs: *free });
         };
         let (q, free_rates) = Self::unpack(y);
         let factors = self.regular(independent, &q).ok_or_else(|| self.change_point_error(&q))?;
@@ -210,6 +207,6 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let rates = S::Mechanism::rates(unknowns * free_rates, inputs * free_rates);
         let mechanism = self.scene.mechanism();
         let bias = -factors.solve(&mechanism.gamma(&mechanism.pose_at(&q), &rates));
-        Ok((unknowns * *free + bias.unknowns, inputs * *free + bias.inputs))
+        Ok(Accelerations::<S> { unknowns: unknowns * *free, inputs: inputs * *free } + bias)
     }
 }

@@ -147,6 +147,7 @@ impl<const C: usize> Scene for Particle<C> {
     type State = D<4>;
     type Contacts = D<C>;
     type Mechanism = Path;
+    type Reactions = ();
 
     const NAME: &'static str = "Particle";
     const BEARINGS: bool = true;
@@ -210,6 +211,17 @@ impl<const C: usize> Scene for Particle<C> {
             input_forces: [(self.push)(t)].into(),
         })
     }
+    fn reactions(
+        &self,
+        _: f64,
+        _: &linkage_dynamics::Coordinates<Self>,
+        _: &linkage_dynamics::Rates<Self>,
+        _: &linkage_dynamics::Accelerations<Self>,
+        _: &Column<f64, Self::Contacts>,
+    ) -> Result<(), MotionError> {
+        Ok(())
+    }
+
     fn prescribed(&self, _: f64) -> Column<Option<Prescribed<f64>>, D<1>> {
         [None].into()
     }

@@ -98,6 +98,7 @@ impl Scene for Journal {
     type State = D<4>;
     type Contacts = D<1>;
     type Mechanism = Sideways;
+    type Reactions = ();
 
     const NAME: &'static str = "Journal";
     const BEARINGS: bool = true;
@@ -155,6 +156,17 @@ impl Scene for Journal {
             input_forces: [0.0].into(),
         })
     }
+    fn reactions(
+        &self,
+        _: f64,
+        _: &linkage_dynamics::Coordinates<Self>,
+        _: &linkage_dynamics::Rates<Self>,
+        _: &linkage_dynamics::Accelerations<Self>,
+        _: &Column<f64, Self::Contacts>,
+    ) -> Result<(), MotionError> {
+        Ok(())
+    }
+
     fn prescribed(&self, _: f64) -> Column<Option<Prescribed<f64>>, D<1>> {
         [None].into()
     }

@@ -1,0 +1,354 @@
+//! The laws that hold for every body of every machine, at random states of random scenes: the sum of all forces and
+//! moments, the work of the forces in joints, the force on the ground.
+
+use linkage::nalgebra::{Point2, Vector2, vector};
+use linkage::{Mode, linkage};
+use linkage_gallery::{pendulum, slider_crank_scenes, three_link_arm};
+
+use super::{Random, is_regular};
+
+/// A body with the forces on it.
+struct Body {
+    name: &'static str,
+    mass: f64,
+    inertia: f64,
+    centre: Point2<f64>,
+    acceleration: Vector2<f64>,
+    spin: f64,
+    forces: Vec<(Point2<f64>, Vector2<f64>)>,
+    torque: f64,
+}
+
+fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+impl Body {
+    /// Newton's and Euler's laws, relative to the largest term of the machine.
+    fn obeys(&self, size: f64, length: f64) {
+        let sum: Vector2<f64> = self.forces.iter().map(|(_, force)| *force).sum();
+        let rest = sum - self.mass * self.acceleration;
+        let moments = self.forces.iter().map(|(at, force)| cross(at - self.centre, *force)).sum::<f64>();
+        let turn = moments + self.torque - self.inertia * self.spin;
+        assert!(rest.norm() < 1e-12 * size, "{}: {rest} of {size}", self.name);
+        assert!(turn.abs() < 1e-12 * size * length, "{}: {turn} of {size}", self.name);
+    }
+}
+
+/// The largest force among these bodies.
+fn size_of(bodies: &[Body]) -> f64 {
+    let forces = bodies.iter().flat_map(|body| body.forces.iter().map(|(_, force)| force.norm()));
+    forces.fold(0.0, f64::max)
+}
+
+linkage! {
+    /// A six-bar with a ternary link.
+    #[derive(Debug, Clone)]
+    mechanism Six {
+        param a = 2, b = 7, c = 6, d = 8, px = 5, py = 4, e = 9, f = 5, fx = 12, fy = 3;
+        param m2 = 1, j2 = 1, m3 = 2, j3 = 9, m4 = 1.5, j4 = 4, m5 = 1.2, j5 = 6, m6 = 0.8, j6 = 2;
+        param g = 9.81, k = 40, free = 6, damp = 3, push = 25, drag = 7;
+        input theta2;
+        unknown theta3, theta4, theta5, theta6;
+        loop a@theta2 + b@theta3 = d@0 + c@theta4;
+        loop a@theta2 + (px, py)@theta3 + e@theta5 = (fx, fy) + f@theta6;
+        point A = (0, 0);
+        point D = (d, 0);
+        point F = (fx, fy);
+        point B = a@theta2;
+        point C = D + c@theta4;
+        point P = B + (px, py)@theta3;
+        point Q = P + e@theta5;
+        point G2 = (a / 2)@theta2;
+        point G3 = B + (b / 2, 1)@theta3;
+        point G4 = D + (c / 2)@theta4;
+        point G5 = P + (e / 3)@theta5;
+        point G6 = F + (f / 2)@theta6;
+        point Tip = B + (3, 5)@theta3;
+        body b2 { mass m2; inertia j2; center G2; angle theta2; }
+        body b3 { mass m3; inertia j3; center G3; angle theta3; }
+        body b4 { mass m4; inertia j4; center G4; angle theta4; }
+        body b5 { mass m5; inertia j5; center G5; angle theta5; }
+        body b6 { mass m6; inertia j6; center G6; angle theta6; }
+        scene Loaded {
+            inertia;
+            gravity (0, -g);
+            spring k, free between Tip and G6;
+            force (push, -2 * push) at Q;
+            damper damp on theta6;
+            friction drag on theta4;
+            reactions;
+        }
+    }
+}
+
+#[test]
+fn a_six_bar_with_loads() {
+    let random = Random::new(31);
+    let mut states = 0;
+    while states < 200 {
+        let mut scene = Loaded::default();
+        for value in [&mut scene.m2, &mut scene.m3, &mut scene.m5, &mut scene.k, &mut scene.push, &mut scene.drag] {
+            *value *= random.factor();
+        }
+        let m = &scene.mechanism;
+        let Some(found) = m.branches(random.either(3.0)).ok().and_then(|mut all| all.nth(states % 3)) else { continue };
+        if !is_regular(m, &found.pose) {
+            continue;
+        }
+        let (q, omega) = (found.pose.coordinates(), random.either(4.0));
+        let found = scene.reactions(0.0, &q, omega).unwrap();
+        // The accelerations follow from the friction, which slips.
+        let rates = m.velocity(&m.pose_at(&q), omega).unwrap();
+        let drag = -scene.drag * rates.theta4.signum();
+        let ratio = rates.theta4 / omega;
+        let gain = (scene.forces(0.0, &q, omega).unwrap()[0] + drag * ratio) / scene.mass_matrix(&q).unwrap()[0];
+        let pose = m.pose_at(&q);
+        let accelerations = m.acceleration(&pose, &rates, gain).unwrap();
+        let at = m.points(&pose).unwrap();
+        let of = m.point_accelerations(&pose, &rates, &accelerations).unwrap();
+        let stretch = at.g6 - at.tip;
+        let pull = scene.k * (stretch.norm() - scene.free) * stretch.normalize();
+        let body =
+            |name, mass: f64, inertia, centre, acceleration, spin, forces: &[(Point2<f64>, Vector2<f64>)]| Body {
+                name,
+                mass,
+                inertia,
+                centre,
+                acceleration,
+                spin,
+                forces: forces.iter().copied().chain([(centre, vector![0.0, -scene.g * mass])]).collect(),
+                torque: 0.0,
+            };
+        let mut bodies = [
+            body(
+                "b2",
+                scene.m2,
+                scene.j2,
+                at.g2,
+                of.g2,
+                accelerations.theta2,
+                &[(at.a, found.a_on_b2), (at.b, found.b_on_b2)],
+            ),
+            body(
+                "b3",
+                scene.m3,
+                scene.j3,
+                at.g3,
+                of.g3,
+                accelerations.theta3,
+                &[(at.b, found.b_on_b3), (at.c, found.c_on_b3), (at.p, found.p_on_b3), (at.tip, pull)],
+            ),
+            body(
+                "b4",
+                scene.m4,
+                scene.j4,
+                at.g4,
+                of.g4,
+                accelerations.theta4,
+                &[(at.c, found.c_on_b4), (at.d, found.d_on_b4)],
+            ),
+            body(
+                "b5",
+                scene.m5,
+                scene.j5,
+                at.g5,
+                of.g5,
+                accelerations.theta5,
+                &[(at.p, found.p_on_b5), (at.q, found.q_on_b5)],
+            ),
+            body(
+                "b6",
+                scene.m6,
+                scene.j6,
+                at.g6,
+                of.g6,
+                accelerations.theta6,
+                &[(at.q, found.q_on_b6), (at.f, found.f_on_b6), (at.g6, -pull)],
+            ),
+        ];
+        bodies[2].torque = drag;
+        bodies[4].torque = -scene.damp * rates.theta6;
+        let size = size_of(&bodies);
+        bodies.iter().for_each(|body| body.obeys(size, 12.0));
+        // The forces of a pin on its links add up to its load.
+        let load = vector![scene.push, -2.0 * scene.push];
+        let pins = [
+            (found.a_on_ground + found.a_on_b2, Vector2::zeros()),
+            (found.b_on_b2 + found.b_on_b3, Vector2::zeros()),
+            (found.c_on_b3 + found.c_on_b4, Vector2::zeros()),
+            (found.p_on_b3 + found.p_on_b5, Vector2::zeros()),
+            (found.q_on_b5 + found.q_on_b6, load),
+            (found.d_on_ground + found.d_on_b4, Vector2::zeros()),
+            (found.f_on_ground + found.f_on_b6, Vector2::zeros()),
+        ];
+        for (sum, expected) in pins {
+            assert!((sum - expected).norm() < 1e-12 * size, "{sum} {expected}");
+        }
+        // The force on the ground: what the loads do not give to the momentum.
+        let ground = found.a_on_ground + found.d_on_ground + found.f_on_ground;
+        let momentum: Vector2<f64> = bodies.iter().map(|body| body.mass * body.acceleration).sum();
+        let weight: f64 = bodies.iter().map(|body| scene.g * body.mass).sum();
+        assert!((ground - load - vector![0.0, -weight] + momentum).norm() < 1e-11 * size, "{ground}");
+        // Forces in joints do no work: the power of all others changes the kinetic energy.
+        let speeds = m.point_velocities(&pose, &rates).unwrap();
+        let work = found.a_on_b2.dot(&Vector2::zeros())
+            + (found.b_on_b2 + found.b_on_b3).dot(&speeds.b)
+            + (found.c_on_b3 + found.c_on_b4).dot(&speeds.c)
+            + (found.p_on_b3 + found.p_on_b5).dot(&speeds.p);
+        assert!(work.abs() < 1e-11 * size * (speeds.b.norm() + speeds.c.norm() + speeds.p.norm()), "{work}");
+        states += 1;
+    }
+}
+
+#[test]
+fn a_slider_crank_with_friction_by_reactions() {
+    use slider_crank_scenes::{CrankBranch, Worn};
+    let random = Random::new(32);
+    for _ in 0..200 {
+        let mut scene = Worn::default();
+        (scene.mu, scene.m3, scene.m4) = (0.3 * random.factor(), random.factor(), random.factor());
+        let m = &scene.mechanism;
+        let (phi, omega) = (random.either(3.0), random.either(60.0));
+        let pose = m.assemble(phi, CrankBranch { psi_z: linkage::Slider::Far }).unwrap();
+        let q = pose.coordinates();
+        let found = scene.reactions(0.0, &q, omega).unwrap();
+        let rates = m.velocity(&pose, omega).unwrap();
+        // The law of each friction, with the reactions as they are found.
+        let pin = found.pin_on_rod;
+        let journal = -scene.mu * scene.rp * pin.norm() * (rates.psi - rates.phi).signum();
+        let guide = -scene.mu * found.z_normal.abs() * rates.z.signum();
+        let ratio = |rate: f64| rate / omega;
+        let extra = journal * ratio(rates.psi - rates.phi) + guide * ratio(rates.z);
+        let gain = (scene.forces(0.0, &q, omega).unwrap()[0] + extra) / scene.mass_matrix(&q).unwrap()[0];
+        let accelerations = m.acceleration(&pose, &rates, gain).unwrap();
+        let at = m.points(&pose).unwrap();
+        let of = m.point_accelerations(&pose, &rates, &accelerations).unwrap();
+        let weight = |mass: f64| vector![0.0, -scene.g * mass];
+        let piston = Point2::new(q.z, 0.0);
+        let quarter = m.r / 4.0;
+        let crank_centre = at.pin * (quarter / m.r);
+        let crank_acceleration = of.pin * (quarter / m.r);
+        let z_pin = found.piston_pin();
+        let bodies = [
+            Body {
+                name: "crank",
+                mass: scene.m2,
+                inertia: scene.j2,
+                centre: crank_centre,
+                acceleration: crank_acceleration,
+                spin: accelerations.phi,
+                forces: vec![
+                    (Point2::origin(), found.origin_on_crank),
+                    (at.pin, found.pin_on_crank),
+                    (crank_centre, weight(scene.m2)),
+                ],
+                torque: -journal,
+            },
+            Body {
+                name: "rod",
+                mass: scene.m3,
+                inertia: scene.j3,
+                centre: at.g3,
+                acceleration: of.g3,
+                spin: accelerations.psi,
+                forces: vec![(at.pin, pin), (piston, z_pin[0]), (at.g3, weight(scene.m3))],
+                torque: journal,
+            },
+            Body {
+                name: "piston",
+                mass: scene.m4,
+                inertia: 0.0,
+                centre: piston,
+                acceleration: vector![accelerations.z, 0.0],
+                spin: 0.0,
+                forces: vec![(piston, z_pin[1]), (piston, vector![guide, found.z_normal]), (piston, weight(scene.m4))],
+                torque: found.z_moment,
+            },
+        ];
+        let size = size_of(&bodies);
+        bodies.iter().for_each(|body| body.obeys(size, m.l));
+    }
+}
+
+/// The forces of the piston pin, which has no declared point, on rod and piston.
+trait PistonPin {
+    fn piston_pin(&self) -> [Vector2<f64>; 2];
+}
+
+impl PistonPin for slider_crank_scenes::WornReactions {
+    fn piston_pin(&self) -> [Vector2<f64>; 2] {
+        [self.rod_piston_on_rod, self.rod_piston_on_piston]
+    }
+}
+
+#[test]
+fn an_arm_that_is_an_open_chain() {
+    use three_link_arm::{Pushed, ThreeLinkArmCoordinates, ThreeLinkArmInputs};
+    let random = Random::new(33);
+    for _ in 0..200 {
+        let scene = Pushed::default();
+        let m = &scene.mechanism;
+        let q =
+            ThreeLinkArmCoordinates { phi1: random.either(3.0), phi2: random.either(3.0), phi3: random.either(3.0) };
+        let rates = ThreeLinkArmInputs { phi1: random.either(3.0), phi2: random.either(3.0), phi3: random.either(3.0) };
+        let t = random.either(1.0);
+        let found = scene.reactions(t, &q, rates).unwrap();
+        let pose = m.pose_at(&q);
+        let at = m.points(&pose).unwrap();
+        // The force in a joint carries what is beyond it: momentum, weight and load.
+        let load = vector![8.0 * (2.0 * t).cos(), 3.0];
+        assert!(
+            (found.tool_on_hand + found.tool_on_part - load).norm()
+                < 1e-12 * load.norm().max(found.tool_on_hand.norm())
+        );
+        assert!((found.elbow_on_upper + found.elbow_on_lower).norm() < 1e-12 * found.elbow_on_lower.norm());
+        assert!((found.wrist_on_lower + found.wrist_on_hand).norm() < 1e-12 * found.wrist_on_hand.norm());
+        assert!((found.origin_on_ground + found.origin_on_upper).norm() < 1e-12 * found.origin_on_upper.norm());
+        // Moments about the wrist on the hand: friction, weight and the tool, against its inertia.
+        let weight = vector![0.0, -scene.g];
+        let hand_centre = at.wrist + (at.tool - at.wrist) / 2.0;
+        let acceleration = (found.wrist_on_hand + found.tool_on_hand + scene.m3 * weight) / scene.m3;
+        // That of the part gives that of the tool, and both that of the wrist and the spin of the hand.
+        let of_tool = (found.tool_on_part + scene.load * weight) / scene.load;
+        let along = at.tool - at.wrist;
+        let theta = rates.phi1 + rates.phi2 + rates.phi3;
+        let difference = (of_tool - acceleration) * 2.0 + along * theta * theta;
+        let spin = cross(along, difference) / along.norm_squared();
+        assert!((difference.dot(&along)).abs() < 1e-11 * difference.norm().max(1.0) * along.norm(), "{difference}");
+        let moments =
+            cross(at.wrist - hand_centre, found.wrist_on_hand) + cross(at.tool - hand_centre, found.tool_on_hand);
+        let friction = scene.j3 * spin - moments;
+        let limit = scene.mu * scene.rub;
+        assert!((friction.abs() / limit - 1.0).abs() < 1e-9, "{friction} {limit}");
+        assert_eq!(friction.signum(), -rates.phi3.signum());
+    }
+}
+
+#[test]
+fn a_journal_carries_weight_and_swing() {
+    use pendulum::{PendulumCoordinates, Worn};
+    let random = Random::new(34);
+    for _ in 0..200 {
+        let scene = Worn { mu: 0.4, r: 0.05, ..Worn::default() };
+        let (theta, omega) = (random.either(3.0), random.either(5.0));
+        let q = PendulumCoordinates { theta };
+        let force = scene.reactions(0.0, &q, omega).unwrap().origin_on_bob;
+        // m l'^2 theta'' = -m g l cos theta - mu r |R| sign(theta'), R from the motion of the centre.
+        let l = scene.mechanism.l;
+        let arm = vector![theta.cos(), theta.sin()] * l;
+        let across = vector![-arm.y, arm.x];
+        let gain = |friction: f64| (-scene.m * scene.g * arm.x + friction) / (scene.j + scene.m * l * l);
+        let friction = -scene.mu * scene.r * force.norm() * omega.signum();
+        let expected = scene.m * (across * gain(friction) - arm * omega * omega + vector![0.0, scene.g]);
+        assert!((force - expected).norm() < 1e-12 * force.norm(), "{force} {expected}");
+    }
+    // At rest within the friction circle it stays: the vertical force passes the journal at its radius.
+    let scene = Worn { mu: 0.4, r: 0.05, ..Worn::default() };
+    let limit = scene.mu * scene.r / scene.mechanism.l;
+    for (offset, stays) in [(limit * (1.0 - 1e-12), true), (limit * (1.0 + 1e-12), false)] {
+        let q = PendulumCoordinates { theta: -std::f64::consts::FRAC_PI_2 + offset.asin() };
+        let motion = linkage::simulation::simulate(&scene, (0.0, q, 0.0), 1.0, 1e-9).unwrap();
+        assert_eq!(motion.state().contacts[0].mode == Mode::Stick, stays, "{offset}");
+    }
+}
