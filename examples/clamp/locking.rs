@@ -58,7 +58,7 @@ pub fn stays(theta: f64, hand: f64) -> Result<bool, Error> {
     Ok(simulation.state().contacts.iter().all(|contact| contact.mode == Mode::Stick))
 }
 
-/// The torque of the hand without friction, and the torques beyond which the toggle opens and closes.
+/// The torque of the hand without friction, and the torques below which the toggle closes and above which it opens.
 ///
 /// # Errors
 /// Those of the simulation.

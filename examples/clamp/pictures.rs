@@ -23,7 +23,8 @@ fn sliding(alpha: f64) -> Picture {
     for state in simulate(&scene, (0.0, q, 0.0), 0.1, 1e-9)?.at(times) {
         let state = state?;
         let points = scene.mechanism.points(&scene.mechanism.pose_at(&state.q))?;
-        let (toe, block) = (points.toe, points.block);
+        // A rounded block touches the slope below its end.
+        let (toe, block) = (points.toe, points.block + vector![0.0, 0.035]);
         let heel = point![toe.x - 0.45, 0.0];
         let top = toe - slope * (0.45 / alpha.cos());
         picture.frame([
@@ -59,7 +60,7 @@ pub fn page([steepest, knee]: [f64; 2], rows: &[[String; 2]]) -> Picture {
     let angles = (2..=40).map(|step| f64::from(step).to_radians());
     let ways = angles.map(|alpha| Ok([alpha.to_degrees(), way(alpha, 0.05)? * 1e3]));
     let ways: Vec<[f64; 2]> = ways.collect::<Result<_, linkage::Error>>()?;
-    let levers = (1..=24).map(|step| f64::from(step).to_radians());
+    let levers = (1..=32).map(|step| (f64::from(step) / 4.0).to_radians());
     let torques = levers.map(|theta| Ok((theta.to_degrees(), torques(theta)?)));
     let torques: Vec<(f64, [f64; 3])> = torques.collect::<Result<_, linkage::Error>>()?;
     let curve = |at: usize| torques.iter().map(move |(theta, torques)| [*theta, torques[at]]);
@@ -72,12 +73,13 @@ pub fn page([steepest, knee]: [f64; 2], rows: &[[String; 2]]) -> Picture {
         ),
         (
             Plot::new("Toggle", "angle of the lever, degrees", "N m")
-                .every(4.0)
-                .curve("without friction", curve(0))
-                .curve("opens below", curve(1))
-                .curve("closes above", curve(2))
-                .marks("limit without a hand", [[knee.to_degrees(), 0.0]]),
-            "The torque of the hand: between the outer curves friction in the pins holds the clamp.",
+                .every(2.0)
+                .curve("no friction", curve(0))
+                .curve("closes", curve(1))
+                .curve("opens", curve(2))
+                .marks("without a hand", [[knee.to_degrees(), 0.0]]),
+            "The torque of the hand: it closes below one curve and opens above the other; between them friction in the pins \
+             holds the clamp.",
         ),
     ];
     let plots = plots.iter().map(|(plot, words)| (plot.svg(), (*words).to_owned())).collect();

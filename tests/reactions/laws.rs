@@ -289,39 +289,39 @@ fn an_arm_that_is_an_open_chain() {
     for _ in 0..200 {
         let scene = Pushed::default();
         let m = &scene.mechanism;
-        let q =
-            ThreeLinkArmCoordinates { phi1: random.either(3.0), phi2: random.either(3.0), phi3: random.either(3.0) };
-        let rates = ThreeLinkArmInputs { phi1: random.either(3.0), phi2: random.either(3.0), phi3: random.either(3.0) };
+        let [phi1, phi2, phi3] = [(); 3].map(|()| random.either(3.0));
+        let q = ThreeLinkArmCoordinates { phi1, phi2, phi3 };
+        let [phi1, phi2, phi3] = [(); 3].map(|()| random.either(3.0));
+        let omega = ThreeLinkArmInputs { phi1, phi2, phi3 };
         let t = random.either(1.0);
-        let found = scene.reactions(t, &q, rates).unwrap();
+        let found = scene.reactions(t, &q, omega).unwrap();
+        let friction = -scene.mu * scene.rub * phi3.signum();
+        let forces = scene.forces(t, &q, omega).unwrap() + vector![0.0, 0.0, friction];
+        let gains = scene.mass_matrix(&q).unwrap().lu().solve(&forces).unwrap();
         let pose = m.pose_at(&q);
+        let rates = m.velocity(&pose, omega).unwrap();
+        let accelerations = m.acceleration(&pose, &rates, gains).unwrap();
         let at = m.points(&pose).unwrap();
-        // The force in a joint carries what is beyond it: momentum, weight and load.
-        let load = vector![8.0 * (2.0 * t).cos(), 3.0];
-        assert!(
-            (found.tool_on_hand + found.tool_on_part - load).norm()
-                < 1e-12 * load.norm().max(found.tool_on_hand.norm())
-        );
-        assert!((found.elbow_on_upper + found.elbow_on_lower).norm() < 1e-12 * found.elbow_on_lower.norm());
-        assert!((found.wrist_on_lower + found.wrist_on_hand).norm() < 1e-12 * found.wrist_on_hand.norm());
-        assert!((found.origin_on_ground + found.origin_on_upper).norm() < 1e-12 * found.origin_on_upper.norm());
-        // Moments about the wrist on the hand: friction, weight and the tool, against its inertia.
-        let weight = vector![0.0, -scene.g];
-        let hand_centre = at.wrist + (at.tool - at.wrist) / 2.0;
-        let acceleration = (found.wrist_on_hand + found.tool_on_hand + scene.m3 * weight) / scene.m3;
-        // That of the part gives that of the tool, and both that of the wrist and the spin of the hand.
-        let of_tool = (found.tool_on_part + scene.load * weight) / scene.load;
-        let along = at.tool - at.wrist;
-        let theta = rates.phi1 + rates.phi2 + rates.phi3;
-        let difference = (of_tool - acceleration) * 2.0 + along * theta * theta;
-        let spin = cross(along, difference) / along.norm_squared();
-        assert!((difference.dot(&along)).abs() < 1e-11 * difference.norm().max(1.0) * along.norm(), "{difference}");
-        let moments =
-            cross(at.wrist - hand_centre, found.wrist_on_hand) + cross(at.tool - hand_centre, found.tool_on_hand);
-        let friction = scene.j3 * spin - moments;
-        let limit = scene.mu * scene.rub;
-        assert!((friction.abs() / limit - 1.0).abs() < 1e-9, "{friction} {limit}");
-        assert_eq!(friction.signum(), -rates.phi3.signum());
+        let of = m.point_accelerations(&pose, &rates, &accelerations).unwrap();
+        let (load, weight) = (vector![8.0 * (2.0 * t).cos(), 3.0], vector![0.0, -scene.g]);
+        // The centres are in the middle of the links.
+        let [upper, lower, hand] = [of.elbow / 2.0, (of.elbow + of.wrist) / 2.0, (of.wrist + of.tool) / 2.0];
+        let size = found.origin_on_upper.norm() + found.elbow_on_lower.norm() + found.wrist_on_hand.norm();
+        let balances = [
+            found.wrist_on_hand + load + scene.m3 * (weight - hand) + scene.load * (weight - of.tool),
+            found.wrist_on_lower + found.elbow_on_lower + scene.m2 * (weight - lower),
+            found.elbow_on_upper + found.origin_on_upper + scene.m1 * (weight - upper),
+            found.origin_on_upper + found.origin_on_ground,
+        ];
+        for balance in balances {
+            assert!(balance.norm() < 1e-12 * size, "{balance} of {size}");
+        }
+        // The moments on the hand about the wrist.
+        let arm = at.tool - at.wrist;
+        let spin = accelerations.phi1 + accelerations.phi2 + accelerations.phi3;
+        let moments = cross(arm, scene.m3 * (weight - hand)) / 2.0 + cross(arm, load + scene.load * (weight - of.tool));
+        let rest = moments + friction - scene.j3 * spin;
+        assert!(rest.abs() < 1e-12 * size, "{rest} of {size}");
     }
 }
 
