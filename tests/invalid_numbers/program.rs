@@ -171,7 +171,7 @@ impl Calls {
     /// A value of a type that can be an argument.
     fn drawn(&mut self, name: &str, item: &ItemStruct, has_default: bool) {
         let of = if item.generics.params.is_empty() { "" } else { "<f64>" };
-        if ["Points", "Outputs", "Motion", "Kinematics"].iter().any(|ending| name.ends_with(ending)) {
+        if ["Points", "Outputs", "Motion", "Kinematics", "Reactions"].iter().any(|ending| name.ends_with(ending)) {
             return;
         }
         let fields: String = item
@@ -303,6 +303,7 @@ fn call(name: &str, function: &Signature) -> String {
             _ if of.starts_with("&SVector<T,") => {
                 (format!("<{} as h::Draw>::draw(s)", of[1..].replace("SVector<T,", "h::SVector<f64,")), "&")
             }
+            _ if of.starts_with("&[T;") => (format!("<{} as h::Draw>::draw(s)", of[1..].replace('T', "f64")), "&"),
             _ => panic!("{name}::{}: no rule makes `{wish}: {of}`", function.ident),
         };
         let _ = write!(text, "let a{place} = {value}; ");

@@ -102,7 +102,10 @@ impl Derivation {
 
     /// The symbols of the forces of frictions and stops along their scalars.
     fn contact_forces(&mut self, scene: &model::Scene) -> Vec<SymbolId> {
-        let of = |label: &str| label.replace(|letter: char| !letter.is_alphanumeric(), "_").to_lowercase();
+        let of = |label: &str| {
+            let words = label.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
+            words.collect::<Vec<_>>().join("_").to_lowercase()
+        };
         let names = scene.contacts.iter().map(|contact| format!("force_of_{}", of(&contact.label)));
         names.map(|name| self.graph.symbol(name)).collect()
     }

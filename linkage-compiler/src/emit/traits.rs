@@ -319,7 +319,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
         true => quote!(__rt::Ok(self.contacts(t, q, rates)?.into())),
     };
     let state = quote!(__rt::Column<T, __rt::D<#n>>);
-    let (reactions, joints) = reactions(signatures, on);
+    let (reactions, joints) = reactions(signatures, on, fields);
     let bearings = bearings(signatures);
     let result = |of: TokenStream| quote!(__rt::Result<#of, __rt::MotionError>);
     let (nothing, derivative) = (result(quote!(())), result(state.clone()));
@@ -378,7 +378,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
 }
 
 /// The type of the forces in the joints of a scene, and the function of `Scene` that computes them.
-fn reactions(signatures: &SceneSignatures, driver: &Driver) -> (TokenStream, TokenStream) {
+fn reactions(signatures: &SceneSignatures, driver: &Driver, fields: &[Ident]) -> (TokenStream, TokenStream) {
     let SceneSignatures { mechanism, scene, types, reactions_type, inputs, unknowns, .. } = signatures;
     let TypeNames { coordinates, rates, accelerations, .. } = types;
     let [name, coordinates, rates, accelerations] =
@@ -395,7 +395,7 @@ fn reactions(signatures: &SceneSignatures, driver: &Driver) -> (TokenStream, Tok
         let forces = (!scene.contacts.is_empty()).then(|| quote!(&(*contact_forces).into()));
         quote! {
             let ([#(#unknowns),*], [#(#inputs),*]): ([T; #u], [T; #v]) = (accelerations.unknowns.into(), accelerations.inputs.into());
-            let accelerations = #accelerations { #(#unknowns,)* #(#inputs),* };
+            let accelerations = #accelerations { #(#fields),* };
             self.reactions_of(t, q, rates, &accelerations, #forces)
         }
     } else {

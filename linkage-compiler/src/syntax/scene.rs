@@ -403,7 +403,11 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
             let joint = match tokens::word(stream, "at") {
                 true => Joint::At(expression::parse(stream, expressions)?),
                 false if tokens::word(stream, "on") => Joint::On(expression::parse(stream, expressions)?),
-                false => return Err(expected(stream, "reaction at P;`, `reaction on s;` or `reactions;")),
+                false => {
+                    let message =
+                        "write `reaction at P;` for a pin, `reaction on s;` for a guide, or `reactions;` for all";
+                    return Err(syn::Error::new(keyword.span(), message));
+                }
             };
             EffectKind::Reaction(joint)
         }

@@ -30,8 +30,8 @@ fn implemented(program: &Program<Code>, columns: &Columns) -> TokenStream {
     let [given_count, found_count, coordinates] =
         [given_names.len(), columns.all().count(), columns.coordinates.len()].map(literal);
     let in_lane = in_lane(program, columns, &given);
-    let [of_given, of_branch, of_lane, of_found] =
-        ["given", "branch", "lane", "found"].map(|name| argument(name, in_lane.is_some()));
+    let [of_given, of_branch, of_lane] = ["given", "branch", "lane"].map(|name| argument(name, in_lane.is_some()));
+    let of_found = argument("found", in_lane.is_some() && !is_without_results(program));
     let (in_lane, exact) = (in_lane.unwrap_or_else(|| quote!(false)), exact(program, columns, &given));
     quote! {
         impl<T: __rt::Real> #name<T> {
@@ -80,12 +80,11 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         return None;
     }
     let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound(&quote!([lane])));
-    let is_open = program.signatures.is_open();
     let is_method =
         program.functions.iter().any(|function| function.name == "kinematics_in_lane" && function.is_method);
     let on = if is_method { quote!(self.) } else { quote!(Self::) };
     // The coordinates of an open chain are given: only points and outputs read its kinematics.
-    let (found, taken) = match is_open && !has("quantities_in_lane") {
+    let (found, taken) = match is_without_results(program) {
         true => (quote!(_), TokenStream::new()),
         false => (quote!(kinematics), quote!(let #kinematics { pose, rates, accelerations } = kinematics;)),
     };
@@ -113,6 +112,14 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         #store_coordinates
         if QUANTITIES { #quantities } else { is_accepted }
     })
+}
+
+/// True for an open chain whose points and outputs are not computed in lanes: its coordinates are given.
+fn is_without_results(program: &Program<Code>) -> bool {
+    let mut functions = program.functions.iter();
+    let has_quantities =
+        functions.any(|function| function.access == Access::Lane && function.name == "quantities_in_lane");
+    program.signatures.is_open() && !has_quantities
 }
 
 /// The angles of a lane without branches, and the names of the flags that are true if they are right.

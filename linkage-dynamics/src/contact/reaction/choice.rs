@@ -111,7 +111,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
     fn examine(&mut self, modes: &Column<Mode, C>) -> Result<(), Failure> {
         let problem = self.problem;
         let family = Family::new(problem, modes);
-        if !family.is_consistent || (family.spares > 0) != self.is_redundant {
+        if !family.is_consistent || (family.spares > 0) != self.is_redundant || problem.is_beyond_reach(modes) {
             return Ok(());
         }
         if self.is_redundant && self.is_part_of_another(modes, &family) {

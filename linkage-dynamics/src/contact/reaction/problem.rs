@@ -1,10 +1,11 @@
 //! Accelerations and reactions as functions of the contact forces: s'' = b + A f, R = r + P f.
 
+use super::linear::contraction;
 use crate::MotionError;
 use crate::contact::held::{Response, held_tolerance, slipping};
 use crate::contact::state::sum_tolerance;
 use crate::contact::{ContactLaw, Mode, ReducedEquations};
-use linkage_runtime::{Column, Dim, PositionError, Real};
+use linkage_runtime::{Column, Dim, Matrix, PositionError, Real};
 
 /// A reaction as a function of the contact forces.
 #[derive(Debug, Clone, Copy)]
@@ -150,6 +151,39 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
             _ => side.inward(),
         };
         sum * sign >= -held_tolerance::<T>() * size
+    }
+
+    /// The greatest magnitudes of the forces in these modes: u <= c |r| + G u where the spectral radius of G is below 1;
+    /// None if a force has no bound.
+    fn most(&self, modes: &Column<Mode, C>) -> Option<Column<T, C>> {
+        let mut gain = Matrix::<T, C, C>::zeros();
+        let mut side = Column::<T, C>::zeros();
+        for place in 0..C::COUNT {
+            match (self.equations.contacts[place].law, &self.reactions[place]) {
+                (ContactLaw::Friction { limit }, _) => side[place] = limit,
+                (ContactLaw::Bearing { .. }, Some(Reaction { factor, base, by, .. })) => {
+                    side[place] = *factor * length(*base);
+                    for other in 0..C::COUNT {
+                        *gain.get_mut(place, other)? = *factor * length([by[0][other], by[1][other]]);
+                    }
+                }
+                _ if modes[place].is_held() => return None,
+                _ => {}
+            }
+        }
+        contraction(&gain, side, C::COUNT)
+    }
+
+    /// True if a friction that is held would need more force than all forces can give: at a dead centre of s it cannot
+    /// hold s, whose acceleration no force changes.
+    pub(super) fn is_beyond_reach(&self, modes: &Column<Mode, C>) -> bool {
+        let Some(most) = self.most(modes) else { return false };
+        (0..C::COUNT).filter(|&place| modes[place].is_held()).any(|place| {
+            let (bias, size) = self.response.bias[place];
+            let reach = (0..C::COUNT).map(|other| self.response.matrix[(place, other)].abs() * most[other]);
+            let reach = reach.fold(T::zero(), |sum, term| sum + term);
+            bias.abs() > reach + held_tolerance::<T>() * (size + reach)
+        })
     }
 
     /// The forces of the contacts that do not depend on any reaction: those that slip with a given limit.
