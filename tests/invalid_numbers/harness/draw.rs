@@ -134,6 +134,12 @@ impl<const R: usize, const C: usize> Draw for SMatrix<f64, R, C> {
     }
 }
 
+impl<const N: usize> Draw for [f64; N] {
+    fn draw(source: &mut Source) -> Self {
+        std::array::from_fn(|_| source.number())
+    }
+}
+
 impl<R: Dim> Draw for Column<f64, R> {
     fn draw(source: &mut Source) -> Self {
         Self::from_fn(|_| source.number())

@@ -11,8 +11,8 @@ use linkage::nalgebra::{Point2, SMatrix, UnitComplex};
 use linkage::simulation::{Loads, State, Touch};
 use linkage::singularity::{Accuracy, Exchange, GroupMeasure, Singularity};
 use linkage::{
-    AnyBranch, Assembled, Balance, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
-    Mechanism, OutputMotion, PointMotion, Power, Scene, Slider, Slope, Solution, Unreduced,
+    AnyBranch, Assembled, Balance, Bearing, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
+    Mechanism, OutputMotion, PointMotion, Power, ReactionRow, Scene, Slider, Slope, Solution, Unreduced,
 };
 
 /// Checks every number of a value: a type passes on its parts.
@@ -137,6 +137,10 @@ parts! {
     [U: Dim, V: Dim] ContactCoordinate<f64, U, V> {
         ContactCoordinate { value, unknowns, inputs, bias } => value unknowns inputs bias
     }
+    [U: Dim, V: Dim, C: Dim] Bearing<f64, U, V, C> { Bearing { components } => components }
+    [U: Dim, V: Dim, C: Dim] ReactionRow<f64, U, V, C> {
+        ReactionRow { constant, unknowns, inputs, rows, contacts } => constant unknowns inputs rows contacts
+    }
     [U: Dim, V: Dim] Contact<f64, U, V> { Contact { name: _, along, law } => along law }
     [] Limits<f64> { Limits { lower, upper } => lower upper }
     [M: Mechanism<Scalar = f64, Coordinates: Finite, Rates: Finite>] continuation::PathStep<M> {
@@ -146,8 +150,8 @@ parts! {
     [S: Scene<Scalar = f64, Mechanism: Mechanism<Coordinates: Finite, Rates: Finite>>] State<S> {
         State { t, q, rates, event, contacts } => t q rates event contacts
     }
-    [S: Scene<Scalar = f64, Mechanism: Mechanism<Inputs: Finite>>] Loads<S> {
-        Loads { contacts, are_unique: _, drives, drive_power } => contacts drives drive_power
+    [S: Scene<Scalar = f64, Mechanism: Mechanism<Inputs: Finite>, Reactions: Finite>] Loads<S> {
+        Loads { contacts, are_unique: _, drives, drive_power, joints } => contacts drives drive_power joints
     }
     [] GroupMeasure<f64> {
         GroupMeasure { name: _, determinant, regularity, sigma_min, is_regular: _ } => determinant regularity sigma_min
