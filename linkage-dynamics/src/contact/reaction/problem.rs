@@ -163,8 +163,8 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
                 (ContactLaw::Friction { limit }, _) => side[place] = limit,
                 (ContactLaw::Bearing { .. }, Some(Reaction { factor, base, by, .. })) => {
                     side[place] = *factor * length(*base);
-                    for other in 0..C::COUNT {
-                        *gain.get_mut(place, other)? = *factor * length([by[0][other], by[1][other]]);
+                    for (other, (&x, &y)) in by[0].iter().zip(&by[1]).enumerate() {
+                        *gain.get_mut(place, other)? = *factor * length([x, y]);
                     }
                 }
                 _ if modes[place].is_held() => return None,
