@@ -18,8 +18,8 @@ pub use error::Error;
 pub use linkage_double::DoubleDouble;
 #[cfg(all(feature = "dynamics", any(feature = "std", feature = "libm")))]
 pub use linkage_dynamics::{
-    Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Coordinates, Energy, Equations, Inputs, Mode,
-    MotionError, Power, Prescribed, Rates, ReactionRow, Scene, StateColumn, Unreduced, contact, simulation,
+    Accelerations, Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Coordinates, Energy, Equations, Inputs,
+    Mode, MotionError, Power, Prescribed, Rates, ReactionRow, Scene, StateColumn, Unreduced, contact, simulation,
 };
 #[cfg(feature = "drawing")]
 pub use linkage_report::drawing;

@@ -7,7 +7,7 @@ linkage! {
     #[derive(Debug, Clone)]
     pub mechanism Pump {
         param r = 0.1, l = 0.4;
-        param m2 = 1, j2 = 0.01, m3 = 0.7, j3 = 0.02, m4 = 1.3, g = 9.81, load = 40, torque = 12, mu = 0.1, rp = 0.02;
+        param m2 = 1, j2 = 0.01, m3 = 0.7, j3 = 0.02, m4 = 1.3, g = 9.81, load = 40, torque = 4, mu = 0.1, rp = 0.02;
         input theta;
         unknown psi, s;
         loop r@theta + l@psi = s@0;
@@ -36,7 +36,7 @@ fn what_flows_is_accounted_for() {
     let q = scene.mechanism.assemble(0.7, PumpBranch { psi_s: Slider::Far }).unwrap().coordinates();
     let start = scene.energy(&q, 8.0).unwrap();
     let (mut applied, mut dissipated) = (0.0, 0.0);
-    let mut simulation = simulate(&scene, (0.0, q, 8.0), 1.5, 1e-11).unwrap();
+    let mut simulation = simulate(&scene, (0.0, q, 8.0), 0.3, 1e-12).unwrap();
     let mut last = 0.0;
     let mut times = Vec::new();
     while let Some(state) = simulation.advance().unwrap() {
@@ -44,10 +44,10 @@ fn what_flows_is_accounted_for() {
     }
     // Gauss-Legendre points of each step; the frictions jump at the ends of steps only.
     let nodes = [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
-    let mut simulation = simulate(&scene, (0.0, q, 8.0), 1.5, 1e-11).unwrap();
+    let mut simulation = simulate(&scene, (0.0, q, 8.0), 0.3, 1e-12).unwrap();
     let mut at = Vec::new();
     for &t in &times {
-        let parts = 8;
+        let parts = 32;
         for part in 0..parts {
             let width = (t - last) / f64::from(parts);
             at.extend(nodes.map(|(place, weight)| (last + (f64::from(part) + place) * width, weight * width)));
@@ -66,7 +66,7 @@ fn what_flows_is_accounted_for() {
     let gained = after.kinetic + after.potential - start.kinetic - start.potential;
     let gap = gained - applied + dissipated;
     println!("applied {applied}, dissipated {dissipated}, gained {gained}, gap {gap:e}");
-    assert!(dissipated > 1.0, "{dissipated}");
+    assert!(dissipated > 0.1, "{dissipated}");
     assert!(gap.abs() < 1e-9 * (applied.abs() + dissipated), "{gap:e}");
 }
 

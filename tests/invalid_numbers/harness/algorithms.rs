@@ -109,6 +109,7 @@ impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
     type State = S::State;
     type Contacts = S::Contacts;
     type Mechanism = Counted<'a, S::Mechanism>;
+    type Reactions = S::Reactions;
 
     const NAME: &'static str = S::NAME;
     const BEARINGS: bool = S::BEARINGS;
@@ -148,6 +149,16 @@ impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
         rates: &Rates<S>,
     ) -> Result<Column<Option<Bearing<f64, S::U, S::V, S::Contacts>>, S::Contacts>, MotionError> {
         self.scene.bearings(t, q, rates)
+    }
+    fn reactions(
+        &self,
+        t: f64,
+        q: &Q<S>,
+        rates: &Rates<S>,
+        accelerations: &linkage::Accelerations<S>,
+        contact_forces: &Column<f64, S::Contacts>,
+    ) -> Result<S::Reactions, MotionError> {
+        self.scene.reactions(t, q, rates, accelerations, contact_forces)
     }
     fn unreduced(&self, t: f64, q: &Q<S>, rates: &Rates<S>) -> Result<Unreduced<f64, S::U, S::V>, MotionError> {
         self.scene.unreduced(t, q, rates)

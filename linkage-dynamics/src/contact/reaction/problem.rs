@@ -5,7 +5,7 @@ use crate::MotionError;
 use crate::contact::held::{Response, held_tolerance, slipping};
 use crate::contact::state::sum_tolerance;
 use crate::contact::{ContactLaw, Mode, ReducedEquations};
-use linkage_runtime::{Column, Dim, Matrix, PositionError, Real};
+use linkage_runtime::{Column, Dim, Matrix, PositionError, Real, real};
 
 /// A reaction as a function of the contact forces.
 #[derive(Debug, Clone, Copy)]
@@ -174,15 +174,15 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
         contraction(&gain, side, C::COUNT)
     }
 
-    /// True if a friction that is held would need more force than all forces can give: at a dead centre of s it cannot
-    /// hold s, whose acceleration no force changes.
+    /// True if a friction that is held would need more than twice the force that all forces can give: at a dead centre of
+    /// s it cannot hold s, whose acceleration no force changes. Closer to the limit the forces themselves are compared.
     pub(super) fn is_beyond_reach(&self, modes: &Column<Mode, C>) -> bool {
         let Some(most) = self.most(modes) else { return false };
         (0..C::COUNT).filter(|&place| modes[place].is_held()).any(|place| {
             let (bias, size) = self.response.bias[place];
             let reach = (0..C::COUNT).map(|other| self.response.matrix[(place, other)].abs() * most[other]);
             let reach = reach.fold(T::zero(), |sum, term| sum + term);
-            bias.abs() > reach + held_tolerance::<T>() * (size + reach)
+            bias.abs() > reach * real(2.0) + held_tolerance::<T>() * size
         })
     }
 
