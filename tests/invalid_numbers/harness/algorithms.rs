@@ -285,7 +285,7 @@ where
 /// The algorithms for any scene.
 pub fn scene<S, M>(t: &mut Tally, s: &mut Source, scene: &S, positions: &mut Pool<M::Coordinates>)
 where
-    S: Scene<Scalar = f64, Mechanism = M>,
+    S: Scene<Scalar = f64, Mechanism = M, Reactions: Finite>,
     M: Mechanism<
             Scalar = f64,
             U = S::U,

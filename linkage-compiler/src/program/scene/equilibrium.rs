@@ -41,6 +41,7 @@ impl ScenePlan<'_, '_, '_> {
         let search = [Expression::mechanism(), Expression::List(start), function];
         let mut body = Body::result(Expression::runtime("equilibrium", search));
         if !driven.is_empty() {
+            let given_by_drives = driven.iter().map(Expression::name).collect();
             let laws = driven.into_iter().map(|input| Pattern::Struct {
                 of: Type::Runtime("Prescribed", Vec::new()),
                 fields: vec![("value".to_owned(), Pattern::Name(input))],
@@ -48,6 +49,9 @@ impl ScenePlan<'_, '_, '_> {
             });
             let drives = Expression::call("drives", [Expression::name(&time)]);
             body.before = vec![Statement::Let(Pattern::List(laws.collect()), drives)];
+            // No solution for unknowns finds that a given coordinate is not finite.
+            let what = "the law of a drive".to_owned();
+            body.before.extend(is_open.then_some(Statement::Check { what, values: given_by_drives, detail: None }));
         }
         let mut doc = lines([
             "The position of static equilibrium near the guess, stable or unstable, by Newton's method: the forces of the free",
