@@ -18,6 +18,7 @@ pub use crate::implied::{closes, implied};
 pub use crate::lanes::{Batch, Lanes, Values};
 pub use crate::limits::{Bound, Search, limits};
 pub use crate::linear::{Factorization, is_nonzero, product_of_pivots, regular};
+pub use crate::modes::{Loops, Memory};
 pub use crate::motion::{
     finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
 };
@@ -26,7 +27,7 @@ pub use crate::scalar::{largest, unit};
 pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
-    AnyBranch, Assembled, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, OutputMotion,
+    AnyBranch, Assembled, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, Mode, OutputMotion,
     PointMotion, PositionError, Real, Slider, Slope, Solution, lane, newton, newton_any_branch, real,
 };
 

@@ -41,6 +41,8 @@ pub mod limits;
 mod linear;
 mod matrix;
 mod mechanism;
+#[doc(hidden)]
+pub mod modes;
 mod motion;
 mod native;
 mod newton;
@@ -60,6 +62,7 @@ pub use error::{InputError, PathError, PositionError};
 pub use limits::Limits;
 pub use matrix::Matrix;
 pub use mechanism::{Assembly, Group, Mechanism, PerInput, PerUnknown};
+pub use modes::Mode;
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
 pub use position::{AnyBranch, Solution, newton, newton_any_branch};

@@ -138,7 +138,7 @@ where
 }
 
 /// Psi, the sums of the magnitudes of its terms, and the columns of J.
-type Evaluated<T, const N: usize> = ([T; N], [T; N], [[T; N]; N]);
+pub(crate) type Evaluated<T, const N: usize> = ([T; N], [T; N], [[T; N]; N]);
 
 /// A mechanism whose inputs are those of a guess.
 struct Whole<'a, M: Mechanism> {

@@ -82,6 +82,26 @@ pub enum PositionError {
         /// The unknowns of the first group without a closed form.
         group: &'static str,
     },
+    /// A group has fewer positions at this input than the number of the one asked for.
+    NoMode {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group.
+        group: &'static str,
+        /// The number asked for, from 0.
+        number: usize,
+        /// The number of positions.
+        count: usize,
+    },
+    /// Positions of a group are so near to each other that rounding error hides how many there are.
+    Undecided {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group.
+        group: &'static str,
+        /// The regularity of the group there, 0 where positions meet.
+        regularity: f64,
+    },
     /// A number given or computed is infinite or NaN.
     NotFinite {
         /// The mechanism, the driver of one or the scene.
@@ -138,6 +158,16 @@ impl fmt::Display for PositionError {
                     "group {group} of {mechanism} has no closed form: use `assemble_near` with a guess, or `solve`"
                 )
             }
+            Self::NoMode { mechanism, group, number, count } => write!(
+                f,
+                "group {group} of {mechanism} has {count} positions at this input, numbered from 0: there is no number \
+                 {number}"
+            ),
+            Self::Undecided { mechanism, group, regularity } => write!(
+                f,
+                "positions of group {group} of {mechanism} are too near to each other to be told apart: its regularity \
+                 there is {regularity:.1e}"
+            ),
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
             Self::Input(error) => error.fmt(f),
         }
