@@ -14,5 +14,9 @@ linkage! {
         loop (1, -5) + r@psi + b@u1 + (px, py)@(u1 + u2) + e@u4 = (6, 3) + f@chi;
         loop (-4, 2) + r@u1 + b@w1 + c@w2 = d@w3;
         loop (-4, 2) + r@u1 + b@w1 + (px, py)@w2 + e@(w4 + v) = (-6, 3) + f@-u3;
+
+        point First = (1, -5) + r@psi + b@u1;
+        point Second = (-4, 2) + r@u1 + b@w1;
+        output turn = w2;
     }
 }
