@@ -19,9 +19,12 @@ fn gallery(file: &str) -> Derivation {
     derive(&read(group.stream()).unwrap()[0]).remove(0)
 }
 
-/// The derivation of a mechanism with the parameters a to f, the input v and these unknowns.
+/// The derivation of a mechanism with the parameters a to f that are used, the input v and these unknowns.
 fn written(unknowns: &str, statements: &str) -> Derivation {
-    let source = format!("mechanism M {{ param a, b, c, d, e, f; input v; unknown {unknowns}; {statements} }}");
+    let words: Vec<&str> = statements.split(|letter: char| !letter.is_alphanumeric()).collect();
+    let parameters = ["a", "b", "c", "d", "e", "f"].into_iter().filter(|name| words.contains(name));
+    let parameters = parameters.collect::<Vec<_>>().join(", ");
+    let source = format!("mechanism M {{ param {parameters}; input v; unknown {unknowns}; {statements} }}");
     derive(&read(source.parse().unwrap()).unwrap_or_else(|errors| panic!("{source}: {errors:?}"))[0]).remove(0)
 }
 
@@ -97,4 +100,83 @@ fn of_the_gallery() {
     let mut triads = gallery("two_triads");
     assert_eq!(groups(&triads), [Group::Rrr, Group::Loops(2), Group::Loops(2)]);
     assert_eq!(checked(&mut triads).len(), 2);
+}
+
+#[test]
+fn directions_of_links() {
+    for (unknowns, statements, expected) in [
+        (
+            "p, q, r, s",
+            "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) + c@s;",
+            &[Group::Loops(2)][..],
+        ),
+        // Clockwise angles, and angles from a known direction.
+        (
+            "p, q, r, s",
+            "loop a@v + b@(v - p) + c@(-q) = d@0 + e@(90deg - r); loop b@(v - p) + f@(30deg - q) = (1, 2) + c@(-s);",
+            &[Group::Loops(2)],
+        ),
+        // Angles from the link before.
+        (
+            "p, q, r, s",
+            "loop a@v + b@(v + p) + c@(v + p + q) = e@r; loop b@(v + p) + f@(v + p + q) = (1, 2) + c@(r + s);",
+            &[Group::Loops(2)],
+        ),
+        // A joint by its coordinates, and a number of one loop before the other.
+        (
+            "x, y, p, q, r, s",
+            "loop a@v + b@p = (x, y); loop (x, y) + c@q = d@0 + e@r; loop (x, y) + f@q = (1, 2) + c@s;",
+            &[Group::Loops(2), Group::Linear, Group::Linear],
+        ),
+        // x and y come from different loops.
+        (
+            "x, y, p, q, r, s",
+            "loop (x, y) + b@p = a@v; loop c@q + e@r = (d, 0) + (x, y) - f@p; loop b@p + f@q = (1, y) + c@s + (x, 0) - (0, 2);",
+            &[Group::Loops(2), Group::Linear, Group::Linear],
+        ),
+        // Two angles that are known from a group before, and gears.
+        (
+            "p, q, r, s, t",
+            "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) + c@s; equation t = 2*s - v;",
+            &[Group::Loops(2), Group::Linear],
+        ),
+    ] {
+        let mut derivation = written(unknowns, statements);
+        assert_eq!(groups(&derivation), expected, "{statements}");
+        assert_eq!(checked(&mut derivation).len(), 1);
+    }
+}
+
+#[test]
+fn other_groups_need_a_guess() {
+    let angles = "they are not the angles of links in two or three loops";
+    for (unknowns, statements, count, obstacle) in [
+        // A length.
+        ("p, q, r, s", "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) + s@v;", 4, angles),
+        // A direction and its mirror image.
+        ("p, q, r, s", "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@(-q) = (1, 2) + c@s;", 4, angles),
+        // An angle and twice the angle: five directions.
+        ("p, q, r, s", "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@(2*q) = (1, 2) + c@s;", 4, angles),
+        // The sum and the difference give twice the angles.
+        ("p, q, r, s", "loop a@v + b@(p+q) + c@(p-q) = e@r; loop a@v + b@(p+q) + f@(p-q) = (1, 2) + c@s;", 4, angles),
+        // Equations that are no loops.
+        (
+            "p, q, r, s",
+            "loop a@v + b@p + c@q = e@r; equation b*cos(p) + c*sin(s) = a; equation d*cos(q) + f*cos(s) = v;",
+            4,
+            angles,
+        ),
+        (
+            "p, q, r, s, t, u, w, z",
+            "loop a@v + b@p + c@q = d@r; loop a@v + b@p + c@s = d@t + (1, 1); loop (2, 3) + e@q + f@s = a@u + b@w; \
+             loop (1, 2) + a@r + c@u = d@t + e@z; ",
+            8,
+            "it has more than three loops",
+        ),
+    ] {
+        let derivation = written(unknowns, statements);
+        assert_eq!(groups(&derivation), [Group::Irreducible(count)], "{statements}");
+        let found = derivation.blocks.iter().find_map(|block| block.group.obstacle()).unwrap();
+        assert_eq!(found, format!("its {count} unknowns depend on one another, and {obstacle}"));
+    }
 }
