@@ -27,9 +27,10 @@ pub use linkage_report::drawing;
 pub use linkage_report::{Document, Table, sheet};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
-    AnyBranch, Assembled, Assembly, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix, Mechanism, Mode,
-    OutputMotion, PathError, PerInput, PerUnknown, PointMotion, PositionError, Real, Slider, Slope, Solution, accuracy,
-    continuation, derivation, extremes, lanes, limits, nalgebra, position, real, singularity, skeleton,
+    AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix,
+    Mechanism, OutputMotion, PathError, PerInput, PerUnknown, PointMotion, PositionError, Real, Slider, Slope,
+    Solution, accuracy, continuation, derivation, extremes, lanes, limits, nalgebra, position, real, singularity,
+    skeleton,
 };
 
 /// An example without a `scene`, a crank and slider: the rate function solves for the position, with the last

@@ -18,7 +18,7 @@ const PRELUDE: &str = "Copy Send Sized Sync Unpin Drop Fn FnMut FnOnce AsyncFn d
 
 const TYPES: &str = "bool char str u8 u16 u32 u64 u128 usize i8 i16 i32 i64 i128 isize f32 f64 Rc Arc Cell RefCell Mutex \
     HashMap BTreeMap Path Instant Duration Ordering Range Error Add Sub Mul Div Neg Index Display Write Read Matrix \
-    Vector2 Point2 SVector Complex Real Mechanism Scene Assembly Pose Branch Motion Side Elbow Column Slope Slider core \
+    Vector2 Point2 SVector Complex Real Mechanism Scene Assembly AssemblyMode Branches Memory Loops Pose Branch Motion Side Elbow Column Slope Slider core \
     std alloc nalgebra linkage";
 
 const LETTERS: &str = "a b c d e f g h i j k l m n o p q r s t u v w x y z A B C D E F G H I J K L M N O P Q R S T U V W \

@@ -40,7 +40,7 @@ fn a_stub_has_the_functions_of_the_mechanism() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dev/gallery/src/mechanisms");
     let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
-    let (mut compared, mut with_turns) = (0, 0);
+    let (mut compared, mut with_turns, mut with_modes) = (0, 0, 0);
     for path in files {
         let Some(tokens) = tokens_of(&path) else { continue };
         for mechanism in linkage_compiler::read(tokens).unwrap() {
@@ -51,6 +51,9 @@ fn a_stub_has_the_functions_of_the_mechanism() {
                 let sides =
                     |of: &Position| of.sides.iter().map(|side| (side.field.clone(), side.choice)).collect::<Vec<_>>();
                 assert_eq!(sides(&planned.position), sides(&stub.position), "{whose}");
+                let modes = |of: &Position| of.modes.iter().map(|group| group.field.clone()).collect::<Vec<_>>();
+                assert_eq!(modes(&planned.position), modes(&stub.position), "{whose}");
+                with_modes += modes(&stub.position).len();
                 assert_eq!(planned.position.is_closed, stub.position.is_closed, "{whose}");
                 if planned.position.is_closed {
                     let turns =
@@ -67,6 +70,6 @@ fn a_stub_has_the_functions_of_the_mechanism() {
             }
         }
     }
-    println!("{compared} drivers, {with_turns} with turns");
-    assert!(compared > with_turns && with_turns > 0);
+    println!("{compared} drivers, {with_turns} with turns, {with_modes} groups with numbers");
+    assert!(compared > with_turns && with_turns > 0 && with_modes > 4);
 }

@@ -27,8 +27,9 @@ pub use crate::scalar::{largest, unit};
 pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
-    AnyBranch, Assembled, Assembly, Column, D, Elbow, Group, InputError, Limits, Matrix, Mechanism, Mode, OutputMotion,
-    PointMotion, PositionError, Real, Slider, Slope, Solution, lane, newton, newton_any_branch, real,
+    AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Column, D, Elbow, Group, InputError, Limits, Matrix,
+    Mechanism, OutputMotion, PointMotion, PositionError, Real, Slider, Slope, Solution, lane, newton,
+    newton_any_branch, real,
 };
 
 /// The types of emitted derivations.
@@ -48,6 +49,7 @@ pub mod serde {
 /// Traits imported without a name, for the methods that emitted code calls.
 pub mod prelude {
     pub use core::convert::{From as _, Into as _};
+    pub use core::default::Default as _;
     pub use core::iter::Iterator as _;
 
     pub use crate::turn::Turn as _;

@@ -175,6 +175,27 @@ pub trait Assembly: Mechanism {
     fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
 }
 
+/// A mechanism whose positions at given inputs can be listed.
+///
+/// `linkage!` implements it for every mechanism that has the function `branches`.
+#[diagnostic::on_unimplemented(
+    message = "the positions of `{Self}` cannot be listed",
+    note = "`linkage!` implements `Branches` for each mechanism that has the function `branches`"
+)]
+pub trait Branches: Mechanism {
+    /// The assembly branch: a position at given inputs.
+    type Branch: Copy + Debug + Eq;
+
+    /// All positions at these inputs, each with its branch, in the order of the branches.
+    ///
+    /// # Errors
+    /// [`PositionError::NotFinite`] if a number is not finite, and other errors of the function `branches` of the mechanism.
+    fn all_positions(
+        &self,
+        inputs: Self::Inputs,
+    ) -> Result<impl Iterator<Item = (Self::Branch, Self::Coordinates)>, PositionError>;
+}
+
 /// Returns an error if a number of the coordinates or of their pose is infinite or NaN.
 ///
 /// # Errors

@@ -79,7 +79,7 @@ fn coordinates_of(derived: &Derived, derivation: &Derivation) -> Vec<TokenStream
         .collect()
 }
 
-/// Implements `Mechanism` and, if the position has a closed form, `Assembly`.
+/// Implements `Mechanism`, `Assembly` if the position has a closed form, and `Branches` if all positions are listed.
 pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let TypeNames { inputs, pose, coordinates, rates, .. } = &program.signatures.types;
@@ -93,6 +93,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     let [u, v, g] = [u, v, program.position.blocks].map(literal);
     let groups = derivation.map(groups).unwrap_or_default();
     let assembly = program.position.is_closed.then(|| assembly(program));
+    let branches = program.functions.iter().any(|function| function.name == "branches").then(|| branches(program));
     let by_unknowns = quote!(__rt::Column<T, __rt::D<#u>>);
     let by_inputs = quote!(__rt::Column<T, __rt::D<#v>>);
     let [square, mixed] = [&u, &v].map(|columns| quote!(__rt::Matrix<T, __rt::D<#u>, __rt::D<#columns>>));
@@ -207,6 +208,23 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
             #implied
         }
         #assembly
+        #branches
+    }
+}
+
+/// Implements `Branches`.
+fn branches(program: &Program<Code>) -> TokenStream {
+    let (name, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
+    quote! {
+        impl<T: __rt::Real> __rt::Branches for #name<T> {
+            type Branch = #branch;
+            fn all_positions(
+                &self,
+                inputs: Self::Inputs,
+            ) -> __rt::Result<impl __rt::Iterator<Item = (Self::Branch, Self::Coordinates)>, __rt::PositionError> {
+                __rt::Ok(self.branches(inputs)?.map(|found| (found.branch, found.pose.coordinates())))
+            }
+        }
     }
 }
 

@@ -16,7 +16,7 @@ use crate::{PositionError, Real};
 /// by `assemble_near` or a [`Path`](crate::continuation::Path), not by its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Mode {
+pub enum AssemblyMode {
     /// No number: the position near a guess.
     #[default]
     OfGuess,
@@ -24,7 +24,7 @@ pub enum Mode {
     Number(usize),
 }
 
-impl Mode {
+impl AssemblyMode {
     /// All numbers that a position of a group of this many loops can have.
     pub fn all(loops: usize) -> impl Iterator<Item = Self> + Clone {
         (0..most_modes(loops)).map(Self::Number)
@@ -63,9 +63,14 @@ impl<T: Real, const N: usize> Modes<T, N> {
     ///
     /// # Errors
     /// [`PositionError::NoMode`] if there is no position of this number, [`PositionError::NoClosedForm`] for
-    /// [`Mode::OfGuess`].
-    pub fn take(&self, mechanism: &'static str, group: &'static str, mode: Mode) -> Result<[T; N], PositionError> {
-        let Mode::Number(number) = mode else { return Err(PositionError::NoClosedForm { mechanism, group }) };
+    /// [`AssemblyMode::OfGuess`].
+    pub fn take(
+        &self,
+        mechanism: &'static str,
+        group: &'static str,
+        mode: AssemblyMode,
+    ) -> Result<[T; N], PositionError> {
+        let AssemblyMode::Number(number) = mode else { return Err(PositionError::NoClosedForm { mechanism, group }) };
         let found = self.as_slice().get(number).copied();
         found.ok_or(PositionError::NoMode { mechanism, group, number, count: self.count })
     }

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use linkage::nalgebra::{Complex, SMatrix, Unit, UnitComplex};
-use linkage::{Column, Dim, Elbow, Matrix, Slider, Slope};
+use linkage::{AssemblyMode, Column, Dim, Elbow, Matrix, Slider, Slope};
 use rand::{Rng, RngCore};
 
 /// Numbers at the ends of the range, beyond it, and where squares and products overflow or underflow.
@@ -168,6 +168,17 @@ macro_rules! draw_choices {
     )*};
 }
 draw_choices! { Elbow Left Right Slider Near Far Slope Rising Falling }
+
+/// Usually a number, of which not all exist.
+impl Draw for AssemblyMode {
+    fn draw(source: &mut Source) -> Self {
+        match source.below(8) {
+            0 => Self::OfGuess,
+            1 => Self::Number(usize::MAX),
+            _ => Self::Number(source.below(8)),
+        }
+    }
+}
 
 /// Results that become arguments.
 pub struct Pool<Q>(Vec<Q>);

@@ -11,7 +11,7 @@ use linkage::nalgebra::{Point2, SMatrix, UnitComplex};
 use linkage::simulation::{Loads, State, Touch};
 use linkage::singularity::{Accuracy, Exchange, GroupMeasure, Singularity};
 use linkage::{
-    AnyBranch, Assembled, Balance, Bearing, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
+    AnyBranch, Assembled, AssemblyMode, Balance, Bearing, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
     Mechanism, OutputMotion, PointMotion, Power, ReactionRow, Scene, Slider, Slope, Solution, Unreduced,
 };
 
@@ -35,7 +35,7 @@ macro_rules! always {
         }
     )*};
 }
-always! { () bool usize i32 &'static str Elbow Slider Slope Touch }
+always! { () bool usize i32 &'static str AssemblyMode Elbow Slider Slope Touch }
 
 impl<T> Finite for PhantomData<T> {
     fn all_finite(&self) -> bool {
