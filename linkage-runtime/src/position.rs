@@ -228,12 +228,17 @@ where
     }
 
     fn regularity(&self, (_, _, columns): &Self::Point) -> f64 {
-        hadamard_ratio(product_of_pivots(*columns), &Matrix::from(*columns))
+        regularity(*columns)
     }
 
     fn names(&self) -> (&'static str, Option<&'static str>) {
         (self.mechanism, Some(self.group))
     }
+}
+
+/// Hadamard's ratio of the columns of J of a group.
+pub(crate) fn regularity<T: Real, const N: usize>(columns: [[T; N]; N]) -> f64 {
+    hadamard_ratio(product_of_pivots(columns), &Matrix::from(columns))
 }
 
 /// |det J| divided by the product of the norms of its columns: Hadamard's ratio.

@@ -283,7 +283,7 @@ fn changes(coefficients: &[f64]) -> usize {
 /// that stays halved (the Illinois rule).
 fn root(coefficients: &[f64]) -> f64 {
     const MOST_STEPS: usize = 40;
-    const ENOUGH: f64 = 1e-9;
+    const ENOUGH: f64 = 1e-7;
     let ([mut low, mut high], last) = ([0.0, 1.0], coefficients.len() - 1);
     let (mut at_low, mut at_high) = (coefficients[0], coefficients[last]);
     let mut middle = 0.5;

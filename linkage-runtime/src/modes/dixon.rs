@@ -28,7 +28,7 @@ const ZERO: Number = Number { re: 0.0, im: 0.0 };
 const ONE: Number = Number { re: 1.0, im: 0.0 };
 
 /// The most columns of c: k and six directions.
-const COLUMNS: usize = 7;
+pub const COLUMNS: usize = 7;
 
 /// The coefficients c of L loops, and their determinants.
 pub struct Minors {
@@ -199,7 +199,8 @@ impl<const SIZE: usize> Dixon<SIZE> {
         self.size.div_ceil(2)
     }
 
-    /// True if det W can be a trigonometric polynomial that is not zero.
+    /// True if W has as many rows for sets of L as for sets of L - 1 directions. Without rows no direction enters any
+    /// loop.
     pub fn is_proper(&self) -> bool {
         self.size > 0 && 2 * self.upper == self.size
     }
