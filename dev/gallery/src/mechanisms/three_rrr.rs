@@ -9,7 +9,7 @@ linkage! {
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism ThreeRrr {
         /// Cranks, rods, distance of the pivots, and radius of the platform.
-        param crank = 2, rod = 2.5, base = 6, radius = 1;
+        param crank = 2, rod = 3, base = 6, radius = 2;
         input first, second, third;
         unknown x, y, platform, rod1, rod2, rod3;
 

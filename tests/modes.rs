@@ -1,0 +1,148 @@
+//! Positions by number: all positions of groups of two and three loops.
+
+use linkage::{AssemblyMode, Branches, PositionError};
+use linkage_gallery::double_butterfly::*;
+use linkage_gallery::stephenson_far::*;
+use linkage_gallery::stephenson_iii::*;
+use linkage_gallery::three_rrr::*;
+use linkage_gallery::two_triads::*;
+
+/// The listed positions with their branches: the equations hold, `assemble` finds each by its branch, and so does
+/// `assemble_near` from its coordinates without a number.
+macro_rules! listed {
+    ($m:expr, $inputs:expr) => {{
+        let (m, inputs) = (&$m, $inputs);
+        let mut found = Vec::new();
+        for one in m.branches(inputs).unwrap() {
+            let q = one.pose.coordinates();
+            assert_eq!(m.assemble(inputs, one.branch).unwrap().coordinates(), q);
+            let near = m.assemble_near(&q, m.branch_of(&one.pose)).unwrap();
+            for pose in [one.pose, near] {
+                for (residual, scale) in m.residual(&pose).iter().zip(&m.residual_scales(&pose)) {
+                    assert!(residual.abs() <= 8.0 * f64::EPSILON * scale, "{residual} of {scale}");
+                }
+            }
+            found.push((one.branch, q));
+        }
+        assert_eq!(found, m.all_positions(inputs.into()).unwrap().collect::<Vec<_>>());
+        found
+    }};
+}
+
+/// True if two angles differ by full turns at most.
+fn is_same_angle(one: f64, other: f64) -> bool {
+    (one - other).sin().abs() < 1e-7 && (one - other).cos() > 0.0
+}
+
+/// The counts of the real positions are those of the Dixon determinant in another program.
+#[test]
+fn double_butterfly() {
+    let m = DoubleButterfly::default();
+    for (crank, count) in [(0.0, 8), (1.0, 8), (2.5, 10)] {
+        let found = listed!(m, crank);
+        assert_eq!(found.len(), count, "{crank}");
+        let numbers = (0..count).map(AssemblyMode::Number);
+        let of_group = |branch: &DoubleButterflyBranch| branch.coupler_upper_rocker_lower_link_strut;
+        assert!(found.iter().map(|(branch, _)| of_group(branch)).eq(numbers));
+        assert!(found.is_sorted_by(|(_, one), (_, next)| one.coupler < next.coupler));
+        let beyond = DoubleButterflyBranch { coupler_upper_rocker_lower_link_strut: AssemblyMode::Number(count) };
+        let error = m.assemble(crank, beyond).unwrap_err();
+        assert!(matches!(error, PositionError::NoMode { number, count: all, .. } if number == count && all == count));
+    }
+    let error = m.assemble(1.0, DoubleButterflyBranch::default()).unwrap_err();
+    assert!(matches!(error, PositionError::NoClosedForm { mechanism: "DoubleButterfly", .. }));
+    assert!(matches!(m.branches(f64::NAN).map(Iterator::count), Err(PositionError::NotFinite { .. })));
+}
+
+/// The chain driven from its far side has the positions that it has with the crank driven: those are in closed form.
+#[test]
+fn stephenson_from_both_sides() {
+    let (near, far) = (StephensonIII::default(), StephensonFar::default());
+    let (mut planted, mut most) = (0, 0);
+    for step in 0..40 {
+        for one in near.branches(0.15 + 0.157 * f64::from(step)).unwrap() {
+            let p = one.pose.coordinates();
+            let found = listed!(far, p.theta6);
+            // With the two positions of the dyad after them.
+            most = most.max(found.len());
+            let is_planted = |q: &StephensonFarCoordinates| {
+                let pairs = [(q.crank, p.theta2), (q.coupler, p.theta3), (q.rocker, p.theta4), (q.rod, p.theta5)];
+                pairs.into_iter().all(|(one, other)| is_same_angle(one, other))
+            };
+            let places: Vec<_> = found.iter().filter(|(_, q)| is_planted(q)).map(|(branch, _)| *branch).collect();
+            assert_eq!(places.len(), 2, "{p:?}");
+            assert_eq!(places[0].crank_coupler_rocker_rod, places[1].crank_coupler_rocker_rod);
+            assert_ne!(places[0].link_arm, places[1].link_arm);
+            planted += 1;
+            for (_, q) in found {
+                let back = near.branches(q.crank).unwrap().map(|one| one.pose.coordinates());
+                assert!(back.into_iter().any(|p| is_same_angle(p.theta6, q.swing)), "{q:?}");
+            }
+        }
+    }
+    println!("{planted} positions, at most {most} at one input");
+    assert!(planted > 80 && most <= 12);
+}
+
+#[test]
+fn three_legs() {
+    let m = ThreeRrr::default();
+    let mut most = 0;
+    for step in 0..200 {
+        let angle = |rate: f64| f64::from(step) * rate;
+        let inputs = ThreeRrrInputs { first: angle(0.37), second: angle(1.13), third: angle(2.71) };
+        let found = listed!(m, inputs);
+        most = most.max(found.len());
+        assert!(found.len() <= 6 && found.len() % 2 == 0);
+        for (_, q) in &found {
+            for angle in [q.platform, q.rod1, q.rod2, q.rod3] {
+                assert!(angle.abs() <= std::f64::consts::PI);
+            }
+        }
+    }
+    println!("at most {most}");
+    assert_eq!(most, 6);
+}
+
+/// A second group for each position of the first, joint angles, and a clockwise angle.
+#[test]
+fn groups_in_a_row() {
+    let m = TwoTriads::default();
+    let found = listed!(m, 1.0);
+    let planted = TwoTriadsCoordinates {
+        v: 1.0,
+        psi: 0.475,
+        chi: 1.69,
+        u1: 0.4,
+        u2: -1.1,
+        u3: -2.0,
+        u4: 0.9,
+        w1: 1.9,
+        w2: 0.3,
+        w3: 2.6,
+        w4: -0.5,
+    };
+    let branch = m.branch_near(&planted);
+    assert_eq!(branch.u1_u2_u3_u4, AssemblyMode::OfGuess);
+    let near = m.assemble_near(&planted, branch).unwrap().coordinates();
+    let is_planted = |(other, q): &&(TwoTriadsBranch, TwoTriadsCoordinates)| {
+        let pairs = [(q.u1, near.u1), (q.u2, near.u2), (q.u3, near.u3), (q.w1, near.w1), (q.w4, near.w4)];
+        other.psi_chi == branch.psi_chi && pairs.into_iter().all(|(one, other)| is_same_angle(one, other))
+    };
+    assert_eq!(found.iter().filter(is_planted).count(), 1);
+    // The numbers of the last group change fastest.
+    let numbers = |branch: &TwoTriadsBranch| match (branch.u1_u2_u3_u4, branch.w1_w2_w3_w4) {
+        (AssemblyMode::Number(one), AssemblyMode::Number(other)) => (one, other),
+        _ => panic!("{branch:?} has numbers"),
+    };
+    let mut most = 0;
+    for step in 0..63 {
+        let found = listed!(m, 0.1 * f64::from(step));
+        for side in found.chunk_by(|(one, _), (other, _)| one.psi_chi == other.psi_chi) {
+            let numbers: Vec<_> = side.iter().map(|(branch, _)| numbers(branch)).collect();
+            assert!(numbers.is_sorted_by(|one, next| one < next), "{numbers:?}");
+            most = most.max(numbers.chunk_by(|one, other| one.0 == other.0).count());
+        }
+    }
+    assert!(most > 1, "the second group has positions for {most} of the first");
+}
