@@ -20,7 +20,6 @@ use machines::{FourBar, GearedFiveBar, Parallelogram, SliderCrank, StephensonI};
 
 /// A chart with its text, and the numbers of modes, circuits and full turns.
 pub struct Figure {
-    title: &'static str,
     words: &'static str,
     svg: String,
     counts: [usize; 3],
@@ -43,7 +42,7 @@ where
     let svg = CircuitChart::of(mechanism, &found, unknown)?.title(title).to_svg();
     let counts = [found.modes.len(), found.circuits.len(), found.full_turns()];
     println!("{title}: {} modes, {} circuits, {} full turns", counts[0], counts[1], counts[2]);
-    Ok(Figure { title, words, svg, counts })
+    Ok(Figure { words, svg, counts })
 }
 
 fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
@@ -83,7 +82,7 @@ fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
             "Stephenson I six-bar",
             "Two modes turn fully, each a circuit; the other two are one circuit with two dead points.",
             &StephensonI::default(),
-            1.0,
+            0.2,
             "rho",
         )?,
         figure(

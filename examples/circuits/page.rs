@@ -16,11 +16,11 @@ pub fn html(figures: &[Figure]) -> String {
          there. Angles are modulo a turn.</p>\n</header>\n<main>\n<section>\n<h2>One input</h2>\n<div class=\"grid\">\n",
         include_str!("../gallery/style.css")
     );
-    for Figure { title, words, svg, counts: [modes, circuits, turns] } in figures {
+    for Figure { words, svg, counts: [modes, circuits, turns] } in figures {
         // Writing to a string does not fail.
         let _ = writeln!(
             html,
-            "<figure>\n{svg}\n<figcaption>\n<h3>{title}</h3>\n<p>{words}</p>\n\
+            "<figure>\n{svg}\n<figcaption>\n<p>{words}</p>\n\
              <p class=\"source\">{modes} modes, {circuits} {}, {turns} full turns</p>\n</figcaption>\n</figure>",
             if *circuits == 1 { "circuit" } else { "circuits" }
         );

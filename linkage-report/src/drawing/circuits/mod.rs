@@ -167,15 +167,13 @@ fn words<Q: Copy, B>(circuits: &Circuits<Q, B>, motions: &[usize]) -> String {
         1 => words += &format!(", {one}"),
         count => words += &format!(", {count} {many}"),
     };
+    let count = |is_counted: fn(&MotionCurve<Q>) -> bool| curves().filter(|curve| is_counted(curve)).count();
     add(curves().map(|curve| curve.dead_points().count()).sum(), "1 dead point", "dead points");
-    add(curves().filter(|curve| curve.change_points().next().is_some()).count(), "change points", "motions that cross");
-    for curve in curves() {
-        match curve.full_turns().abs() {
-            0 if curve.end == CurveEnd::Open => words += ", open",
-            0 => {}
-            1 => words += ", a full turn",
-            turns => words += &format!(", closed after {turns} turns"),
-        }
+    add(count(|curve| curve.change_points().next().is_some()), "change points", "motions that cross");
+    add(count(|curve| curve.full_turns().abs() == 1), "a full turn", "full turns");
+    add(count(|curve| curve.end == CurveEnd::Open), "not closed", "motions that do not close");
+    for turns in curves().map(|curve| curve.full_turns().abs()).filter(|&turns| turns > 1) {
+        words += &format!(", closed after {turns} turns");
     }
     words
 }

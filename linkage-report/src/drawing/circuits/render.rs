@@ -11,7 +11,7 @@ use crate::drawing::pen::Pen;
 /// The width of the picture and the plot in it, in pixels. Half a page wide, so that a phone shows it with its texts.
 const WIDTH: f64 = 480.0;
 const LEFT: f64 = 46.0;
-const TOP: f64 = 44.0;
+const TOP: f64 = 52.0;
 const PLOT: Vector2<f64> = Vector2::new(420.0, 260.0);
 
 /// The colours and the dashes of circuits, used in turn: 20 combinations.
@@ -20,7 +20,7 @@ const DASHES: usize = 4;
 
 /// The heights of a line of the legend, and of a small drawing with its words.
 const LEGEND: f64 = 18.0;
-const CELL: f64 = miniature::HEIGHT + 34.0;
+const CELL: f64 = miniature::HEIGHT + 40.0;
 const CELLS: usize = 4;
 
 /// The most circuits of the legend.
@@ -153,17 +153,31 @@ fn marks(chart: &CircuitChart) -> Group {
     for (number, place) in chart.places.iter().enumerate() {
         group = group.add(badge(place, placed(chart, place.at), number));
     }
-    for (number, &at) in chart.modes.iter().enumerate() {
-        let at = placed(chart, at);
+    let modes: Vec<Vector2<f64>> = chart.modes.iter().map(|&at| placed(chart, at)).collect();
+    for ((number, &at), label) in modes.iter().enumerate().zip(labels(&modes)) {
         let circle = Circle::new().set("class", "mode").set("cx", rounded(at.x)).set("cy", rounded(at.y)).set("r", 3.5);
         let circuit = chart.mode_circuits.get(number).copied().unwrap_or_default();
-        group = group.add(coloured(circuit).add(circle)).add(text(
-            &number.to_string(),
-            "label",
-            at + Vector2::new(9.0, -5.0),
-        ));
+        group = group.add(coloured(circuit).add(circle)).add(text(&number.to_string(), "label", label));
     }
     group
+}
+
+/// The places of the numbers of modes: each next to its dot, at the corner farthest from other dots and numbers.
+fn labels(modes: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
+    let corners = [[9.0, -5.0], [9.0, 12.0], [-9.0, -5.0], [-9.0, 12.0]].map(Vector2::from);
+    let mut placed: Vec<Vector2<f64>> = Vec::new();
+    for (number, &mode) in modes.iter().enumerate() {
+        // From the middle of the digits.
+        let room = |label: Vector2<f64>| {
+            let others = modes.iter().enumerate().filter(|&(other, _)| other != number).map(|(_, &at)| at);
+            let middle = label - Vector2::new(0.0, 4.0);
+            let numbers = placed.iter().map(|at| at - Vector2::new(0.0, 4.0));
+            others.chain(numbers).map(|at| (at - middle).norm()).fold(20.0, f64::min)
+        };
+        let best = corners.map(|corner| mode + corner).into_iter().rev().max_by(|a, b| room(*a).total_cmp(&room(*b)));
+        placed.extend(best);
+    }
+    placed
 }
 
 /// The letter of a place: of a dead point in a circle, of a change point in a square.
