@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use linkage::circuits::{CircuitError, CircuitOptions, Circuits};
 use linkage::derivation::Derivation;
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, Vector2};
+use linkage::{Branches, D};
 
 /// The number of steps of a period; the last frame equals the first.
 pub const STEPS: u32 = 72;
@@ -70,6 +72,8 @@ pub struct Figure {
     pub course: Course,
     /// The number of branches in general and in the first frame; None if positions come from Newton's method.
     pub branches: Option<[usize; 2]>,
+    /// The numbers of modes at the start, of circuits and of full turns; None for several inputs.
+    pub circuits: Option<[usize; 3]>,
     /// The largest residual of any loop equation, in ulps of the sum of its link lengths.
     pub ulps: f64,
 }
@@ -77,13 +81,24 @@ pub struct Figure {
 impl Figure {
     pub fn new(name: &'static str, derivation: &'static Derivation, course: Course) -> Self {
         let picture = Animation::new(name, SECONDS);
-        Self { name, about: "", source: "", picture, derivation, course, branches: None, ulps: 0.0 }
+        let (branches, circuits) = (None, None);
+        Self { name, about: "", source: "", picture, derivation, course, branches, circuits, ulps: 0.0 }
     }
 
     /// Sets a sentence about the mechanism, and its source.
     pub fn words(mut self, about: &'static str, source: &'static str) -> Self {
         (self.about, self.source) = (about, source);
         self
+    }
+
+    /// Counts the modes at an input, their circuits, and the motions on which the input turns fully.
+    pub fn count_circuits<M>(&mut self, mechanism: &M, input: f64) -> Result<(), CircuitError>
+    where
+        M: Branches<Scalar = f64, V = D<1>>,
+    {
+        let found = Circuits::of(mechanism, input, CircuitOptions::default())?;
+        self.circuits = Some([found.modes.len(), found.circuits.len(), found.full_turns()]);
+        Ok(())
     }
 
     /// Adds a position; its residual must be a few ulps of the sum of the link lengths.
@@ -130,6 +145,7 @@ macro_rules! assembled {
         let branch = $branch::new($($side),*);
         let course = Course::around(f64::to_radians($degrees), |input| $m.assemble(input, branch).is_ok());
         let mut figure = Figure::new($name, $mechanism::<f64>::DERIVATION, course);
+        figure.count_circuits(&$m, f64::to_radians($degrees))?;
         for input in course.inputs() {
             figure.branches.get_or_insert([$branch::all().count(), $m.branches(input)?.count()]);
             let $pose = $m.assemble(input, branch)?;

@@ -50,7 +50,10 @@ impl Miniature {
             Path::new().set("class", class).set("d", Pen::default().lines(points).path())
         };
         let mut group = Group::new();
-        for part in self.parts {
+        // Driven links are drawn last, so that no other hides them.
+        let (driven, others): (Vec<&Part>, _) =
+            self.parts.iter().partition(|part| matches!(part, Part::Bar { is_driven: true, .. }));
+        for part in others.into_iter().chain(driven) {
             match part {
                 Part::Bar { joints, is_driven } => {
                     let mut points: Vec<Vector2<f64>> = joints.iter().map(|&joint| at(joint)).collect();

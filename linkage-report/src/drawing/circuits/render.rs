@@ -197,7 +197,7 @@ fn badge(place: &Place, at: Vector2<f64>, number: usize) -> Group {
 fn cell(chart: &CircuitChart, number: usize, place: &Place, scale: &Scale, corner: Vector2<f64>) -> Group {
     let input = chart.axes[0].text(chart.axes[0].on_axis(place.at.x));
     let modes = match (place.is_dead_point, place.modes) {
-        (true, [Some(one), Some(other)]) => format!("modes {one}, {other}"),
+        (true, [Some(one), Some(other)]) => format!("modes {}, {}", one.min(other), one.max(other)),
         (true, _) => String::new(),
         (false, _) => "motions cross".to_owned(),
     };
