@@ -137,6 +137,19 @@ where
     }
 }
 
+/// The solution for the unknowns of one group near `start`, on any branch.
+///
+/// # Errors
+/// Those of [`newton_group`] but [`PositionError::OtherBranch`].
+pub(crate) fn polished<T: Real, const N: usize>(
+    [mechanism, group]: [&'static str; 2],
+    start: [T; N],
+    evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
+) -> Result<[T; N], PositionError> {
+    let part = Part { mechanism, group, evaluate, scalar: PhantomData };
+    search(&part, Column::from(start)).map(|(found, _)| found.unknowns.into())
+}
+
 /// Psi, the sums of the magnitudes of its terms, and the columns of J.
 pub(crate) type Evaluated<T, const N: usize> = ([T; N], [T; N], [[T; N]; N]);
 

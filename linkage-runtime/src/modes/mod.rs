@@ -1,5 +1,11 @@
 //! All positions of a group of two or three loops without a formula for each: its assembly modes.
 
+mod circle;
+mod dixon;
+mod search;
+
+use search::Search;
+
 use crate::position::Evaluated;
 use crate::{PositionError, Real};
 
@@ -114,19 +120,8 @@ impl<T: Real, const L: usize, const N: usize> Memory<T, L, N> {
         {
             return Ok(*modes);
         }
-        let modes = all(mechanism, group, &loops, unknowns, evaluate)?;
+        let modes = Search { names: [mechanism, group], loops: &loops, unknowns, evaluate }.run()?;
         self.last = Some((loops, modes));
         Ok(modes)
     }
-}
-
-fn all<T: Real, const L: usize, const N: usize>(
-    mechanism: &'static str,
-    group: &'static str,
-    loops: &Loops<T, L, N>,
-    unknowns: impl Fn([T; N]) -> [T; N],
-    evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
-) -> Result<Modes<T, N>, PositionError> {
-    let _ = (loops, evaluate(unknowns([T::zero(); N])));
-    Err(PositionError::Undetermined { mechanism, group })
 }
