@@ -47,6 +47,9 @@ snapshots! {
     assembly_of_two_groups: "v_twin" "VTwin" ["assemble"];
     assembly_with_a_user_function: "cam_rocker" "CamRocker" ["assemble_in_turns"];
     assembly_by_newton: "double_butterfly" "DoubleButterfly" ["assemble_near"];
+    assembly_by_number: "double_butterfly" "DoubleButterfly" ["assemble_remembering", "assemble", "branches", "branch_of"];
+    assembly_of_two_loops: "three_rrr" "ThreeRrr" ["assemble_remembering"];
+    assembly_of_groups_by_number: "two_triads" "TwoTriads" ["assemble_remembering", "assemble"];
 }
 
 // Constraints.

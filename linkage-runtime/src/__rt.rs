@@ -49,6 +49,7 @@ pub mod serde {
 /// Traits imported without a name, for the methods that emitted code calls.
 pub mod prelude {
     pub use core::convert::{From as _, Into as _};
+    pub use core::default::Default as _;
     pub use core::iter::Iterator as _;
 
     pub use crate::turn::Turn as _;

@@ -89,6 +89,7 @@ pub fn existing<B: Copy, P>(
             Ok(_)
             | Err(
                 PositionError::Unbuildable { .. }
+                | PositionError::NoMode { .. }
                 | PositionError::Undetermined { .. }
                 | PositionError::NotImplied { .. },
             ) => {}

@@ -83,11 +83,14 @@ macro_rules! all_mechanisms {
             slider_crank_contacts: Machine closed;
             slider_crank_scenes: Crank closed Piston closed;
             slider_named_first: SliderNamedFirst closed;
+            stephenson_far: StephensonFar newton;
             stephenson_i: StephensonI closed;
             stephenson_ii: StephensonII newton;
             stephenson_iii: StephensonIII closed;
             three_link_arm: ThreeLinkArm open, orders;
+            three_rrr: ThreeRrr newton;
             three_together: ThreeTogether newton;
+            two_triads: TwoTriads newton;
             two_windows: TwoWindows closed;
             v_twin: VTwin closed;
             watt_i: WattI closed;

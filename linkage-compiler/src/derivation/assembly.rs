@@ -11,7 +11,7 @@ use super::plane::{Vector, turned};
 use super::step::Step;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, ColumnId};
-use crate::structure::{self, Group, Slide};
+use crate::structure::{self, Group, Loops, Slide};
 
 /// The steps that solve all groups, and their results.
 #[derive(Debug, Clone, Default)]
@@ -27,6 +27,8 @@ pub struct Assembly {
     pub of_dyads: BTreeMap<SymbolId, BlockId>,
     /// Functions that must be non-negative for a block with two solutions to be assembled.
     pub bounds: Vec<(BlockId, Vec<NodeId>)>,
+    /// The loops of the blocks of which all positions can be listed, in terms of what is known before.
+    pub loops: BTreeMap<BlockId, Loops>,
     /// The coordinates without closed form, and the symbols of their guesses.
     pub guesses: Vec<(ColumnId, SymbolId)>,
     /// The cosine and sine of each solved angle, for formulas.
@@ -63,7 +65,10 @@ impl Choice {
             (Group::Rrr | Group::Circles | Group::LinkToCircle, _) => Some(Self::Elbow),
             (Group::Rrp | Group::Rpr | Group::SliderToCircle, _) | (Group::Angle, Some(_)) => Some(Self::Slider),
             (Group::Angle, None) => Some(Self::Slope),
-            (Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Irreducible(_), _) => None,
+            (
+                Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Loops(_) | Group::Irreducible(_),
+                _,
+            ) => None,
         }
     }
 
@@ -89,6 +94,19 @@ impl Choice {
 }
 
 impl Assembly {
+    /// The steps that solve all groups without a guess; `None` if Newton's method needs one for a group.
+    #[must_use]
+    pub fn listed_steps(&self) -> Option<Vec<Step>> {
+        let listed = |step: &Step| match step.clone() {
+            Step::Newton { block, targets, known, system, .. } => {
+                let loops = self.loops.get(&block)?.clone();
+                Some(Step::Modes { block, targets, loops, known, system })
+            }
+            step => Some(step),
+        };
+        self.steps.iter().map(listed).collect()
+    }
+
     /// Replaces cosines and sines of solved angles by their symbols.
     pub fn solved(&self, graph: &mut Graph, roots: &[NodeId]) -> Vec<NodeId> {
         let mut by = FxHashMap::default();
@@ -157,6 +175,7 @@ impl Derivation {
                 assembly.chords.push(Chord { block: id, choice, is_opposite });
             }
             if closed.is_none() {
+                self.find_loops(id, &block, &mut assembly);
                 self.iterate(id, &block, &mut assembly);
             }
             let Some(determinant) = block.determinant else { continue };
@@ -165,6 +184,22 @@ impl Derivation {
             assembly.determinants.insert(id, self.graph.variable(determinant.symbol));
         }
         assembly
+    }
+
+    /// Finds the loops of a block of which all positions can be listed.
+    fn find_loops(&mut self, id: BlockId, block: &Block, assembly: &mut Assembly) {
+        if !matches!(block.group, Group::Loops(_)) {
+            return;
+        }
+        let equations = self.residual.at(&block.equations);
+        let symbols: Vec<SymbolId> =
+            block.unknowns.iter().map(|&place| self.coordinates[self.unknowns[place]].value).collect();
+        if let Some(loops) = Loops::of(&mut self.graph, &equations, &symbols) {
+            let nodes = loops.nodes();
+            let solved = assembly.solved(&mut self.graph, &nodes);
+            let solved: FxHashMap<NodeId, NodeId> = nodes.into_iter().zip(solved).collect();
+            assembly.loops.insert(id, loops.map(|node| solved.get(&node).copied().unwrap_or(node)));
+        }
     }
 
     fn assemble(&mut self, id: BlockId, block: &Block, assembly: &mut Assembly) -> Option<NodeId> {

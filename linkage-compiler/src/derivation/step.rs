@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::BlockId;
+use crate::structure::Loops;
 
 /// One step of a solution. Later steps refer to its results by their symbols.
 #[derive(Debug, Clone)]
@@ -30,6 +31,9 @@ pub enum Step {
     /// Names the unknowns of a block, found by Newton's method from `start`. `system` holds its residuals, their scales
     /// and its Jacobian by rows, in terms of the unknowns and of `known`.
     Newton { block: BlockId, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
+    /// Names the unknowns of a block of loops: of all its positions the one whose number the branch has. `system` and
+    /// `known` are those of Newton's method.
+    Modes { block: BlockId, targets: Vec<SymbolId>, loops: Loops, known: Vec<NodeId>, system: Vec<NodeId> },
     /// Names the product of the pivots of a matrix given by rows.
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
 }
@@ -81,7 +85,7 @@ impl Step {
             | Self::Turn { symbol, .. }
             | Self::Pivots { symbol, .. }
             | Self::Chord { symbol, .. } => vec![*symbol],
-            Self::Solve { targets, .. } | Self::Newton { targets, .. } => targets.clone(),
+            Self::Solve { targets, .. } | Self::Newton { targets, .. } | Self::Modes { targets, .. } => targets.clone(),
             Self::Guard { .. } | Self::Factor { .. } | Self::Solvable { .. } | Self::Reach { .. } => Vec::new(),
         }
     }
@@ -110,6 +114,9 @@ impl Step {
             Self::Newton { block, targets, start, known, system } => {
                 Self::Newton { block, targets, start: all(start), known: all(known), system: all(system) }
             }
+            Self::Modes { block, targets, loops, known, system } => {
+                Self::Modes { block, targets, loops: loops.map(&f), known: all(known), system: all(system) }
+            }
             Self::Pivots { symbol, matrix } => Self::Pivots { symbol, matrix: matrix.into_iter().map(all).collect() },
         }
     }
@@ -132,6 +139,7 @@ impl Step {
             Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
             Self::Solve { right, .. } => right.clone(),
             Self::Newton { start, known, .. } => start.iter().chain(known).copied().collect(),
+            Self::Modes { loops, known, .. } => loops.nodes().into_iter().chain(known.iter().copied()).collect(),
         }
     }
 }

@@ -40,7 +40,7 @@ fn binding(value: &Expression) -> Binding {
             Binding::Product => Binding::Product,
             _ => Binding::Prefix,
         },
-        Expression::Borrowed(_) | Expression::Dereferenced(_) => Binding::Prefix,
+        Expression::Borrowed(_) | Expression::MutablyBorrowed(_) | Expression::Dereferenced(_) => Binding::Prefix,
         _ => Binding::Atom,
     }
 }
@@ -122,6 +122,10 @@ fn written(value: &Expression) -> TokenStream {
         Expression::Borrowed(value) => {
             let value = operand(value, Binding::Prefix);
             quote!(&#value)
+        }
+        Expression::MutablyBorrowed(value) => {
+            let value = operand(value, Binding::Prefix);
+            quote!(&mut #value)
         }
         Expression::Dereferenced(value) => {
             let value = operand(value, Binding::Prefix);

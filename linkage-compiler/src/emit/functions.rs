@@ -22,6 +22,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
         match passed {
             Passed::ByValue(of) => quote!(#name: #of),
             Passed::ByReference(of) => quote!(#name: &#of),
+            Passed::ByMutableReference(of) => quote!(#name: &mut #of),
             Passed::Converted(of) => quote!(#name: impl __rt::Into<#of>),
             Passed::Turns => quote!(#name: &impl __rt::Turn<T>),
         }

@@ -139,7 +139,9 @@ fn expression(value: &Expression) -> String {
         Expression::Associated(of, name, arguments) => format!("{}::{name}({})", path(of), expressions(arguments)),
         Expression::Method(of, name, arguments) => format!("{}.{name}({})", part(of), expressions(arguments)),
         Expression::Try(value) => format!("{}?", expression(value)),
-        Expression::Borrowed(value) | Expression::Dereferenced(value) => expression(value),
+        Expression::Borrowed(value) | Expression::MutablyBorrowed(value) | Expression::Dereferenced(value) => {
+            expression(value)
+        }
         Expression::Closure { arguments, statements, value, .. } => {
             let arguments = arguments.iter().map(pattern).collect::<Vec<_>>().join(", ");
             let statements: String = statements.iter().map(|line| format!("{}; ", statement(line))).collect();

@@ -145,6 +145,7 @@ impl Finished<'_> {
             }
             E::Try(value) => E::Try(Box::new(self.expression(*value))),
             E::Borrowed(value) => E::Borrowed(Box::new(self.expression(*value))),
+            E::MutablyBorrowed(value) => E::MutablyBorrowed(Box::new(self.expression(*value))),
             E::Dereferenced(value) => E::Dereferenced(Box::new(self.expression(*value))),
             E::Closure { arguments, statements, value, moves } => {
                 E::Closure { arguments, statements, value: Box::new(self.expression(*value)), moves }

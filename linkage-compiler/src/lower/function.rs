@@ -25,10 +25,11 @@ pub struct Context<'a> {
     pub named: &'a [(NodeId, String)],
     /// Names that no value may have: those of the arguments.
     pub reserved: &'a BTreeSet<String>,
-    /// The names of the arguments for the pose, the branch and the turns.
+    /// The names of the arguments for the pose, the branch, the turns, and the positions of groups that are kept.
     pub pose_argument: &'a str,
     pub branch: &'a str,
     pub turn: &'a str,
+    pub memory: &'a str,
     /// The operation counts of the functions lowered so far.
     pub works: BTreeMap<String, Operations>,
 }
@@ -185,7 +186,7 @@ impl<'a> Formulas<'a> {
         if kernel.is_on_pose {
             directions(&mut statements, context, &schedule, &mut names);
         }
-        let arguments = (context.branch, context.turn);
+        let arguments = [context.branch, context.turn, context.memory];
         let mut writer = Writer::new((derivation, kernel), arguments, &schedule, names);
         writer.statements = statements;
         let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);

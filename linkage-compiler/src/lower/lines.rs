@@ -15,9 +15,10 @@ use crate::program::{Expression, Failure, Kernel, Pattern, Statement, Type, call
 pub(super) struct Writer<'a, 'n> {
     pub(super) derivation: &'a Derivation,
     pub(super) kernel: &'a Kernel,
-    /// The names of the arguments for the branch and the turns.
+    /// The names of the arguments for the branch, the turns, and the positions of groups that are kept.
     pub(super) branch: &'a str,
     pub(super) turn: &'a str,
+    pub(super) memory: &'a str,
     pub(super) schedule: &'a Schedule,
     pub(super) names: Names<'n>,
     pub(super) statements: Vec<Statement>,
@@ -34,7 +35,7 @@ pub(super) struct Writer<'a, 'n> {
 impl<'a, 'n> Writer<'a, 'n> {
     pub(super) fn new(
         (derivation, kernel): (&'a Derivation, &'a Kernel),
-        (branch, turn): (&'a str, &'a str),
+        [branch, turn, memory]: [&'a str; 3],
         schedule: &'a Schedule,
         names: Names<'n>,
     ) -> Self {
@@ -43,6 +44,7 @@ impl<'a, 'n> Writer<'a, 'n> {
             kernel,
             branch,
             turn,
+            memory,
             schedule,
             names,
             statements: Vec::new(),
@@ -209,6 +211,7 @@ impl<'a, 'n> Writer<'a, 'n> {
                 let targets = targets.iter().map(|&target| Pattern::Name(self.names.introduce(target))).collect();
                 self.let_pattern(Pattern::List(targets), call);
             }
+            Line::Modes { .. } => self.modes(line),
         }
     }
 
@@ -243,9 +246,9 @@ impl<'a, 'n> Writer<'a, 'n> {
 
     /// The function that Newton's method evaluates: the residuals of a block, their scales, and its Jacobian by
     /// columns.
-    fn evaluation(&mut self, unknowns: &[SymbolId], system: &'a Schedule) -> Expression {
+    pub(super) fn evaluation(&mut self, unknowns: &[SymbolId], system: &'a Schedule) -> Expression {
         let context = (self.derivation, self.kernel);
-        let mut inner = Writer::new(context, (self.branch, self.turn), system, self.names.within());
+        let mut inner = Writer::new(context, [self.branch, self.turn, self.memory], system, self.names.within());
         let arguments = unknowns.iter().map(|&unknown| Pattern::Name(inner.names.introduce(unknown)));
         let arguments = vec![Pattern::List(arguments.collect())];
         inner.write();
@@ -276,11 +279,11 @@ impl<'a, 'n> Writer<'a, 'n> {
     }
 
     /// The name of the mechanism or scene in errors.
-    fn error_name(&self) -> Expression {
+    pub(super) fn error_name(&self) -> Expression {
         self.kernel.error_name.as_ref().map_or_else(Expression::mechanism, Expression::name)
     }
 
-    fn group(&self, block: BlockId) -> Expression {
+    pub(super) fn group(&self, block: BlockId) -> Expression {
         Expression::text(self.derivation.blocks[block].title(self.derivation))
     }
 

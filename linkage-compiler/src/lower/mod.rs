@@ -12,6 +12,7 @@ mod finished;
 mod function;
 mod joined;
 mod lines;
+mod modes;
 mod names;
 mod operations;
 mod order;

@@ -66,6 +66,7 @@ fn context<'c>(
         pose_argument: &arguments.pose,
         branch: &arguments.branch,
         turn: &arguments.turn,
+        memory: &arguments.memory,
         works,
     }
 }

@@ -70,6 +70,17 @@ pub enum Line {
         /// One evaluation of the block.
         system: Box<Schedule>,
     },
+    Modes {
+        block: BlockId,
+        targets: Vec<SymbolId>,
+        /// k_i and c_ij, by loop.
+        constants: Vec<[Signed; 2]>,
+        factors: Vec<Vec<[Signed; 2]>>,
+        /// The factor of each direction in each unknown.
+        unknowns: Vec<Vec<i64>>,
+        /// One evaluation of the block.
+        system: Box<Schedule>,
+    },
 }
 
 /// An angle with its sine and cosine, if they are used.
@@ -129,6 +140,7 @@ impl Schedule {
                     | Line::Solve { .. }
                     | Line::Pivots { .. }
                     | Line::Newton { .. }
+                    | Line::Modes { .. }
             )
         };
         let is_inlined = |id: &ValueId| match self.value(*id) {

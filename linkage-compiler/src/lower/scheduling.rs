@@ -84,6 +84,17 @@ pub fn schedule(
                 let (targets, start) = (targets.clone(), signed(start));
                 Line::Newton { block: *block, targets, start, system }
             }
+            Step::Modes { block, targets, loops, system, .. } => {
+                let part = |part: &[NodeId; 2]| part.map(|node| translated[&node]);
+                Line::Modes {
+                    block: *block,
+                    targets: targets.clone(),
+                    constants: loops.constants.iter().map(part).collect(),
+                    factors: loops.factors.iter().map(|factors| factors.iter().map(part).collect()).collect(),
+                    unknowns: loops.unknowns.clone(),
+                    system: Box::new(schedule(graph, &[], system, given, &[], false)),
+                }
+            }
         });
     }
     let results = signed(results);

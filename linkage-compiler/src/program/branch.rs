@@ -8,7 +8,7 @@ use crate::derivation::{Assembly, Choice, Chord, Derivation, Joint, Step};
 use crate::graph::{Graph, SymbolId};
 use crate::ids::UnknownId;
 use crate::model::{Driver, Kind, Mechanism};
-use crate::structure::Class;
+use crate::structure::{Class, Group};
 
 /// The properties of the position problem that signatures and types depend on.
 #[derive(Debug, Clone, Default)]
@@ -19,6 +19,8 @@ pub struct Position {
     pub open: Vec<(String, String)>,
     /// The groups that have two solutions.
     pub sides: Vec<Side>,
+    /// The groups whose positions are listed by number; empty unless every group has a closed form or such a list.
+    pub modes: Vec<Modes>,
     /// The solved angles that a pose stores as numbers; empty unless every group has a closed form.
     pub turns: Vec<AngleTurn>,
     /// The number of groups.
@@ -83,6 +85,27 @@ impl Side {
     }
 }
 
+/// A group whose positions are listed by number.
+#[derive(Debug, Clone)]
+pub struct Modes {
+    /// Its field in the branch.
+    pub field: String,
+    /// The names of its unknowns.
+    pub unknowns: String,
+    /// The number of its loops, of its unknowns, and the largest number of positions.
+    pub loops: usize,
+    pub count: usize,
+    pub most: usize,
+}
+
+impl Modes {
+    /// The group of these unknowns, if its positions are listed.
+    fn of(group: Group, names: &[&str]) -> Option<Self> {
+        let (most, count) = (group.most_modes()?, names.len());
+        Some(Self { field: names.join("_"), unknowns: names.join(", "), loops: count / 2, count, most })
+    }
+}
+
 /// The turn of a solved angle.
 #[derive(Debug, Clone)]
 pub struct AngleTurn {
@@ -94,8 +117,8 @@ pub struct AngleTurn {
 }
 
 impl Position {
-    /// The largest number of groups with two solutions for which `all` and `branches` are emitted: 2^16 branches.
-    const MOST_BRANCHING: usize = 16;
+    /// The largest number of branches for which `all` and `branches` are emitted.
+    const MOST_BRANCHES: usize = 1 << 16;
 
     pub fn new(
         (mechanism, driver): (&Mechanism, &Driver),
@@ -124,8 +147,14 @@ impl Position {
         });
         let turns = turns.collect();
         let blocks = derivation.blocks.iter();
-        let open = blocks.filter_map(|block| Some((block.names(derivation), block.group.obstacle()?))).collect();
-        Self { is_closed: assembly.guesses.is_empty(), open, sides, turns, blocks: derivation.blocks.len() }
+        let open = blocks.filter_map(|block| Some((block.names(derivation), block.group.obstacle()?)));
+        let open: Vec<_> = open.collect();
+        let modes = derivation.blocks.iter().filter(|_| open.is_empty()).filter_map(|block| {
+            let unknowns = block.names(derivation);
+            Modes::of(block.group, &unknowns.split(", ").collect::<Vec<_>>())
+        });
+        let modes = modes.collect();
+        Self { is_closed: assembly.guesses.is_empty(), open, sides, modes, turns, blocks: derivation.blocks.len() }
     }
 
     /// A guess for a mechanism with mistakes. If the order of solution is known, the groups are those of the equations
@@ -142,11 +171,11 @@ impl Position {
                 Side::of_unknowns([name(group[0]), name(group[1])].join("_"), choice)
             });
             let sides: Vec<_> = sides.collect();
-            return Self { is_closed: true, open: Vec::new(), blocks: sides.len(), sides, turns: Vec::new() };
+            return Self { is_closed: true, blocks: sides.len(), sides, ..Self::default() };
         }
         let mut graph = mechanism.graph.clone();
         let rows = &driver.system.rows;
-        let (mut sides, mut solved, mut open) = (Vec::new(), BTreeSet::new(), Vec::new());
+        let (mut sides, mut solved, mut open, mut modes) = (Vec::new(), BTreeSet::new(), Vec::new(), Vec::new());
         for block in &driver.system.blocks {
             let equations = rows.at(&block.equations);
             let symbols = block.unknowns.iter().map(|&place| mechanism.coordinates[driver.unknowns[place]].symbol);
@@ -159,18 +188,22 @@ impl Position {
             }
             let names: Vec<&str> = block.unknowns.iter().map(|&place| name(place)).collect();
             open.extend(group.obstacle().map(|obstacle| (names.join(", "), obstacle)));
+            modes.extend(Modes::of(group, &names));
             let mut dyad = block.unknowns.clone();
             dyad.extend(block.slide.map(|slide| slide.length));
             dyad.sort_unstable();
             let names: Vec<&str> = dyad.into_iter().map(name).collect();
             sides.extend(choice.map(|choice| Side::of_unknowns(names.join("_"), choice)));
         }
-        let is_closed = open.is_empty();
+        let is_closed = open.is_empty() && modes.is_empty();
+        if !open.is_empty() {
+            modes.clear();
+        }
         let turns = match is_closed {
             true => Self::guessed_turns(mechanism, driver, &mut graph, &sides, &solved),
             false => Vec::new(),
         };
-        Self { is_closed, open, sides, turns, blocks: driver.system.blocks.len() }
+        Self { is_closed, open, sides, modes, turns, blocks: driver.system.blocks.len() }
     }
 
     /// The turns of the solved angles that appear as numbers in formulas of the mechanism or of its scenes.
@@ -218,6 +251,17 @@ impl Position {
     }
 
     pub fn has_few_branches(&self) -> bool {
-        self.sides.len() <= Self::MOST_BRANCHING
+        self.count_branches().is_some_and(|count| count <= Self::MOST_BRANCHES)
+    }
+
+    /// The number of branches: of all choices between two solutions, and of all numbers of positions.
+    pub fn count_branches(&self) -> Option<usize> {
+        let sides = 1_usize.checked_shl(u32::try_from(self.sides.len()).ok()?)?;
+        self.modes.iter().try_fold(sides, |count, group| count.checked_mul(group.most))
+    }
+
+    /// True if all positions can be listed, but not all in closed form.
+    pub fn is_listed(&self) -> bool {
+        !self.modes.is_empty()
     }
 }

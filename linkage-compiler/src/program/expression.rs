@@ -49,6 +49,8 @@ pub enum Expression {
     Try(Box<Expression>),
     /// `&value`
     Borrowed(Box<Expression>),
+    /// `&mut value`
+    MutablyBorrowed(Box<Expression>),
     /// `*value`
     Dereferenced(Box<Expression>),
     /// `|arguments| { statements value }`, with `move` if `moves`.
@@ -188,6 +190,11 @@ impl Expression {
     }
 
     #[must_use]
+    pub fn mutably_borrowed(self) -> Self {
+        Self::MutablyBorrowed(Box::new(self))
+    }
+
+    #[must_use]
     pub fn dereferenced(self) -> Self {
         Self::Dereferenced(Box::new(self))
     }
@@ -275,6 +282,7 @@ impl Expression {
             | Self::Repeated(inside, _)
             | Self::Try(inside)
             | Self::Borrowed(inside)
+            | Self::MutablyBorrowed(inside)
             | Self::Dereferenced(inside) => {
                 inside.each_name(visit);
             }

@@ -73,6 +73,8 @@ pub enum Passed {
     ByValue(Type),
     /// `&T`
     ByReference(Type),
+    /// `&mut T`
+    ByMutableReference(Type),
     /// `impl Into<T>`
     Converted(Type),
     /// `&impl Turn<T>`, the source of the turns of angles.

@@ -27,7 +27,7 @@ mod signatures;
 
 use std::collections::BTreeSet;
 
-pub use branch::{AngleTurn, Position, Side};
+pub use branch::{AngleTurn, Modes, Position, Side};
 pub use doc::count;
 pub use expression::{Expression, Pattern, Statement, Type};
 pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Value};

@@ -21,6 +21,30 @@ const ASSEMBLE: [&str; 5] = [
 const ASSEMBLE_OPEN: [&str; 4] =
     ["The position at these inputs.", "", "# Errors", "`PositionError::NotFinite` if a number is not finite."];
 
+const ERRORS_BY_NUMBER: [&str; 6] = [
+    "",
+    "# Errors",
+    "`PositionError::NoMode` if the group has fewer positions, `PositionError::NoClosedForm` if the branch has no number, as that of",
+    "`branch_of`, `PositionError::Undecided` if rounding error hides how many positions there are, `PositionError::Unbuildable` if",
+    "the links of another group do not reach, `PositionError::Undetermined` if a position is arbitrary, as between joints that",
+    "coincide, `PositionError::NotFinite` if a number is not finite.",
+];
+
+const BRANCHES_BY_NUMBER: [&str; 9] = [
+    "Every position that exists at these inputs, with its branch: `for found in mechanism.branches(v)? { .. }`.",
+    "",
+    "A group without closed form has its positions in the order of its first unknown, from -pi to pi, then of the next. The",
+    "numbers count them at these inputs only: along a motion they change places, so that `assemble_near` follows it, not a number.",
+    "",
+    "# Errors",
+    "`PositionError::Undecided` if rounding error hides how many positions a group has, `PositionError::NotFinite` if a number",
+    "is not finite. Branches on which a group cannot be assembled or is undetermined are omitted, and so are numbers without a",
+    "position.",
+];
+
+/// The function that assembles a position and keeps the positions of groups.
+const REMEMBERING: &str = "assemble_remembering";
+
 impl Plan<'_, '_> {
     pub(super) fn position(&mut self) {
         self.pose_at();
@@ -32,7 +56,7 @@ impl Plan<'_, '_> {
         self.solve();
         self.check_implied();
         self.assemble();
-        if self.position.is_closed {
+        if self.position.is_closed || self.position.is_listed() {
             self.branches();
         }
         self.branch_of();
@@ -140,7 +164,10 @@ impl Plan<'_, '_> {
             }
             let doc = self.near_doc();
             self.add(self.signatures.assemble_near(), doc, body);
-            self.no_assemble();
+            match self.position.is_listed() {
+                true => self.assemble_by_number(),
+                false => self.no_assemble(),
+            }
         } else if self.signatures.is_open() {
             self.add(self.signatures.assemble(), lines(ASSEMBLE_OPEN), body);
         } else if self.position.turns.is_empty() {
@@ -149,6 +176,50 @@ impl Plan<'_, '_> {
             let doc = lines(["The position at these inputs on this branch, with angles in the given turns."]);
             self.add(self.signatures.assemble_in_turns(), doc, body);
             self.assemble_by_turns();
+        }
+    }
+
+    /// `assemble` of a mechanism whose groups without closed form list their positions by number.
+    fn assemble_by_number(&mut self) {
+        let Some(steps) = self.assembly.listed_steps() else { return };
+        let (_, results) = self.position_steps();
+        let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
+        let steps = needed_names(&self.derivation.graph, steps, &nodes);
+        let Arguments { inputs, branch, .. } = self.signatures.arguments.clone();
+        let source = Source { from: Expression::name(&inputs), ..self.inputs(Order::Value) };
+        let kernel = Kernel { dyads: self.dyads(), ..self.kernel(vec![source], steps, results) };
+        let mut body = Body::of(kernel, self.pose_of_results());
+        body.after.push(Statement::CheckPosition);
+        self.with_implied(&mut body);
+        let doc = lines([
+            "The position at these inputs on this branch. The positions of groups without closed form are kept for the next call.",
+        ]);
+        self.add(self.signatures.assemble_remembering(&self.position), doc, body);
+
+        let at = [Expression::name(&inputs).method("into", []), Expression::name(&branch)];
+        let call = self.remembering(at, self.no_memory());
+        let body = Body { calls: vec![REMEMBERING.to_owned()], ..Body::result(call) };
+        let listed: Vec<String> =
+            self.position.modes.iter().map(|group| format!("`{}`", group.unknowns.replace(", ", "`, `"))).collect();
+        let mut doc = lines([
+            "The position at these inputs on the given branch, group by group: in closed form, but the group of",
+            &format!("{} by its number among all its positions at these inputs.", listed.join(" and that of ")),
+        ]);
+        doc.extend(lines(ERRORS_BY_NUMBER));
+        self.add(self.signatures.assemble(), doc, body);
+    }
+
+    /// The call that assembles a position and keeps those of its groups.
+    fn remembering(&self, at: [Expression; 2], memory: Expression) -> Expression {
+        Expression::call(REMEMBERING, at.into_iter().chain([memory.mutably_borrowed()]))
+    }
+
+    /// A memory without positions.
+    fn no_memory(&self) -> Expression {
+        let empty = Expression::associated(Type::Runtime("Memory", Vec::new()), "default", []);
+        match self.position.modes.as_slice() {
+            [_] => empty,
+            several => Expression::Tuple(several.iter().map(|_| empty.clone()).collect()),
         }
     }
 
@@ -219,7 +290,7 @@ impl Plan<'_, '_> {
         };
         let blocks = self.derivation.blocks.enumerated().filter(|(number, _)| is_iterated(*number));
         let iterated: Vec<_> = blocks.map(|(_, block)| block.names(self.derivation)).collect();
-        lines([
+        let mut doc = lines([
             "The position at the inputs of a guess, group by group: in closed form on the given branch,",
             &format!("but {} by Newton's method from the guess.", iterated.join(", then ")),
             "",
@@ -227,7 +298,11 @@ impl Plan<'_, '_> {
             "`PositionError::Unbuildable` if the links of a group do not reach, `PositionError::Undetermined` if its position is arbitrary,",
             "`PositionError::NotConverged` if Newton's method finds no position, `PositionError::OtherBranch` if the position it finds is",
             "beyond a dead point, `PositionError::NotFinite` if a number is not finite.",
-        ])
+        ]);
+        if self.position.is_listed() {
+            doc.insert(2, "The numbers of positions in the branch are not used.".to_owned());
+        }
+        doc
     }
 
     /// The steps of a position, and the results that form a pose.
@@ -270,9 +345,14 @@ impl Plan<'_, '_> {
         if !self.position.has_few_branches() {
             return;
         }
-        let Arguments { inputs, branch, .. } = self.signatures.arguments.clone();
+        let Arguments { inputs, branch, memory, .. } = self.signatures.arguments.clone();
         let all = Expression::associated(Type::Bare(self.signatures.types.branch.clone()), "all", []);
-        let assemble = Expression::call("assemble", [Expression::name(&inputs), Expression::name(&branch)]);
+        let is_listed = self.position.is_listed();
+        let at = [&inputs, &branch].map(Expression::name);
+        let assemble = match is_listed {
+            true => self.remembering(at, Expression::name(&memory)),
+            false => Expression::call("assemble", at),
+        };
         let assemble = Expression::Closure {
             arguments: vec![Pattern::Name(branch)],
             statements: Vec::new(),
@@ -282,6 +362,12 @@ impl Plan<'_, '_> {
         let mut body = Body::result(Expression::runtime("existing", [all, assemble]));
         let converted = Expression::name(&inputs).method("into", []);
         body.before = vec![Statement::Let(Pattern::Name(inputs), converted)];
+        if is_listed {
+            body.calls.push(REMEMBERING.to_owned());
+            body.before.push(Statement::Let(Pattern::Mutable(Box::new(Pattern::Name(memory))), self.no_memory()));
+            self.add(self.signatures.branches(), lines(BRANCHES_BY_NUMBER), body);
+            return;
+        }
         let doc = lines([
             "Every position that exists at these inputs, with its branch: `for found in mechanism.branches(v)? { .. }`.",
             "",
@@ -319,7 +405,9 @@ impl Plan<'_, '_> {
             Some((side.field.clone(), Expression::runtime("side_of", [determinant])))
         });
         let zeros = turns.iter().map(|turn| (turn.field.clone(), Expression::Count(0)));
-        let members = Expression::structure(of.clone(), sides.chain(zeros));
+        let of_guess = Expression::Constant("AssemblyMode::OfGuess");
+        let modes = self.position.modes.iter().map(|group| (group.field.clone(), of_guess.clone()));
+        let members = Expression::structure(of.clone(), sides.chain(modes).chain(zeros));
         let mut doc = lines([
             "The branch of a position, by the signs of the determinants of its groups. It does not fail: for NaN it",
             "uses the sign bit.",

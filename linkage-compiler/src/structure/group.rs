@@ -13,6 +13,7 @@
 use rustc_hash::FxHashMap;
 
 use super::distance::Distance;
+use super::loops::{Loops, MOST_LOOPS};
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 
 /// The kind of a block.
@@ -40,7 +41,9 @@ pub enum Group {
     Scalar,
     /// Two unknowns in any other way.
     Pair,
-    /// More than two unknowns that depend on one another.
+    /// The angles of the links of two or three loops: see [`Loops`].
+    Loops(usize),
+    /// More than two unknowns that depend on one another in any other way.
     Irreducible(usize),
 }
 
@@ -60,17 +63,24 @@ impl Group {
             Self::Angle => "one angle".to_owned(),
             Self::Scalar => "one unknown".to_owned(),
             Self::Pair => "two unknowns".to_owned(),
+            Self::Loops(2) => "two loops of links: up to 6 positions".to_owned(),
+            Self::Loops(_) => "three loops of links: up to 20 positions".to_owned(),
             Self::Irreducible(count) => format!("irreducible group of {count} unknowns"),
         }
     }
 
-    /// The reason why its position has no closed form; `None` if it has one.
+    /// The reason why its positions can only be found near a guess; `None` if it has a closed form, or a list of all.
     #[must_use]
     pub fn obstacle(self) -> Option<String> {
         match self {
             Self::Scalar => Some("its equation is neither linear nor a cos + b sin = c nor a distance".to_owned()),
             Self::Pair => Some("its two equations are not those of a dyad".to_owned()),
-            Self::Irreducible(count) => Some(format!("its {count} unknowns depend on one another")),
+            Self::Irreducible(count) if count > 2 * MOST_LOOPS => {
+                Some(format!("its {count} unknowns depend on one another, and it has more than three loops"))
+            }
+            Self::Irreducible(count) => Some(format!(
+                "its {count} unknowns depend on one another, and they are not the angles of links in two or three loops"
+            )),
             _ => None,
         }
     }
@@ -78,7 +88,17 @@ impl Group {
     /// True if its position has a closed form.
     #[must_use]
     pub fn is_closed(self) -> bool {
-        !matches!(self, Self::Scalar | Self::Pair | Self::Irreducible(_))
+        !matches!(self, Self::Loops(_) | Self::Scalar | Self::Pair | Self::Irreducible(_))
+    }
+
+    /// The most positions at given inputs, of a group of which all are listed by number.
+    #[must_use]
+    pub fn most_modes(self) -> Option<usize> {
+        match self {
+            Self::Loops(2) => Some(6),
+            Self::Loops(_) => Some(20),
+            _ => None,
+        }
     }
 }
 
@@ -95,7 +115,10 @@ impl Class {
         match (rows, unknowns) {
             (&[row], &[unknown]) => Self::of_one(graph, row, unknown),
             (&[x, y], &[a, b]) => Self::of_pair(graph, [x, y], a, b),
-            _ => Self::plain(Group::Irreducible(unknowns.len())),
+            _ => Self::plain(match Loops::of(graph, rows, unknowns) {
+                Some(loops) => Group::Loops(loops.constants.len()),
+                None => Group::Irreducible(unknowns.len()),
+            }),
         }
     }
 

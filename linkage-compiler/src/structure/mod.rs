@@ -8,12 +8,14 @@
 mod distance;
 mod elimination;
 mod group;
+mod loops;
 mod matching;
 mod slide;
 
 pub use distance::Distance;
 pub use elimination::{Elimination, System};
 pub use group::{Circles, Class, Group, mirror};
+pub use loops::Loops;
 use matching::Matching;
 pub use matching::StructurallySingular;
 pub use slide::{Slide, find_slides};

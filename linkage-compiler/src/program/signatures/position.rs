@@ -27,6 +27,11 @@ impl Signatures<'_> {
 
     /// The functions that assemble a position, and `branches`.
     pub fn assemblies(&self, position: &Position) -> Vec<Function<Body>> {
+        if position.is_listed() {
+            let mut all = vec![self.assemble_near(), self.assemble_remembering(position), self.assemble()];
+            all.extend(position.has_few_branches().then(|| self.branches()));
+            return all;
+        }
         if !position.is_closed {
             return vec![self.assemble_near(), self.no_assemble(position)];
         }
@@ -58,6 +63,20 @@ impl Signatures<'_> {
 
     pub fn assemble_near(&self) -> Function<Body> {
         fallible("assemble_near", [self.guess(), self.branch()], self.pose_type())
+    }
+
+    /// `assemble` that keeps the positions of groups without closed form.
+    pub fn assemble_remembering(&self, position: &Position) -> Function<Body> {
+        let inputs = Passed::ByValue(Type::Own(self.types.inputs.clone()));
+        let inputs = Argument { name: self.arguments.inputs.clone(), passed: inputs };
+        let groups = position.modes.iter().map(|group| Type::Runtime("Memory", vec![group.loops, group.count]));
+        let mut groups: Vec<Type> = groups.collect();
+        let of = match (groups.pop(), groups.is_empty()) {
+            (Some(only), true) => only,
+            (last, _) => Type::Tuple(groups.into_iter().chain(last).collect()),
+        };
+        let memory = Argument { name: self.arguments.memory.clone(), passed: Passed::ByMutableReference(of) };
+        inlined(fallible("assemble_remembering", [inputs, self.branch(), memory], self.pose_type()))
     }
 
     pub fn assemble_in_turns(&self) -> Function<Body> {
