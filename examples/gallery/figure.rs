@@ -11,6 +11,9 @@ use linkage::{Branches, D};
 /// The number of steps of a period; the last frame equals the first.
 pub const STEPS: u32 = 72;
 
+/// The inputs at which motions start that are counted: a prime number, so that few are at an angle that is special.
+const STARTS: u32 = 11;
+
 /// The duration of an animation in seconds.
 const SECONDS: f64 = 6.0;
 
@@ -72,7 +75,7 @@ pub struct Figure {
     pub course: Course,
     /// The number of branches in general and in the first frame; None if positions come from Newton's method.
     pub branches: Option<[usize; 2]>,
-    /// The numbers of modes at the start, of circuits and of full turns; None for several inputs.
+    /// The numbers of modes, circuits and full turns; None for several inputs.
     pub circuits: Option<[usize; 3]>,
     /// The largest residual of any loop equation, in ulps of the sum of its link lengths.
     pub ulps: f64,
@@ -91,13 +94,20 @@ impl Figure {
         self
     }
 
-    /// Counts the modes at an input, their circuits, and the motions on which the input turns fully.
+    /// Counts the circuits through the modes at [`STARTS`] inputs, one of them given, the most modes at one of these, and
+    /// the motions on which the input turns fully.
     pub fn count_circuits<M>(&mut self, mechanism: &M, input: f64) -> Result<(), CircuitError>
     where
         M: Branches<Scalar = f64, V = D<1>>,
     {
-        let found = Circuits::of(mechanism, input, CircuitOptions::default())?;
-        self.circuits = Some([found.modes.len(), found.circuits.len(), found.full_turns()]);
+        let starts = (0..STARTS).map(|start| input + TAU * f64::from(start) / f64::from(STARTS));
+        let found = Circuits::over(mechanism, starts.clone(), CircuitOptions::default())?;
+        let modes_at = |start: f64| {
+            let is_at = |position: &M::Coordinates| M::inputs(position)[0] == start;
+            found.modes.iter().filter(|mode| is_at(&mode.position)).count()
+        };
+        let most = starts.map(modes_at).max().unwrap_or_default();
+        self.circuits = Some([most, found.circuits.len(), found.full_turns()]);
         Ok(())
     }
 

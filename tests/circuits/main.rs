@@ -4,6 +4,7 @@
 mod by_steps;
 mod dead_points;
 mod four_bars;
+mod listed;
 mod several_turns;
 mod six_bars;
 
