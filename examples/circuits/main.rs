@@ -16,7 +16,7 @@ mod machines;
 mod output;
 mod page;
 
-use machines::{FourBar, GearedFiveBar, Parallelogram, SliderCrank, StephensonI};
+use machines::{DoubleButterfly, FourBar, GearedFiveBar, Parallelogram, SliderCrank, StephensonI, Triad};
 
 /// A chart with its text, and the numbers of modes, circuits and full turns.
 pub struct Figure {
@@ -99,13 +99,31 @@ fn figures() -> Result<Vec<Figure>, Box<dyn Error>> {
             0.3,
             "phi",
         )?,
+        figure(
+            "Stephenson III six-bar, driven by the far link of its dyad",
+            "No loop has two unknowns only: the positions are numbered. Modes 0 and 1 change places near 37° while both are \
+             regular. A full turn from mode 1 passes no dead point, and ends on mode 3.",
+            &Triad::default(),
+            0.5,
+            "alpha",
+        )?,
+        figure(
+            "Double butterfly",
+            "Three loops, six unknowns, eight modes at this input.",
+            &DoubleButterfly::default(),
+            1.0,
+            "rocker",
+        )?,
     ])
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let figures = figures()?;
     let counts: Vec<[usize; 3]> = figures.iter().map(|figure| figure.counts).collect();
-    assert_eq!(counts, [[2, 2, 2], [2, 1, 0], [2, 1, 0], [2, 1, 0], [4, 3, 2], [2, 1, 2], [2, 2, 2]]);
+    assert_eq!(
+        counts,
+        [[2, 2, 2], [2, 1, 0], [2, 1, 0], [2, 1, 0], [4, 3, 2], [2, 1, 2], [2, 2, 2], [4, 2, 0], [8, 7, 5]]
+    );
     let path = std::env::args().nth(1).unwrap_or_else(|| "target/circuits.html".to_owned());
     println!("Circuits: {}", output::write(path, &page::html(&figures))?);
     Ok(())

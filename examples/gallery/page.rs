@@ -13,9 +13,9 @@ pub fn html(families: &[Family], pictures: &[String]) -> String {
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Gallery of linkages</title>\n\
          <style>{}</style>\n</head>\n<body>\n<header>\n<h1>Gallery of linkages</h1>\n\
          <p>{count} pictures of classic mechanisms, each computed from its loop equations. Every frame is a position on one \
-         branch, assembled group by group, in closed form if possible. A mode is a position at a given input: \
-         the most are counted; a circuit is all positions that are connected by motion; a full turn is one without a dead \
-         point. Orange: driving link; red: traced path.</p>\n\
+         branch, assembled group by group, in closed form if possible. A mode is a position \
+         at a given input, counted where there are most; a circuit is all positions that are connected by motion; a full \
+         turn passes no dead point. Orange: driving link; red: traced path.</p>\n\
          </header>\n<main>\n",
         include_str!("style.css")
     );
