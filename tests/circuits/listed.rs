@@ -83,6 +83,9 @@ fn full_turn_ends_on_another_mode() {
     assert_eq!(motion.end, CurveEnd::Closed { turns: 1 });
     let meetings: Vec<_> = motion.dead_points().map(|at| at.modes).collect();
     assert_eq!(meetings, [[Some(3), Some(2)], [Some(2), Some(1)]]);
+    // Between its first and last dead point the other motion does not pass the start input.
+    let meetings: Vec<_> = found.motions[0].dead_points().map(|at| at.modes).collect();
+    assert_eq!(meetings, [[Some(0), None], [None; 2], [None; 2], [None, Some(0)]]);
     // By Newton's method.
     let turn = by_newton(&m, &found.modes[1].position, TAU, 1000);
     assert!(regularity(&m, &turn) > 0.3);

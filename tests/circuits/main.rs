@@ -2,6 +2,8 @@
 //! small steps of the listed positions.
 
 mod by_steps;
+#[cfg(feature = "drawing")]
+mod chart;
 mod dead_points;
 mod four_bars;
 mod listed;

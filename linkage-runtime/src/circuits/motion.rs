@@ -56,8 +56,8 @@ pub enum CurveEnd {
 pub struct CurveMeeting<Q, T = f64> {
     /// The point.
     pub point: CurvePoint<Q, T>,
-    /// The modes passed last before and first after it: at a dead point those that meet there. None if there is no mode
-    /// before the end of the motion, or if it is not in the list.
+    /// The modes passed last before and first after it: at a dead point those that meet there. None if the motion passes
+    /// no start input before the next dead point or its end, or if that mode is not in the list.
     pub modes: [Option<usize>; 2],
 }
 
@@ -95,15 +95,15 @@ impl<Q: Copy, T: Real> MotionCurve<Q, T> {
         let places = self.points.iter().enumerate();
         let wanted = places.filter(move |(_, point)| point.event.is_some_and(is_wanted));
         wanted.map(|(place, &point)| {
-            let (before, after) = self.points.split_at(place);
+            let (before, after) = (&self.points[..place], &self.points[place + 1..]);
             let is_closed = matches!(self.end, CurveEnd::Closed { .. });
             // A closed motion goes on at its start.
             let [around_before, around_after] = if is_closed { [after, before] } else { [&[][..]; 2] };
             let modes = [
-                before.iter().rev().chain(around_before.iter().rev()).find_map(mode_at),
-                after.iter().chain(around_after).find_map(mode_at),
+                mode_towards(before.iter().rev().chain(around_before.iter().rev())),
+                mode_towards(after.iter().chain(around_after)),
             ];
-            CurveMeeting { point, modes: modes.map(Option::flatten) }
+            CurveMeeting { point, modes }
         })
     }
 
@@ -133,10 +133,9 @@ impl<Q: Copy, T: Real> MotionCurve<Q, T> {
     }
 }
 
-/// The mode passed at a point, if the input is a start input.
-fn mode_at<Q, T>(point: &CurvePoint<Q, T>) -> Option<Option<usize>> {
-    match point.event {
-        Some(CurveEvent::Mode(mode)) => Some(mode),
-        _ => None,
-    }
+/// The first mode among points, up to a dead point.
+fn mode_towards<'a, Q: 'a, T: 'a>(points: impl Iterator<Item = &'a CurvePoint<Q, T>>) -> Option<usize> {
+    let events = points.filter_map(|point| point.event);
+    let mut between = events.take_while(|event| !matches!(event, CurveEvent::DeadPoint { .. }));
+    between.find_map(|event| if let CurveEvent::Mode(mode) = event { Some(mode) } else { None }).flatten()
 }

@@ -12,7 +12,7 @@ use crate::drawing::pen::Pen;
 const WIDTH: f64 = 480.0;
 const LEFT: f64 = 46.0;
 const TOP: f64 = 52.0;
-const PLOT: Vector2<f64> = Vector2::new(420.0, 260.0);
+const PLOT: Vector2<f64> = Vector2::new(416.0, 260.0);
 
 /// The colours and the dashes of circuits, used in turn: 20 combinations.
 const COLOURS: usize = 5;
@@ -198,7 +198,8 @@ fn cell(chart: &CircuitChart, number: usize, place: &Place, scale: &Scale, corne
     let input = chart.axes[0].text(chart.axes[0].on_axis(place.at.x));
     let modes = match (place.is_dead_point, place.modes) {
         (true, [Some(one), Some(other)]) => format!("modes {}, {}", one.min(other), one.max(other)),
-        (true, _) => String::new(),
+        (true, [Some(mode), None] | [None, Some(mode)]) => format!("mode {mode}"),
+        (true, [None, None]) => String::new(),
         (false, _) => "motions cross".to_owned(),
     };
     let corner = corner.map(rounded);
