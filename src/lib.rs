@@ -25,6 +25,8 @@ pub use linkage_dynamics::{
 pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_report::{Document, Table, sheet};
+#[cfg(feature = "std")]
+pub use linkage_runtime::circuits;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix,
