@@ -12,7 +12,7 @@ mod matching;
 mod slide;
 
 pub use distance::Distance;
-pub use elimination::{Elimination, System};
+pub use elimination::{Elimination, System, incidence};
 pub use group::{Circles, Class, Group, mirror};
 use matching::Matching;
 pub use matching::StructurallySingular;
