@@ -16,6 +16,7 @@ use linkage_gallery::rrr::*;
 use linkage_gallery::six_bar::*;
 use linkage_gallery::slider_crank::*;
 use linkage_gallery::slider_crank_scenes::*;
+use linkage_gallery::three_link_arm::Pushed;
 
 /// One section of a document, in text or in LaTeX.
 fn section(document: &str, title: &str) -> String {
@@ -55,6 +56,13 @@ snapshots! {
     scene_in_text: Turning::DERIVATION.to_text();
     scene_in_latex: Turning::DERIVATION.to_latex();
     scene_of_two_inputs: Free::DERIVATION.to_text();
+}
+
+// The forces of pins and guides, with frictions, and with one that acts on a link.
+snapshots! {
+    forces_in_joints_of_an_open_chain: section(&Pushed::DERIVATION.to_text(), "Forces in joints");
+    forces_in_joints_in_text: section(&Worn::DERIVATION.to_text(), "Forces in joints");
+    forces_in_joints_in_latex: section(&Worn::DERIVATION.to_latex(), "Forces in joints");
 }
 
 // Sections that differ from one mechanism to the next.

@@ -254,6 +254,9 @@ macro_rules! at_random {
     };
 }
 
+mod laws;
+mod simulation;
+
 /// A position in the range of work.
 fn position(m: &Excavator, random: &Random) -> Option<ExcavatorCoordinates> {
     let [boom, s1, s2] = [(0.5, 0.4), (3.3, 0.3), (2.35, 0.2)].map(|(middle, range)| middle + random.either(range));

@@ -197,6 +197,8 @@ fn rates_of(random: &Random) -> [f64; 2] {
     [(); 2].map(|()| random.either(5.0))
 }
 
+mod laws;
+
 #[test]
 fn with_forces_springs_and_dampers() {
     let random = Random::new(11);

@@ -189,6 +189,8 @@ macro_rules! at_random {
     };
 }
 
+mod laws;
+
 /// A position that is well-conditioned.
 fn position(m: &Jansen, random: &Random) -> Option<JansenCoordinates> {
     let guess = JansenCoordinates {

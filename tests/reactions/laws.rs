@@ -5,7 +5,8 @@ use linkage::nalgebra::{Point2, Vector2, vector};
 use linkage::{Mode, linkage};
 use linkage_gallery::{pendulum, slider_crank_scenes, three_link_arm};
 
-use super::{Random, is_regular};
+use crate::members::{Member, frame, obey};
+use crate::{Random, is_regular};
 
 /// A body with the forces on it.
 struct Body {
@@ -99,104 +100,54 @@ fn a_six_bar_with_loads() {
         let (q, omega) = (found.pose.coordinates(), random.either(4.0));
         let found = scene.reactions(0.0, &q, omega).unwrap();
         // The accelerations follow from the friction, which slips.
-        let rates = m.velocity(&m.pose_at(&q), omega).unwrap();
+        let pose = m.pose_at(&q);
+        let rates = m.velocity(&pose, omega).unwrap();
         let drag = -scene.drag * rates.theta4.signum();
         let ratio = rates.theta4 / omega;
         let gain = (scene.forces(0.0, &q, omega).unwrap()[0] + drag * ratio) / scene.mass_matrix(&q).unwrap()[0];
-        let pose = m.pose_at(&q);
         let accelerations = m.acceleration(&pose, &rates, gain).unwrap();
-        let at = m.points(&pose).unwrap();
-        let of = m.point_accelerations(&pose, &rates, &accelerations).unwrap();
+        let state = (m, pose.clone(), rates, accelerations, m.velocity(&pose, random.either(1.0)).unwrap());
+        let (at, of) = (m.points(&pose).unwrap(), m.point_velocities(&pose, &state.4).unwrap());
         let stretch = at.g6 - at.tip;
         let pull = scene.k * (stretch.norm() - scene.free) * stretch.normalize();
-        let body =
-            |name, mass: f64, inertia, centre, acceleration, spin, forces: &[(Point2<f64>, Vector2<f64>)]| Body {
-                name,
-                mass,
-                inertia,
-                centre,
-                acceleration,
-                spin,
-                forces: forces.iter().copied().chain([(centre, vector![0.0, -scene.g * mass])]).collect(),
-                torque: 0.0,
-            };
-        let mut bodies = [
-            body(
+        let of_b3 = [(at.b, found.b_on_b3), (at.c, found.c_on_b3), (at.p, found.p_on_b3)];
+        let of_b5 = [(at.p, found.p_on_b5), (at.q, found.q_on_b5)];
+        let members = [
+            Member::new(
                 "b2",
-                scene.m2,
-                scene.j2,
-                at.g2,
-                of.g2,
-                accelerations.theta2,
+                (frame!(state, g2, theta2), [0.0; 2]),
+                [scene.m2, scene.j2],
                 &[(at.a, found.a_on_b2), (at.b, found.b_on_b2)],
             ),
-            body(
-                "b3",
-                scene.m3,
-                scene.j3,
-                at.g3,
-                of.g3,
-                accelerations.theta3,
-                &[(at.b, found.b_on_b3), (at.c, found.c_on_b3), (at.p, found.p_on_b3), (at.tip, pull)],
-            ),
-            body(
+            Member::new("b3", (frame!(state, g3, theta3), [0.0; 2]), [scene.m3, scene.j3], &of_b3).loaded(at.tip, pull),
+            Member::new(
                 "b4",
-                scene.m4,
-                scene.j4,
-                at.g4,
-                of.g4,
-                accelerations.theta4,
+                (frame!(state, g4, theta4), [0.0; 2]),
+                [scene.m4, scene.j4],
                 &[(at.c, found.c_on_b4), (at.d, found.d_on_b4)],
-            ),
-            body(
-                "b5",
-                scene.m5,
-                scene.j5,
-                at.g5,
-                of.g5,
-                accelerations.theta5,
-                &[(at.p, found.p_on_b5), (at.q, found.q_on_b5)],
-            ),
-            body(
+            )
+            .turned(drag),
+            Member::new("b5", (frame!(state, g5, theta5), [0.0; 2]), [scene.m5, scene.j5], &of_b5),
+            Member::new(
                 "b6",
-                scene.m6,
-                scene.j6,
-                at.g6,
-                of.g6,
-                accelerations.theta6,
-                &[(at.q, found.q_on_b6), (at.f, found.f_on_b6), (at.g6, -pull)],
-            ),
+                (frame!(state, g6, theta6), [0.0; 2]),
+                [scene.m6, scene.j6],
+                &[(at.q, found.q_on_b6), (at.f, found.f_on_b6)],
+            )
+            .loaded(at.g6, -pull)
+            .turned(-scene.damp * state.2.theta6),
         ];
-        bodies[2].torque = drag;
-        bodies[4].torque = -scene.damp * rates.theta6;
-        let size = size_of(&bodies);
-        bodies.iter().for_each(|body| body.obeys(size, 12.0));
-        // The forces of a pin on its links add up to its load.
-        let load = vector![scene.push, -2.0 * scene.push];
+        let (zero, load) = (Vector2::zeros(), vector![scene.push, -2.0 * scene.push]);
         let pins = [
-            (found.a_on_ground + found.a_on_b2, Vector2::zeros()),
-            (found.b_on_b2 + found.b_on_b3, Vector2::zeros()),
-            (found.c_on_b3 + found.c_on_b4, Vector2::zeros()),
-            (found.p_on_b3 + found.p_on_b5, Vector2::zeros()),
-            (found.q_on_b5 + found.q_on_b6, load),
-            (found.d_on_ground + found.d_on_b4, Vector2::zeros()),
-            (found.f_on_ground + found.f_on_b6, Vector2::zeros()),
+            (vec![found.a_on_ground, found.a_on_b2], zero, zero),
+            (vec![found.b_on_b2, found.b_on_b3], zero, of.b),
+            (vec![found.c_on_b3, found.c_on_b4], zero, of.c),
+            (vec![found.p_on_b3, found.p_on_b5], zero, of.p),
+            (vec![found.q_on_b5, found.q_on_b6], load, of.q),
+            (vec![found.d_on_ground, found.d_on_b4], zero, zero),
+            (vec![found.f_on_ground, found.f_on_b6], zero, zero),
         ];
-        for (sum, expected) in pins {
-            assert!((sum - expected).norm() < 1e-12 * size, "{sum} {expected}");
-        }
-        // The force on the ground: what the loads do not give to the momentum.
-        let ground = found.a_on_ground + found.d_on_ground + found.f_on_ground;
-        let momentum: Vector2<f64> = bodies.iter().map(|body| body.mass * body.acceleration).sum();
-        let weight: f64 = bodies.iter().map(|body| scene.g * body.mass).sum();
-        assert!((ground - load - vector![0.0, -weight] + momentum).norm() < 1e-11 * size, "{ground}");
-        // Forces in joints do no work: the power of all others changes the kinetic energy.
-        let speeds = m.point_velocities(&pose, &rates).unwrap();
-        let work = found.a_on_b2.dot(&Vector2::zeros())
-            + (found.b_on_b2 + found.b_on_b3).dot(&speeds.b)
-            + (found.c_on_b3 + found.c_on_b4).dot(&speeds.c)
-            + (found.p_on_b3 + found.p_on_b5).dot(&speeds.p);
-        assert!(work.abs() < 1e-11 * size * (speeds.b.norm() + speeds.c.norm() + speeds.p.norm()), "{work}");
+        obey(&format!("state {states}"), (scene.g, 12.0), &members, &pins);
         states += 1;
     }
 }

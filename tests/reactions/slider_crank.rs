@@ -11,7 +11,7 @@ linkage! {
     mechanism SliderCrank {
         param r = 0.05, l = 0.18, e = 0.01;
         param m2 = 0.8, j2 = 1.2e-3, a2 = 0.02, b2 = 0.004, m3 = 0.6, j3 = 2e-3, a3 = 0.06, b3 = -0.007, m4 = 0.9;
-        param g = 9.81, p = 300, torque = 8, k = 700, s0 = 0.1, c = 30, mu = 0.2, normal = 40, upper = 0.25, back = 0.3;
+        param g = 9.81, p = 300, torque = 8, k = 700, s0 = 0.1, c = 30, mu = 0.2, normal = 40, upper = 0.25, back = 0.3, radius = 0.008;
         input phi;
         unknown psi, z;
         loop r@phi + l@psi = (z, e);
@@ -38,6 +38,15 @@ linkage! {
             force (-p, 0) at B;
             torque torque on phi;
             friction mu, normal on z;
+            reactions;
+        }
+        scene Worn {
+            inertia;
+            gravity (0, -g);
+            force (-p, 0) at B;
+            torque torque on phi;
+            friction mu, reaction on z;
+            friction mu, radius, reaction on psi - phi;
             reactions;
         }
         scene Resting {
@@ -87,6 +96,7 @@ macro_rules! masses {
 struct ByHand {
     machine: Machine,
     crank: Link,
+    rod: Link,
     stroke: Along,
     center_of_rod: Point,
     pins: [Pin; 3],
@@ -115,7 +125,7 @@ impl ByHand {
         let slide = machine.guide(&line, &end, 0.0);
         machine.input(Along::Turn([crank, GROUND]), q.phi, rate);
         let center_of_rod = machine.point(rod, [m.a3, m.b3]);
-        Self { machine, crank, stroke: Along::Slide(line, end), center_of_rod, pins, slide, length: m.r }
+        Self { machine, crank, rod, stroke: Along::Slide(line, end), center_of_rod, pins, slide, length: m.r }
     }
 
     fn rubbing(scene: &Rubbing, q: &SliderCrankCoordinates, rate: f64) -> Self {
@@ -157,6 +167,9 @@ macro_rules! at_random {
         (scene, q)
     }};
 }
+
+mod laws;
+mod simulation;
 
 #[test]
 fn with_forces_springs_and_dampers() {

@@ -208,6 +208,8 @@ macro_rules! at_random {
     }};
 }
 
+mod laws;
+
 fn position(m: &Whitworth, random: &Random) -> WhitworthCoordinates {
     let theta = random.either(3.0);
     let (x, y) = (m.crank * theta.cos(), m.crank * theta.sin() + m.offset);
