@@ -164,6 +164,10 @@ pub(super) fn of_scene(
         quote!(Symbol { name: #label, formula: #shown })
     });
     let contacts = list(contacts);
+    let multipliers = reactions.iter().flat_map(|reactions| reactions.multipliers.names.iter());
+    let multipliers = multipliers.filter(|symbol| !joints.is_empty() && used.contains(symbol));
+    let multipliers =
+        list(multipliers.map(|&symbol| formula(&Formula::of_name(Name::Plain(graph.symbol_name(symbol))))));
     let (parameters, kernels) = (symbols(&own), kernel_list(kernels));
     let [text, of] = [&scene.name, &driver.name].map(|name| string(&name.to_string()));
     let name = &scene.name;
@@ -181,6 +185,7 @@ pub(super) fn of_scene(
                     forces: &[#(#effects),*],
                     potential: #potential,
                     joints: &[#(#joints),*],
+                    multipliers: #multipliers,
                     contacts: #contacts,
                     kernels: #kernels,
                 }

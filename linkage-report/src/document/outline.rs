@@ -140,7 +140,10 @@ pub(crate) mod words {
     pub(crate) const LEAD_MOTION: &str = "The velocity ratios reduce all inertia and all forces to the inputs:";
     pub(crate) const LEAD_MASS_MATRIX: &str = "with the reduced mass matrix";
     pub(crate) const LEAD_FORCES: &str = "and the generalised forces, the sum of the following; the bias of an unknown is its acceleration if no input accelerates:";
-    pub(crate) const LEAD_JOINTS: &str = "The force of each joint on a link, along x and y; of a guide the normal force and the moment. The multipliers λ of the constraint equations satisfy, in all coordinates,";
+    pub(crate) const LEAD_JOINTS: &str =
+        "The force of each joint on a link along x and y; of a guide the normal force and the moment.";
+    pub(crate) const LEAD_MULTIPLIERS: &str =
+        "There is one multiplier for each constraint equation. In all coordinates";
     pub(crate) const LEAD_CONDITIONS: &str = "The formulas assume that";
 }
 
@@ -310,7 +313,10 @@ pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Re
     if !scene.joints.is_empty() {
         pen.heading(words::JOINTS)?;
         pen.lead(words::LEAD_JOINTS)?;
-        pen.general_equation(&MULTIPLIERS)?;
+        if !scene.multipliers.is_empty() {
+            pen.lead(words::LEAD_MULTIPLIERS)?;
+            pen.general_equation(&MULTIPLIERS)?;
+        }
         for contact in scene.contacts {
             pen.lead(&force_along(contact))?;
             pen.display(&contact.formula)?;

@@ -305,7 +305,10 @@ impl Page {
     fn joints(&mut self, scene: &SceneDerivation) {
         self.section(&format!("{}: <code>{}</code>", words::JOINTS, escape(scene.scene)), |page| {
             page.lead(words::LEAD_JOINTS);
-            page.general_equation(&outline::MULTIPLIERS);
+            if !scene.multipliers.is_empty() {
+                page.lead(words::LEAD_MULTIPLIERS);
+                page.general_equation(&outline::MULTIPLIERS);
+            }
             for contact in scene.contacts {
                 page.push(&format!("<p>{} {}.</p>", escape(&outline::force_along(contact)), inline(&contact.formula)));
             }

@@ -1,6 +1,6 @@
 //! The equations of motion of a scene as data.
 
-use super::{Equation, Kernel, Symbol};
+use super::{Equation, Formula, Kernel, Symbol};
 
 /// The equations of motion of a scene, from its bodies and effects: M(v)·v̈ = Q(v, v̇, t).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +21,8 @@ pub struct SceneDerivation {
     pub potential: Option<Equation>,
     /// The forces in the joints that `reaction` statements name.
     pub joints: &'static [JointForce],
+    /// The Lagrange multipliers in the formulas of `joints`.
+    pub multipliers: &'static [Formula],
     /// The forces of frictions and stops along their scalars, in the formulas of `joints`.
     pub contacts: &'static [Symbol],
     /// The emitted functions.
