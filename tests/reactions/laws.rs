@@ -5,42 +5,8 @@ use linkage::nalgebra::{Point2, Vector2, vector};
 use linkage::{Mode, linkage};
 use linkage_gallery::{pendulum, slider_crank_scenes, three_link_arm};
 
-use crate::members::{Member, frame, obey};
+use crate::members::{Frame, Member, cross, frame, obey};
 use crate::{Random, is_regular};
-
-/// A body with the forces on it.
-struct Body {
-    name: &'static str,
-    mass: f64,
-    inertia: f64,
-    centre: Point2<f64>,
-    acceleration: Vector2<f64>,
-    spin: f64,
-    forces: Vec<(Point2<f64>, Vector2<f64>)>,
-    torque: f64,
-}
-
-fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
-    a.x * b.y - a.y * b.x
-}
-
-impl Body {
-    /// Newton's and Euler's laws, relative to the largest term of the machine.
-    fn obeys(&self, size: f64, length: f64) {
-        let sum: Vector2<f64> = self.forces.iter().map(|(_, force)| *force).sum();
-        let rest = sum - self.mass * self.acceleration;
-        let moments = self.forces.iter().map(|(at, force)| cross(at - self.centre, *force)).sum::<f64>();
-        let turn = moments + self.torque - self.inertia * self.spin;
-        assert!(rest.norm() < 1e-12 * size, "{}: {rest} of {size}", self.name);
-        assert!(turn.abs() < 1e-12 * size * length, "{}: {turn} of {size}", self.name);
-    }
-}
-
-/// The largest force among these bodies.
-fn size_of(bodies: &[Body]) -> f64 {
-    let forces = bodies.iter().flat_map(|body| body.forces.iter().map(|(_, force)| force.norm()));
-    forces.fold(0.0, f64::max)
-}
 
 linkage! {
     /// A six-bar with a ternary link.
@@ -106,7 +72,7 @@ fn a_six_bar_with_loads() {
         let ratio = rates.theta4 / omega;
         let gain = (scene.forces(0.0, &q, omega).unwrap()[0] + drag * ratio) / scene.mass_matrix(&q).unwrap()[0];
         let accelerations = m.acceleration(&pose, &rates, gain).unwrap();
-        let state = (m, pose.clone(), rates, accelerations, m.velocity(&pose, random.either(1.0)).unwrap());
+        let state = (m, pose, rates, accelerations, m.velocity(&pose, random.either(1.0)).unwrap());
         let (at, of) = (m.points(&pose).unwrap(), m.point_velocities(&pose, &state.4).unwrap());
         let stretch = at.g6 - at.tip;
         let pull = scene.k * (stretch.norm() - scene.free) * stretch.normalize();
@@ -156,7 +122,7 @@ fn a_six_bar_with_loads() {
 fn a_slider_crank_with_friction_by_reactions() {
     use slider_crank_scenes::{CrankBranch, Worn};
     let random = Random::new(32);
-    for _ in 0..200 {
+    for number in 0..200 {
         let mut scene = Worn::default();
         (scene.mu, scene.m3, scene.m4) = (0.3 * random.factor(), random.factor(), random.factor());
         let m = &scene.mechanism;
@@ -173,52 +139,40 @@ fn a_slider_crank_with_friction_by_reactions() {
         let extra = journal * ratio(rates.psi - rates.phi) + guide * ratio(rates.z);
         let gain = (scene.forces(0.0, &q, omega).unwrap()[0] + extra) / scene.mass_matrix(&q).unwrap()[0];
         let accelerations = m.acceleration(&pose, &rates, gain).unwrap();
-        let at = m.points(&pose).unwrap();
-        let of = m.point_accelerations(&pose, &rates, &accelerations).unwrap();
-        let weight = |mass: f64| vector![0.0, -scene.g * mass];
-        let piston = Point2::new(q.z, 0.0);
-        let quarter = m.r / 4.0;
-        let crank_centre = at.pin * (quarter / m.r);
-        let crank_acceleration = of.pin * (quarter / m.r);
-        let z_pin = found.piston_pin();
-        let bodies = [
-            Body {
-                name: "crank",
-                mass: scene.m2,
-                inertia: scene.j2,
-                centre: crank_centre,
-                acceleration: crank_acceleration,
-                spin: accelerations.phi,
-                forces: vec![
-                    (Point2::origin(), found.origin_on_crank),
-                    (at.pin, found.pin_on_crank),
-                    (crank_centre, weight(scene.m2)),
-                ],
-                torque: -journal,
-            },
-            Body {
-                name: "rod",
-                mass: scene.m3,
-                inertia: scene.j3,
-                centre: at.g3,
-                acceleration: of.g3,
-                spin: accelerations.psi,
-                forces: vec![(at.pin, pin), (piston, z_pin[0]), (at.g3, weight(scene.m3))],
-                torque: journal,
-            },
-            Body {
-                name: "piston",
-                mass: scene.m4,
-                inertia: 0.0,
-                centre: piston,
-                acceleration: vector![accelerations.z, 0.0],
-                spin: 0.0,
-                forces: vec![(piston, z_pin[1]), (piston, vector![guide, found.z_normal]), (piston, weight(scene.m4))],
-                torque: found.z_moment,
-            },
+        let (at, virtual_rates) = (m.points(&pose).unwrap(), m.velocity(&pose, random.either(1.0)).unwrap());
+        let of = m.point_velocities(&pose, &virtual_rates).unwrap();
+        let piston = Frame {
+            at: Point2::new(q.z, 0.0),
+            angle: 0.0,
+            rate: 0.0,
+            acceleration: vector![accelerations.z, 0.0],
+            gain: 0.0,
+            virtual_motion: (vector![virtual_rates.z, 0.0], 0.0),
+        };
+        let state = (m, pose, rates, accelerations, virtual_rates);
+        let [on_rod, on_piston] = found.piston_pin();
+        let of_crank = [(Point2::origin(), found.origin_on_crank), (at.pin, found.pin_on_crank)];
+        let members = [
+            Member::new("crank", (frame!(state, pin, phi), [-0.75 * m.r, 0.0]), [scene.m2, scene.j2], &of_crank)
+                .turned(-journal),
+            Member::new(
+                "rod",
+                (frame!(state, g3, psi), [0.0; 2]),
+                [scene.m3, scene.j3],
+                &[(at.pin, pin), (piston.at, on_rod)],
+            )
+            .turned(journal),
+            Member::new("piston", (piston, [0.0; 2]), [scene.m4, 0.0], &[(piston.at, on_piston)])
+                .guided(piston.at, vector![0.0, found.z_normal], found.z_moment)
+                .loaded(piston.at, vector![guide, 0.0]),
         ];
-        let size = size_of(&bodies);
-        bodies.iter().for_each(|body| body.obeys(size, m.l));
+        let zero = Vector2::zeros();
+        let pins = [
+            (vec![found.origin_on_ground, found.origin_on_crank], zero, zero),
+            (vec![found.pin_on_crank, found.pin_on_rod], zero, of.pin),
+            (vec![on_rod, on_piston], zero, piston.virtual_motion.0),
+        ];
+        obey(&format!("state {number}"), (scene.g, m.l), &members, &pins);
     }
 }
 

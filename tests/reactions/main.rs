@@ -1,6 +1,22 @@
 //! The forces in the joints of scenes: against the laws of Newton and Euler for each link, in 48 digits
 //! (`linkage_oracle::newton_euler`), with the links and joints of each machine written here by hand.
 
+/// A struct of the data of the bodies, which are fields of each scene, with the acceleration of gravity; and the macro
+/// `masses_of!` that reads it from a scene. The first token is `$`.
+macro_rules! masses {
+    ($dollar:tt; $($field:ident),+) => {
+        struct Masses {
+            $($field: f64),+
+        }
+
+        macro_rules! masses_of {
+            ($dollar scene:expr) => {
+                Masses { $($field: $dollar scene.$field),+ }
+            };
+        }
+    };
+}
+
 mod at_rest;
 mod excavator;
 mod five_bar;

@@ -59,7 +59,7 @@ macro_rules! state {
 }
 pub(super) use state;
 
-fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+pub(super) fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
     a.x * b.y - a.y * b.x
 }
 

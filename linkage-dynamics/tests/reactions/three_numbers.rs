@@ -1,6 +1,6 @@
-//! What mechanisms and scenes with the coordinates [u1, u2, v] have in common.
+//! The common parts of mechanisms and scenes with the coordinates [u1, u2, v].
 
-/// Of `Mechanism`: types, and the order of the coordinates.
+/// The types of a `Mechanism`, and the order of the coordinates.
 macro_rules! mechanism {
     () => {
         type Scalar = f64;
@@ -33,7 +33,7 @@ macro_rules! mechanism {
     };
 }
 
-/// Of `Scene`: types, the state, its derivative from `equations`; no drives and no forces in joints.
+/// The types of a `Scene`, the state, its derivative from `equations`; no drives and no forces in joints.
 macro_rules! scene {
     () => {
         type Scalar = f64;

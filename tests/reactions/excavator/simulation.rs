@@ -19,7 +19,7 @@ fn along_a_simulation() {
             }
             let found = motion.loads().unwrap().joints;
             let rates = [state.rates.boom, state.rates.s1, state.rates.s2];
-            let by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &state.q, rates);
+            let by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &state.q, rates);
             let mut by_hand = by_hand.driven(scene.torque, [scene.f1, scene.f2]);
             let modes = state.contacts.map(|contact| contact.mode);
             for (stroke, mode) in by_hand.strokes.clone().into_iter().zip(modes.iter()) {

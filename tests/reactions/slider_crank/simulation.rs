@@ -23,7 +23,7 @@ fn along_a_simulation() {
             }
             let loads = motion.loads().unwrap();
             assert!(loads.are_unique);
-            let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &state.q, state.rates.phi);
+            let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &state.q, state.rates.phi);
             let end = by_hand.machine.at(&by_hand.pins[2]);
             by_hand.machine.force(&end, [-scene.p, 0.0]);
             let alongs = [by_hand.turn(), by_hand.stroke.clone(), Along::Turn([by_hand.rod, by_hand.crank])];
