@@ -242,7 +242,7 @@ fn uncommon_chord<T: Real>(p: T, q: T, x: T, y: T, scale: T, low: T, high: T) ->
     (are_apart && has_inverse && is_nonzero(chord * real(0.5), p * q)).then_some(chord)
 }
 
-/// The [`chord`] of two positive factors, else `None`.
+/// The [`chord`] of two positive finite factors, else `None`.
 #[inline]
 pub fn regular_chord<T: Real, S: Side>(factors: [T; 2], radius: T, side: S) -> Option<T> {
     let [low, high] = factors;
@@ -250,7 +250,9 @@ pub fn regular_chord<T: Real, S: Side>(factors: [T; 2], radius: T, side: S) -> O
     let root = if is_in_range(radicand) {
         radicand.sqrt()
     } else {
-        (low > T::zero() && high > T::zero()).then(|| root(low, high, radius))?
+        // Where these are not finite, `chord` is an error.
+        let is_regular = low > T::zero() && high > T::zero() && [low, high, radius].iter().all(T::is_finite);
+        is_regular.then(|| root(low, high, radius))?
     };
     Some(side.signed(root))
 }
