@@ -4,6 +4,7 @@ mod document;
 mod drawing;
 mod expression;
 mod external;
+mod fpcore;
 mod functions;
 mod items;
 mod lanes;
@@ -23,7 +24,8 @@ use quote::{quote, quote_spanned};
 use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::model::{Mechanism, Request};
-use crate::program::{self, Function, Operations, Program};
+use crate::program::{self, Function, Operations, Program, SceneSignatures};
+use fpcore::Straight;
 use names::string;
 pub use text::text;
 
@@ -68,8 +70,9 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     let place_of = |function: &Function<Code>| places::of(mechanism.place_of(driver, &function.name));
     tokens.extend(block(&driver.name, kinematics, &program.functions, &place_of, root, &implemented));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
+    let straight = Straight::of_driver(program);
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
-        let works = works(&program.functions);
+        let works = works(&program.functions, &straight);
         tokens.extend(document::constant(mechanism, driver, derivation, derived, &works, root));
     }
     let order = mechanism.coordinate_order(driver);
@@ -86,7 +89,8 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         tokens.extend(external::calls(mechanism, &scene.functions, name, root));
         if let Some(derivation) = derivation {
             let derived = (derivation, &derivation.scenes[number]);
-            let works = works(&scene.functions);
+            let SceneSignatures { arguments, field, .. } = &scene.signatures;
+            let works = works(&scene.functions, &straight.within(&scene.functions, arguments, field));
             tokens.extend(document::of_scene(mechanism, (driver, scene.signatures.scene), derived, &works, root));
         }
     }
@@ -119,11 +123,24 @@ fn block(
     }
 }
 
+/// A public function of the program.
+struct Work {
+    function: String,
+    operations: Operations,
+    /// Its formulas, line by line.
+    lines: String,
+}
+
 /// The public functions with their operation counts, without those that compute nothing.
-fn works(functions: &[Function<Code>]) -> Vec<(String, Operations)> {
+fn works(functions: &[Function<Code>], straight: &Straight) -> Vec<Work> {
     let public = functions.iter().filter(|function| function.access.is_public());
     let works = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
-    works.filter(|(_, work)| *work != Operations::default()).collect()
+    let works = works.filter(|(_, operations)| *operations != Operations::default());
+    let works = works.map(|(function, operations)| {
+        let lines = straight.lines(&function);
+        Work { function, operations, lines }
+    });
+    works.collect()
 }
 
 /// The operations of all functions of a driver and of its scenes, each called once.

@@ -1,0 +1,162 @@
+//! Operations as text: `let`, `check` and `return` lines, in the order of the code.
+
+use std::fmt::Write;
+
+use super::name::{reserved, symbol};
+use super::operations::{Check, Operation, Operations, Place};
+use super::value::Value;
+use crate::emit::expression::parts_of_pi;
+use crate::graph::Number;
+use crate::program::Taken;
+
+/// The lines of the formulas that numbers of a value have; empty if none has one.
+pub(super) fn written(operations: &Operations, checks: &[Check], value: &Value) -> String {
+    let mut results = Vec::new();
+    value.each_number("", &mut |path, place| results.push((path.to_owned(), place)));
+    // An argument or a constant as a result is exact.
+    results.retain(|(_, place)| !operations.operation(*place).is_leaf());
+    let uses = Uses::of(operations, checks, &results);
+    let mut text = String::new();
+    if results.is_empty() {
+        return text;
+    }
+    let reserved = reserved();
+    let mut names = Names { operations, taken: Taken::new(&reserved), texts: vec![String::new(); uses.counts.len()] };
+    names.arguments(&uses);
+    for place in operations.places().filter(|place| uses.is_used(*place)) {
+        let formula = names.formula(place);
+        names.texts[place.index()] = if uses.has_line[place.index()] {
+            let name = names.unique(operations.preferred(place).unwrap_or("value"));
+            let _ = writeln!(text, "let {name} {formula}");
+            name
+        } else {
+            formula
+        };
+    }
+    for Check { word, of } in checks {
+        let _ = writeln!(text, "check {word} {}", names.all(of));
+    }
+    for (path, place) in results {
+        let _ = writeln!(text, "return {path} {}", names.texts[place.index()]);
+    }
+    text
+}
+
+/// The operations that results and checks need.
+struct Uses {
+    counts: Vec<usize>,
+    /// True for an operation with a name or with several uses.
+    has_line: Vec<bool>,
+}
+
+impl Uses {
+    fn of(operations: &Operations, checks: &[Check], results: &[(String, Place)]) -> Self {
+        let count = operations.places().count();
+        let mut uses = Self { counts: vec![0; count], has_line: vec![false; count] };
+        let mut of_checks = vec![false; count];
+        for check in checks {
+            check.of.iter().for_each(|place| uses.counts[place.index()] += 1);
+            // The first decides the results that the check is for: it needs a name.
+            check.of.iter().take(1).for_each(|place| of_checks[place.index()] = true);
+        }
+        let mut is_inner = vec![false; count];
+        results.iter().for_each(|(_, place)| uses.counts[place.index()] += 1);
+        // Operands come before their operations.
+        for place in operations.places().rev() {
+            if uses.is_used(place) {
+                operations.operation(place).each_operand(|operand| {
+                    uses.counts[operand.index()] += 1;
+                    is_inner[operand.index()] = true;
+                });
+            }
+        }
+        for place in operations.places() {
+            let at = place.index();
+            let is_named = operations.preferred(place).is_some() && is_inner[at];
+            let is_line = is_named || uses.counts[at] > 1 || of_checks[at];
+            uses.has_line[at] = is_line && !operations.operation(place).is_leaf();
+        }
+        uses
+    }
+
+    fn is_used(&self, place: Place) -> bool {
+        self.counts[place.index()] > 0
+    }
+}
+
+/// The names and texts of operations so far.
+struct Names<'a> {
+    operations: &'a Operations,
+    taken: Taken<'a>,
+    texts: Vec<String>,
+}
+
+impl Names<'_> {
+    /// Names all arguments, before the lines, so that they keep the names of the user.
+    fn arguments(&mut self, uses: &Uses) {
+        for place in self.operations.places().filter(|place| uses.is_used(*place)) {
+            if matches!(self.operations.operation(place), Operation::Argument) {
+                let name = self.unique(self.operations.preferred(place).unwrap_or("argument"));
+                self.texts[place.index()] = name;
+            }
+        }
+    }
+
+    fn unique(&mut self, preferred: &str) -> String {
+        self.taken.unique(&symbol(preferred))
+    }
+
+    fn text(&self, place: Place) -> &str {
+        &self.texts[place.index()]
+    }
+
+    fn all(&self, places: &[Place]) -> String {
+        places.iter().map(|place| self.text(*place)).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The formula of an operation whose operands have texts.
+    fn formula(&self, place: Place) -> String {
+        match self.operations.operation(place) {
+            Operation::Argument => self.text(place).to_owned(),
+            Operation::Number(number) => constant(*number),
+            Operation::Sum(terms) => {
+                let signed = terms.iter().map(|(is_negative, term)| (if *is_negative { "-" } else { "+" }, *term));
+                self.from_the_left(signed)
+            }
+            Operation::Product(factors) => self.from_the_left(factors.iter().map(|factor| ("*", *factor))),
+            Operation::Quotient(parts) => format!("(/ {})", self.all(parts)),
+            Operation::Square(base) => format!("(* {0} {0})", self.text(*base)),
+            Operation::Negative(inside) => format!("(- {})", self.text(*inside)),
+            Operation::Call(name, arguments) => format!("({name} {})", self.all(arguments)),
+        }
+    }
+
+    /// `(- (+ a b) c)`: each operator with everything to its left; a sum may begin with a minus.
+    fn from_the_left<'o>(&self, operands: impl DoubleEndedIterator<Item = (&'o str, Place)> + Clone + ExactSizeIterator) -> String {
+        let mut text: String = operands.clone().skip(1).rev().map(|(operator, _)| format!("({operator} ")).collect();
+        for (number, (operator, operand)) in operands.enumerate() {
+            let operand = self.text(operand);
+            text += &match (number, operator) {
+                (0, "-") => format!("(- {operand})"),
+                (0, _) => operand.to_owned(),
+                _ => format!(" {operand})"),
+            };
+        }
+        text
+    }
+}
+
+/// The constant as emitted code computes it.
+fn constant(number: Number) -> String {
+    if let Some((count, parts)) = parts_of_pi(number) {
+        let multiple = if count == 1.0 { "PI".to_owned() } else { format!("(* PI {count})") };
+        return if parts == 1.0 { multiple } else { format!("(/ {multiple} {parts})") };
+    }
+    let value = number.to_f64();
+    match number {
+        _ if value.is_nan() => "NAN".to_owned(),
+        _ if value.is_infinite() => if value > 0.0 { "INFINITY" } else { "(- INFINITY)" }.to_owned(),
+        Number::Ratio(n, d) if format!("{value}").len() > 8 => format!("(/ {n} {d})"),
+        _ => format!("{value:?}").trim_end_matches(".0").to_owned(),
+    }
+}
