@@ -21,6 +21,7 @@ use linkage_runtime::derivation::Kernel;
 ///         param r;
 ///         input phi;
 ///         point Pin = r@phi;
+///         derive fpcore;
 ///     }
 /// }
 /// let all = Crank::<f64>::DERIVATION.fpcore();
@@ -60,6 +61,7 @@ struct Check {
 impl FpCore {
     /// The formulas of functions of a mechanism or scene.
     pub(crate) fn of(owner: &str, kernels: &[Kernel]) -> Vec<Self> {
+        let owner = &ascii(owner);
         kernels.iter().flat_map(|kernel| Code::of(kernel).cores(owner, kernel.function)).collect()
     }
 
@@ -99,7 +101,8 @@ impl FpCore {
 
     /// The given numbers and lines as bindings of `let*`.
     fn bindings(&self, lines: &[Line]) -> Vec<String> {
-        let used: BTreeSet<&str> = lines.iter().flat_map(|(_, value)| symbols(value)).chain(symbols(self.value)).collect();
+        let used: BTreeSet<&str> =
+            lines.iter().flat_map(|(_, value)| symbols(value)).chain(symbols(self.value)).collect();
         let given = self.given.iter().filter(|(name, _)| used.contains(*name));
         let given = given.map(|(name, number)| format!("[{name} {}]", literal(*number)));
         given.chain(lines.iter().map(|(name, value)| format!("[{name} {value}]"))).collect()
@@ -108,9 +111,8 @@ impl FpCore {
     /// The conditions: ranges first.
     fn conditions(&self) -> Vec<String> {
         let ranges = self.ranges.iter().filter(|(name, _)| !self.given.contains_key(*name));
-        let ranges = ranges.map(|(name, range)| {
-            format!("(<= {} {name} {})", literal(*range.start()), literal(*range.end()))
-        });
+        let ranges =
+            ranges.map(|(name, range)| format!("(<= {} {name} {})", literal(*range.start()), literal(*range.end())));
         let mut conditions: Vec<String> = ranges.collect();
         let mut checks: Vec<String> = self.checks.iter().flat_map(Check::conditions).collect();
         let bindings = self.bindings(&self.lines_of_checks);
@@ -139,6 +141,12 @@ impl fmt::Display for FpCore {
         }
         write!(f, "  (let* ({})\n    {}))", bindings.join("\n         "), self.value)
     }
+}
+
+/// The name of a type in ASCII, as strings of FPCore are: other letters by their numbers.
+fn ascii(name: &str) -> String {
+    let ascii = |letter: char| if letter.is_ascii() { letter.into() } else { format!("u{:x}", u32::from(letter)) };
+    name.chars().map(ascii).collect()
 }
 
 /// All conditions as one.
@@ -216,7 +224,8 @@ impl Code {
             known.extend(lines.iter().flat_map(|(_, value)| symbols(value)).chain(symbols(value)));
             let is_of_it = |check: &&Check| check.of.first().is_some_and(|first| known.contains(first));
             let checks: Vec<Check> = self.checks.iter().filter(is_of_it).cloned().collect();
-            let lines_of_checks = self.needed(checks.iter().flat_map(|check| check.of.iter().flat_map(|of| symbols(of))));
+            let lines_of_checks =
+                self.needed(checks.iter().flat_map(|check| check.of.iter().flat_map(|of| symbols(of))));
             let mut arguments = Vec::new();
             let of_checks = checks.iter().flat_map(|check| check.of.iter().copied());
             let all = lines.iter().chain(&lines_of_checks).map(|(_, value)| *value).chain([value]).chain(of_checks);

@@ -73,7 +73,9 @@ impl Core {
 
     /// True if the precondition holds.
     pub fn is_valid<T: Arithmetic>(&self, arguments: &BTreeMap<String, T>) -> bool {
-        self.precondition.as_ref().is_none_or(|condition| truth(&evaluated(condition, &scope(&self.arguments, arguments))))
+        self.precondition
+            .as_ref()
+            .is_none_or(|condition| truth(&evaluated(condition, &scope(&self.arguments, arguments))))
     }
 }
 

@@ -28,8 +28,8 @@ pub trait Document {
     fn to_text(&self) -> String;
     /// Writes the document as LaTeX, for inclusion in a file that uses `amsmath`.
     fn to_latex(&self) -> String;
-    /// The formulas of the emitted functions as FPCore, one for each number that a function returns. It has none that
-    /// depends on an iteration, on pivoting or on a user function.
+    /// The formulas of the emitted functions as FPCore, one for each number that a function returns, of a mechanism
+    /// with `derive fpcore`. It has none that depends on an iteration, on pivoting or on a user function.
     fn fpcore(&self) -> Vec<FpCore>;
 }
 

@@ -2,15 +2,16 @@
 
 use std::fmt::Write;
 
-use super::name::{reserved, symbol};
+use super::name::{ascii, reserved, symbol};
 use super::operations::{Check, Operation, Operations, Place};
-use super::value::Value;
+use super::value::{Role, Value};
 use crate::emit::expression::parts_of_pi;
 use crate::graph::Number;
-use crate::program::Taken;
+use crate::model::Mechanism;
+use crate::program::{Order, Taken};
 
 /// The lines of the formulas that numbers of a value have; empty if none has one.
-pub(super) fn written(operations: &Operations, checks: &[Check], value: &Value) -> String {
+pub(super) fn written(mechanism: &Mechanism, operations: &Operations, checks: &[Check], value: &Value) -> String {
     let mut results = Vec::new();
     value.each_number("", &mut |path, place| results.push((path.to_owned(), place)));
     // An argument or a constant as a result is exact.
@@ -22,7 +23,7 @@ pub(super) fn written(operations: &Operations, checks: &[Check], value: &Value) 
     }
     let reserved = reserved();
     let mut names = Names { operations, taken: Taken::new(&reserved), texts: vec![String::new(); uses.counts.len()] };
-    names.arguments(&uses);
+    names.arguments(mechanism, &uses);
     for place in operations.places().filter(|place| uses.is_used(*place)) {
         let formula = names.formula(place);
         names.texts[place.index()] = if uses.has_line[place.index()] {
@@ -37,7 +38,7 @@ pub(super) fn written(operations: &Operations, checks: &[Check], value: &Value) 
         let _ = writeln!(text, "check {word} {}", names.all(of));
     }
     for (path, place) in results {
-        let _ = writeln!(text, "return {path} {}", names.texts[place.index()]);
+        let _ = writeln!(text, "return {} {}", ascii(&path), names.texts[place.index()]);
     }
     text
 }
@@ -92,11 +93,25 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// Names all arguments, before the lines, so that they keep the names of the user.
-    fn arguments(&mut self, uses: &Uses) {
-        for place in self.operations.places().filter(|place| uses.is_used(*place)) {
+    /// Names all arguments, before the lines. Parameters and coordinates come first, also those that are not used: an
+    /// argument has one name in all functions.
+    fn arguments(&mut self, mechanism: &Mechanism, uses: &Uses) {
+        let parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
+        let parameters = parameters.map(|parameter| (Role::Parameters, &parameter.name.field));
+        let coordinates = Order::ALL.into_iter().flat_map(|order| {
+            mechanism.coordinates.iter().map(move |coordinate| (Role::Motion(order), &coordinate.name.field))
+        });
+        for (role, field) in parameters.chain(coordinates) {
+            let name = self.unique(&role.name(field));
+            if let Some(place) = self.operations.known(&role.key(std::slice::from_ref(field))) {
+                self.texts[place.index()] = name;
+            }
+        }
+        let is_new = |place: &Place| uses.is_used(*place) && self.texts[place.index()].is_empty();
+        let others: Vec<Place> = self.operations.places().filter(is_new).collect();
+        for place in others {
             if matches!(self.operations.operation(place), Operation::Argument) {
-                let name = self.unique(self.operations.preferred(place).unwrap_or("argument"));
+                let name = self.unique(self.operations.preferred(place).unwrap_or_default());
                 self.texts[place.index()] = name;
             }
         }
@@ -132,7 +147,10 @@ impl Names<'_> {
     }
 
     /// `(- (+ a b) c)`: each operator with everything to its left; a sum may begin with a minus.
-    fn from_the_left<'o>(&self, operands: impl DoubleEndedIterator<Item = (&'o str, Place)> + Clone + ExactSizeIterator) -> String {
+    fn from_the_left<'o>(
+        &self,
+        operands: impl DoubleEndedIterator<Item = (&'o str, Place)> + Clone + ExactSizeIterator,
+    ) -> String {
         let mut text: String = operands.clone().skip(1).rev().map(|(operator, _)| format!("({operator} ")).collect();
         for (number, (operator, operand)) in operands.enumerate() {
             let operand = self.text(operand);

@@ -11,7 +11,7 @@ mod run;
 mod value;
 
 use crate::lower::Code;
-use crate::program::{Arguments, Function, Program};
+use crate::program::{Program, SceneProgram, SceneSignatures};
 use run::{Owner, Run};
 
 /// The functions of a driver, or of a scene on a driver.
@@ -25,9 +25,10 @@ impl<'a> Straight<'a> {
         Self { owner: Owner::new(&program.functions, &signatures.arguments, signatures.mechanism, None) }
     }
 
-    /// The functions of a scene that holds the mechanism in this field.
-    pub(super) fn within(&'a self, functions: &'a [Function<Code>], arguments: &'a Arguments, field: &'a str) -> Self {
-        Self { owner: Owner::new(functions, arguments, self.owner.mechanism, Some((field, &self.owner))) }
+    /// The functions of a scene on this driver.
+    pub(super) fn within(&'a self, scene: &'a SceneProgram<Code>) -> Self {
+        let SceneSignatures { arguments, field, .. } = &scene.signatures;
+        Self { owner: Owner::new(&scene.functions, arguments, self.owner.mechanism, Some((field, &self.owner))) }
     }
 
     /// The formulas of the function with this name, line by line; empty if it has none.
@@ -35,6 +36,6 @@ impl<'a> Straight<'a> {
         let Some(function) = self.owner.functions.get(name) else { return String::new() };
         let mut run = Run::default();
         let value = run.result(&self.owner, function);
-        lines::written(&run.operations, &run.checks, &value)
+        lines::written(self.owner.mechanism, &run.operations, &run.checks, &value)
     }
 }

@@ -55,6 +55,11 @@ impl Operations {
         place
     }
 
+    /// The argument with this key, if the code uses it.
+    pub(super) fn known(&self, key: &(usize, String)) -> Option<Place> {
+        self.arguments.get(key).copied()
+    }
+
     /// Gives a result its name in the code, unless it has one.
     pub(super) fn name(&mut self, place: Place, name: &str) {
         self.all[place.0].1.get_or_insert_with(|| name.to_owned());

@@ -13,9 +13,6 @@ use crate::program::{
     Arguments, Expression, Family, Function, Order, Passed, Pattern, Statement, Type, Value as Returned,
 };
 
-/// The endings of the names of coordinates and of their derivatives with respect to time.
-const ENDINGS: [&str; 4] = ["", "_rate", "_acceleration", "_jerk"];
-
 /// The functions of a type.
 pub(super) struct Owner<'a> {
     pub(super) functions: BTreeMap<&'a str, &'a Function<Code>>,
@@ -43,7 +40,8 @@ impl<'a> Owner<'a> {
 
     fn role(&self, argument: &str) -> Role {
         let Arguments { guess, position, branch, .. } = self.arguments;
-        let is_order = |order: &Order| [self.arguments.of(*order), self.arguments.of_inputs(*order)].contains(&argument);
+        let is_order =
+            |order: &Order| [self.arguments.of(*order), self.arguments.of_inputs(*order)].contains(&argument);
         match Order::ALL.into_iter().find(is_order) {
             Some(order) => Role::Motion(order),
             None if argument == guess || argument == position => Role::Motion(Order::Value),
@@ -140,7 +138,7 @@ impl Run {
                 let value = match value {
                     // An entry of an argument has the name that the code gives it.
                     Value::Given(Given { role: role @ Role::Other(_), path }) if !path.is_empty() => {
-                        Value::Number(self.operations.argument(key(&role, &path), name))
+                        Value::Number(self.operations.argument(role.key(&path), name))
                     }
                     value => value,
                 };
@@ -261,10 +259,9 @@ impl Run {
             Value::Given(Given { role, path }) => {
                 let name = match role {
                     Role::Other(argument) => argument.clone() + &path.concat(),
-                    Role::Motion(order) => path.last()?.clone() + ENDINGS[*order as usize],
-                    Role::Parameters | Role::Branch => path.last()?.clone(),
+                    role => role.name(path.last()?),
                 };
-                Some(self.operations.argument(key(role, path), &name))
+                Some(self.operations.argument(role.key(path), &name))
             }
             _ => None,
         }
@@ -348,9 +345,7 @@ impl Run {
                 self.check("positive", &[length]);
                 Value::Unknown
             }
-            ("elbow_chord", [.., triangle, side]) => {
-                Value::list([self.elbow_chord(triangle, side), Value::Unknown])
-            }
+            ("elbow_chord", [.., triangle, side]) => Value::list([self.elbow_chord(triangle, side), Value::Unknown]),
             ("regular_elbow_chord", [triangle, side]) => self.elbow_chord(triangle, side),
             ("chord", [_, _, factors, _, _, side]) | ("regular_chord", [factors, _, side]) => {
                 self.chord(factors, side).unwrap_or(Value::Unknown)
@@ -403,14 +398,6 @@ impl Run {
         let root = self.operations.add(Operation::Call("sqrt", vec![radicand]));
         Some(self.made(Operation::Product(vec![side, root])))
     }
-}
-
-/// The key of a part of an argument.
-fn key(role: &Role, path: &[String]) -> (usize, String) {
-    let argument = if let Role::Other(argument) = role { argument } else { "" };
-    // A field that holds the mechanism is not a part of the name of a parameter.
-    let path = if *role == Role::Parameters { &path[path.len().saturating_sub(1)..] } else { path };
-    (role.number(), format!("{argument}.{}", path.join(".")))
 }
 
 fn is_self(value: &Expression) -> bool {

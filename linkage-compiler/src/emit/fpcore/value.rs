@@ -43,8 +43,27 @@ pub(super) enum Role {
 }
 
 impl Role {
+    /// The key of a part of an argument.
+    pub(super) fn key(&self, path: &[String]) -> (usize, String) {
+        let argument = if let Self::Other(argument) = self { argument } else { "" };
+        // A field that holds the mechanism is not a part of the name of a parameter.
+        let path = if *self == Self::Parameters { &path[path.len().saturating_sub(1)..] } else { path };
+        (self.number(), format!("{argument}.{}", path.join(".")))
+    }
+
+    /// The name of a field of an argument with this role.
+    pub(super) fn name(&self, field: &str) -> String {
+        let endings = ["", "_rate", "_acceleration", "_jerk"];
+        let ending = match self {
+            Self::Motion(order) => endings[*order as usize],
+            Self::Branch => "_side",
+            Self::Parameters | Self::Other(_) => "",
+        };
+        format!("{field}{ending}")
+    }
+
     /// A number that tells roles apart.
-    pub(super) fn number(&self) -> usize {
+    fn number(&self) -> usize {
         match self {
             Self::Parameters => 0,
             Self::Branch => 1,
@@ -110,7 +129,8 @@ impl Value {
                 for (column, entries) in columns.iter().enumerate() {
                     let Self::List(entries) = entries else { continue };
                     for (row, entry) in entries.iter().enumerate() {
-                        let place = if is_vector { format!("{path}[{row}]") } else { format!("{path}({row},{column})") };
+                        let place =
+                            if is_vector { format!("{path}[{row}]") } else { format!("{path}({row},{column})") };
                         entry.each_number(&place, visit);
                     }
                 }
