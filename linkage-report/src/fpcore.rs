@@ -99,10 +99,9 @@ impl FpCore {
         self.arguments.iter().copied().find(|argument| *argument == name)
     }
 
-    /// The given numbers and lines as bindings of `let*`.
-    fn bindings(&self, lines: &[Line]) -> Vec<String> {
-        let used: BTreeSet<&str> =
-            lines.iter().flat_map(|(_, value)| symbols(value)).chain(symbols(self.value)).collect();
+    /// The given numbers and lines as bindings of `let*`, for a body of these expressions.
+    fn bindings(&self, lines: &[Line], body: impl Iterator<Item = &'static str>) -> Vec<String> {
+        let used: BTreeSet<&str> = lines.iter().map(|(_, value)| *value).chain(body).flat_map(symbols).collect();
         let given = self.given.iter().filter(|(name, _)| used.contains(*name));
         let given = given.map(|(name, number)| format!("[{name} {}]", literal(*number)));
         given.chain(lines.iter().map(|(name, value)| format!("[{name} {value}]"))).collect()
@@ -115,7 +114,8 @@ impl FpCore {
             ranges.map(|(name, range)| format!("(<= {} {name} {})", literal(*range.start()), literal(*range.end())));
         let mut conditions: Vec<String> = ranges.collect();
         let mut checks: Vec<String> = self.checks.iter().flat_map(Check::conditions).collect();
-        let bindings = self.bindings(&self.lines_of_checks);
+        let bindings =
+            self.bindings(&self.lines_of_checks, self.checks.iter().flat_map(|check| check.of.iter().copied()));
         if !checks.is_empty() && !bindings.is_empty() {
             let all = joined(checks);
             checks = vec![format!("(let* ({}) {all})", bindings.join(" "))];
@@ -135,7 +135,7 @@ impl fmt::Display for FpCore {
         if !conditions.is_empty() {
             writeln!(f, "  :pre {}", joined(conditions))?;
         }
-        let bindings = self.bindings(&self.lines);
+        let bindings = self.bindings(&self.lines, std::iter::once(self.value));
         if bindings.is_empty() {
             return write!(f, "  {})", self.value);
         }

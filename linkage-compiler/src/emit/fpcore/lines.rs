@@ -136,9 +136,9 @@ impl Names<'_> {
             Operation::Number(number) => constant(*number),
             Operation::Sum(terms) => {
                 let signed = terms.iter().map(|(is_negative, term)| (if *is_negative { "-" } else { "+" }, *term));
-                self.from_the_left(signed)
+                self.left_to_right(signed)
             }
-            Operation::Product(factors) => self.from_the_left(factors.iter().map(|factor| ("*", *factor))),
+            Operation::Product(factors) => self.left_to_right(factors.iter().map(|factor| ("*", *factor))),
             Operation::Quotient(parts) => format!("(/ {})", self.all(parts)),
             Operation::Square(base) => format!("(* {0} {0})", self.text(*base)),
             Operation::Negative(inside) => format!("(- {})", self.text(*inside)),
@@ -147,7 +147,7 @@ impl Names<'_> {
     }
 
     /// `(- (+ a b) c)`: each operator with everything to its left; a sum may begin with a minus.
-    fn from_the_left<'o>(
+    fn left_to_right<'o>(
         &self,
         operands: impl DoubleEndedIterator<Item = (&'o str, Place)> + Clone + ExactSizeIterator,
     ) -> String {
