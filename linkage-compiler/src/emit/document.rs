@@ -6,6 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
+use super::Work;
 use super::names::string;
 use crate::derivation::{
     ClosedForm, Derivation, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Reactions, Row, Scene,
@@ -22,7 +23,7 @@ pub(super) fn constant(
     driver: &Driver,
     derivation: &Derivation,
     derived: &Derived,
-    kernels: &[(String, Operations)],
+    kernels: &[Work],
     root: &TokenStream,
 ) -> TokenStream {
     let Derived { formulas, closed_forms, .. } = derived;
@@ -110,7 +111,7 @@ pub(super) fn of_scene(
     mechanism: &Mechanism,
     (driver, scene): (&Driver, &model::Scene),
     (derivation, derived): (&Derivation, &Scene),
-    kernels: &[(String, Operations)],
+    kernels: &[Work],
     root: &TokenStream,
 ) -> TokenStream {
     let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
@@ -292,12 +293,12 @@ fn symbols(names: &[&str]) -> TokenStream {
 }
 
 /// `&[Kernel]` with the operations of each function.
-fn kernel_list(kernels: &[(String, Operations)]) -> TokenStream {
-    list(kernels.iter().map(|(function, operations)| {
+fn kernel_list(kernels: &[Work]) -> TokenStream {
+    list(kernels.iter().map(|Work { function, operations, lines }| {
         let Operations { functions, divisions, multiplications, additions } = *operations;
         let [functions, divisions, multiplications, additions] =
             [functions, divisions, multiplications, additions].map(Literal::usize_unsuffixed);
-        let function = string(function);
+        let [function, lines] = [function, lines].map(|text| string(text));
         quote! {
             Kernel {
                 function: #function,
@@ -307,6 +308,7 @@ fn kernel_list(kernels: &[(String, Operations)]) -> TokenStream {
                     multiplications: #multiplications,
                     additions: #additions,
                 },
+                lines: #lines,
             }
         }
     }))
