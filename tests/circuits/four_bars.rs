@@ -169,3 +169,48 @@ fn limits_of_the_input_end_a_motion() {
     assert_eq!([motion.points[0], motion.points[motion.points.len() - 1]].map(|at| at.input), [0.0, 0.0]);
     assert_eq!(motion.dead_points().map(|at| at.modes).collect::<Vec<_>>(), [[Some(0), Some(1)]]);
 }
+
+/// Ever nearer to a dead point there are two modes and one circuit, until the modes are too near: then an error.
+#[test]
+fn start_near_a_dead_point_is_found_or_an_error() {
+    let m = bars(4.0, 3.0, 2.0, 2.5);
+    let mut errors = 0;
+    for digits in 1..=17 {
+        match Circuits::of(&m, limit(&m, 4.5) - 10.0_f64.powi(-digits), CircuitOptions::default()) {
+            Ok(found) => assert_eq!((errors, counts(&found)), (0, [2, 1, 0]), "{digits}"),
+            Err(CircuitError::Path { error: PathError::NoDirection { .. }, .. }) => errors += 1,
+            Err(error) => panic!("{digits}: {error}"),
+        }
+    }
+    assert!((1..=5).contains(&errors), "{errors}");
+}
+
+/// Another unit of length changes no bit of an input; invalid lengths are errors or have circuits.
+#[test]
+fn lengths_of_any_magnitude() {
+    let scaled = |scale: f64| bars(4.0 * scale, 3.0 * scale, 2.0 * scale, 2.5 * scale);
+    let inputs = |m: &Bars| dead_inputs(&circuits(m, 0.5).motions[0]);
+    let exact = inputs(&scaled(1.0));
+    for power in [-200, -30, 30, 200] {
+        assert_eq!(inputs(&scaled(2.0_f64.powi(power))), exact, "{power}");
+    }
+    // Squares of these lengths are near the ends of the range of numbers.
+    for power in [-490, 490] {
+        if let Ok(found) = Circuits::of(&scaled(2.0_f64.powi(power)), 0.5, CircuitOptions::default()) {
+            assert_eq!(dead_inputs(&found.motions[0]), exact, "{power}");
+        }
+    }
+    for invalid in [f64::NAN, f64::INFINITY, f64::MAX] {
+        let m = Bars { coupler: invalid, ..scaled(1.0) };
+        let found = Circuits::of(&m, 0.5, CircuitOptions::default());
+        assert!(found.as_ref().map_or(true, |found| found.modes.is_empty()), "{invalid}");
+    }
+    // A crank of length zero turns.
+    assert_eq!(counts(&circuits(&bars(4.0, 0.0, 3.0, 2.5), 0.5)), [2, 2, 2]);
+    // Each ends, as circuits or as an error.
+    for (ground, crank, coupler, rocker) in [(4.0, 3.0, 0.0, 2.5), (0.0, 3.0, 2.0, 2.5), (0.0, 0.0, 0.0, 0.0)] {
+        if let Ok(found) = Circuits::of(&bars(ground, crank, coupler, rocker), 0.5, CircuitOptions::default()) {
+            assert!(found.modes.len() <= 2 && found.circuits.len() <= found.modes.len(), "{:?}", counts(&found));
+        }
+    }
+}
