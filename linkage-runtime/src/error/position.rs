@@ -165,8 +165,8 @@ impl fmt::Display for PositionError {
             ),
             Self::Undecided { mechanism, group, regularity } => write!(
                 f,
-                "positions of group {group} of {mechanism} are too near to each other to be told apart: its regularity \
-                 there is {regularity:.1e}"
+                "positions of group {group} of {mechanism} cannot be distinguished: they are nearer to each other than rounding \
+                 error, and the regularity there is {regularity:.1e}"
             ),
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
             Self::Input(error) => error.fmt(f),

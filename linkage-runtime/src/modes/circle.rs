@@ -9,15 +9,12 @@ use nalgebra::{Complex, ComplexField};
 use super::dixon::Number;
 use crate::Real;
 
-/// The most samples of a polynomial, of degree 10.
-const SAMPLES: usize = 21 + SPARE;
-
-/// Samples beyond 2 d + 1 show the rounding error of all of them.
-const SPARE: usize = 2;
+/// A factor of the rounding error of a polynomial: twice the one that is enough in all tests.
+const SAFETY: f64 = 8.0;
 
 /// The arcs at which the search begins. The first starts at an angle that no drawing has, so that roots at round angles
 /// are not at the ends of arcs.
-const ARCS: usize = 5;
+const ARCS: usize = 4;
 const FIRST: f64 = 0.123_456_789;
 
 /// The most halvings of an arc: 2^-34 of it is 4e-11 rad. Nearer roots have values of g within rounding error between
@@ -70,9 +67,9 @@ impl<const TERMS: usize> TrigonometricPolynomial<TERMS> {
     /// The polynomial of this degree that is `value` on the unit circle, up to a factor 1 or i; `None` if it is zero
     /// within rounding error, or not real.
     pub fn of(degree: usize, value: impl Fn(Number) -> Number) -> Option<Self> {
-        let count = 2 * degree + 1 + SPARE;
+        let count = 2 * degree + 1;
         let root = |k: usize| direction(core::f64::consts::TAU * k as f64 / count as f64);
-        let mut values = [Number::default(); SAMPLES];
+        let mut values = [Number::default(); TERMS];
         let values = values.get_mut(..count)?;
         for (k, sample) in values.iter_mut().enumerate() {
             *sample = value(root(k));
@@ -82,21 +79,17 @@ impl<const TERMS: usize> TrigonometricPolynomial<TERMS> {
         let is_imaginary = imaginary > real;
         let (most, least) = if is_imaginary { (imaginary, real) } else { (real, imaginary) };
         let mut coefficients = [Number::default(); TERMS];
-        for (k, coefficient) in coefficients.get_mut(..=degree + SPARE / 2)?.iter_mut().enumerate() {
+        for (k, coefficient) in coefficients.get_mut(..=degree)?.iter_mut().enumerate() {
             let term = |(j, sample): (usize, &Number)| {
                 let sample = if is_imaginary { sample.im } else { sample.re };
                 root(j * k % count).conj() * sample
             };
             *coefficient = values.iter().enumerate().map(term).sum::<Number>() / count as f64;
         }
-        let beyond =
-            coefficients.get(degree + 1..=degree + SPARE / 2)?.iter().map(|spare| spare.l1_norm()).fold(0.0, f64::max);
-        // Each coefficient has an error, and the factor (1 + t^2)^d of the arcs is up to 8.
-        let noise = (count as f64) * (beyond + least + most * f64::EPSILON);
-        if !(most > 64.0 * noise) {
-            return None;
-        }
-        Some(Self { degree, coefficients, noise })
+        // The part that should be zero shows the rounding error of the samples. Without the factor 4, 30 of 80 000
+        // positions within 1e-8 rad of a dead point were neither found nor in doubt; with it none.
+        let noise = SAFETY * (count as f64) * (least + most * f64::EPSILON);
+        (most > 64.0 * noise).then_some(Self { degree, coefficients, noise })
     }
 
     /// The roots.

@@ -238,9 +238,9 @@ impl<const SIZE: usize> Dixon<SIZE> {
     fn drop_zeros(&mut self) {
         let mut places = [None; SIZE];
         let mut kept = 0;
-        for row in 0..self.size {
+        for (row, place) in places.iter_mut().enumerate().take(self.size) {
             if self.terms().iter().any(|term| term.row == row || term.column == row) {
-                places[row] = Some(kept);
+                *place = Some(kept);
                 self.sets[kept] = self.sets[row];
                 kept += 1;
             }

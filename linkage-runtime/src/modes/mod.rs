@@ -2,6 +2,7 @@
 
 mod circle;
 mod dixon;
+mod numbers;
 mod search;
 
 use search::Search;
@@ -105,8 +106,11 @@ pub enum Unknown<T> {
 /// The positions of one group, kept until its loops change: a list of all branches solves each group once.
 #[derive(Debug, Clone, Copy)]
 pub struct Memory<T, const L: usize, const N: usize> {
-    last: Option<(Loops<T, L, N>, [Unknown<T>; N], Modes<T, N>)>,
+    last: Option<Last<T, L, N>>,
 }
+
+/// The loops of a group, its unknowns, and its positions.
+type Last<T, const L: usize, const N: usize> = (Loops<T, L, N>, [Unknown<T>; N], Modes<T, N>);
 
 impl<T, const L: usize, const N: usize> Default for Memory<T, L, N> {
     fn default() -> Self {

@@ -3,11 +3,12 @@
 use core::mem;
 
 use super::circle::{Root, TrigonometricPolynomial, direction};
-use super::dixon::{COLUMNS, Dixon, Guided, Number, power_of_two};
+use super::dixon::Dixon;
+use super::numbers::Numbers;
 use super::{Loops, MOST, Modes, Unknown};
 use crate::position::{Evaluated, polished, regularity};
 use crate::scalar::{largest, to_f64};
-use crate::{PositionError, Real, real};
+use crate::{PositionError, Real};
 
 /// At a root of the determinant that has a position, the residual of the loops is of the size of rounding error, relative
 /// to the sum of their lengths. A root whose residual is larger than this is in doubt. From 1e-6 to 1e-2 the positions of
@@ -22,9 +23,6 @@ const MOST_MOVED: f64 = 0.1;
 /// epsilon.
 const SAME: f64 = 1e-6;
 
-/// The least coefficient of a loop, relative to the largest: a product of six does not underflow.
-const TINIEST: f64 = 1e-45;
-
 /// The search for all positions of one group.
 pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
     /// Of the mechanism and of the group.
@@ -35,69 +33,6 @@ pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
     pub unknowns: F,
     /// The residuals of the group, the sums of the magnitudes of their terms, and the columns of J.
     pub evaluate: G,
-}
-
-/// The loops as complex numbers.
-struct Numbers<const L: usize> {
-    /// c: k and the factors of the directions, each loop divided by a power of two.
-    rows: [[Number; COLUMNS]; L],
-    /// These powers.
-    units: [f64; L],
-    /// The number of directions, and the unknown of each.
-    directions: usize,
-    places: [usize; COLUMNS],
-    /// The lengths, their factors d, and the direction of the guide of each, from 1; 0 if it is given.
-    guided: [Guided; L],
-    along: [(Number, usize); L],
-    lengths: usize,
-}
-
-impl<const L: usize> Numbers<L> {
-    fn guided(&self) -> &[Guided] {
-        self.guided.get(..self.lengths).unwrap_or_default()
-    }
-
-    /// The direction that must be x, from 1: the one with which guides turn.
-    fn turning(&self) -> Option<usize> {
-        self.along.iter().take(self.lengths).map(|(_, with)| *with).find(|with| *with > 0)
-    }
-
-    /// The length of each guide at these directions, in the unit of its loop.
-    fn lengths(&self, directions: &[Number; COLUMNS - 1]) -> [f64; L] {
-        let mut lengths = [0.0; L];
-        for ((length, guided), (along, with)) in
-            lengths.iter_mut().zip(&self.guided).zip(&self.along).take(self.lengths)
-        {
-            let sum = self.rows.get(guided.row).map_or(Number::default(), |row| sum(row, directions));
-            let turn = with.checked_sub(1).and_then(|place| directions.get(place)).copied();
-            let along = along * turn.unwrap_or(Number::new(1.0, 0.0));
-            // sum + s d = 0 with a real s.
-            *length = -(sum * along.conj()).re / along.norm_sqr();
-        }
-        lengths
-    }
-
-    /// The largest residual of a loop at these directions, relative to the sum of its links.
-    fn residual(&self, directions: &[Number; COLUMNS - 1]) -> f64 {
-        let lengths = self.lengths(directions);
-        let of_row = |(place, row): (usize, &[Number; COLUMNS])| {
-            let terms = row[1..].iter().zip(directions).map(|(factor, direction)| (factor * direction).l1_norm());
-            let mut total = sum(row, directions);
-            let mut size = row[0].l1_norm() + terms.sum::<f64>();
-            let guided = self.guided.iter().zip(&self.along).zip(lengths).take(self.lengths);
-            for ((_, (along, with)), length) in guided.filter(|((guided, _), _)| guided.row == place) {
-                let turn = with.checked_sub(1).and_then(|place| directions.get(place)).copied();
-                let part = along * turn.unwrap_or(Number::new(1.0, 0.0)) * length;
-                (total, size) = (total + part, size + part.l1_norm());
-            }
-            total.l1_norm() / size
-        };
-        self.rows.iter().enumerate().map(of_row).fold(0.0, f64::max)
-    }
-}
-
-fn sum(row: &[Number; COLUMNS], directions: &[Number; COLUMNS - 1]) -> Number {
-    row[0] + row[1..].iter().zip(directions).map(|(factor, direction)| factor * direction).sum::<Number>()
 }
 
 /// The result of the search with one direction as x.
@@ -118,7 +53,7 @@ where
 {
     /// All positions.
     pub fn run(&self) -> Result<Modes<T, N>, PositionError> {
-        let numbers = self.numbers()?;
+        let numbers = Numbers::new(self.names, self.loops, self.are)?;
         match L {
             2 => self.of_numbers::<6, 7>(&numbers),
             _ => self.of_numbers::<20, 21>(&numbers),
@@ -148,67 +83,6 @@ where
         Err(error)
     }
 
-    /// The loops as complex numbers.
-    ///
-    /// # Errors
-    /// [`PositionError::NotFinite`]; [`PositionError::Undecided`] if a length is too small beside the largest.
-    fn numbers(&self) -> Result<Numbers<L>, PositionError> {
-        let [mechanism, group] = self.names;
-        let complex = |[re, im]: [T; 2]| Number::new(to_f64(re), to_f64(im));
-        let size = |number: &Number| number.re.abs().max(number.im.abs());
-        let guided = Guided { row: 0, factor: Number::default(), is_turning: false };
-        let mut numbers = Numbers {
-            rows: [[Number::default(); COLUMNS]; L],
-            units: [1.0; L],
-            directions: 0,
-            places: [0; COLUMNS],
-            guided: [guided; L],
-            along: [(Number::default(), 0); L],
-            lengths: 0,
-        };
-        let mut columns = [0; N];
-        for (place, (unknown, column)) in self.are.iter().zip(&mut columns).enumerate() {
-            if matches!(unknown, Unknown::Angle) {
-                numbers.directions += 1;
-                numbers.places[numbers.directions] = place;
-                *column = numbers.directions;
-            }
-        }
-        let loops = self.loops.constants.iter().zip(&self.loops.factors);
-        for ((row, unit), (constant, factors)) in numbers.rows.iter_mut().zip(&mut numbers.units).zip(loops) {
-            row[0] = complex(*constant);
-            for (factor, column) in factors.iter().zip(columns).filter(|(_, column)| *column > 0) {
-                row[column] = complex(*factor);
-            }
-            if !row.iter().all(|number| number.re.is_finite() && number.im.is_finite()) {
-                return Err(PositionError::NotFinite { mechanism, quantity: "a length of the loops" });
-            }
-            let scale = power_of_two(row.iter().map(size).fold(0.0, f64::max));
-            if scale > 0.0 {
-                // Not by the reciprocal, which overflows for the smallest numbers.
-                row.iter_mut().for_each(|number| *number = Number::new(number.re / scale, number.im / scale));
-                *unit = scale;
-            }
-            if row.iter().any(|number| *number != Number::default() && size(number) < TINIEST) {
-                return Err(PositionError::Undecided { mechanism, group, regularity: 0.0 });
-            }
-        }
-        for unknown in self.are {
-            let Unknown::Length { in_loop, along, with } = *unknown else { continue };
-            let along = complex(along);
-            let place = numbers.lengths;
-            let (Some(guided), Some(to)) = (numbers.guided.get_mut(place), numbers.along.get_mut(place)) else { break };
-            if !(size(&along) > 0.0 && size(&along).is_finite()) {
-                return Err(PositionError::Undetermined { mechanism, group });
-            }
-            let unit = power_of_two(size(&along));
-            *to = (along, with.and_then(|place| columns.get(place)).copied().unwrap_or_default());
-            *guided = Guided { row: in_loop, factor: (along / unit).conj(), is_turning: with.is_some() };
-            numbers.lengths += 1;
-        }
-        Ok(numbers)
-    }
-
     /// Adds the positions found with this direction as x.
     fn with<const SIZE: usize, const TERMS: usize>(
         &self,
@@ -216,7 +90,7 @@ where
         kept: usize,
         modes: &mut Modes<T, N>,
     ) -> Outcome {
-        let dixon = Dixon::<SIZE>::new(&numbers.rows, numbers.guided(), numbers.directions, kept);
+        let dixon = Dixon::<SIZE>::new(&numbers.rows, numbers.equations(), numbers.directions, kept);
         let Some(dixon) = dixon else { return Outcome::Zero };
         let Some(degree) = dixon.degree() else { return Outcome::Zero };
         let determinant = TrigonometricPolynomial::<TERMS>::of(degree, |x| dixon.determinant(x));
@@ -257,19 +131,9 @@ where
     /// The position at a root, or the regularity of the group there if it is not clear whether there is one.
     fn follow<const SIZE: usize>(&self, numbers: &Numbers<L>, dixon: &Dixon<SIZE>, angle: f64) -> Result<[T; N], f64> {
         let directions = dixon.directions(direction(angle)).ok_or(0.0)?;
-        let mut values = [T::zero(); N];
-        for (place, direction) in numbers.places[1..].iter().zip(&directions).take(numbers.directions) {
-            if let Some(value) = values.get_mut(*place) {
-                *value = real::<T>(direction.im).arctangent2(real(direction.re));
-            }
-        }
-        let are_lengths = self.are.iter().zip(&mut values).filter(|(unknown, _)| !matches!(unknown, Unknown::Angle));
-        let lengths = numbers.lengths(&directions).into_iter().zip(&numbers.guided);
-        for ((_, value), (length, guided)) in are_lengths.zip(lengths) {
-            *value = real(length * numbers.units.get(guided.row).copied().unwrap_or(1.0));
-        }
-        let start = (self.unknowns)(values);
-        if !(numbers.residual(&directions) <= OPEN) {
+        let start = (self.unknowns)(numbers.values(&directions));
+        let is_closed = numbers.residual(&directions) <= OPEN;
+        if !is_closed {
             return Err(self.regularity(start));
         }
         let found = polished(self.names, start, &self.evaluate).ok();
@@ -281,9 +145,7 @@ where
     fn distance(&self, numbers: &Numbers<L>, one: &[T; N], other: &[T; N]) -> f64 {
         let differences = self.are.iter().zip(one.iter().zip(other)).map(|(unknown, (one, other))| match unknown {
             Unknown::Angle => to_f64(principal(*one - *other)),
-            Unknown::Length { in_loop, .. } => {
-                to_f64(*one - *other) / numbers.units.get(*in_loop).copied().unwrap_or(1.0)
-            }
+            Unknown::Length { in_loop, .. } => to_f64(*one - *other) / numbers.unit(*in_loop),
         });
         largest(differences)
     }
