@@ -231,7 +231,7 @@ impl<const TERMS: usize> Arc<TERMS> {
         }
         let are_sure = [coefficients[0], coefficients[count - 1]].iter().all(|end| end.abs() > noise);
         if are_sure && changes(coefficients) == 1 {
-            roots.push(Root::Simple(self.angle(piece.start + piece.width * root(coefficients))));
+            roots.push(Root::Simple(self.angle(piece.start + piece.width * root::<TERMS>(coefficients))));
         } else if halvings == 0 || (least >= -noise && most <= noise) {
             roots.push(Root::Cluster([piece.start, piece.start + piece.width].map(|s| self.angle(s))));
         } else {
@@ -274,46 +274,46 @@ fn changes(coefficients: &[f64]) -> usize {
 
 /// The only root of a polynomial on (0, 1), between ends of opposite signs: false position, with the value at the end
 /// that stays halved (the Illinois rule).
-fn root(coefficients: &[f64]) -> f64 {
+fn root<const TERMS: usize>(coefficients: &[f64]) -> f64 {
     const MOST_STEPS: usize = 40;
     const ENOUGH: f64 = 1e-7;
-    let ([mut low, mut high], last) = ([0.0, 1.0], coefficients.len() - 1);
+    let last = coefficients.len() - 1;
+    let (mut scaled, mut binomial) = ([0.0; TERMS], 1.0);
+    for (place, (to, from)) in scaled.iter_mut().zip(coefficients).enumerate() {
+        *to = from * binomial;
+        binomial = binomial * (last - place) as f64 / (place + 1) as f64;
+    }
+    let scaled = &scaled[..=last];
+    let [mut low, mut high] = [0.0, 1.0];
     let (mut at_low, mut at_high) = (coefficients[0], coefficients[last]);
     let mut middle = 0.5;
     for _ in 0..MOST_STEPS {
         middle = low + (high - low) * (at_low / (at_low - at_high));
-        let value = value(coefficients, middle);
-        if (value > 0.0) == (at_high > 0.0) {
+        let value = value(scaled, middle);
+        let moved = if (value > 0.0) == (at_high > 0.0) {
             let moved = high - middle;
             (high, at_high, at_low) = (middle, value, 0.5 * at_low);
-            if moved < ENOUGH {
-                break;
-            }
+            moved
         } else {
             let moved = middle - low;
             (low, at_low, at_high) = (middle, value, 0.5 * at_high);
-            if moved < ENOUGH {
-                break;
-            }
+            moved
+        };
+        if moved < ENOUGH {
+            break;
         }
     }
     middle
 }
 
-/// The value of a polynomial in the basis of Bernstein: sum_j binomial(n, j) b_j s^j (1 - s)^(n - j).
+/// sum_j q_j s^j (1 - s)^(n - j)
 fn value(coefficients: &[f64], s: f64) -> f64 {
-    let count = coefficients.len();
-    let (mut sum, mut power, mut binomial) = (0.0, 1.0, 1.0);
-    let is_left = s < 0.5;
-    let larger = if is_left { 1.0 - s } else { s };
-    let ratio = (1.0 - larger) / larger;
-    for place in 0..count {
-        let coefficient = coefficients[if is_left { place } else { count - 1 - place }];
-        sum += coefficient * binomial * power;
-        power *= ratio;
-        binomial = binomial * (count - 1 - place) as f64 / (place + 1) as f64;
+    let (mut sum, mut power) = (0.0, 1.0);
+    for coefficient in coefficients {
+        sum = sum * (1.0 - s) + coefficient * power;
+        power *= s;
     }
-    sum * ComplexField::powi(larger, count as i32 - 1)
+    sum
 }
 
 /// The unit number of an angle.
