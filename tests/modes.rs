@@ -19,7 +19,7 @@ macro_rules! listed {
             let near = m.assemble_near(&q, m.branch_of(&one.pose)).unwrap();
             for pose in [one.pose, near] {
                 for (residual, scale) in m.residual(&pose).iter().zip(&m.residual_scales(&pose)) {
-                    assert!(residual.abs() <= 8.0 * f64::EPSILON * scale, "{residual} of {scale}");
+                    assert!(residual.abs() <= 4.0 * f64::EPSILON * scale, "{residual} of {scale}");
                 }
             }
             found.push((one.branch, q));

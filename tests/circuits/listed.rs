@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use linkage::circuits::{CurveEnd, CurveEvent};
+use linkage::circuits::{CircuitOptions, Circuits, CurveEnd, CurveEvent};
 use linkage::position::newton;
 use linkage::{Branches, D, Mechanism, linkage};
 
@@ -129,4 +129,32 @@ fn groups_of_two_and_three_loops_by_small_steps() {
         let motions: Vec<usize> = found.modes.iter().map(|mode| mode.motion).collect();
         assert_eq!(motions, partition(&six_bar, theta, 500), "{theta}");
     }
+}
+
+/// The number of positions of the double butterfly along the turn: it changes by two at the dead points of its circuits and
+/// nowhere else.
+#[test]
+fn positions_of_the_double_butterfly_along_the_turn() {
+    let m = DoubleButterfly::default();
+    let starts: Vec<f64> = (0..12).map(|step| 0.2 + TAU / 12.0 * f64::from(step)).collect();
+    let found = Circuits::over(&m, &starts, CircuitOptions::default()).unwrap();
+    let meetings = found.motions.iter().flat_map(|motion| motion.dead_points().collect::<Vec<_>>());
+    let mut dead_points: Vec<f64> = meetings.map(|meeting| meeting.point.input.rem_euclid(TAU)).collect();
+    dead_points.sort_by(f64::total_cmp);
+    dead_points.dedup_by(|next, last| *next - *last < 1e-9);
+    let count = |crank: f64| m.branches(crank).unwrap().count();
+    let next = dead_points.iter().skip(1).copied().chain([dead_points[0] + TAU]);
+    let stretches: Vec<(f64, usize)> = dead_points
+        .iter()
+        .zip(next)
+        .map(|(&from, to)| {
+            let counts: Vec<usize> = (1..20).map(|part| count(from + (to - from) * f64::from(part) / 20.0)).collect();
+            assert!(counts.iter().all(|one| *one == counts[0]), "{counts:?} from {from} to {to}");
+            (from, counts[0])
+        })
+        .collect();
+    println!("{stretches:?}");
+    let last = stretches.last().map(|(_, count)| *count);
+    let before = last.into_iter().chain(stretches.iter().map(|(_, count)| *count));
+    assert!(before.zip(&stretches).all(|(before, (_, after))| before.abs_diff(*after) == 2), "{stretches:?}");
 }
