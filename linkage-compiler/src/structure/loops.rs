@@ -39,7 +39,7 @@ impl Loops {
     /// The loops of two or three pairs of rows; `None` if the rows have another form.
     pub fn of(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Option<Self> {
         let is_size = |loops: usize| (2..=MOST_LOOPS).contains(&loops);
-        if rows.len() != unknowns.len() || rows.len() % 2 != 0 || !is_size(rows.len() / 2) {
+        if rows.len() != unknowns.len() || !rows.len().is_multiple_of(2) || !is_size(rows.len() / 2) {
             return None;
         }
         let waves: Option<Vec<Waves>> = rows.iter().map(|&row| Waves::of(graph, row, unknowns)).collect();
