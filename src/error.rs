@@ -4,6 +4,8 @@ use core::fmt;
 
 #[cfg(feature = "dynamics")]
 use linkage_dynamics::MotionError;
+#[cfg(feature = "std")]
+use linkage_runtime::circuits::CircuitError;
 use linkage_runtime::{InputError, PathError, PositionError};
 
 /// Any error of this crate, for functions that return several kinds: `?` converts the other error types to it.
@@ -17,6 +19,9 @@ pub enum Error {
     Position(PositionError),
     /// A path cannot be followed.
     Path(PathError),
+    /// The circuits of a mechanism cannot be computed.
+    #[cfg(feature = "std")]
+    Circuit(CircuitError),
     /// A motion cannot be computed.
     #[cfg(feature = "dynamics")]
     Motion(MotionError),
@@ -28,6 +33,8 @@ impl fmt::Display for Error {
             Self::Input(error) => error.fmt(f),
             Self::Position(error) => error.fmt(f),
             Self::Path(error) => error.fmt(f),
+            #[cfg(feature = "std")]
+            Self::Circuit(error) => error.fmt(f),
             #[cfg(feature = "dynamics")]
             Self::Motion(error) => error.fmt(f),
         }
@@ -57,6 +64,16 @@ impl From<PathError> for Error {
             PathError::Input(error) => Self::Input(error),
             PathError::Position(error) => Self::Position(error),
             error => Self::Path(error),
+        }
+    }
+}
+
+#[cfg(feature = "std")]
+impl From<CircuitError> for Error {
+    fn from(error: CircuitError) -> Self {
+        match error {
+            CircuitError::Position(error) => error.into(),
+            error => Self::Circuit(error),
         }
     }
 }

@@ -24,7 +24,9 @@ pub use linkage_dynamics::{
 #[cfg(feature = "drawing")]
 pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]
-pub use linkage_report::{Document, Table, sheet};
+pub use linkage_report::{Document, FpCore, Table, sheet};
+#[cfg(feature = "std")]
+pub use linkage_runtime::circuits;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix,

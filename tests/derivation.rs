@@ -17,6 +17,19 @@ use linkage_gallery::six_bar::*;
 use linkage_gallery::slider_crank::*;
 use linkage_gallery::slider_crank_scenes::*;
 
+linkage::linkage! {
+    /// A mass on an arm, on a cart; a rope to the mass rubs.
+    pub mechanism Cart {
+        param l, m1, m2, mu, load;
+        input s, theta;
+        point P = (s, 0);
+        point G = P + l@theta;
+        body cart { mass m1; center P; }
+        body bob { mass m2; inertia 0; center G; angle theta; }
+        scene Rubbing { inertia; friction mu, load on norm(G); reactions; }
+    }
+}
+
 /// One section of a document, in text or in LaTeX.
 fn section(document: &str, title: &str) -> String {
     let title_of = |line: &'_ str| {
@@ -55,6 +68,13 @@ snapshots! {
     scene_in_text: Turning::DERIVATION.to_text();
     scene_in_latex: Turning::DERIVATION.to_latex();
     scene_of_two_inputs: Free::DERIVATION.to_text();
+}
+
+// The forces of pins and guides, with frictions, and with one that acts on a link.
+snapshots! {
+    forces_in_joints_of_an_open_chain: section(&Rubbing::DERIVATION.to_text(), "Forces in joints");
+    forces_in_joints_in_text: section(&Worn::DERIVATION.to_text(), "Forces in joints");
+    forces_in_joints_in_latex: section(&Worn::DERIVATION.to_latex(), "Forces in joints");
 }
 
 // Sections that differ from one mechanism to the next.

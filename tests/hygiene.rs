@@ -283,7 +283,7 @@ mod configured {
             scene Running of Forward { inertia; equilibrium; }
         }
         #[cfg(all())]
-        // Under test: a lint that is forwarded to all items.
+        // The macro must pass this attribute on to all items: nothing calls their functions.
         #[allow(dead_code)]
         mechanism Machine {
             input a;

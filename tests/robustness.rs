@@ -186,7 +186,7 @@ fn tokens_after_an_attribute_are_reported() {
 
 #[test]
 fn attributes_without_effect_are_rejected() {
-    // All of these attributes are input under test, `allow` too.
+    // These attributes are the input of this test, `allow` too: none of them applies to the code of the test.
     for (attribute, statement, message) in [
         ("#[cfg(test)]", "param", "does not work on a part"),
         ("#[cfg(test)]", "equation", "does not work on a part"),

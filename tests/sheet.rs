@@ -115,7 +115,7 @@ fn large_matrices_are_lists_of_entries() {
 #[test]
 fn scenes_have_sections_of_their_own() {
     let mut sheet = Sheet::new(Crank::DERIVATION);
-    sheet.scene(Turning::DERIVATION).scene(Steady::DERIVATION);
+    sheet.scene(Turning::DERIVATION).scene(Steady::DERIVATION).scene(Worn::DERIVATION);
     let html = sheet.to_html();
     assert_balanced(&html);
     for scene in ["Turning", "Steady"] {
@@ -125,6 +125,10 @@ fn scenes_have_sections_of_their_own() {
     for effect in Turning::DERIVATION.forces {
         assert!(html.contains(&format!("<h3>{}</h3>", effect.name)), "{}", effect.name);
     }
+    for joint in Worn::DERIVATION.joints {
+        assert!(html.contains(&format!("<h3>{}</h3>", joint.name)), "{}", joint.name);
+    }
+    assert_eq!(html.matches("<h2>Forces in joints").count(), 1);
     let numbers = html.match_indices("class=\"number\">(").map(|(at, found)| {
         let rest = &html[at + found.len()..];
         rest[..rest.find(')').unwrap_or(0)].parse::<usize>().unwrap()

@@ -2,12 +2,17 @@
 
 use std::f64::consts::TAU;
 
+use linkage::circuits::{CircuitError, CircuitOptions, Circuits};
 use linkage::derivation::Derivation;
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, Vector2};
+use linkage::{Branches, D};
 
 /// The number of steps of a period; the last frame equals the first.
 pub const STEPS: u32 = 72;
+
+/// The inputs at which motions start that are counted: a prime number, so that few are at an angle that is special.
+const STARTS: u32 = 11;
 
 /// The duration of an animation in seconds.
 const SECONDS: f64 = 6.0;
@@ -70,6 +75,8 @@ pub struct Figure {
     pub course: Course,
     /// The number of branches in general and in the first frame; None if positions come from Newton's method.
     pub branches: Option<[usize; 2]>,
+    /// The numbers of modes, circuits and full turns; None for several inputs.
+    pub circuits: Option<[usize; 3]>,
     /// The largest residual of any loop equation, in ulps of the sum of its link lengths.
     pub ulps: f64,
 }
@@ -77,13 +84,31 @@ pub struct Figure {
 impl Figure {
     pub fn new(name: &'static str, derivation: &'static Derivation, course: Course) -> Self {
         let picture = Animation::new(name, SECONDS);
-        Self { name, about: "", source: "", picture, derivation, course, branches: None, ulps: 0.0 }
+        let (branches, circuits) = (None, None);
+        Self { name, about: "", source: "", picture, derivation, course, branches, circuits, ulps: 0.0 }
     }
 
     /// Sets a sentence about the mechanism, and its source.
     pub fn words(mut self, about: &'static str, source: &'static str) -> Self {
         (self.about, self.source) = (about, source);
         self
+    }
+
+    /// Counts the circuits through the modes at [`STARTS`] inputs, one of them given, the most modes at one of these, and
+    /// the motions on which the input turns fully.
+    pub fn count_circuits<M>(&mut self, mechanism: &M, input: f64) -> Result<(), CircuitError>
+    where
+        M: Branches<Scalar = f64, V = D<1>>,
+    {
+        let starts = (0..STARTS).map(|start| input + TAU * f64::from(start) / f64::from(STARTS));
+        let found = Circuits::over(mechanism, starts.clone(), CircuitOptions::default())?;
+        let modes_at = |start: f64| {
+            let is_at = |position: &M::Coordinates| M::inputs(position)[0] == start;
+            found.modes.iter().filter(|mode| is_at(&mode.position)).count()
+        };
+        let most = starts.map(modes_at).max().unwrap_or_default();
+        self.circuits = Some([most, found.circuits.len(), found.full_turns()]);
+        Ok(())
     }
 
     /// Adds a position; its residual must be a few ulps of the sum of the link lengths.
@@ -130,6 +155,7 @@ macro_rules! assembled {
         let branch = $branch::new($($side),*);
         let course = Course::around(f64::to_radians($degrees), |input| $m.assemble(input, branch).is_ok());
         let mut figure = Figure::new($name, $mechanism::<f64>::DERIVATION, course);
+        figure.count_circuits(&$m, f64::to_radians($degrees))?;
         for input in course.inputs() {
             figure.branches.get_or_insert([$branch::all().count(), $m.branches(input)?.count()]);
             let $pose = $m.assemble(input, branch)?;

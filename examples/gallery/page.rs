@@ -13,7 +13,9 @@ pub fn html(families: &[Family], pictures: &[String]) -> String {
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Gallery of linkages</title>\n\
          <style>{}</style>\n</head>\n<body>\n<header>\n<h1>Gallery of linkages</h1>\n\
          <p>{count} pictures of classic mechanisms, each computed from its loop equations. Every frame is a position on one \
-         branch, assembled group by group, in closed form if possible. Orange: driving link; red: traced path.</p>\n\
+         branch, assembled group by group, in closed form if possible. A mode is a position \
+         at a given input, counted where there are most; a circuit is all positions that are connected by motion; a full \
+         turn passes no dead point. Orange: driving link; red: traced path.</p>\n\
          </header>\n<main>\n",
         include_str!("style.css")
     );
@@ -53,10 +55,15 @@ fn figure(figure: &Figure, picture: &str) -> String {
         Some([all, here]) if all == here => all.to_string(),
         Some([all, here]) => format!("{all}, {here} of them in the first frame"),
     };
+    let circuits = figure.circuits.map_or_else(String::new, |[modes, circuits, turns]| {
+        let [modes, circuits, turns] =
+            [(modes, "mode"), (circuits, "circuit"), (turns, "full turn")].map(|(count, noun)| counted(count, noun));
+        format!("<div><dt>Circuits</dt><dd>{modes}, {circuits}, {turns}</dd></div>")
+    });
     format!(
         "<figure>\n{}\n<figcaption>\n<h3>{}</h3>\n<p>{}</p>\n<dl>\
          <div><dt>Input</dt><dd><i>{}</i>, {}</dd></div><div><dt>Branches</dt><dd>{branches}</dd></div>\
-         <div><dt>Groups</dt><dd><ol>{groups}</ol></dd></div></dl>\n<p class=\"source\">{}</p>\n</figcaption>\n</figure>\n",
+         {circuits}<div><dt>Groups</dt><dd><ol>{groups}</ol></dd></div></dl>\n<p class=\"source\">{}</p>\n</figcaption>\n</figure>\n",
         picture,
         escape(name),
         escape(about),
@@ -64,6 +71,15 @@ fn figure(figure: &Figure, picture: &str) -> String {
         course(figure.course),
         escape(source),
     )
+}
+
+/// A number with its noun.
+fn counted(count: usize, noun: &str) -> String {
+    match count {
+        0 => format!("no {noun}"),
+        1 => format!("1 {noun}"),
+        count => format!("{count} {noun}s"),
+    }
 }
 
 fn course(course: Course) -> String {

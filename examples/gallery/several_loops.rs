@@ -105,6 +105,7 @@ fn stephenson_i() -> Result<Figure, Box<dyn Error>> {
 fn stephenson_ii() -> Result<Figure, Box<dyn Error>> {
     let m = StephensonII::default();
     let mut figure = Figure::new("Stephenson II six-bar", StephensonII::DERIVATION, Course::Turn(0.0));
+    figure.count_circuits(&m, 0.0)?;
     let [alpha, beta, tau, rho] = [30.0, 21.0, -90.0, 54.0].map(f64::to_radians);
     let mut q = StephensonIICoordinates { theta: 0.0, alpha, beta, tau, rho };
     let first = m.pose_at(&m.solve(&q)?.coordinates);
@@ -151,6 +152,7 @@ fn double_butterfly() -> Result<Figure, Box<dyn Error>> {
     };
     let start = q.crank;
     let mut figure = Figure::new("Double butterfly", DoubleButterfly::DERIVATION, Course::Turn(start));
+    figure.count_circuits(&m, start)?;
     let first = m.pose_at(&m.solve(&q)?.coordinates);
     for degree in 0..=360 {
         q.crank = start + f64::from(degree).to_radians();

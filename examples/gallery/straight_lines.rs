@@ -24,6 +24,7 @@ fn watt_line() -> Result<Figure, Box<dyn Error>> {
     let [there, back] = [Right, Left].map(|phi_psi| WattLineBranch { phi_psi });
     let course = Course::around(0.0, |theta| m.assemble(theta, there).is_ok());
     let mut figure = Figure::new("Watt's line", WattLine::DERIVATION, course);
+    figure.count_circuits(&m, 0.0)?;
     let inputs = course.inputs();
     for (step, &theta) in inputs.iter().enumerate() {
         let rises = inputs[(step + 1) % inputs.len()] > inputs[step.saturating_sub(1)];

@@ -78,6 +78,7 @@ fn coupled_wheels(name: &'static str, [above, below]: [Elbow; 2]) -> Result<Figu
     // Start half a step after the change point.
     let course = Course::Turn((180.0 / f64::from(STEPS)).to_radians());
     let mut figure = Figure::new(name, CoupledWheels::DERIVATION, course);
+    figure.count_circuits(&m, 1.0)?;
     for theta in course.inputs() {
         let branch = CoupledWheelsBranch::new(if theta.sin() > 0.0 { above } else { below });
         figure.branches.get_or_insert([CoupledWheelsBranch::all().count(), m.branches(theta)?.count()]);
@@ -95,6 +96,7 @@ fn geneva() -> Result<Figure, Box<dyn Error>> {
     let engaged = FRAC_PI_2 - PI / m.slots;
     let course = Course::Own("in the slot between −45° and 45°, then a dwell");
     let mut figure = Figure::new("Geneva drive", Geneva::DERIVATION, course);
+    figure.count_circuits(&m, 0.1)?;
     for part in course.inputs() {
         // From the middle of one dwell to the middle of the next.
         let theta = PI + TAU * part;

@@ -185,6 +185,17 @@ pub fn programs(mechanism: &Mechanism) -> Vec<String> {
     drivers.collect()
 }
 
+/// Returns the formulas of the functions of a checked mechanism and of its scenes as `derive fpcore` writes them: the
+/// type, the function and its lines.
+#[must_use]
+pub fn formulas(mechanism: &Mechanism) -> Vec<[String; 3]> {
+    let drivers = mechanism.drivers.iter().flat_map(|driver| {
+        let mut derivation = derivation::derive(mechanism, driver);
+        emit::formulas(&lower::program(program::plan(mechanism, driver, &mut derivation), &derivation))
+    });
+    drivers.collect()
+}
+
 /// Parses and checks mechanisms without expanding them, for tests and tools.
 ///
 /// # Errors

@@ -1,6 +1,8 @@
 //! Internal functions that `linkage-dynamics` uses. Not part of the interface.
 
+pub use crate::chord::{CANCELLATION, COINCIDENT_ULPS, smallest_product};
 pub use crate::error::{all_finite, finite};
+pub use crate::jacobian::ulp::ZERO_ULPS;
 pub use crate::linear::{Factorization, product_of_pivots, same_signs};
 pub use crate::newton::{Constraints, search};
 pub use crate::position::hadamard_ratio;

@@ -17,7 +17,7 @@ const TOUCHING_ULPS: f64 = 1.0;
 /// test mechanisms are accurate to three ulp of that sum times their condition number (`tests/forty_digits`). With 0, two
 /// joints at one place would count as apart, because their positions are rounded; with more, positions that still have
 /// correct digits are rejected.
-const COINCIDENT_ULPS: f64 = 8.0;
+pub const COINCIDENT_ULPS: f64 = 8.0;
 
 /// ±sqrt((n - h) (n + h)), with the sign of `side`: the half chord of a circle of radius n at the distance h from its
 /// centre. The joint of a link (RRP) is on both the circle about its other end, with the link's length as n, and the
@@ -127,17 +127,24 @@ fn relative<T: Real>(magnitude: T, scale: T) -> f64 {
     }
 }
 
+/// A product of two squared lengths that is no larger is near underflow, one no smaller than its inverse near overflow.
+#[inline]
+#[must_use]
+pub fn smallest_product<T: Real>() -> T {
+    let epsilon = T::default_epsilon();
+    epsilon * epsilon * epsilon * epsilon
+}
+
 /// True if a product of two squared lengths is far from overflow and underflow. If not, [`root`] computes in other
 /// units.
 #[inline]
 fn is_in_range<T: Real>(product: T) -> bool {
-    let epsilon = T::default_epsilon();
-    let tiny = epsilon * epsilon * epsilon * epsilon;
+    let tiny = smallest_product::<T>();
     (product > tiny) & (product < T::one() / tiny)
 }
 
 /// If a factor, a difference of two squares, is less than this fraction of the larger one, it is computed exactly.
-const CANCELLATION: f64 = 1.0 / 16.0;
+pub const CANCELLATION: f64 = 1.0 / 16.0;
 
 /// The triangle of two links of lengths p and q whose outer joints are (x, y) apart, D^2 = x^2 + y^2. Only the
 /// magnitude of a length counts.
@@ -242,7 +249,7 @@ fn uncommon_chord<T: Real>(p: T, q: T, x: T, y: T, scale: T, low: T, high: T) ->
     (are_apart && has_inverse && is_nonzero(chord * real(0.5), p * q)).then_some(chord)
 }
 
-/// The [`chord`] of two positive factors, else `None`.
+/// The [`chord`] of two positive finite factors, else `None`.
 #[inline]
 pub fn regular_chord<T: Real, S: Side>(factors: [T; 2], radius: T, side: S) -> Option<T> {
     let [low, high] = factors;
@@ -250,7 +257,9 @@ pub fn regular_chord<T: Real, S: Side>(factors: [T; 2], radius: T, side: S) -> O
     let root = if is_in_range(radicand) {
         radicand.sqrt()
     } else {
-        (low > T::zero() && high > T::zero()).then(|| root(low, high, radius))?
+        // Where these are not finite, `chord` is an error.
+        let is_regular = low > T::zero() && high > T::zero() && [low, high, radius].iter().all(T::is_finite);
+        is_regular.then(|| root(low, high, radius))?
     };
     Some(side.signed(root))
 }

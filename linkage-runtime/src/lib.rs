@@ -4,6 +4,7 @@
 //! - [`position`]: damped Newton's method, which returns an error if it does not converge;
 //! - [`mod@limits`]: the range of an input on one assembly branch;
 //! - [`continuation`]: path following through dead points and change points;
+//! - `circuits`: the positions that are connected by motion, with `std`;
 //! - [`lanes`]: many positions at once;
 //! - [`accuracy`]: position solvers selected by type, with their accuracy and time;
 //! - [`PositionError`], [`PathError`], [`InputError`]: the errors, with mechanism, residual and distance from a
@@ -24,6 +25,8 @@ pub mod accuracy;
 mod arctangent;
 mod branch;
 mod chord;
+#[cfg(feature = "std")]
+pub mod circuits;
 mod column;
 pub mod continuation;
 pub mod derivation;

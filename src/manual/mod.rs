@@ -11,6 +11,7 @@
 //! | [`cam_laws`] | your own functions |
 //! | [`scenes`] | all effects of a scene; dry friction and stops |
 //! | [`dead_points`], [`change_points`] | motions through positions where the input cannot drive, and where motions cross |
+//! | [`circuits`] | all positions at one input, and which of them are connected by motion |
 //! | [`errors`] | messages of the macro, errors at run time |
 //! | [`speed`], [`accuracy`], [`stability`] | times, errors and hard cases, as measured |
 //! | [`examples`] | the examples of the repository, with what they measure |
@@ -66,6 +67,11 @@ pub mod dead_points {}
 ///
 #[doc = include_str!("change_points.md")]
 pub mod change_points {}
+
+/// All positions at one input, and which of them are connected by motion.
+///
+#[doc = include_str!("circuits.md")]
+pub mod circuits {}
 
 /// Mistakes while compiling, and results that do not exist.
 ///

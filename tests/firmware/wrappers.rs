@@ -20,7 +20,8 @@ pub fn files(root: &Path) -> (Vec<(String, String)>, usize) {
         count += wrappers.len();
         let wrappers = wrappers.concat();
         let text = functions + &prettyplease::unparse(&emitted);
-        // The names of wrappers hold those of types, which are not in snake case; `emitted_source` lints emitted code.
+        // Names of wrappers contain names of types, which are not in snake case. This test looks at machine code; the
+        // warnings of emitted code are those of the test `emitted_source`.
         writeln!(library, "#[allow(warnings)] pub mod {module};").unwrap();
         let text = format!("{text}\npub mod wrappers {{ use super::*; use ::linkage::__rt;\n{wrappers}}}\n");
         files.push((format!("{module}.rs"), text));

@@ -20,7 +20,8 @@ pub fn files(root: &Path, chosen: Option<&[&str]>) -> Vec<(String, String)> {
         let mut text = functions + &prettyplease::unparse(&emitted);
         let calls = Calls::of(&emitted);
         write!(text, "\npub mod calls {{ use super::*; use crate::harness as h;\n{}}}\n", calls.text).unwrap();
-        // Generated calls use all emitted functions; `emitted_source` checks the warnings of emitted code.
+        // The generated calls are not written for reading. This test looks at numbers; the warnings of emitted code are
+        // those of the test `emitted_source`.
         writeln!(modules, "#[allow(warnings)] mod {module};").unwrap();
         for subject in calls.subjects {
             writeln!(subjects, "(\"{subject}\", {module}::calls::{}),", snake(&subject)).unwrap();

@@ -97,42 +97,7 @@ fn inputs([boom, s1, s2]: [f64; 3]) -> ExcavatorInputs {
     ExcavatorInputs { boom, s1, s2 }
 }
 
-/// The data of the bodies, which are fields of each scene, and the acceleration of gravity.
-struct Masses {
-    m1: f64,
-    j1: f64,
-    m2: f64,
-    j2: f64,
-    m3: f64,
-    j3: f64,
-    mb: f64,
-    jb: f64,
-    mr: f64,
-    jr: f64,
-    m4: f64,
-    j4: f64,
-    g: f64,
-}
-
-macro_rules! masses {
-    ($scene:expr) => {
-        Masses {
-            m1: $scene.m1,
-            j1: $scene.j1,
-            m2: $scene.m2,
-            j2: $scene.j2,
-            m3: $scene.m3,
-            j3: $scene.j3,
-            mb: $scene.mb,
-            jb: $scene.jb,
-            mr: $scene.mr,
-            jr: $scene.jr,
-            m4: $scene.m4,
-            j4: $scene.j4,
-            g: $scene.g,
-        }
-    };
-}
+masses!($; m1, j1, m2, j2, m3, j3, mb, jb, mr, jr, m4, j4, g);
 
 /// The machine by its links and joints.
 struct ByHand {
@@ -254,6 +219,9 @@ macro_rules! at_random {
     };
 }
 
+mod laws;
+mod simulation;
+
 /// A position in the range of work.
 fn position(m: &Excavator, random: &Random) -> Option<ExcavatorCoordinates> {
     let [boom, s1, s2] = [(0.5, 0.4), (3.3, 0.3), (2.35, 0.2)].map(|(middle, range)| middle + random.either(range));
@@ -280,7 +248,7 @@ fn digging() {
         let (scene, q) = at_random!(random, Digging);
         let rates = [0.4, 0.5, 0.5].map(|size| random.either(size));
         let found = scene.reactions(0.0, &q, inputs(rates)).unwrap();
-        let by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rates);
+        let by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rates);
         let mut by_hand = by_hand.driven(scene.torque, [scene.f1, scene.f2]);
         let joint = by_hand.machine.at(&by_hand.pins[3]);
         by_hand.machine.load(by_hand.strokes[0].clone(), Law::Damper(scene.c));
@@ -299,7 +267,7 @@ fn driven() {
         let t = random.either(1.0).abs();
         let rates = [0.2, 0.6 * t, -0.2];
         let found = scene.reactions(t, &q, inputs(rates)).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rates);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rates);
         by_hand.machine.hold(Along::Turn([by_hand.boom, GROUND]), 0.0);
         by_hand.machine.hold(by_hand.strokes[0].clone(), 0.6);
         by_hand.machine.hold(by_hand.strokes[1].clone(), 0.0);
@@ -318,7 +286,7 @@ fn with_frictions_at_rest() {
         let f2 = random.either(2.0 * scene.f2);
         let scene = Rubbing { mu: [1.0, 60.0, 200.0][state % 3] * scene.mu, f2, ..scene };
         let found = scene.reactions(0.0, &q, inputs([0.0; 3])).unwrap();
-        let by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, [0.0; 3]);
+        let by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, [0.0; 3]);
         let by_hand = by_hand.driven(scene.torque, [scene.f1, scene.f2]);
         let friction = Contact::Friction(scene.mu * scene.seal);
         let (solution, modes) = settled(&by_hand.machine, &by_hand.strokes.clone().map(|stroke| (stroke, friction)));
@@ -338,7 +306,7 @@ fn with_a_stop() {
         let f2 = random.either(2.0 * scene.f2);
         let scene = Stopped { lower: q.s2, f2, ..scene };
         let found = scene.reactions(0.0, &q, inputs([0.0; 3])).unwrap();
-        let by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, [0.0; 3]);
+        let by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, [0.0; 3]);
         let by_hand = by_hand.driven(scene.torque, [scene.f1, scene.f2]);
         let [first, second] = by_hand.strokes.clone();
         let contacts = [(first, Contact::Friction(scene.mu * scene.seal)), (second, Contact::Lower)];

@@ -67,36 +67,7 @@ fn inputs([theta1, theta4]: [f64; 2]) -> FiveBarInputs {
     FiveBarInputs { theta1, theta4 }
 }
 
-/// The data of the bodies, which are fields of each scene, and the acceleration of gravity.
-struct Masses {
-    m1: f64,
-    j1: f64,
-    m2: f64,
-    j2: f64,
-    a2: f64,
-    b2: f64,
-    m3: f64,
-    j3: f64,
-    m5: f64,
-    g: f64,
-}
-
-macro_rules! masses {
-    ($scene:expr) => {
-        Masses {
-            m1: $scene.m1,
-            j1: $scene.j1,
-            m2: $scene.m2,
-            j2: $scene.j2,
-            a2: $scene.a2,
-            b2: $scene.b2,
-            m3: $scene.m3,
-            j3: $scene.j3,
-            m5: $scene.m5,
-            g: $scene.g,
-        }
-    };
-}
+masses!($; m1, j1, m2, j2, a2, b2, m3, j3, m5, g);
 
 /// The machine by its links and joints.
 struct ByHand {
@@ -197,6 +168,8 @@ fn rates_of(random: &Random) -> [f64; 2] {
     [(); 2].map(|()| random.either(5.0))
 }
 
+mod laws;
+
 #[test]
 fn with_forces_springs_and_dampers() {
     let random = Random::new(11);
@@ -204,7 +177,7 @@ fn with_forces_springs_and_dampers() {
         let (scene, q) = at_random!(random, Free);
         let rates = rates_of(&random);
         let found = scene.reactions(0.0, &q, inputs(rates)).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rates);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rates);
         by_hand.torque(0, scene.torque);
         by_hand.torque(3, -scene.torque / 2.0);
         let ends = [1, 3].map(|pin: usize| by_hand.machine.at(&by_hand.pins[pin]));
@@ -230,7 +203,7 @@ fn half_driven_with_friction() {
         let t = random.either(1.0).abs();
         let rates = [random.either(5.0), 3.0 + 2.0 * t];
         let found = scene.reactions(t, &q, inputs(rates)).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rates);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rates);
         by_hand.torque(0, scene.torque);
         by_hand.machine.hold(Along::Turn([by_hand.links[3], GROUND]), 2.0);
         let moving = scene.mechanism.motion(&q, inputs(rates), inputs([0.0; 2])).unwrap().rates;
@@ -250,7 +223,7 @@ fn with_two_frictions_at_rest() {
         let (scene, q) = at_random!(random, Rubbing);
         let scene = Rubbing { mu: [0.1, 5.0, 50.0][state % 3] * scene.mu, ..scene };
         let found = scene.reactions(0.0, &q, inputs([0.0; 2])).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, [0.0; 2]);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, [0.0; 2]);
         by_hand.torque(0, scene.torque);
         let limit = Contact::Friction(scene.mu * scene.radius * scene.load);
         let frictions = [by_hand.opening(), Along::Turn([by_hand.links[3], by_hand.links[2]])];
@@ -270,7 +243,7 @@ fn with_a_stop() {
         let (scene, q) = at_random!(random, Stopped);
         let scene = Stopped { lower: q.theta2 - q.theta3, torque: random.either(150.0), ..scene };
         let found = scene.reactions(0.0, &q, inputs([0.0; 2])).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, [0.0; 2]);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, [0.0; 2]);
         by_hand.torque(0, scene.torque);
         let (solution, modes) = settled(&by_hand.machine, &[(by_hand.opening(), Contact::Lower)]);
         resting += usize::from(modes == [Mode::Held]);

@@ -67,38 +67,7 @@ linkage! {
     }
 }
 
-/// The data of the bodies, which are fields of each scene, and the acceleration of gravity.
-struct Masses {
-    m1: f64,
-    j1: f64,
-    m2: f64,
-    j2: f64,
-    m3: f64,
-    j3: f64,
-    mj: f64,
-    jj: f64,
-    mk: f64,
-    jk: f64,
-    gr: f64,
-}
-
-macro_rules! masses {
-    ($scene:expr) => {
-        Masses {
-            m1: $scene.m1,
-            j1: $scene.j1,
-            m2: $scene.m2,
-            j2: $scene.j2,
-            m3: $scene.m3,
-            j3: $scene.j3,
-            mj: $scene.mj,
-            jj: $scene.jj,
-            mk: $scene.mk,
-            jk: $scene.jk,
-            gr: $scene.gr,
-        }
-    };
-}
+masses!($; m1, j1, m2, j2, m3, j3, mj, jj, mk, jk, gr);
 
 /// The machine by its links and joints.
 struct ByHand {
@@ -189,6 +158,8 @@ macro_rules! at_random {
     };
 }
 
+mod laws;
+
 /// A position that is well-conditioned.
 fn position(m: &Jansen, random: &Random) -> Option<JansenCoordinates> {
     let guess = JansenCoordinates {
@@ -211,7 +182,7 @@ fn with_forces_springs_and_dampers() {
         let (scene, q) = at_random!(random, Walking);
         let rate = random.either(8.0);
         let found = scene.reactions(0.0, &q, rate).unwrap();
-        let by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rate);
+        let by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rate);
         let mut by_hand = by_hand.driven(scene.torque, [scene.fx, scene.fy]);
         let ends = [4, 5].map(|pin: usize| by_hand.machine.at(&by_hand.pins[pin]));
         by_hand.machine.load(Along::Distance(ends), Law::Spring { stiffness: scene.ks, free: 0.3 });
@@ -228,7 +199,7 @@ fn with_friction() {
         let (scene, q) = at_random!(random, Rubbing);
         let rate = random.either(8.0);
         let found = scene.reactions(0.0, &q, rate).unwrap();
-        let by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rate);
+        let by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rate);
         let mut by_hand = by_hand.driven(scene.torque, [scene.fx, scene.fy]);
         let rates = scene.mechanism.motion(&q, rate, 0.0).unwrap().rates;
         let limit = scene.mu * scene.radius * scene.load;
@@ -247,7 +218,7 @@ fn with_friction_at_rest() {
         let (scene, q) = at_random!(random, Rubbing);
         let scene = Rubbing { mu: [1.0, 60.0][state % 2] * scene.mu, ..scene };
         let found = scene.reactions(0.0, &q, 0.0).unwrap();
-        let by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, 0.0);
+        let by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, 0.0);
         let by_hand = by_hand.driven(scene.torque, [scene.fx, scene.fy]);
         let friction = Contact::Friction(scene.mu * scene.radius * scene.load);
         let (solution, modes) = settled(&by_hand.machine, &[(by_hand.bend.clone(), friction)]);
@@ -266,7 +237,7 @@ fn with_a_stop() {
         let (scene, q) = at_random!(random, Stopped);
         let scene = Stopped { upper: q.lower_leg - q.link_c, torque: random.either(60.0), ..scene };
         let found = scene.reactions(0.0, &q, 0.0).unwrap();
-        let by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, 0.0);
+        let by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, 0.0);
         let by_hand = by_hand.driven(scene.torque, [0.0; 2]);
         let (solution, modes) = settled(&by_hand.machine, &[(by_hand.bend.clone(), Contact::Upper)]);
         resting += usize::from(modes == [Mode::Held]);

@@ -5,41 +5,8 @@ use linkage::nalgebra::{Point2, Vector2, vector};
 use linkage::{Mode, linkage};
 use linkage_gallery::{pendulum, slider_crank_scenes, three_link_arm};
 
-use super::{Random, is_regular};
-
-/// A body with the forces on it.
-struct Body {
-    name: &'static str,
-    mass: f64,
-    inertia: f64,
-    centre: Point2<f64>,
-    acceleration: Vector2<f64>,
-    spin: f64,
-    forces: Vec<(Point2<f64>, Vector2<f64>)>,
-    torque: f64,
-}
-
-fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
-    a.x * b.y - a.y * b.x
-}
-
-impl Body {
-    /// Newton's and Euler's laws, relative to the largest term of the machine.
-    fn obeys(&self, size: f64, length: f64) {
-        let sum: Vector2<f64> = self.forces.iter().map(|(_, force)| *force).sum();
-        let rest = sum - self.mass * self.acceleration;
-        let moments = self.forces.iter().map(|(at, force)| cross(at - self.centre, *force)).sum::<f64>();
-        let turn = moments + self.torque - self.inertia * self.spin;
-        assert!(rest.norm() < 1e-12 * size, "{}: {rest} of {size}", self.name);
-        assert!(turn.abs() < 1e-12 * size * length, "{}: {turn} of {size}", self.name);
-    }
-}
-
-/// The largest force among these bodies.
-fn size_of(bodies: &[Body]) -> f64 {
-    let forces = bodies.iter().flat_map(|body| body.forces.iter().map(|(_, force)| force.norm()));
-    forces.fold(0.0, f64::max)
-}
+use crate::members::{Frame, Member, cross, frame, obey};
+use crate::{Random, is_regular};
 
 linkage! {
     /// A six-bar with a ternary link.
@@ -99,104 +66,54 @@ fn a_six_bar_with_loads() {
         let (q, omega) = (found.pose.coordinates(), random.either(4.0));
         let found = scene.reactions(0.0, &q, omega).unwrap();
         // The accelerations follow from the friction, which slips.
-        let rates = m.velocity(&m.pose_at(&q), omega).unwrap();
+        let pose = m.pose_at(&q);
+        let rates = m.velocity(&pose, omega).unwrap();
         let drag = -scene.drag * rates.theta4.signum();
         let ratio = rates.theta4 / omega;
         let gain = (scene.forces(0.0, &q, omega).unwrap()[0] + drag * ratio) / scene.mass_matrix(&q).unwrap()[0];
-        let pose = m.pose_at(&q);
         let accelerations = m.acceleration(&pose, &rates, gain).unwrap();
-        let at = m.points(&pose).unwrap();
-        let of = m.point_accelerations(&pose, &rates, &accelerations).unwrap();
+        let state = (m, pose, rates, accelerations, m.velocity(&pose, random.either(1.0)).unwrap());
+        let (at, of) = (m.points(&pose).unwrap(), m.point_velocities(&pose, &state.4).unwrap());
         let stretch = at.g6 - at.tip;
         let pull = scene.k * (stretch.norm() - scene.free) * stretch.normalize();
-        let body =
-            |name, mass: f64, inertia, centre, acceleration, spin, forces: &[(Point2<f64>, Vector2<f64>)]| Body {
-                name,
-                mass,
-                inertia,
-                centre,
-                acceleration,
-                spin,
-                forces: forces.iter().copied().chain([(centre, vector![0.0, -scene.g * mass])]).collect(),
-                torque: 0.0,
-            };
-        let mut bodies = [
-            body(
+        let of_b3 = [(at.b, found.b_on_b3), (at.c, found.c_on_b3), (at.p, found.p_on_b3)];
+        let of_b5 = [(at.p, found.p_on_b5), (at.q, found.q_on_b5)];
+        let members = [
+            Member::new(
                 "b2",
-                scene.m2,
-                scene.j2,
-                at.g2,
-                of.g2,
-                accelerations.theta2,
+                (frame!(state, g2, theta2), [0.0; 2]),
+                [scene.m2, scene.j2],
                 &[(at.a, found.a_on_b2), (at.b, found.b_on_b2)],
             ),
-            body(
-                "b3",
-                scene.m3,
-                scene.j3,
-                at.g3,
-                of.g3,
-                accelerations.theta3,
-                &[(at.b, found.b_on_b3), (at.c, found.c_on_b3), (at.p, found.p_on_b3), (at.tip, pull)],
-            ),
-            body(
+            Member::new("b3", (frame!(state, g3, theta3), [0.0; 2]), [scene.m3, scene.j3], &of_b3).loaded(at.tip, pull),
+            Member::new(
                 "b4",
-                scene.m4,
-                scene.j4,
-                at.g4,
-                of.g4,
-                accelerations.theta4,
+                (frame!(state, g4, theta4), [0.0; 2]),
+                [scene.m4, scene.j4],
                 &[(at.c, found.c_on_b4), (at.d, found.d_on_b4)],
-            ),
-            body(
-                "b5",
-                scene.m5,
-                scene.j5,
-                at.g5,
-                of.g5,
-                accelerations.theta5,
-                &[(at.p, found.p_on_b5), (at.q, found.q_on_b5)],
-            ),
-            body(
+            )
+            .turned(drag),
+            Member::new("b5", (frame!(state, g5, theta5), [0.0; 2]), [scene.m5, scene.j5], &of_b5),
+            Member::new(
                 "b6",
-                scene.m6,
-                scene.j6,
-                at.g6,
-                of.g6,
-                accelerations.theta6,
-                &[(at.q, found.q_on_b6), (at.f, found.f_on_b6), (at.g6, -pull)],
-            ),
+                (frame!(state, g6, theta6), [0.0; 2]),
+                [scene.m6, scene.j6],
+                &[(at.q, found.q_on_b6), (at.f, found.f_on_b6)],
+            )
+            .loaded(at.g6, -pull)
+            .turned(-scene.damp * state.2.theta6),
         ];
-        bodies[2].torque = drag;
-        bodies[4].torque = -scene.damp * rates.theta6;
-        let size = size_of(&bodies);
-        bodies.iter().for_each(|body| body.obeys(size, 12.0));
-        // The forces of a pin on its links add up to its load.
-        let load = vector![scene.push, -2.0 * scene.push];
+        let (zero, load) = (Vector2::zeros(), vector![scene.push, -2.0 * scene.push]);
         let pins = [
-            (found.a_on_ground + found.a_on_b2, Vector2::zeros()),
-            (found.b_on_b2 + found.b_on_b3, Vector2::zeros()),
-            (found.c_on_b3 + found.c_on_b4, Vector2::zeros()),
-            (found.p_on_b3 + found.p_on_b5, Vector2::zeros()),
-            (found.q_on_b5 + found.q_on_b6, load),
-            (found.d_on_ground + found.d_on_b4, Vector2::zeros()),
-            (found.f_on_ground + found.f_on_b6, Vector2::zeros()),
+            (vec![found.a_on_ground, found.a_on_b2], zero, zero),
+            (vec![found.b_on_b2, found.b_on_b3], zero, of.b),
+            (vec![found.c_on_b3, found.c_on_b4], zero, of.c),
+            (vec![found.p_on_b3, found.p_on_b5], zero, of.p),
+            (vec![found.q_on_b5, found.q_on_b6], load, of.q),
+            (vec![found.d_on_ground, found.d_on_b4], zero, zero),
+            (vec![found.f_on_ground, found.f_on_b6], zero, zero),
         ];
-        for (sum, expected) in pins {
-            assert!((sum - expected).norm() < 1e-12 * size, "{sum} {expected}");
-        }
-        // The force on the ground: what the loads do not give to the momentum.
-        let ground = found.a_on_ground + found.d_on_ground + found.f_on_ground;
-        let momentum: Vector2<f64> = bodies.iter().map(|body| body.mass * body.acceleration).sum();
-        let weight: f64 = bodies.iter().map(|body| scene.g * body.mass).sum();
-        assert!((ground - load - vector![0.0, -weight] + momentum).norm() < 1e-11 * size, "{ground}");
-        // Forces in joints do no work: the power of all others changes the kinetic energy.
-        let speeds = m.point_velocities(&pose, &rates).unwrap();
-        let work = found.a_on_b2.dot(&Vector2::zeros())
-            + (found.b_on_b2 + found.b_on_b3).dot(&speeds.b)
-            + (found.c_on_b3 + found.c_on_b4).dot(&speeds.c)
-            + (found.p_on_b3 + found.p_on_b5).dot(&speeds.p);
-        assert!(work.abs() < 1e-11 * size * (speeds.b.norm() + speeds.c.norm() + speeds.p.norm()), "{work}");
+        obey(&format!("state {states}"), (scene.g, 12.0), &members, &pins);
         states += 1;
     }
 }
@@ -205,7 +122,7 @@ fn a_six_bar_with_loads() {
 fn a_slider_crank_with_friction_by_reactions() {
     use slider_crank_scenes::{CrankBranch, Worn};
     let random = Random::new(32);
-    for _ in 0..200 {
+    for number in 0..200 {
         let mut scene = Worn::default();
         (scene.mu, scene.m3, scene.m4) = (0.3 * random.factor(), random.factor(), random.factor());
         let m = &scene.mechanism;
@@ -222,52 +139,40 @@ fn a_slider_crank_with_friction_by_reactions() {
         let extra = journal * ratio(rates.psi - rates.phi) + guide * ratio(rates.z);
         let gain = (scene.forces(0.0, &q, omega).unwrap()[0] + extra) / scene.mass_matrix(&q).unwrap()[0];
         let accelerations = m.acceleration(&pose, &rates, gain).unwrap();
-        let at = m.points(&pose).unwrap();
-        let of = m.point_accelerations(&pose, &rates, &accelerations).unwrap();
-        let weight = |mass: f64| vector![0.0, -scene.g * mass];
-        let piston = Point2::new(q.z, 0.0);
-        let quarter = m.r / 4.0;
-        let crank_centre = at.pin * (quarter / m.r);
-        let crank_acceleration = of.pin * (quarter / m.r);
-        let z_pin = found.piston_pin();
-        let bodies = [
-            Body {
-                name: "crank",
-                mass: scene.m2,
-                inertia: scene.j2,
-                centre: crank_centre,
-                acceleration: crank_acceleration,
-                spin: accelerations.phi,
-                forces: vec![
-                    (Point2::origin(), found.origin_on_crank),
-                    (at.pin, found.pin_on_crank),
-                    (crank_centre, weight(scene.m2)),
-                ],
-                torque: -journal,
-            },
-            Body {
-                name: "rod",
-                mass: scene.m3,
-                inertia: scene.j3,
-                centre: at.g3,
-                acceleration: of.g3,
-                spin: accelerations.psi,
-                forces: vec![(at.pin, pin), (piston, z_pin[0]), (at.g3, weight(scene.m3))],
-                torque: journal,
-            },
-            Body {
-                name: "piston",
-                mass: scene.m4,
-                inertia: 0.0,
-                centre: piston,
-                acceleration: vector![accelerations.z, 0.0],
-                spin: 0.0,
-                forces: vec![(piston, z_pin[1]), (piston, vector![guide, found.z_normal]), (piston, weight(scene.m4))],
-                torque: found.z_moment,
-            },
+        let (at, virtual_rates) = (m.points(&pose).unwrap(), m.velocity(&pose, random.either(1.0)).unwrap());
+        let of = m.point_velocities(&pose, &virtual_rates).unwrap();
+        let piston = Frame {
+            at: Point2::new(q.z, 0.0),
+            angle: 0.0,
+            rate: 0.0,
+            acceleration: vector![accelerations.z, 0.0],
+            gain: 0.0,
+            virtual_motion: (vector![virtual_rates.z, 0.0], 0.0),
+        };
+        let state = (m, pose, rates, accelerations, virtual_rates);
+        let [on_rod, on_piston] = found.piston_pin();
+        let of_crank = [(Point2::origin(), found.origin_on_crank), (at.pin, found.pin_on_crank)];
+        let members = [
+            Member::new("crank", (frame!(state, pin, phi), [-0.75 * m.r, 0.0]), [scene.m2, scene.j2], &of_crank)
+                .turned(-journal),
+            Member::new(
+                "rod",
+                (frame!(state, g3, psi), [0.0; 2]),
+                [scene.m3, scene.j3],
+                &[(at.pin, pin), (piston.at, on_rod)],
+            )
+            .turned(journal),
+            Member::new("piston", (piston, [0.0; 2]), [scene.m4, 0.0], &[(piston.at, on_piston)])
+                .guided(piston.at, vector![0.0, found.z_normal], found.z_moment)
+                .loaded(piston.at, vector![guide, 0.0]),
         ];
-        let size = size_of(&bodies);
-        bodies.iter().for_each(|body| body.obeys(size, m.l));
+        let zero = Vector2::zeros();
+        let pins = [
+            (vec![found.origin_on_ground, found.origin_on_crank], zero, zero),
+            (vec![found.pin_on_crank, found.pin_on_rod], zero, of.pin),
+            (vec![on_rod, on_piston], zero, piston.virtual_motion.0),
+        ];
+        obey(&format!("state {number}"), (scene.g, m.l), &members, &pins);
     }
 }
 

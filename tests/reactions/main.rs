@@ -1,11 +1,29 @@
 //! The forces in the joints of scenes: against the laws of Newton and Euler for each link, in 48 digits
 //! (`linkage_oracle::newton_euler`), with the links and joints of each machine written here by hand.
 
+/// A struct of the data of the bodies, which are fields of each scene, with the acceleration of gravity; and the macro
+/// `masses_of!` that reads it from a scene. The first token is `$`.
+macro_rules! masses {
+    ($dollar:tt; $($field:ident),+) => {
+        struct Masses {
+            $($field: f64),+
+        }
+
+        macro_rules! masses_of {
+            ($dollar scene:expr) => {
+                Masses { $($field: $dollar scene.$field),+ }
+            };
+        }
+    };
+}
+
 mod at_rest;
 mod excavator;
 mod five_bar;
 mod jansen;
 mod laws;
+mod members;
+mod redundant;
 mod several_ways;
 mod slider_crank;
 mod whitworth;
@@ -23,6 +41,9 @@ const TOLERANCE: f64 = 1e-13;
 
 /// The states of each machine.
 const STATES: usize = 24;
+
+/// The states of each machine in tests without 48 digits.
+const OFTEN: usize = 400;
 
 /// The force of a joint by its name: found and expected.
 type Compared = (&'static str, [f64; 2], [f64; 2]);

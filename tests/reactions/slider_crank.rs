@@ -11,7 +11,7 @@ linkage! {
     mechanism SliderCrank {
         param r = 0.05, l = 0.18, e = 0.01;
         param m2 = 0.8, j2 = 1.2e-3, a2 = 0.02, b2 = 0.004, m3 = 0.6, j3 = 2e-3, a3 = 0.06, b3 = -0.007, m4 = 0.9;
-        param g = 9.81, p = 300, torque = 8, k = 700, s0 = 0.1, c = 30, mu = 0.2, normal = 40, upper = 0.25, back = 0.3;
+        param g = 9.81, p = 300, torque = 8, k = 700, s0 = 0.1, c = 30, mu = 0.2, normal = 40, upper = 0.25, back = 0.3, radius = 0.008;
         input phi;
         unknown psi, z;
         loop r@phi + l@psi = (z, e);
@@ -40,6 +40,15 @@ linkage! {
             friction mu, normal on z;
             reactions;
         }
+        scene Worn {
+            inertia;
+            gravity (0, -g);
+            force (-p, 0) at B;
+            torque torque on phi;
+            friction mu, reaction on z;
+            friction mu, radius, reaction on psi - phi;
+            reactions;
+        }
         scene Resting {
             inertia;
             gravity (0, -g);
@@ -56,37 +65,13 @@ linkage! {
     }
 }
 
-/// The data of the bodies, which are fields of each scene, and the acceleration of gravity.
-struct Masses {
-    m2: f64,
-    j2: f64,
-    a2: f64,
-    b2: f64,
-    m3: f64,
-    j3: f64,
-    m4: f64,
-    g: f64,
-}
-
-macro_rules! masses {
-    ($scene:expr) => {
-        Masses {
-            m2: $scene.m2,
-            j2: $scene.j2,
-            a2: $scene.a2,
-            b2: $scene.b2,
-            m3: $scene.m3,
-            j3: $scene.j3,
-            m4: $scene.m4,
-            g: $scene.g,
-        }
-    };
-}
+masses!($; m2, j2, a2, b2, m3, j3, m4, g);
 
 /// The machine by its links and joints.
 struct ByHand {
     machine: Machine,
     crank: Link,
+    rod: Link,
     stroke: Along,
     center_of_rod: Point,
     pins: [Pin; 3],
@@ -115,11 +100,11 @@ impl ByHand {
         let slide = machine.guide(&line, &end, 0.0);
         machine.input(Along::Turn([crank, GROUND]), q.phi, rate);
         let center_of_rod = machine.point(rod, [m.a3, m.b3]);
-        Self { machine, crank, stroke: Along::Slide(line, end), center_of_rod, pins, slide, length: m.r }
+        Self { machine, crank, rod, stroke: Along::Slide(line, end), center_of_rod, pins, slide, length: m.r }
     }
 
     fn rubbing(scene: &Rubbing, q: &SliderCrankCoordinates, rate: f64) -> Self {
-        let mut by_hand = Self::new(&scene.mechanism, &masses!(scene), q, rate);
+        let mut by_hand = Self::new(&scene.mechanism, &masses_of!(scene), q, rate);
         let end = by_hand.machine.at(&by_hand.pins[2]);
         by_hand.machine.force(&end, [-scene.p, 0.0]);
         by_hand.machine.load(by_hand.turn(), Law::Force(scene.torque));
@@ -158,6 +143,9 @@ macro_rules! at_random {
     }};
 }
 
+mod laws;
+mod simulation;
+
 #[test]
 fn with_forces_springs_and_dampers() {
     let random = Random::new(1);
@@ -165,7 +153,7 @@ fn with_forces_springs_and_dampers() {
         let (scene, q) = at_random!(random, Turning);
         let rate = random.either(60.0);
         let found = scene.reactions(0.0, &q, rate).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rate);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rate);
         let [a, b] = [1, 2].map(|pin: usize| by_hand.machine.at(&by_hand.pins[pin]));
         let anchor = by_hand.machine.point(GROUND, [0.02, -0.1]);
         by_hand.machine.force(&b, [-scene.p, 2.0 * scene.p]);
@@ -187,7 +175,7 @@ fn with_a_driven_crank() {
         let t: f64 = 1.0 + random.either(1.0);
         let rate = 30.0 + 80.0 * t;
         let found = scene.reactions(t, &q, rate).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rate);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rate);
         let drive = by_hand.machine.hold(by_hand.turn(), 80.0);
         let solution = by_hand.machine.solve();
         let mut forces = compared!(by_hand, found, solution);
@@ -241,7 +229,7 @@ fn with_a_stop() {
         let (scene, q) = at_random!(random, Resting);
         let scene = Resting { upper: q.z, torque: random.either(30.0), ..scene };
         let found = scene.reactions(0.0, &q, 0.0).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, 0.0);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, 0.0);
         by_hand.machine.load(by_hand.turn(), Law::Force(scene.torque));
         let (solution, modes) = settled(&by_hand.machine, &[(by_hand.stroke.clone(), Contact::Upper)]);
         resting += usize::from(modes == [Mode::Held]);

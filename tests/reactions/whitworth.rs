@@ -62,48 +62,7 @@ linkage! {
     }
 }
 
-/// The data of the bodies, which are fields of each scene, and the acceleration of gravity.
-struct Masses {
-    m1: f64,
-    j1: f64,
-    a1: f64,
-    b1: f64,
-    m2: f64,
-    j2: f64,
-    m3: f64,
-    j3: f64,
-    a3: f64,
-    b3: f64,
-    m4: f64,
-    j4: f64,
-    m5: f64,
-    xr: f64,
-    yr: f64,
-    g: f64,
-}
-
-macro_rules! masses {
-    ($scene:expr) => {
-        Masses {
-            m1: $scene.m1,
-            j1: $scene.j1,
-            a1: $scene.a1,
-            b1: $scene.b1,
-            m2: $scene.m2,
-            j2: $scene.j2,
-            m3: $scene.m3,
-            j3: $scene.j3,
-            a3: $scene.a3,
-            b3: $scene.b3,
-            m4: $scene.m4,
-            j4: $scene.j4,
-            m5: $scene.m5,
-            xr: $scene.xr,
-            yr: $scene.yr,
-            g: $scene.g,
-        }
-    };
-}
+masses!($; m1, j1, a1, b1, m2, j2, m3, j3, a3, b3, m4, j4, m5, xr, yr, g);
 
 /// The machine by its links and joints.
 struct ByHand {
@@ -208,6 +167,8 @@ macro_rules! at_random {
     }};
 }
 
+mod laws;
+
 fn position(m: &Whitworth, random: &Random) -> WhitworthCoordinates {
     let theta = random.either(3.0);
     let (x, y) = (m.crank * theta.cos(), m.crank * theta.sin() + m.offset);
@@ -223,7 +184,7 @@ fn with_forces_springs_and_dampers() {
         let (scene, q) = at_random!(random, Cutting);
         let rate = random.either(20.0);
         let found = scene.reactions(0.0, &q, rate).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rate);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rate);
         by_hand.torque(scene.torque);
         let ram = by_hand.machine.at(&by_hand.pins[4]);
         by_hand.machine.force(&ram, [-scene.cut, -scene.cut / 4.0]);
@@ -241,7 +202,7 @@ fn driven_with_friction() {
     for state in 0..STATES {
         let (scene, q) = at_random!(random, Driven);
         let found = scene.reactions(0.0, &q, 8.0).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, 8.0);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, 8.0);
         by_hand.machine.hold(Along::Turn([by_hand.wheel, GROUND]), 0.0);
         let speed = scene.mechanism.motion(&q, 8.0, 0.0).unwrap().rates.s;
         let friction = Law::Force(-speed.signum() * scene.mu * scene.normal);
@@ -258,7 +219,7 @@ fn with_two_frictions() {
         let (scene, q) = at_random!(random, Rubbing);
         let rate = random.either(20.0);
         let found = scene.reactions(0.0, &q, rate).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, rate);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, rate);
         by_hand.torque(scene.torque);
         let rates = scene.mechanism.motion(&q, rate, 0.0).unwrap().rates;
         let limits = [scene.mu * scene.normal, scene.mu * scene.load];
@@ -278,7 +239,7 @@ fn with_a_stop() {
         let (scene, q) = at_random!(random, Stopped);
         let scene = Stopped { upper: q.x, torque: random.either(20.0), ..scene };
         let found = scene.reactions(0.0, &q, 0.0).unwrap();
-        let mut by_hand = ByHand::new(&scene.mechanism, &masses!(scene), &q, 0.0);
+        let mut by_hand = ByHand::new(&scene.mechanism, &masses_of!(scene), &q, 0.0);
         by_hand.torque(scene.torque);
         let (solution, modes) = settled(&by_hand.machine, &[(by_hand.strokes[1].clone(), Contact::Upper)]);
         resting += usize::from(modes == [Mode::Held]);

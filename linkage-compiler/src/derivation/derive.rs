@@ -89,7 +89,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         match request {
             // Limits are derived from the assembly when they are emitted; lanes have the formulas of `kinematics`; `serde`
             // changes types only.
-            Request::Limits | Request::Lanes | Request::Serde => {}
+            Request::Limits | Request::Lanes | Request::Serde | Request::Fpcore => {}
             Request::Drawing => {
                 derivation.skeleton = Some(Skeleton::of(mechanism, driver, &mut derivation.graph));
             }

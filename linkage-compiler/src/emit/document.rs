@@ -6,11 +6,14 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
+use super::Work;
 use super::names::string;
-use crate::derivation::{ClosedForm, Derivation, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row, Scene};
+use crate::derivation::{
+    ClosedForm, Derivation, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Reactions, Row, Scene,
+};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{BlockId, CoordinateId, Id, InputId, Table, UnknownId};
-use crate::model::{self, Driver, Mechanism};
+use crate::model::{self, Driver, LoadKind, Mechanism};
 use crate::notation::{Formula, Name, Printer};
 use crate::program::{Derived, Operations};
 
@@ -20,7 +23,7 @@ pub(super) fn constant(
     driver: &Driver,
     derivation: &Derivation,
     derived: &Derived,
-    kernels: &[(String, Operations)],
+    kernels: &[Work],
     root: &TokenStream,
 ) -> TokenStream {
     let Derived { formulas, closed_forms, .. } = derived;
@@ -108,7 +111,7 @@ pub(super) fn of_scene(
     mechanism: &Mechanism,
     (driver, scene): (&Driver, &model::Scene),
     (derivation, derived): (&Derivation, &Scene),
-    kernels: &[(String, Operations)],
+    kernels: &[Work],
     root: &TokenStream,
 ) -> TokenStream {
     let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
@@ -116,6 +119,10 @@ pub(super) fn of_scene(
     for parameter in &mechanism.scene_parameters {
         names.insert(parameter.symbol, Name::Plain(&parameter.name.text));
     }
+    let contact_forces: Vec<String> = (1..=scene.contacts.len()).map(|number| format!("f_{number}")).collect();
+    let reactions = derived.reactions.as_ref();
+    let of_contacts = reactions.iter().flat_map(|reactions| &reactions.contact_forces);
+    names.extend(of_contacts.zip(&contact_forces).map(|(&symbol, name)| (symbol, Name::Plain(name))));
     let graph = &derivation.graph;
     let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
     let own = scene.parameters.iter().map(|&place| mechanism.scene_parameters[place].name.text.as_str());
@@ -148,6 +155,20 @@ pub(super) fn of_scene(
     }
     let potential = !graph.is_zero(derived.potential);
     let potential = option(potential.then(|| document.equation(Name::Plain("V"), derived.potential)));
+    let joints = reactions.map(|reactions| document.joints(mechanism, scene, reactions)).unwrap_or_default();
+    let used = graph.symbols_of(&reactions.iter().flat_map(|reactions| reactions.forces.concat()).collect::<Vec<_>>());
+    let of_contacts = reactions.iter().flat_map(|reactions| &reactions.contact_forces);
+    let acting = scene.contacts.iter().zip(of_contacts).zip(&contact_forces);
+    let acting = acting.filter(|((_, symbol), _)| !joints.is_empty() && used.contains(symbol));
+    let contacts = acting.map(|((contact, _), name)| {
+        let (label, shown) = (string(&contact.label), formula(&Formula::of_name(Name::Plain(name))));
+        quote!(Symbol { name: #label, formula: #shown })
+    });
+    let contacts = list(contacts);
+    let multipliers = reactions.iter().flat_map(|reactions| reactions.multipliers.names.iter());
+    let multipliers = multipliers.filter(|symbol| !joints.is_empty() && used.contains(symbol));
+    let multipliers =
+        list(multipliers.map(|&symbol| formula(&Formula::of_name(Name::Plain(graph.symbol_name(symbol))))));
     let (parameters, kernels) = (symbols(&own), kernel_list(kernels));
     let [text, of] = [&scene.name, &driver.name].map(|name| string(&name.to_string()));
     let name = &scene.name;
@@ -164,10 +185,35 @@ pub(super) fn of_scene(
                     mass_matrix: &[#(#mass_matrix),*],
                     forces: &[#(#effects),*],
                     potential: #potential,
+                    joints: &[#(#joints),*],
+                    multipliers: #multipliers,
+                    contacts: #contacts,
                     kernels: #kernels,
                 }
             };
         }
+    }
+}
+
+impl Document<'_> {
+    /// The forces in the joints that a scene shows.
+    fn joints(&mut self, mechanism: &Mechanism, scene: &model::Scene, reactions: &Reactions) -> Vec<TokenStream> {
+        let shown = scene.loads.iter().filter_map(|load| {
+            let place = reactions.opened.iter().position(|other| other == load)?;
+            Some((&mechanism.opened.loads[*load].kind, reactions.forces[place]))
+        });
+        let forces = shown.map(|(kind, force)| {
+            let (name, parts) = match kind {
+                LoadKind::Pin { joint, link } => (format!("the pin at {joint} on {link}"), ["R_x", "R_y"]),
+                LoadKind::Guide { coordinate, guide, block, .. } => {
+                    (format!("the guide of {coordinate}, {guide} on {block}"), ["N", "T"])
+                }
+            };
+            let name = string(&name);
+            let [first, second] = [0, 1].map(|axis| self.equation(Name::Plain(parts[axis]), force[axis]));
+            quote!(JointForce { name: #name, components: [#first, #second] })
+        });
+        forces.collect()
     }
 }
 
@@ -247,12 +293,12 @@ fn symbols(names: &[&str]) -> TokenStream {
 }
 
 /// `&[Kernel]` with the operations of each function.
-fn kernel_list(kernels: &[(String, Operations)]) -> TokenStream {
-    list(kernels.iter().map(|(function, operations)| {
+fn kernel_list(kernels: &[Work]) -> TokenStream {
+    list(kernels.iter().map(|Work { function, operations, lines }| {
         let Operations { functions, divisions, multiplications, additions } = *operations;
         let [functions, divisions, multiplications, additions] =
             [functions, divisions, multiplications, additions].map(Literal::usize_unsuffixed);
-        let function = string(function);
+        let [function, lines] = [function, lines].map(|text| string(text));
         quote! {
             Kernel {
                 function: #function,
@@ -262,6 +308,7 @@ fn kernel_list(kernels: &[(String, Operations)]) -> TokenStream {
                     multiplications: #multiplications,
                     additions: #additions,
                 },
+                lines: #lines,
             }
         }
     }))

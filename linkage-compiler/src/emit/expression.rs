@@ -311,7 +311,7 @@ pub(super) fn argument(name: &str, is_used: bool) -> Ident {
 }
 
 /// (count, parts) if the number is count * pi / parts with parts up to 180.
-fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
+pub(super) fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
     let Number::Float(value) = number else { return None };
     // 180 parts are whole degrees; finer fractions of pi are written as decimals.
     (1..=180_u32).map(f64::from).find_map(|parts| {

@@ -4,6 +4,7 @@ mod document;
 mod drawing;
 mod expression;
 mod external;
+mod fpcore;
 mod functions;
 mod items;
 mod lanes;
@@ -24,6 +25,7 @@ use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::model::{Mechanism, Request};
 use crate::program::{self, Function, Operations, Program};
+use fpcore::Straight;
 use names::string;
 pub use text::text;
 
@@ -68,8 +70,9 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     let place_of = |function: &Function<Code>| places::of(mechanism.place_of(driver, &function.name));
     tokens.extend(block(&driver.name, kinematics, &program.functions, &place_of, root, &implemented));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
+    let straight = mechanism.requests.contains(&Request::Fpcore).then(|| Straight::of_driver(program));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
-        let works = works(&program.functions);
+        let works = works(&program.functions, straight.as_ref());
         tokens.extend(document::constant(mechanism, driver, derivation, derived, &works, root));
     }
     let order = mechanism.coordinate_order(driver);
@@ -86,7 +89,8 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         tokens.extend(external::calls(mechanism, &scene.functions, name, root));
         if let Some(derivation) = derivation {
             let derived = (derivation, &derivation.scenes[number]);
-            let works = works(&scene.functions);
+            let straight = straight.as_ref().map(|straight| straight.within(scene));
+            let works = works(&scene.functions, straight.as_ref());
             tokens.extend(document::of_scene(mechanism, (driver, scene.signatures.scene), derived, &works, root));
         }
     }
@@ -119,11 +123,40 @@ fn block(
     }
 }
 
+/// A public function of the program.
+struct Work {
+    function: String,
+    operations: Operations,
+    /// Its formulas, line by line; empty unless requested.
+    lines: String,
+}
+
 /// The public functions with their operation counts, without those that compute nothing.
-fn works(functions: &[Function<Code>]) -> Vec<(String, Operations)> {
+fn works(functions: &[Function<Code>], straight: Option<&Straight>) -> Vec<Work> {
     let public = functions.iter().filter(|function| function.access.is_public());
     let works = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
-    works.filter(|(_, work)| *work != Operations::default()).collect()
+    let works = works.filter(|(_, operations)| *operations != Operations::default());
+    let works = works.map(|(function, operations)| {
+        let lines = straight.map_or_else(String::new, |straight| straight.lines(&function));
+        Work { function, operations, lines }
+    });
+    works.collect()
+}
+
+/// The functions of a driver and of its scenes that have formulas: the type, the function and its lines.
+#[must_use]
+pub fn formulas(program: &Program<Code>) -> Vec<[String; 3]> {
+    let straight = Straight::of_driver(program);
+    let of_driver = (program.signatures.driver.name.to_string(), works(&program.functions, Some(&straight)));
+    let of_scenes = program.scenes.iter().map(|scene| {
+        let works = works(&scene.functions, Some(&straight.within(scene)));
+        (scene.signatures.scene.name.to_string(), works)
+    });
+    let all = std::iter::once(of_driver).chain(of_scenes);
+    let formulas = all.flat_map(|(of, works)| {
+        works.into_iter().map(move |Work { function, lines, .. }| [of.clone(), function, lines])
+    });
+    formulas.filter(|[.., lines]| !lines.is_empty()).collect()
 }
 
 /// The operations of all functions of a driver and of its scenes, each called once.

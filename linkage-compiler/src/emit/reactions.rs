@@ -19,9 +19,16 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
     for &load in &scene.loads {
         let load = &mechanism.opened.loads[load];
         let field = &load.field;
+        let of_implied = if load.is_determined {
+            ""
+        } else {
+            " It is not determined: `implied` loops may carry a part of it. This is the force without them."
+        };
         match &load.kind {
             LoadKind::Pin { joint, link } => {
-                let doc = comment(&format!(" The force on {link} in the pin at {joint}, along x and y of the ground."));
+                let doc = comment(&format!(
+                    " The force on {link} in the pin at {joint}, along x and y of the ground.{of_implied}"
+                ));
                 let field = ident(field);
                 members.push(quote!(#[doc = #doc] pub #field: #root::__rt::Vector2<T>));
             }
@@ -29,9 +36,10 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
                 let end = end.as_deref().unwrap_or("the end of the vector of this length");
                 let normal = format!(
                     " The normal force of {guide} on {block} in the guide of {coordinate}, positive a quarter turn \
-                     anticlockwise from its direction."
+                     anticlockwise from its direction.{of_implied}"
                 );
-                let moment = format!(" The moment of {guide} on {block} about {end} in the guide of {coordinate}.");
+                let moment =
+                    format!(" The moment of {guide} on {block} about {end} in the guide of {coordinate}.{of_implied}");
                 for (part, doc) in [("normal", normal), ("moment", moment)] {
                     let (field, doc) = (ident(&format!("{field}_{part}")), comment(&doc));
                     members.push(quote!(#[doc = #doc] pub #field: T));

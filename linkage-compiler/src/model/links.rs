@@ -421,8 +421,8 @@ impl Links {
             let place = self.places.add(center);
             let place = self.places.find(place);
             let direction = found.map_or(direction.unwrap_or(0), |index| self.links[index].direction);
-            let beside = found.and_then(|index| self.links[index].joints.first().copied());
-            self.join(place, direction, beside.as_slice());
+            let joint = found.and_then(|index| self.links[index].joints.first().copied());
+            self.join(place, direction, joint.as_slice());
             held.push((place, direction));
         }
         for (place, direction) in held {

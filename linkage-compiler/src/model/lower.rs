@@ -165,6 +165,9 @@ impl Lowering<'_> {
             let again = Mechanism::named(Vec::new(), Vec::new(), result.visibility.clone(), result.name.clone());
             self.open(statements, links, &joints, again, &mut result.opened);
         }
+        if self.diagnostics.is_empty() {
+            self.undetermined(result);
+        }
     }
 
     /// Declares all names of the mechanism, so that statements may come in any order.

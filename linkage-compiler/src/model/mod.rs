@@ -14,6 +14,7 @@ mod mechanism;
 mod name;
 mod opening;
 mod places;
+mod redundant;
 mod request;
 mod scene;
 mod scope;

@@ -28,6 +28,8 @@ pub struct Load {
     /// The components of the displacement that opens the joint: along x and y; for a guide, along its normal, and the
     /// angle about its end.
     pub displacement: [SymbolId; 2],
+    /// False if an `implied` loop may carry a part of the force.
+    pub is_determined: bool,
 }
 
 /// The kind of an opened joint, with the names of its parts.
@@ -52,6 +54,8 @@ pub struct Opened {
     pub loads: Vec<Load>,
     /// The rows of the constraints in order.
     pub rows: Vec<NodeId>,
+    /// The rows of the `implied` ones.
+    pub implied: Vec<NodeId>,
     pub bodies: Table<BodyId, OpenedBody>,
     pub scenes: Table<SceneId, Paths>,
 }
@@ -134,7 +138,8 @@ impl Lowering<'_> {
             let message = "the forces in joints need this vector as a sum of vectors `r@phi`, `(x, y)@phi` and points";
             self.diagnostics.error(region, message);
         }
-        opened.rows = again.constraints.into_iter().flat_map(|constraint| constraint.rows).collect();
+        [opened.rows, opened.implied] = [again.constraints, again.implied]
+            .map(|constraints| constraints.into_iter().flat_map(|constraint| constraint.rows).collect());
         opened.bodies = again.bodies.iter().map(OpenedBody::of).collect();
         opened.scenes = reading.paths();
     }

@@ -24,11 +24,13 @@ pub enum Request {
     Drawing,
     /// Types that can be written and read.
     Serde,
+    /// The formulas of the functions as FPCore.
+    Fpcore,
 }
 
 impl Request {
     /// The keywords.
-    pub const ALL: [(&str, Self); 7] = [
+    pub const ALL: [(&str, Self); 8] = [
         ("limits", Self::Limits),
         ("jerk", Self::Jerk),
         ("velocity_ratio_derivatives", Self::VelocityRatioDerivatives),
@@ -36,6 +38,7 @@ impl Request {
         ("lanes", Self::Lanes),
         ("drawing", Self::Drawing),
         ("serde", Self::Serde),
+        ("fpcore", Self::Fpcore),
     ];
 }
 

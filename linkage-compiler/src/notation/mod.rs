@@ -22,7 +22,7 @@ pub use formula::Formula;
 use latex::Latex;
 use layout::{Layout, Sum};
 use mathml::MathMl;
-pub use name::Name;
+pub use name::{Name, greek_name};
 use unicode::Unicode;
 use writer::{Relation, write};
 

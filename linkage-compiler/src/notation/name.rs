@@ -169,6 +169,12 @@ pub(super) fn greek(word: &str) -> Option<(&'static str, char)> {
     GREEK.binary_search_by_key(&word, |&(name, _)| name).ok().map(|place| GREEK[place])
 }
 
+/// The name of a Greek letter.
+#[must_use]
+pub fn greek_name(letter: char) -> Option<&'static str> {
+    GREEK.iter().find(|(_, sign)| *sign == letter).map(|(name, _)| *name)
+}
+
 /// A Greek letter with a number, such as `theta3`, as its name and its number.
 pub(super) fn numbered_greek(word: &str) -> Option<(&str, &str)> {
     let name = word.trim_end_matches(|c: char| c.is_ascii_digit());

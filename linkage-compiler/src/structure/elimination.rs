@@ -63,7 +63,8 @@ impl System {
 }
 
 /// The unknowns in each row.
-fn incidence(
+/// The unknowns of each row.
+pub fn incidence(
     graph: &Graph,
     rows: &Table<RowId, NodeId>,
     unknowns: &Table<UnknownId, SymbolId>,

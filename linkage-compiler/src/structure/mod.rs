@@ -13,7 +13,7 @@ mod matching;
 mod slide;
 
 pub use distance::Distance;
-pub use elimination::{Elimination, System};
+pub use elimination::{Elimination, System, incidence};
 pub use group::{Circles, Class, Group, mirror};
 pub use loops::Loops;
 use matching::Matching;

@@ -1,10 +1,11 @@
 //! A particle on a curve, written by hand: x = X(v), y = Y(v) are its two constraints, whose multipliers are the force
 //! that the curve exerts on it.
 
+use super::three_numbers;
 use linkage_dynamics::contact::ReducedEquations;
 use linkage_dynamics::{
-    Bearing, Contact, ContactCoordinate, ContactLaw, Coordinates, Equations, Inputs, Mode, MotionError, Prescribed,
-    Rates, ReactionRow, Scene, StateColumn, Unreduced,
+    Accelerations, Bearing, Contact, ContactCoordinate, ContactLaw, Equations, Mode, MotionError, Prescribed, Rates,
+    ReactionRow, Scene, StateColumn, Unreduced,
 };
 use linkage_runtime::{Column, D, Group, Matrix, Mechanism, PositionError};
 
@@ -38,14 +39,7 @@ impl Curve {
 pub struct Path(pub Curve);
 
 impl Mechanism for Path {
-    type Scalar = f64;
-    type U = D<2>;
-    type V = D<1>;
-    type G = D<1>;
-    type Coordinates = [f64; 3];
-    type Rates = [f64; 3];
-    type Inputs = Column<f64, D<1>>;
-    type Pose = [f64; 3];
+    three_numbers::mechanism!();
 
     const NAME: &'static str = "Path";
     const UNKNOWNS: &'static [&'static str] = &["x", "y"];
@@ -54,24 +48,6 @@ impl Mechanism for Path {
     const INPUT_ANGLES: &'static [bool] = &[true];
     const GROUPS: &'static [Group] = &[Group { name: "x, y", equations: &[0, 1], unknowns: &[0, 1] }];
 
-    fn coordinates(unknowns: Column<f64, D<2>>, inputs: Column<f64, D<1>>) -> [f64; 3] {
-        [unknowns[0], unknowns[1], inputs[0]]
-    }
-    fn parts([x, y, v]: &[f64; 3]) -> (Column<f64, D<2>>, Column<f64, D<1>>) {
-        ([*x, *y].into(), [*v].into())
-    }
-    fn rates(unknowns: Column<f64, D<2>>, inputs: Column<f64, D<1>>) -> [f64; 3] {
-        Self::coordinates(unknowns, inputs)
-    }
-    fn rate_parts(rates: &[f64; 3]) -> (Column<f64, D<2>>, Column<f64, D<1>>) {
-        Self::parts(rates)
-    }
-    fn pose_at(&self, q: &[f64; 3]) -> [f64; 3] {
-        *q
-    }
-    fn is_finite(pose: &[f64; 3]) -> bool {
-        pose.iter().all(|number| number.is_finite())
-    }
     fn residual(&self, [x, y, v]: &[f64; 3]) -> Column<f64, D<2>> {
         let [point, ..] = self.0.at(*v);
         [x - point[0], y - point[1]].into()
@@ -141,33 +117,16 @@ impl<const C: usize> Particle<C> {
 }
 
 impl<const C: usize> Scene for Particle<C> {
-    type Scalar = f64;
-    type U = D<2>;
-    type V = D<1>;
-    type State = D<4>;
+    three_numbers::scene!();
+
     type Contacts = D<C>;
     type Mechanism = Path;
-    type Reactions = ();
 
     const NAME: &'static str = "Particle";
     const BEARINGS: bool = true;
 
     fn mechanism(&self) -> &Path {
         &self.path
-    }
-    fn state(q: &[f64; 3], input_rates: &Inputs<Self>) -> StateColumn<Self> {
-        [q[0], q[1], q[2], input_rates[0]].into()
-    }
-    fn parts(state: &StateColumn<Self>) -> (Coordinates<Self>, Inputs<Self>) {
-        ([state[0], state[1], state[2]], [state[3]].into())
-    }
-    fn check(&self) -> Result<(), MotionError> {
-        Ok(())
-    }
-    fn derivative(&self, t: f64, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError> {
-        let Equations { mass, forces, ratios, .. } = self.equations(t, state)?;
-        let unknowns = ratios * Column::from([state[3]]);
-        Ok([unknowns[0], unknowns[1], state[3], forces[0] / mass[(0, 0)]].into())
     }
     fn equations(&self, t: f64, state: &StateColumn<Self>) -> Result<Equations<f64, D<2>, D<1>>, MotionError> {
         let (q, rate) = Self::parts(state);
@@ -210,19 +169,5 @@ impl<const C: usize> Scene for Particle<C> {
             unknown_forces: [0.0, -self.mass * self.gravity].into(),
             input_forces: [(self.push)(t)].into(),
         })
-    }
-    fn reactions(
-        &self,
-        _: f64,
-        _: &linkage_dynamics::Coordinates<Self>,
-        _: &linkage_dynamics::Rates<Self>,
-        _: &linkage_dynamics::Accelerations<Self>,
-        _: &Column<f64, Self::Contacts>,
-    ) -> Result<(), MotionError> {
-        Ok(())
-    }
-
-    fn prescribed(&self, _: f64) -> Column<Option<Prescribed<f64>>, D<1>> {
-        [None].into()
     }
 }

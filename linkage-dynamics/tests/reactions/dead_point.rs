@@ -2,10 +2,11 @@
 //! the simulation leaves the inputs where the pendulum is horizontal. The reactions are those of any coordinates.
 
 use super::curve::{Curve, Particle, Path};
+use super::three_numbers;
 use linkage_dynamics::simulation::simulate;
 use linkage_dynamics::{
-    Bearing, Contact, ContactCoordinate, ContactLaw, Equations, Mode, MotionError, Prescribed, ReactionRow, Scene,
-    StateColumn, Unreduced,
+    Accelerations, Bearing, Contact, ContactCoordinate, ContactLaw, Equations, Mode, MotionError, Prescribed,
+    ReactionRow, Scene, StateColumn, Unreduced,
 };
 use linkage_runtime::{Column, D, Group, Matrix, Mechanism, PositionError};
 
@@ -18,14 +19,7 @@ const GRAVITY: f64 = 9.81;
 struct Sideways;
 
 impl Mechanism for Sideways {
-    type Scalar = f64;
-    type U = D<2>;
-    type V = D<1>;
-    type G = D<1>;
-    type Coordinates = [f64; 3];
-    type Rates = [f64; 3];
-    type Inputs = Column<f64, D<1>>;
-    type Pose = [f64; 3];
+    three_numbers::mechanism!();
 
     const NAME: &'static str = "Sideways";
     const UNKNOWNS: &'static [&'static str] = &["phi", "y"];
@@ -34,24 +28,6 @@ impl Mechanism for Sideways {
     const INPUT_ANGLES: &'static [bool] = &[false];
     const GROUPS: &'static [Group] = &[Group { name: "phi, y", equations: &[0, 1], unknowns: &[0, 1] }];
 
-    fn coordinates(unknowns: Column<f64, D<2>>, inputs: Column<f64, D<1>>) -> [f64; 3] {
-        [unknowns[0], unknowns[1], inputs[0]]
-    }
-    fn parts([phi, y, x]: &[f64; 3]) -> (Column<f64, D<2>>, Column<f64, D<1>>) {
-        ([*phi, *y].into(), [*x].into())
-    }
-    fn rates(unknowns: Column<f64, D<2>>, inputs: Column<f64, D<1>>) -> [f64; 3] {
-        Self::coordinates(unknowns, inputs)
-    }
-    fn rate_parts(rates: &[f64; 3]) -> (Column<f64, D<2>>, Column<f64, D<1>>) {
-        Self::parts(rates)
-    }
-    fn pose_at(&self, q: &[f64; 3]) -> [f64; 3] {
-        *q
-    }
-    fn is_finite(pose: &[f64; 3]) -> bool {
-        pose.iter().all(|number| number.is_finite())
-    }
     fn residual(&self, [phi, y, x]: &[f64; 3]) -> Column<f64, D<2>> {
         [x - LENGTH * phi.sin(), y + LENGTH * phi.cos()].into()
     }
@@ -92,33 +68,16 @@ impl Mechanism for Sideways {
 struct Journal(f64);
 
 impl Scene for Journal {
-    type Scalar = f64;
-    type U = D<2>;
-    type V = D<1>;
-    type State = D<4>;
+    three_numbers::scene!();
+
     type Contacts = D<1>;
     type Mechanism = Sideways;
-    type Reactions = ();
 
     const NAME: &'static str = "Journal";
     const BEARINGS: bool = true;
 
     fn mechanism(&self) -> &Sideways {
         &Sideways
-    }
-    fn state(q: &[f64; 3], input_rates: &Column<f64, D<1>>) -> StateColumn<Self> {
-        [q[0], q[1], q[2], input_rates[0]].into()
-    }
-    fn parts(state: &StateColumn<Self>) -> ([f64; 3], Column<f64, D<1>>) {
-        ([state[0], state[1], state[2]], [state[3]].into())
-    }
-    fn check(&self) -> Result<(), MotionError> {
-        Ok(())
-    }
-    fn derivative(&self, t: f64, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError> {
-        let Equations { mass, forces, ratios, .. } = self.equations(t, state)?;
-        let unknowns = ratios * Column::from([state[3]]);
-        Ok([unknowns[0], unknowns[1], state[3], forces[0] / mass[(0, 0)]].into())
     }
     fn equations(&self, _: f64, state: &StateColumn<Self>) -> Result<Equations<f64, D<2>, D<1>>, MotionError> {
         let (q, rate) = Self::parts(state);
@@ -155,20 +114,6 @@ impl Scene for Journal {
             unknown_forces: [0.0, -MASS * GRAVITY].into(),
             input_forces: [0.0].into(),
         })
-    }
-    fn reactions(
-        &self,
-        _: f64,
-        _: &linkage_dynamics::Coordinates<Self>,
-        _: &linkage_dynamics::Rates<Self>,
-        _: &linkage_dynamics::Accelerations<Self>,
-        _: &Column<f64, Self::Contacts>,
-    ) -> Result<(), MotionError> {
-        Ok(())
-    }
-
-    fn prescribed(&self, _: f64) -> Column<Option<Prescribed<f64>>, D<1>> {
-        [None].into()
     }
 }
 

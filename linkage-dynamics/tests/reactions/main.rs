@@ -7,6 +7,7 @@ mod random;
 mod search;
 mod simulation;
 mod textbook;
+mod three_numbers;
 
 use linkage_dynamics::contact::{
     ContactMotion, Contacts, ReducedBearing, ReducedContact, ReducedEquations, ReducedReaction,

@@ -90,7 +90,7 @@ impl Pen for Latex<'_> {
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {
         writeln!(self.out, "\\begin{{tabular}}{{lrrrr}}")?;
         writeln!(self.out, "Function & functions & divisions & multiplications & additions \\\\ \\hline")?;
-        for Kernel { function, operations } in kernels {
+        for Kernel { function, operations, .. } in kernels {
             writeln!(
                 self.out,
                 "\\texttt{{{}}} & {} & {} & {} & {} \\\\",

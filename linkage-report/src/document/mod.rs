@@ -4,6 +4,7 @@ mod latex;
 pub(crate) mod outline;
 mod text;
 
+use crate::FpCore;
 use linkage_runtime::derivation::{Derivation, SceneDerivation};
 
 /// A derivation that can be written as a document.
@@ -27,6 +28,9 @@ pub trait Document {
     fn to_text(&self) -> String;
     /// Writes the document as LaTeX, for inclusion in a file that uses `amsmath`.
     fn to_latex(&self) -> String;
+    /// The formulas of the emitted functions as FPCore, one for each number that a function returns, of a mechanism
+    /// with `derive fpcore`. It has none that depends on an iteration, on pivoting or on a user function.
+    fn fpcore(&self) -> Vec<FpCore>;
 }
 
 impl Document for Derivation {
@@ -37,6 +41,10 @@ impl Document for Derivation {
     fn to_latex(&self) -> String {
         written(|text| outline::write(self, &mut latex::Latex::new(text)))
     }
+
+    fn fpcore(&self) -> Vec<FpCore> {
+        FpCore::of(self.mechanism, self.kernels)
+    }
 }
 
 impl Document for SceneDerivation {
@@ -46,6 +54,10 @@ impl Document for SceneDerivation {
 
     fn to_latex(&self) -> String {
         written(|text| outline::write_scene(self, &mut latex::Latex::new(text)))
+    }
+
+    fn fpcore(&self) -> Vec<FpCore> {
+        FpCore::of(self.scene, self.kernels)
     }
 }
 

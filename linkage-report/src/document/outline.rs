@@ -3,7 +3,7 @@
 use core::fmt;
 
 use linkage_runtime::derivation::{
-    Block, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation,
+    Block, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation, Symbol,
 };
 
 /// An equation of matrices that holds for every mechanism, in all notations.
@@ -85,6 +85,15 @@ pub(crate) const MOTION: GeneralEquation = GeneralEquation {
     mathml: "<mrow><mi>M</mi><mover><mi>v</mi><mo>¨</mo></mover><mo>=</mo><mi>Q</mi></mrow>",
 };
 
+/// M·q̈ + Ψ_qᵀ·λ = F.
+pub(crate) const MULTIPLIERS: GeneralEquation = GeneralEquation {
+    text: "M·q̈ + (∂Ψ/∂q)ᵀ·λ = F",
+    latex: "M \\ddot{q} + \\left(\\frac{\\partial \\Psi}{\\partial q}\\right)^T \\lambda = F",
+    mathml: "<mrow><mi>M</mi><mover><mi>q</mi><mo>¨</mo></mover><mo>+</mo><msup><mrow><mo>(</mo><mfrac><mrow><mo>∂</mo>\
+             <mi>Ψ</mi></mrow><mrow><mo>∂</mo><mi>q</mi></mrow></mfrac><mo>)</mo></mrow><mi>T</mi></msup><mi>λ</mi>\
+             <mo>=</mo><mi>F</mi></mrow>",
+};
+
 /// The headings and introductory sentences of the sections.
 pub(crate) mod words {
     pub(crate) const COORDINATES: &str = "Coordinates";
@@ -100,6 +109,7 @@ pub(crate) mod words {
     pub(crate) const POINTS: &str = "Points";
     pub(crate) const OUTPUTS: &str = "Outputs";
     pub(crate) const MOTION: &str = "Equations of motion";
+    pub(crate) const JOINTS: &str = "Forces in joints";
     pub(crate) const POTENTIAL: &str = "Potential energy";
     pub(crate) const OPERATIONS: &str = "Operations";
     pub(crate) const CONDITIONS: &str = "Conditions";
@@ -130,6 +140,10 @@ pub(crate) mod words {
     pub(crate) const LEAD_MOTION: &str = "The velocity ratios reduce all inertia and all forces to the inputs:";
     pub(crate) const LEAD_MASS_MATRIX: &str = "with the reduced mass matrix";
     pub(crate) const LEAD_FORCES: &str = "and the generalised forces, the sum of the following; the bias of an unknown is its acceleration if no input accelerates:";
+    pub(crate) const LEAD_JOINTS: &str =
+        "The force of each joint on a link along x and y; of a guide the normal force and the moment.";
+    pub(crate) const LEAD_MULTIPLIERS: &str =
+        "There is one multiplier for each constraint equation. In all coordinates";
     pub(crate) const LEAD_CONDITIONS: &str = "The formulas assume that";
 }
 
@@ -296,11 +310,32 @@ pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Re
         pen.heading(words::POTENTIAL)?;
         equations(pen, &mut number, &[potential])?;
     }
+    if !scene.joints.is_empty() {
+        pen.heading(words::JOINTS)?;
+        pen.lead(words::LEAD_JOINTS)?;
+        if !scene.multipliers.is_empty() {
+            pen.lead(words::LEAD_MULTIPLIERS)?;
+            pen.general_equation(&MULTIPLIERS)?;
+        }
+        for contact in scene.contacts {
+            pen.lead(&force_along(contact))?;
+            pen.display(&contact.formula)?;
+        }
+    }
+    for joint in scene.joints {
+        pen.lead(joint.name)?;
+        equations(pen, &mut number, &joint.components)?;
+    }
     if !scene.kernels.is_empty() {
         pen.heading(words::OPERATIONS)?;
         pen.kernels(scene.kernels)?;
     }
     Ok(())
+}
+
+/// The name of the force of a friction or a stop.
+pub(crate) fn force_along(contact: &Symbol) -> String {
+    format!("The force of {} is", contact.name)
 }
 
 /// The sentence about velocities and accelerations of a block.

@@ -88,7 +88,7 @@ impl Pen for Text<'_> {
     fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {
         let width = kernels.iter().map(|kernel| kernel.function.len()).max().unwrap_or(0);
         writeln!(self.out, "  {:width$}  functions  divisions  multiplications  additions", "")?;
-        for Kernel { function, operations } in kernels {
+        for Kernel { function, operations, .. } in kernels {
             writeln!(
                 self.out,
                 "  {function:width$}  {:>9}  {:>9}  {:>15}  {:>9}",

@@ -1,5 +1,6 @@
 //! Linkages as SVG: a [`Drawing`] of one position, with named points, joints, bars, velocity and acceleration
-//! vectors to scale, axes and a legend; an [`Animation`] of a whole motion, with coupler curves.
+//! vectors to scale, axes and a legend; an [`Animation`] of a whole motion, with coupler curves; a [`CircuitChart`] of the
+//! circuits of a mechanism.
 //!
 //! ```
 //! use linkage_report::drawing::Drawing;
@@ -14,6 +15,7 @@
 
 mod animation;
 mod axes;
+mod circuits;
 mod film;
 mod frame;
 mod mechanism;
@@ -29,6 +31,7 @@ use std::fmt;
 use nalgebra::{Point2, Vector2};
 
 pub use animation::Animation;
+pub use circuits::CircuitChart;
 
 /// The symbol at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +90,8 @@ pub enum DrawingError {
     Empty,
     /// A bar or a vector refers to an unknown point.
     UnknownPoint(String),
+    /// The mechanism has no such unknown.
+    UnknownCoordinate(String),
     /// Two points have the same name.
     DuplicatePoint(String),
     /// A number is infinite or NaN, or a scale, a radius or a duration is not positive.
@@ -108,6 +113,9 @@ impl fmt::Display for DrawingError {
         match self {
             Self::Empty => f.write_str("the drawing is empty: add points"),
             Self::UnknownPoint(name) => write!(f, "the drawing has no point `{name}`: add it first"),
+            Self::UnknownCoordinate(name) => {
+                write!(f, "the mechanism has no unknown `{name}`: name one of its unknowns")
+            }
             Self::DuplicatePoint(name) => write!(f, "the drawing has two points `{name}`: rename one"),
             Self::NotFinite(what) => {
                 write!(f, "{what} must be finite, and positive if it is a scale, a radius or a duration")

@@ -297,6 +297,27 @@ impl Page {
                 page.equations(&[potential]);
             }
         });
+        if !scene.joints.is_empty() {
+            self.joints(scene);
+        }
+    }
+
+    fn joints(&mut self, scene: &SceneDerivation) {
+        self.section(&format!("{}: <code>{}</code>", words::JOINTS, escape(scene.scene)), |page| {
+            page.lead(words::LEAD_JOINTS);
+            if !scene.multipliers.is_empty() {
+                page.lead(words::LEAD_MULTIPLIERS);
+                page.general_equation(&outline::MULTIPLIERS);
+            }
+            for contact in scene.contacts {
+                page.push(&format!("<p>{} {}.</p>", escape(&outline::force_along(contact)), inline(&contact.formula)));
+            }
+            for joint in scene.joints {
+                page.push(&format!("<article>\n<h3>{}</h3>", escape(joint.name)));
+                page.equations(&joint.components);
+                page.push("</article>");
+            }
+        });
     }
 
     fn operations(&mut self, scene: Option<&str>, kernels: &[Kernel]) {

@@ -6,7 +6,7 @@ mod scene;
 
 use core::fmt;
 
-pub use scene::{Effect, SceneDerivation};
+pub use scene::{Effect, JointForce, SceneDerivation};
 
 /// A formula. Its [`Display`](fmt::Display) is the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -160,6 +160,11 @@ pub struct Kernel {
     pub function: &'static str,
     /// The operations of one call.
     pub operations: Operations,
+    /// With `derive fpcore`, the formulas that it computes, in the order of its operations and in the notation of
+    /// FPCore, a line each: `let` a name and its value, `check` a condition and its numbers, `return` a place in the
+    /// result and its value. It is empty for a function without formulas, such as one that iterates. `Document::fpcore`
+    /// of the crate `linkage` makes files of it.
+    pub lines: &'static str,
 }
 
 /// The kinematics of a mechanism, derived from its constraint equations Ψ(u, v) = 0, where u are the unknowns and v the

@@ -1,6 +1,6 @@
 //! The equations of motion of a scene as data.
 
-use super::{Equation, Kernel, Symbol};
+use super::{Equation, Formula, Kernel, Symbol};
 
 /// The equations of motion of a scene, from its bodies and effects: M(v)·v̈ = Q(v, v̇, t).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +19,12 @@ pub struct SceneDerivation {
     pub forces: &'static [Effect],
     /// The potential energy of gravity, springs and potentials, if there are any.
     pub potential: Option<Equation>,
+    /// The forces in the joints that `reaction` statements name.
+    pub joints: &'static [JointForce],
+    /// The Lagrange multipliers in the formulas of `joints`.
+    pub multipliers: &'static [Formula],
+    /// The forces of frictions and stops along their scalars, in the formulas of `joints`.
+    pub contacts: &'static [Symbol],
     /// The emitted functions.
     pub kernels: &'static [Kernel],
 }
@@ -31,4 +37,15 @@ pub struct Effect {
     pub name: &'static str,
     /// The contribution to each Q, without those that are zero; for a body including the quadratic velocity terms.
     pub forces: &'static [Equation],
+}
+
+/// The force of a joint on a link, in terms of the coordinates, rates and accelerations, of the Lagrange multipliers
+/// lambda of the constraint equations in order, and of the forces of frictions and stops.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct JointForce {
+    /// The joint and the link: "the pin at B on rod".
+    pub name: &'static str,
+    /// The components along x and y; for a guide the normal force and the moment.
+    pub components: [Equation; 2],
 }

@@ -30,10 +30,11 @@ const ONE: Number = Number { re: 1.0, im: 0.0 };
 /// The most columns of c: k and six directions.
 pub const COLUMNS: usize = 7;
 
-/// The coefficients c of L loops, and their determinants.
-pub struct Minors {
-    loops: usize,
-    /// det c[K] for each set K of L columns, as a set of bits.
+/// The determinants of some rows of c.
+struct Minors {
+    /// Their number.
+    rows: usize,
+    /// det c[K] for each set K of as many columns, as a set of bits.
     values: [Number; 1 << COLUMNS],
 }
 
@@ -41,21 +42,23 @@ pub struct Minors {
 type Columns = usize;
 
 impl Minors {
-    /// The determinants of these rows; each has k and then the factors of 2 L directions.
-    pub fn of(rows: &[[Number; COLUMNS]]) -> Self {
-        let (loops, columns) = (rows.len(), 2 * rows.len() + 1);
+    /// The determinants of these rows, each with k and then the factors of the directions.
+    fn of<'a>(rows: impl Iterator<Item = &'a [Number; COLUMNS]>, directions: usize) -> Self {
         let mut values = [ZERO; 1 << COLUMNS];
         values[0] = ONE;
+        let mut count = 0;
         // Expansion by the last row, from small sets to large ones.
-        for set in 1..1usize << columns {
-            let Some(row) = rows.get(set.count_ones() as usize - 1) else { continue };
-            let mut sign = -1.0;
-            for column in (0..columns).rev().filter(|column| set >> column & 1 == 1) {
-                sign = -sign;
-                values[set] += row[column] * values[set & !(1 << column)] * sign;
+        for row in rows {
+            count += 1;
+            for set in (1..1usize << (directions + 1)).filter(|set| set.count_ones() as usize == count) {
+                let mut sign = -1.0;
+                for column in (0..=directions).rev().filter(|column| set >> column & 1 == 1) {
+                    sign = -sign;
+                    values[set] += row[column] * values[set & !(1 << column)] * sign;
+                }
             }
         }
-        Self { loops, values }
+        Self { rows: count, values }
     }
 
     /// det c[first, set], where `first` is the first column whatever its number.
@@ -69,147 +72,228 @@ fn alternating(exponent: u32) -> f64 {
     if exponent.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// W, as C + x X + Y / x, with room for `SIZE` rows.
+/// The holomorphic and the antiholomorphic columns of one choice.
+struct Columnwise {
+    holomorphic: Minors,
+    /// Of the conjugates of the antiholomorphic columns.
+    conjugate: Minors,
+    /// The product of the factors of the equations with a length, with the sign of the order of their columns.
+    factor: Number,
+    /// The power of x in it.
+    power: i32,
+}
+
+impl Columnwise {
+    /// The columns of a choice: bit i is set if the part of the equation i with a length is holomorphic.
+    fn of(rows: &[[Number; COLUMNS]], guided: &[Guided], directions: usize, choice: usize) -> Self {
+        let plain =
+            || rows.iter().enumerate().filter(|(row, _)| guided.iter().all(|one| one.row != *row)).map(|(_, row)| row);
+        let chosen = |is_holomorphic: bool| {
+            let of_choice = move |(place, _): &(usize, &Guided)| (choice >> place & 1 == 1) == is_holomorphic;
+            guided.iter().enumerate().filter(of_choice).filter_map(|(_, one)| rows.get(one.row))
+        };
+        let (mut factor, mut power, mut conjugates) = (ONE, 0, 0);
+        for (place, one) in guided.iter().enumerate() {
+            let turn = i32::from(one.is_turning);
+            if choice >> place & 1 == 1 {
+                // It passes the antiholomorphic columns before it.
+                factor *= one.factor * alternating(conjugates);
+                power -= turn;
+            } else {
+                factor *= -one.factor.conj();
+                power += turn;
+                conjugates += 1;
+            }
+        }
+        Self {
+            holomorphic: Minors::of(plain().chain(chosen(true)), directions),
+            conjugate: Minors::of(chosen(false).chain(plain()), directions),
+            factor,
+            power,
+        }
+    }
+
+    /// The sign of the Laplace expansion by the holomorphic columns with these rows, and of the antiholomorphic columns
+    /// with this many rows of the other directions; times the factor.
+    fn sign(&self, rows: usize, others: usize) -> Number {
+        let columns = self.holomorphic.rows * self.holomorphic.rows.saturating_sub(1) / 2;
+        self.factor * alternating((rows + columns + others) as u32)
+    }
+}
+
+/// An equation with a length s along d, h L - conj(h L) with h = conj d: L without its term s d, where s is real.
+#[derive(Debug, Clone, Copy)]
+pub struct Guided {
+    /// The loop, from 0.
+    pub row: usize,
+    /// h.
+    pub factor: Number,
+    /// True if the guide turns with x: h is then divided by x.
+    pub is_turning: bool,
+}
+
+/// A term of W: a number times a power of x.
+#[derive(Debug, Clone, Copy)]
+struct Term {
+    row: usize,
+    column: usize,
+    power: i32,
+    value: Number,
+}
+
+/// The most terms of W: 70 of three loops without lengths.
+const TERMS: usize = 96;
+
+/// W, with room for `SIZE` rows.
 pub struct Dixon<const SIZE: usize> {
     /// The number of directions.
     directions: usize,
     /// The place of x among them, from 1.
     kept: usize,
-    /// The set of directions of each row, those of L first.
+    /// The set of directions of each row.
     sets: [Columns; SIZE],
     size: usize,
-    /// The number of rows with a set of L directions.
-    upper: usize,
-    constant: [[Number; SIZE]; SIZE],
-    /// The diagonal of X in the upper rows, of Y in the lower rows.
-    turning: [Number; SIZE],
+    /// The terms on and below the diagonal.
+    terms: [Term; TERMS],
+    count: usize,
     /// The factor of each row and column that balances the matrix.
     balance: [f64; SIZE],
 }
 
 impl<const SIZE: usize> Dixon<SIZE> {
-    /// W with the direction `kept`, from 1, as x. Rows that are zero are left out.
-    pub fn new(minors: &Minors, kept: usize) -> Self {
-        let directions = 2 * minors.loops;
-        let others = ((1 << (directions + 1)) - 2) & !(1 << kept);
-        let mut dixon = Self {
-            directions,
-            kept,
-            sets: [0; SIZE],
-            size: 0,
-            upper: 0,
-            constant: [[ZERO; SIZE]; SIZE],
-            turning: [ZERO; SIZE],
-            balance: [1.0; SIZE],
-        };
-        for of in [minors.loops, minors.loops - 1] {
-            for set in
-                (1..1usize << (directions + 1)).filter(|set| set & !others == 0 && set.count_ones() as usize == of)
-            {
-                dixon.add(minors, set, others & !set);
-            }
-            if of == minors.loops {
-                dixon.upper = dixon.size;
-            }
+    /// W of loops of this many directions, with the direction `kept`, from 1, as x; `None` if it has too many terms.
+    ///
+    /// A loop with a length gives one equation instead of two, the sum of a holomorphic and an antiholomorphic column.
+    /// The determinant is the sum over the choices of one of both in each.
+    pub fn new(rows: &[[Number; COLUMNS]], guided: &[Guided], directions: usize, kept: usize) -> Option<Self> {
+        let none = Term { row: 0, column: 0, power: 0, value: ZERO };
+        let mut dixon =
+            Self { directions, kept, sets: [0; SIZE], size: 0, terms: [none; TERMS], count: 0, balance: [1.0; SIZE] };
+        for choice in 0..1usize << guided.len() {
+            dixon.add(&Columnwise::of(rows, guided, directions, choice))?;
         }
         dixon.drop_zeros();
         dixon.balance();
-        dixon
+        Some(dixon)
     }
 
-    /// Adds the row of a set and of its complement; a lower row follows the upper rows.
-    fn add(&mut self, minors: &Minors, set: Columns, complement: Columns) {
-        let row = self.size;
-        let is_upper = set.count_ones() as usize == minors.loops;
-        let sign = self.sign(minors.loops, is_upper, complement);
-        self.sets[row] = set;
-        self.size += 1;
-        if is_upper {
-            let other = minors.values[set].conj() * sign;
-            self.constant[row][row] = minors.with_first(0, complement) * other;
-            self.turning[row] = minors.with_first(self.kept, complement) * other;
-            return;
+    /// Adds the terms of one choice.
+    fn add(&mut self, columns: &Columnwise) -> Option<()> {
+        let others = ((1 << (self.directions + 1)) - 2) & !(1 << self.kept);
+        let [holomorphic, conjugate] = [&columns.holomorphic, &columns.conjugate];
+        let all = 0..1usize << (self.directions + 1);
+        let of_size =
+            |count: usize| all.clone().filter(move |set| set & !others == 0 && set.count_ones() as usize == count);
+        for set in of_size(conjugate.rows) {
+            let complement = others & !set;
+            let factor = conjugate.values[set].conj() * columns.sign(self.row_sum(complement), conjugate.rows);
+            let row = self.row(set)?;
+            self.push(row, row, columns.power, holomorphic.with_first(0, complement) * factor)?;
+            self.push(row, row, columns.power + 1, holomorphic.with_first(self.kept, complement) * factor)?;
         }
-        let other = minors.values[complement] * sign;
-        self.constant[row][row] = minors.with_first(0, set).conj() * other;
-        self.turning[row] = minors.with_first(self.kept, set).conj() * other;
-        for column in 0..self.upper {
-            let added = self.sets[column] & !set;
-            if self.sets[column] & set == set && added.count_ones() == 1 {
-                let entry = minors.with_first(added.trailing_zeros() as usize, set).conj() * other;
-                self.constant[row][column] = entry;
-                self.constant[column][row] = entry;
+        let Some(fewer) = conjugate.rows.checked_sub(1) else { return Some(()) };
+        for set in of_size(fewer) {
+            let complement = others & !set;
+            let factor = holomorphic.values[complement] * columns.sign(self.row_sum(complement), fewer);
+            let row = self.row(set)?;
+            self.push(row, row, columns.power, conjugate.with_first(0, set).conj() * factor)?;
+            self.push(row, row, columns.power - 1, conjugate.with_first(self.kept, set).conj() * factor)?;
+            for added in (1..=self.directions).filter(|column| complement >> column & 1 == 1) {
+                let column = self.row(set | 1 << added)?;
+                self.push(row, column, columns.power, conjugate.with_first(added, set).conj() * factor)?;
             }
         }
+        Some(())
     }
 
-    /// s: the sign of the rows taken in the expansion by the first L columns, of which row 0 is one in an upper row.
-    fn sign(&self, loops: usize, is_upper: bool, complement: Columns) -> f64 {
-        // The directions other than x are rows 1, 2, ….
+    /// The sum of the numbers of the rows of a set: the directions other than x are rows 1, 2, ….
+    fn row_sum(&self, set: Columns) -> usize {
         let row = |column: usize| if column > self.kept { column - 1 } else { column };
-        let rows: usize = (1..=self.directions).filter(|column| complement >> column & 1 == 1).map(row).sum();
-        let columns = loops * (loops - 1) / 2 + if is_upper { loops } else { loops - 1 };
-        alternating((rows + columns) as u32)
+        (1..=self.directions).filter(|column| set >> column & 1 == 1).map(row).sum()
     }
 
-    fn drop_zeros(&mut self) {
-        let size = self.size;
-        let is_zero =
-            |row: usize| self.turning[row] == ZERO && self.constant[row][..size].iter().all(|entry| *entry == ZERO);
-        let mut kept = [0; SIZE];
-        let mut count = 0;
-        for row in (0..size).filter(|&row| !is_zero(row)) {
-            kept[count] = row;
-            count += 1;
+    /// The row of a set.
+    fn row(&mut self, set: Columns) -> Option<usize> {
+        let known = self.sets.iter().take(self.size).position(|other| *other == set);
+        if known.is_none() {
+            *self.sets.get_mut(self.size)? = set;
+            self.size += 1;
         }
-        let upper = kept[..count].iter().filter(|&&row| row < self.upper).count();
-        for (to, &from) in kept[..count].iter().enumerate() {
-            self.sets[to] = self.sets[from];
-            self.turning[to] = self.turning[from];
-            for (column, &other) in kept[..count].iter().enumerate() {
-                self.constant[to][column] = self.constant[from][other];
+        Some(known.unwrap_or(self.size - 1))
+    }
+
+    fn push(&mut self, row: usize, column: usize, power: i32, value: Number) -> Option<()> {
+        if value != ZERO {
+            *self.terms.get_mut(self.count)? = Term { row, column, power, value };
+            self.count += 1;
+        }
+        Some(())
+    }
+
+    fn terms(&self) -> &[Term] {
+        &self.terms[..self.count]
+    }
+
+    /// Leaves out the rows that are zero.
+    fn drop_zeros(&mut self) {
+        let mut places = [None; SIZE];
+        let mut kept = 0;
+        for row in 0..self.size {
+            if self.terms().iter().any(|term| term.row == row || term.column == row) {
+                places[row] = Some(kept);
+                self.sets[kept] = self.sets[row];
+                kept += 1;
             }
         }
-        (self.size, self.upper) = (count, upper);
+        self.size = kept;
+        for term in &mut self.terms[..self.count] {
+            let [row, column] = [term.row, term.column].map(|place| places[place].unwrap_or_default());
+            (term.row, term.column) = (row, column);
+        }
     }
 
-    /// Powers of two that bring the largest entry of each row near 1: twice by the root of the largest entry.
+    /// Powers of two that bring the largest entry of each row near 1: three times by the root of the largest.
     fn balance(&mut self) {
         for _ in 0..3 {
-            let mut factors = [1.0; SIZE];
-            for row in 0..self.size {
-                let largest = (0..self.size).map(|column| self.constant[row][column].l1_norm()).fold(0.0, f64::max);
-                let largest = largest.max(self.turning[row].l1_norm());
-                if largest > 0.0 {
-                    factors[row] = power_of_two(1.0 / nalgebra::ComplexField::sqrt(largest));
+            let mut largest = [0.0_f64; SIZE];
+            for term in self.terms() {
+                for place in [term.row, term.column] {
+                    largest[place] = largest[place].max(term.value.l1_norm());
                 }
             }
-            for row in 0..self.size {
-                for column in 0..self.size {
-                    self.constant[row][column] *= factors[row] * factors[column];
-                }
-                self.turning[row] *= factors[row] * factors[row];
-                self.balance[row] *= factors[row];
+            let factors = largest.map(|largest| if largest > 0.0 { power_of_two(1.0 / root_of(largest)) } else { 1.0 });
+            for term in &mut self.terms[..self.count] {
+                term.value *= factors[term.row] * factors[term.column];
+            }
+            for (balance, factor) in self.balance.iter_mut().zip(factors) {
+                *balance *= factor;
             }
         }
     }
 
-    /// The degree of det W as a trigonometric polynomial, at most.
-    pub fn degree(&self) -> usize {
-        self.size.div_ceil(2)
+    /// The degree of det W as a trigonometric polynomial, at most: the sum over the rows of the highest power of x. No
+    /// rows if no direction enters any loop.
+    pub fn degree(&self) -> Option<usize> {
+        let mut highest = [i32::MIN; SIZE];
+        for term in self.terms() {
+            for place in [term.row, term.column] {
+                highest[place] = highest[place].max(term.power);
+            }
+        }
+        let sum: i32 = highest.iter().take(self.size).sum();
+        usize::try_from(sum).ok().filter(|_| self.size > 0)
     }
 
-    /// True if W has as many rows for sets of L as for sets of L - 1 directions. Without rows no direction enters any
-    /// loop.
-    pub fn is_proper(&self) -> bool {
-        self.size > 0 && 2 * self.upper == self.size
-    }
-
-    /// W at x.
+    /// W at x, on the unit circle.
     fn at(&self, x: Number) -> [[Number; SIZE]; SIZE] {
-        let mut matrix = self.constant;
-        for row in 0..self.size {
-            matrix[row][row] += self.turning[row] * if row < self.upper { x } else { x.conj() };
+        let powers = [x.conj() * x.conj(), x.conj(), ONE, x, x * x];
+        let mut matrix = [[ZERO; SIZE]; SIZE];
+        for &Term { row, column, power, value } in self.terms() {
+            let part = value * powers[(power + 2) as usize];
+            matrix[row][column] += part;
+            if row != column {
+                matrix[column][row] += part;
+            }
         }
         matrix
     }
@@ -254,9 +338,9 @@ impl<const SIZE: usize> Dixon<SIZE> {
             }
             // 1 / t_j is the quotient of the entries of K + j and K; the largest entries are the most accurate.
             let mut best = (0.0, ONE);
-            for upper in 0..self.upper {
+            for upper in 0..self.size {
                 let Some(without) = without(self.sets[upper], place + 1) else { continue };
-                let lower = (self.upper..self.size).find(|&row| self.sets[row] == without);
+                let lower = self.sets.iter().take(self.size).position(|set| *set == without);
                 let Some(lower) = lower else { continue };
                 let product = vector[upper] * vector[lower].conj();
                 let size = size_of(product);
@@ -324,7 +408,11 @@ fn without(set: Columns, column: usize) -> Option<Columns> {
 
 /// |z|, for numbers that are neither tiny nor huge.
 fn size_of(number: Number) -> f64 {
-    nalgebra::ComplexField::sqrt(number.norm_sqr())
+    root_of(number.norm_sqr())
+}
+
+fn root_of(number: f64) -> f64 {
+    nalgebra::ComplexField::sqrt(number)
 }
 
 /// The power of two next below a positive number.

@@ -86,10 +86,26 @@ pub struct Loops<T, const L: usize, const N: usize> {
     pub factors: [[[T; 2]; N]; L],
 }
 
+/// An unknown of a group with lengths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unknown<T> {
+    /// An angle. The direction in its place turns with this unknown, or with an integer combination of all angles.
+    Angle,
+    /// A length along a guide, in one loop only. The factors of its direction are zero.
+    Length {
+        /// The loop, from 0.
+        in_loop: usize,
+        /// d: the length s adds s d, or s d t_j, to the loop.
+        along: [T; 2],
+        /// j: the direction with which the guide turns, `None` if its direction is given.
+        with: Option<usize>,
+    },
+}
+
 /// The positions of one group, kept until its loops change: a list of all branches solves each group once.
 #[derive(Debug, Clone, Copy)]
 pub struct Memory<T, const L: usize, const N: usize> {
-    last: Option<(Loops<T, L, N>, Modes<T, N>)>,
+    last: Option<(Loops<T, L, N>, [Unknown<T>; N], Modes<T, N>)>,
 }
 
 impl<T, const L: usize, const N: usize> Default for Memory<T, L, N> {
@@ -115,13 +131,34 @@ impl<T: Real, const L: usize, const N: usize> Memory<T, L, N> {
         unknowns: impl Fn([T; N]) -> [T; N],
         evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
     ) -> Result<Modes<T, N>, PositionError> {
-        if let Some((of, modes)) = &self.last
+        let unknowns_are = [Unknown::Angle; N];
+        self.modes_with_lengths(mechanism, group, loops, unknowns_are, unknowns, evaluate)
+    }
+
+    /// All positions of a group with unknown lengths, as [`modes`](Self::modes). All guides that turn do so with one
+    /// direction, and each loop has at most one length. `unknowns` gives the unknowns from the angles of the directions
+    /// and the lengths.
+    ///
+    /// # Errors
+    /// Those of [`modes`](Self::modes).
+    pub fn modes_with_lengths(
+        &mut self,
+        mechanism: &'static str,
+        group: &'static str,
+        loops: Loops<T, L, N>,
+        unknowns_are: [Unknown<T>; N],
+        unknowns: impl Fn([T; N]) -> [T; N],
+        evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
+    ) -> Result<Modes<T, N>, PositionError> {
+        if let Some((of, are, modes)) = &self.last
             && *of == loops
+            && *are == unknowns_are
         {
             return Ok(*modes);
         }
-        let modes = Search { names: [mechanism, group], loops: &loops, unknowns, evaluate }.run()?;
-        self.last = Some((loops, modes));
+        let names = [mechanism, group];
+        let modes = Search { names, loops: &loops, are: &unknowns_are, unknowns, evaluate }.run()?;
+        self.last = Some((loops, unknowns_are, modes));
         Ok(modes)
     }
 }

@@ -1,10 +1,10 @@
 //! The search for all positions of a group: the roots of the Dixon determinant, each polished on the loops.
 
-use core::{iter, mem};
+use core::mem;
 
 use super::circle::{Root, TrigonometricPolynomial, direction};
-use super::dixon::{COLUMNS, Dixon, Minors, Number, power_of_two};
-use super::{Loops, MOST, Modes};
+use super::dixon::{COLUMNS, Dixon, Guided, Number, power_of_two};
+use super::{Loops, MOST, Modes, Unknown};
 use crate::position::{Evaluated, polished, regularity};
 use crate::scalar::{largest, to_f64};
 use crate::{PositionError, Real, real};
@@ -30,14 +30,75 @@ pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
     /// Of the mechanism and of the group.
     pub names: [&'static str; 2],
     pub loops: &'a Loops<T, L, N>,
-    /// The unknowns from the angles of the directions.
+    pub are: &'a [Unknown<T>; N],
+    /// The unknowns from the angles of the directions and the lengths.
     pub unknowns: F,
     /// The residuals of the group, the sums of the magnitudes of their terms, and the columns of J.
     pub evaluate: G,
 }
 
-/// c, each loop divided by a power of two.
-type Rows<const L: usize> = [[Number; COLUMNS]; L];
+/// The loops as complex numbers.
+struct Numbers<const L: usize> {
+    /// c: k and the factors of the directions, each loop divided by a power of two.
+    rows: [[Number; COLUMNS]; L],
+    /// These powers.
+    units: [f64; L],
+    /// The number of directions, and the unknown of each.
+    directions: usize,
+    places: [usize; COLUMNS],
+    /// The lengths, their factors d, and the direction of the guide of each, from 1; 0 if it is given.
+    guided: [Guided; L],
+    along: [(Number, usize); L],
+    lengths: usize,
+}
+
+impl<const L: usize> Numbers<L> {
+    fn guided(&self) -> &[Guided] {
+        self.guided.get(..self.lengths).unwrap_or_default()
+    }
+
+    /// The direction that must be x, from 1: the one with which guides turn.
+    fn turning(&self) -> Option<usize> {
+        self.along.iter().take(self.lengths).map(|(_, with)| *with).find(|with| *with > 0)
+    }
+
+    /// The length of each guide at these directions, in the unit of its loop.
+    fn lengths(&self, directions: &[Number; COLUMNS - 1]) -> [f64; L] {
+        let mut lengths = [0.0; L];
+        for ((length, guided), (along, with)) in
+            lengths.iter_mut().zip(&self.guided).zip(&self.along).take(self.lengths)
+        {
+            let sum = self.rows.get(guided.row).map_or(Number::default(), |row| sum(row, directions));
+            let turn = with.checked_sub(1).and_then(|place| directions.get(place)).copied();
+            let along = along * turn.unwrap_or(Number::new(1.0, 0.0));
+            // sum + s d = 0 with a real s.
+            *length = -(sum * along.conj()).re / along.norm_sqr();
+        }
+        lengths
+    }
+
+    /// The largest residual of a loop at these directions, relative to the sum of its links.
+    fn residual(&self, directions: &[Number; COLUMNS - 1]) -> f64 {
+        let lengths = self.lengths(directions);
+        let of_row = |(place, row): (usize, &[Number; COLUMNS])| {
+            let terms = row[1..].iter().zip(directions).map(|(factor, direction)| (factor * direction).l1_norm());
+            let mut total = sum(row, directions);
+            let mut size = row[0].l1_norm() + terms.sum::<f64>();
+            let guided = self.guided.iter().zip(&self.along).zip(lengths).take(self.lengths);
+            for ((_, (along, with)), length) in guided.filter(|((guided, _), _)| guided.row == place) {
+                let turn = with.checked_sub(1).and_then(|place| directions.get(place)).copied();
+                let part = along * turn.unwrap_or(Number::new(1.0, 0.0)) * length;
+                (total, size) = (total + part, size + part.l1_norm());
+            }
+            total.l1_norm() / size
+        };
+        self.rows.iter().enumerate().map(of_row).fold(0.0, f64::max)
+    }
+}
+
+fn sum(row: &[Number; COLUMNS], directions: &[Number; COLUMNS - 1]) -> Number {
+    row[0] + row[1..].iter().zip(directions).map(|(factor, direction)| factor * direction).sum::<Number>()
+}
 
 /// The result of the search with one direction as x.
 enum Outcome {
@@ -57,22 +118,25 @@ where
 {
     /// All positions.
     pub fn run(&self) -> Result<Modes<T, N>, PositionError> {
-        let rows = self.rows()?;
+        let numbers = self.numbers()?;
         match L {
-            2 => self.of_rows::<6, 7>(&rows),
-            _ => self.of_rows::<20, 21>(&rows),
+            2 => self.of_numbers::<6, 7>(&numbers),
+            _ => self.of_numbers::<20, 21>(&numbers),
         }
     }
 
     /// All positions, with a matrix of at most `SIZE` rows whose determinant has at most `TERMS` terms. If a root is in
     /// doubt with one direction as x, as where two positions share it, the next is tried.
-    fn of_rows<const SIZE: usize, const TERMS: usize>(&self, rows: &Rows<L>) -> Result<Modes<T, N>, PositionError> {
+    fn of_numbers<const SIZE: usize, const TERMS: usize>(
+        &self,
+        numbers: &Numbers<L>,
+    ) -> Result<Modes<T, N>, PositionError> {
         let [mechanism, group] = self.names;
-        let minors = Minors::of(rows);
         let mut modes = Modes::none();
         let mut error = PositionError::Undetermined { mechanism, group };
-        for kept in 1..=N {
-            match self.with::<SIZE, TERMS>(rows, &Dixon::new(&minors, kept), &mut modes) {
+        let turning = numbers.turning();
+        for kept in (1..=numbers.directions).filter(|kept| turning.is_none_or(|turning| turning == *kept)) {
+            match self.with::<SIZE, TERMS>(numbers, kept, &mut modes) {
                 Outcome::Whole => {
                     modes.sort();
                     return Ok(modes);
@@ -84,46 +148,78 @@ where
         Err(error)
     }
 
-    /// c.
+    /// The loops as complex numbers.
     ///
     /// # Errors
     /// [`PositionError::NotFinite`]; [`PositionError::Undecided`] if a length is too small beside the largest.
-    fn rows(&self) -> Result<Rows<L>, PositionError> {
+    fn numbers(&self) -> Result<Numbers<L>, PositionError> {
         let [mechanism, group] = self.names;
-        let mut rows = [[Number::default(); COLUMNS]; L];
+        let complex = |[re, im]: [T; 2]| Number::new(to_f64(re), to_f64(im));
+        let size = |number: &Number| number.re.abs().max(number.im.abs());
+        let guided = Guided { row: 0, factor: Number::default(), is_turning: false };
+        let mut numbers = Numbers {
+            rows: [[Number::default(); COLUMNS]; L],
+            units: [1.0; L],
+            directions: 0,
+            places: [0; COLUMNS],
+            guided: [guided; L],
+            along: [(Number::default(), 0); L],
+            lengths: 0,
+        };
+        let mut columns = [0; N];
+        for (place, (unknown, column)) in self.are.iter().zip(&mut columns).enumerate() {
+            if matches!(unknown, Unknown::Angle) {
+                numbers.directions += 1;
+                numbers.places[numbers.directions] = place;
+                *column = numbers.directions;
+            }
+        }
         let loops = self.loops.constants.iter().zip(&self.loops.factors);
-        for (row, (constant, factors)) in rows.iter_mut().zip(loops) {
-            for (to, [re, im]) in row.iter_mut().zip(iter::once(constant).chain(factors)) {
-                *to = Number::new(to_f64(*re), to_f64(*im));
+        for ((row, unit), (constant, factors)) in numbers.rows.iter_mut().zip(&mut numbers.units).zip(loops) {
+            row[0] = complex(*constant);
+            for (factor, column) in factors.iter().zip(columns).filter(|(_, column)| *column > 0) {
+                row[column] = complex(*factor);
             }
             if !row.iter().all(|number| number.re.is_finite() && number.im.is_finite()) {
                 return Err(PositionError::NotFinite { mechanism, quantity: "a length of the loops" });
             }
-            let size = |number: &Number| number.re.abs().max(number.im.abs());
-            let largest = row.iter().map(size).fold(0.0, f64::max);
-            let scale = power_of_two(largest);
+            let scale = power_of_two(row.iter().map(size).fold(0.0, f64::max));
             if scale > 0.0 {
                 // Not by the reciprocal, which overflows for the smallest numbers.
                 row.iter_mut().for_each(|number| *number = Number::new(number.re / scale, number.im / scale));
+                *unit = scale;
             }
             if row.iter().any(|number| *number != Number::default() && size(number) < TINIEST) {
                 return Err(PositionError::Undecided { mechanism, group, regularity: 0.0 });
             }
         }
-        Ok(rows)
+        for unknown in self.are {
+            let Unknown::Length { in_loop, along, with } = *unknown else { continue };
+            let along = complex(along);
+            let place = numbers.lengths;
+            let (Some(guided), Some(to)) = (numbers.guided.get_mut(place), numbers.along.get_mut(place)) else { break };
+            if !(size(&along) > 0.0 && size(&along).is_finite()) {
+                return Err(PositionError::Undetermined { mechanism, group });
+            }
+            let unit = power_of_two(size(&along));
+            *to = (along, with.and_then(|place| columns.get(place)).copied().unwrap_or_default());
+            *guided = Guided { row: in_loop, factor: (along / unit).conj(), is_turning: with.is_some() };
+            numbers.lengths += 1;
+        }
+        Ok(numbers)
     }
 
     /// Adds the positions found with this direction as x.
     fn with<const SIZE: usize, const TERMS: usize>(
         &self,
-        rows: &Rows<L>,
-        dixon: &Dixon<SIZE>,
+        numbers: &Numbers<L>,
+        kept: usize,
         modes: &mut Modes<T, N>,
     ) -> Outcome {
-        if !dixon.is_proper() {
-            return Outcome::Zero;
-        }
-        let determinant = TrigonometricPolynomial::<TERMS>::of(dixon.degree(), |x| dixon.determinant(x));
+        let dixon = Dixon::<SIZE>::new(&numbers.rows, numbers.guided(), numbers.directions, kept);
+        let Some(dixon) = dixon else { return Outcome::Zero };
+        let Some(degree) = dixon.degree() else { return Outcome::Zero };
+        let determinant = TrigonometricPolynomial::<TERMS>::of(degree, |x| dixon.determinant(x));
         let Some(determinant) = determinant else { return Outcome::Zero };
         let roots = determinant.roots();
         let Some(roots) = roots.as_slice() else { return Outcome::Zero };
@@ -132,9 +228,9 @@ where
         let mut reached = [false; MOST];
         for root in roots {
             match *root {
-                Root::Simple(angle) => match self.follow(rows, dixon, angle) {
+                Root::Simple(angle) => match self.follow(numbers, &dixon, angle) {
                     Ok(found) => {
-                        let place = modes.add(found).and_then(|place| reached.get_mut(place));
+                        let place = self.add(modes, numbers, found).and_then(|place| reached.get_mut(place));
                         if place.is_none_or(|reached| mem::replace(reached, true)) {
                             outcome = Outcome::Doubt(self.regularity(found));
                         }
@@ -143,10 +239,10 @@ where
                 },
                 Root::Cluster([low, high]) => {
                     for angle in [low, 0.5 * (low + high), high] {
-                        let found = self.follow(rows, dixon, angle);
+                        let found = self.follow(numbers, &dixon, angle);
                         outcome =
                             Outcome::Doubt(found.map_or_else(|regularity| regularity, |found| self.regularity(found)));
-                        found.ok().and_then(|found| modes.add(found));
+                        found.ok().and_then(|found| self.add(modes, numbers, found));
                     }
                 }
             }
@@ -159,22 +255,54 @@ where
     }
 
     /// The position at a root, or the regularity of the group there if it is not clear whether there is one.
-    fn follow<const SIZE: usize>(&self, rows: &Rows<L>, dixon: &Dixon<SIZE>, angle: f64) -> Result<[T; N], f64> {
+    fn follow<const SIZE: usize>(&self, numbers: &Numbers<L>, dixon: &Dixon<SIZE>, angle: f64) -> Result<[T; N], f64> {
         let directions = dixon.directions(direction(angle)).ok_or(0.0)?;
-        let residual = rows.iter().map(|row| {
-            let terms = || row[1..=N].iter().zip(&directions).map(|(factor, direction)| factor * direction);
-            let sum = row[0] + terms().sum::<Number>();
-            sum.l1_norm() / (row[0].l1_norm() + terms().map(|term| term.l1_norm()).sum::<f64>())
-        });
-        let is_closed = residual.fold(0.0, f64::max) <= OPEN;
-        let mut angles = [T::zero(); N];
-        for (to, direction) in angles.iter_mut().zip(&directions) {
-            *to = real::<T>(direction.im).arctangent2(real(direction.re));
+        let mut values = [T::zero(); N];
+        for (place, direction) in numbers.places[1..].iter().zip(&directions).take(numbers.directions) {
+            if let Some(value) = values.get_mut(*place) {
+                *value = real::<T>(direction.im).arctangent2(real(direction.re));
+            }
         }
-        let start = (self.unknowns)(angles);
-        let found = if is_closed { polished(self.names, start, &self.evaluate).ok() } else { None };
-        let moved = |found: &[T; N]| largest(found.iter().zip(&start).map(|(to, from)| *to - *from));
-        found.filter(|found| moved(found) <= real(MOST_MOVED)).ok_or_else(|| self.regularity(start))
+        let are_lengths = self.are.iter().zip(&mut values).filter(|(unknown, _)| !matches!(unknown, Unknown::Angle));
+        let lengths = numbers.lengths(&directions).into_iter().zip(&numbers.guided);
+        for ((_, value), (length, guided)) in are_lengths.zip(lengths) {
+            *value = real(length * numbers.units.get(guided.row).copied().unwrap_or(1.0));
+        }
+        let start = (self.unknowns)(values);
+        if !(numbers.residual(&directions) <= OPEN) {
+            return Err(self.regularity(start));
+        }
+        let found = polished(self.names, start, &self.evaluate).ok();
+        let is_near = |found: &[T; N]| self.distance(numbers, found, &start) <= MOST_MOVED;
+        found.filter(is_near).ok_or_else(|| self.regularity(start))
+    }
+
+    /// The largest difference of the unknowns of two positions: of angles in radians, of lengths in the units of loops.
+    fn distance(&self, numbers: &Numbers<L>, one: &[T; N], other: &[T; N]) -> f64 {
+        let differences = self.are.iter().zip(one.iter().zip(other)).map(|(unknown, (one, other))| match unknown {
+            Unknown::Angle => to_f64(principal(*one - *other)),
+            Unknown::Length { in_loop, .. } => {
+                to_f64(*one - *other) / numbers.units.get(*in_loop).copied().unwrap_or(1.0)
+            }
+        });
+        largest(differences)
+    }
+
+    /// Adds a position that is not there yet, with angles from -pi to pi, and returns its place; `None` if there is no
+    /// room.
+    fn add(&self, modes: &mut Modes<T, N>, numbers: &Numbers<L>, mut found: [T; N]) -> Option<usize> {
+        for (unknown, value) in self.are.iter().zip(&mut found) {
+            if matches!(unknown, Unknown::Angle) {
+                *value = principal(*value);
+            }
+        }
+        let is_same = |other: &[T; N]| self.distance(numbers, &found, other) < SAME;
+        let known = modes.as_slice().iter().position(is_same);
+        if known.is_none() {
+            *modes.unknowns.get_mut(modes.count)? = found;
+            modes.count += 1;
+        }
+        Some(known.unwrap_or(modes.count - 1))
     }
 
     fn regularity(&self, unknowns: [T; N]) -> f64 {
@@ -186,22 +314,6 @@ where
 impl<T: Real, const N: usize> Modes<T, N> {
     fn none() -> Self {
         Self { unknowns: [[T::zero(); N]; MOST], count: 0 }
-    }
-
-    /// Adds a position that is not there yet, with angles from -pi to pi, and returns its place; `None` if there is no
-    /// room.
-    fn add(&mut self, found: [T; N]) -> Option<usize> {
-        let found = found.map(principal);
-        let is_same = |other: &[T; N]| {
-            let mut differences = found.iter().zip(other).map(|(one, other)| to_f64(principal(*one - *other)).abs());
-            differences.all(|difference| difference < SAME)
-        };
-        let known = self.as_slice().iter().position(is_same);
-        if known.is_none() {
-            *self.unknowns.get_mut(self.count)? = found;
-            self.count += 1;
-        }
-        Some(known.unwrap_or(self.count - 1))
     }
 
     /// Sorts the positions by the first unknown, then by the second, and so on.

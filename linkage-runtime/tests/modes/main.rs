@@ -5,5 +5,6 @@
 
 mod degenerate;
 mod group;
+mod lengths;
 mod planted;
 mod starts;

@@ -37,6 +37,14 @@ impl Wanted {
     pub(super) fn friction(region: Region, contact: usize, (along, pin): (NodeId, Option<[NodeId; 2]>)) -> Self {
         Self { region, of: WantedOf::Friction(contact, along, pin) }
     }
+
+    /// The contact of a friction by the force of this joint, and the place of its scalar.
+    pub(in crate::model) fn of_friction(&self) -> Option<(usize, Region)> {
+        match self.of {
+            WantedOf::Friction(contact, ..) => Some((contact, self.region)),
+            _ => None,
+        }
+    }
 }
 
 impl Lowering<'_> {
@@ -203,7 +211,7 @@ impl Finder<'_, '_> {
         let graph = &mut self.lowering.graph;
         // No identifier has a blank.
         let displacement = [1, 2].map(|at| graph.symbol(format!("displacement {at} of {field}")));
-        Load { field, kind, displacement }
+        Load { field, kind, displacement, is_determined: true }
     }
 
     /// The name of the declared point at a place, as written and as a field.

@@ -4,10 +4,11 @@
 //! solved; the motion is unique if those that satisfy every law have one acceleration. Combinations without redundant
 //! contacts come first; forces of redundant contacts are searched for only where their acceleration is new.
 //!
-//! Where the force of a slipping bearing depends on the force y of a redundant contact, the motions are a curve in y,
-//! unique for each y if the slipping forces are a contraction. Samples search for them, far ones included. A curve that
-//! ends does so where a contact at rest is at its limit and stands still; the ends are motions of other modes. So there
-//! is no such curve if the only motion is not at a limit. Closed curves between the samples are not excluded.
+//! The force of a slipping bearing may depend on the force y of a redundant contact. Then the motions form a curve over y;
+//! if the slipping forces are a contraction, there is one motion for each y. The search takes samples of y, also large
+//! ones. A curve can end only where a contact at rest is at its limit and stands still. The end is also a motion of other
+//! modes. So if the only motion that was found is not at a limit, there is no such curve. Closed curves between the
+//! samples are not excluded.
 
 use super::admissible::{Existence, Held};
 use super::family::Family;

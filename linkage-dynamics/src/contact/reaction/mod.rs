@@ -4,7 +4,8 @@
 //! With z'' eliminated, R = r + P f ([`problem`]). In given modes the held contacts are eliminated ([`family`]), and the
 //! forces of slipping bearings are the solutions of t = c |r + P t| ([`slip`]). At rest all combinations of modes are
 //! enumerated ([`choice`]). A locked mechanism with redundant contacts only needs admissible forces ([`admissible`]).
-//! Where no acceleration or several satisfy every law, as in Painleve's paradox, the error names a contact.
+//! There may be no acceleration that satisfies every law, or several, as in Painleve's paradox: then the result is an
+//! error that names a contact.
 
 mod admissible;
 mod bearing;
@@ -94,9 +95,10 @@ pub(super) fn motion<T: Real, V: Dim, C: Dim>(
     Ok(ContactMotion { acceleration, forces, are_unique })
 }
 
-/// The distances of the forces of held contacts from their bounds, with their rounding errors added. Where held contacts
-/// are redundant, the margins of the motions that could begin, each with the limits at the forces of its own slip:
-/// negative if and only if no admissible forces were found.
+/// For each held contact the distance of its force from its bounds, plus the rounding error of this distance.
+///
+/// The forces of redundant held contacts are not unique. They have the margins of the motions that could begin; the limits
+/// of each are those at the forces of its own slip. A margin is negative if and only if no admissible forces were found.
 ///
 /// # Errors
 /// Those of [`choose`].

@@ -33,7 +33,7 @@ impl<T: Real, C: Dim> Reaction<T, C> {
         [0, 1].map(|k| self.base[k] + self.by[k].dot(forces))
     }
 
-    /// R, exactly zero where it is zero within rounding error: a joint without load.
+    /// R. A joint without load has R = 0 within rounding error; then this returns exactly zero.
     pub(super) fn load(&self, forces: &Column<T, C>) -> [T; 2] {
         let reaction = self.at(forces);
         let is_unloaded = self.factor * length(reaction) <= self.rounding(forces);

@@ -1,0 +1,113 @@
+//! Names as symbols of FPCore, which are ASCII.
+
+use std::collections::BTreeSet;
+
+use crate::notation::greek_name;
+
+/// The constants and words of FPCore that a name could be.
+const RESERVED: [&str; 62] = [
+    "E",
+    "LOG2E",
+    "LOG10E",
+    "LN2",
+    "LN10",
+    "PI",
+    "PI_2",
+    "PI_4",
+    "M_1_PI",
+    "M_2_PI",
+    "M_2_SQRTPI",
+    "SQRT2",
+    "SQRT1_2",
+    "INFINITY",
+    "NAN",
+    "TRUE",
+    "FALSE",
+    "FPCore",
+    "if",
+    "let",
+    "while",
+    "for",
+    "tensor",
+    "array",
+    "cast",
+    "fabs",
+    "fma",
+    "exp",
+    "exp2",
+    "expm1",
+    "log",
+    "log10",
+    "log2",
+    "log1p",
+    "pow",
+    "sqrt",
+    "cbrt",
+    "hypot",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "atan2",
+    "sinh",
+    "cosh",
+    "tanh",
+    "erf",
+    "erfc",
+    "tgamma",
+    "lgamma",
+    "ceil",
+    "floor",
+    "fmod",
+    "remainder",
+    "fmax",
+    "fmin",
+    "and",
+    "or",
+    "not",
+    "round",
+];
+
+/// The names that no symbol may have.
+pub(super) fn reserved() -> BTreeSet<String> {
+    RESERVED.into_iter().map(str::to_owned).collect()
+}
+
+/// A text in ASCII: Greek letters by their names, others by their numbers.
+pub(super) fn ascii(text: &str) -> String {
+    let mut ascii = String::new();
+    for letter in text.chars() {
+        match greek_name(letter) {
+            _ if letter.is_ascii() => ascii.push(letter),
+            Some(name) => ascii += name,
+            None => ascii += &format!("u{:x}", u32::from(letter)),
+        }
+    }
+    ascii
+}
+
+/// A name as a symbol of FPCore.
+pub(super) fn symbol(name: &str) -> String {
+    let mut symbol = ascii(name.trim_start_matches("r#"));
+    // A symbol does not begin with a digit.
+    if symbol.starts_with(|first: char| first.is_ascii_digit()) || symbol.is_empty() {
+        symbol.insert(0, '_');
+    }
+    symbol
+}
+
+#[cfg(test)]
+mod tests {
+    use super::symbol;
+
+    #[test]
+    fn symbols_are_ascii() {
+        for (name, text) in
+            [("theta3", "theta3"), ("θ3", "theta3"), ("länge", "lu e4nge"), ("r#type", "type"), ("data_0", "data_0")]
+        {
+            assert_eq!(symbol(name), text.replace(' ', ""));
+        }
+    }
+}

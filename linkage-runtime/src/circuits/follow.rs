@@ -1,0 +1,91 @@
+//! The motion of a mode, followed until it closes.
+
+use std::vec::Vec;
+
+use super::modes::{Modes, crossing_function};
+use super::motion::{CurveEnd, CurveEvent, CurvePoint, MotionCurve};
+use super::{CircuitError, CircuitOptions};
+use crate::continuation::{Direction, Event, Options, Path};
+use crate::scalar::arithmetic::*;
+use crate::scalar::to_f64;
+use crate::{Branches, D, Mechanism, PathError, real};
+
+/// The points of a motion.
+type Points<M> = Vec<CurvePoint<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar>>;
+
+/// Follows modes of one mechanism.
+pub(super) struct Follower<'a, M: Branches> {
+    mechanism: &'a M,
+    modes: &'a Modes<'a, M>,
+    options: Options<M::Scalar>,
+    /// The largest way of a coordinate from the start.
+    most: M::Scalar,
+}
+
+impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
+    pub(super) fn new(mechanism: &'a M, modes: &'a Modes<'a, M>, options: &CircuitOptions<M::Scalar>) -> Self {
+        let mut path = options.path;
+        // A path does not look for a start input in the step after one: no step is as long as a gap between them.
+        for (place, &input) in modes.inputs.iter().enumerate() {
+            for &other in &modes.inputs[..place] {
+                path.longest_step = path.longest_step.min(modes.input_gap(input, other).abs() * real(0.5));
+            }
+        }
+        let most = M::Scalar::two_pi() * real(f64::from(options.most_turns));
+        Self { mechanism, modes, options: path, most }
+    }
+
+    /// The motion of a mode.
+    pub(super) fn motion(&self, mode: usize) -> Result<MotionCurve<M::Coordinates, M::Scalar>, CircuitError> {
+        let follow = |direction| self.travel(mode, direction).map_err(|error| CircuitError::Path { mode, error });
+        let (mut points, end) = follow(Direction::Increasing)?;
+        if !matches!(end, CurveEnd::Closed { .. }) {
+            // The other side of the start; the start is in both.
+            let (other_side, _) = follow(Direction::Decreasing)?;
+            points.splice(..1, other_side.into_iter().rev());
+        }
+        Ok(MotionCurve { points, end })
+    }
+
+    /// The points from a mode in a direction, until the motion closes or ends.
+    fn travel(&self, mode: usize, direction: Direction<M::Rates>) -> Result<(Points<M>, CurveEnd), PathError> {
+        let start = self.modes.positions[mode];
+        let mut path = Path::with(self.mechanism, &start, direction, self.options)?;
+        let mut points = vec![point::<M>(start, Some(CurveEvent::Mode(Some(mode))))];
+        for _ in 0..self.options.most_steps {
+            let step = path.advance_watching(|q, _| crossing_function(self.modes, q))?;
+            let event = match step.event {
+                Some(Event::Zero) => Some(CurveEvent::Mode(self.modes.find(&step.position))),
+                Some(Event::DeadPoint { group }) => Some(CurveEvent::DeadPoint { group }),
+                Some(Event::ChangePoint { groups, .. }) => Some(CurveEvent::ChangePoint { group: groups.first() }),
+                Some(Event::Limit) | None => None,
+            };
+            if event == Some(CurveEvent::Mode(Some(mode))) {
+                points.push(point::<M>(step.position, None));
+                return Ok((points, CurveEnd::Closed { turns: turns::<M>(&start, &step.position) }));
+            }
+            points.push(point::<M>(step.position, event));
+            if matches!(step.event, Some(Event::Limit)) {
+                return Ok((points, CurveEnd::Limits));
+            }
+            if self.modes.way(&step.position, &start) > self.most {
+                return Ok((points, CurveEnd::Open));
+            }
+        }
+        Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
+    }
+}
+
+fn point<M: Mechanism<V = D<1>>>(
+    position: M::Coordinates,
+    event: Option<CurveEvent>,
+) -> CurvePoint<M::Coordinates, M::Scalar> {
+    CurvePoint { input: M::inputs(&position)[0], position, event }
+}
+
+/// The whole turns of the input from one position to another.
+fn turns<M: Mechanism<V = D<1>>>(from: &M::Coordinates, to: &M::Coordinates) -> i32 {
+    let turned = (M::inputs(to)[0] - M::inputs(from)[0]) / M::Scalar::two_pi();
+    // At most `most_turns`.
+    if M::INPUT_ANGLES[0] { to_f64(turned.round()) as i32 } else { 0 }
+}

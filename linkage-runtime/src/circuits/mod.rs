@@ -1,0 +1,155 @@
+//! Circuits: the positions of a mechanism with one input that are connected by motion.
+//!
+//! An *assembly mode* is a position at a given input; a *circuit* is all positions that can be reached from one of them
+//! without taking the linkage apart, dead points passed (T. R. Chase and J. A. Mirth, "Circuits and branches of
+//! single-degree-of-freedom planar linkages", 1993). The positions near a regular one form a curve, so that a circuit is
+//! found by following each mode with [`Path`](crate::continuation::Path): the motion closes when it is at its start
+//! again, after several turns perhaps and through other modes. Two motions that cross at a change point are in one
+//! circuit.
+//!
+//! A motion that passes none of the start inputs is not found, nor one that crosses a found motion at a change point and
+//! passes none of them: [`Circuits::over`] takes several start inputs.
+//!
+//! ```
+//! linkage::linkage! {
+//!     pub mechanism FourBar {
+//!         param ground = 4, crank = 3, coupler = 2, rocker = 2.5;
+//!         input theta;
+//!         unknown phi, psi;
+//!         loop crank@theta + coupler@phi = ground@0 + rocker@psi;
+//!     }
+//! }
+//! use linkage::circuits::Circuits;
+//!
+//! // No link of this four-bar can turn fully: its two modes are one circuit, and meet at both dead points of the crank.
+//! let circuits = Circuits::of(&FourBar::default(), 0.5, Default::default())?;
+//! assert_eq!((circuits.modes.len(), circuits.circuits.len(), circuits.full_turns()), (2, 1, 0));
+//! let dead_points: Vec<_> = circuits.motions[0].dead_points().collect();
+//! assert_eq!(dead_points.len(), 2);
+//! // crank^2 + ground^2 - 2 crank ground cos theta = (coupler + rocker)^2
+//! let limit = ((9.0 + 16.0 - 4.5_f64.powi(2)) / 24.0).acos();
+//! assert!((dead_points[0].point.input - limit).abs() < 1e-14);
+//! assert_eq!(dead_points[0].modes, [Some(0), Some(1)]);
+//! # Ok::<(), linkage::Error>(())
+//! ```
+
+mod error;
+mod follow;
+mod join;
+mod modes;
+mod motion;
+
+use std::vec::Vec;
+
+pub use error::CircuitError;
+pub use motion::{CurveEnd, CurveEvent, CurveMeeting, CurvePoint, MotionCurve};
+
+use crate::continuation::Options;
+use crate::{Branches, D, Real};
+use follow::Follower;
+use modes::Modes;
+
+/// The options of circuits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CircuitOptions<T = f64> {
+    /// The options of the paths. `most_steps` is the largest number of steps of one motion in one direction. The policy
+    /// at change points, `Keep` or `Switch`, says which halves of the motions that cross there make one motion; with
+    /// `Stop` a change point is an error.
+    pub path: Options<T>,
+    /// A motion is not closed if a coordinate is farther than this number of turns from its start, by default 60; for a
+    /// length, a turn is 2 pi times the lengths of its loops. A rack that goes on turn by turn never closes.
+    pub most_turns: u32,
+}
+
+impl<T: Real> Default for CircuitOptions<T> {
+    fn default() -> Self {
+        Self { path: Options::default(), most_turns: 60 }
+    }
+}
+
+/// A position at a start input, from the list of [`Branches`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct CircuitMode<Q, B> {
+    /// Its branch: a name at this input only.
+    pub branch: B,
+    /// The position.
+    pub position: Q,
+    /// Its motion, by index.
+    pub motion: usize,
+}
+
+/// The assembly modes at the start inputs, the motions through them, and the circuits that these form.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Circuits<Q, B, T = f64> {
+    /// The modes in the order of the start inputs, at each in the order of the list.
+    pub modes: Vec<CircuitMode<Q, B>>,
+    /// The motions, in the order of their first modes.
+    pub motions: Vec<MotionCurve<Q, T>>,
+    /// The motions of each circuit, by index. Several motions are one circuit if they cross at change points.
+    pub circuits: Vec<Vec<usize>>,
+}
+
+impl<Q: Copy, B: Copy, T: Real> Circuits<Q, B, T> {
+    /// The circuits through the positions at one input. Choose an input at which no two positions meet.
+    ///
+    /// # Errors
+    /// [`CircuitError::Position`] if the positions cannot be listed, [`CircuitError::Path`] with the mode whose motion
+    /// cannot be followed, as from a dead point.
+    pub fn of<M>(mechanism: &M, input: T, options: CircuitOptions<T>) -> Result<Self, CircuitError>
+    where
+        M: Branches<Scalar = T, V = D<1>, Coordinates = Q, Branch = B>,
+    {
+        Self::over(mechanism, [input], options)
+    }
+
+    /// The circuits through the positions at several inputs; a motion that passes several of them is found once. Inputs
+    /// that differ by whole turns, or less than nearly zero, have the same modes, unless the mechanism is geared so that
+    /// a turn changes its positions.
+    ///
+    /// # Errors
+    /// Those of [`of`](Self::of).
+    pub fn over<M>(
+        mechanism: &M,
+        inputs: impl IntoIterator<Item = T>,
+        options: CircuitOptions<T>,
+    ) -> Result<Self, CircuitError>
+    where
+        M: Branches<Scalar = T, V = D<1>, Coordinates = Q, Branch = B>,
+    {
+        let modes = Modes::list(mechanism, inputs)?;
+        let follower = Follower::new(mechanism, &modes, &options);
+        let mut motion_of = vec![None; modes.positions.len()];
+        let mut motions: Vec<MotionCurve<Q, T>> = Vec::new();
+        for mode in 0..modes.positions.len() {
+            if motion_of[mode].is_some() {
+                continue;
+            }
+            let motion = follower.motion(mode)?;
+            for passed in motion.modes() {
+                motion_of[passed] = Some(motions.len());
+            }
+            motions.push(motion);
+        }
+        let circuits = join::circuits(&motions, |one, other| modes.are_near(one, other));
+        let numbered = modes.branches.iter().zip(&modes.positions).zip(motion_of);
+        let modes = numbered
+            .map(|((&branch, &position), motion)| CircuitMode { branch, position, motion: motion.unwrap_or_default() })
+            .collect();
+        Ok(Self { modes, motions, circuits })
+    }
+
+    /// The number of motions on which the input turns fully: they close without a dead point.
+    #[must_use]
+    pub fn full_turns(&self) -> usize {
+        self.motions.iter().filter(|motion| motion.turns_fully()).count()
+    }
+
+    /// The circuit of a motion, by index.
+    #[must_use]
+    pub fn circuit_of(&self, motion: usize) -> Option<usize> {
+        self.circuits.iter().position(|motions| motions.contains(&motion))
+    }
+}

@@ -1,0 +1,177 @@
+//! The formulas of emitted functions as FPCore: a reader of the standard evaluates each of them, in doubles with the
+//! bits of the functions, in 48 digits to their rounding.
+
+mod arithmetic;
+mod one;
+mod reader;
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+
+use linkage::Document;
+use linkage::derivation::{Derivation, Kernel, Operations};
+use linkage_gallery::{Fixture, all_mechanisms, source};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+
+use reader::Core;
+
+/// Random positions of each mechanism.
+const POSES: usize = 20;
+
+/// Mechanisms without formulas for rates: by pivoting, and equal to those of the input.
+const WITHOUT: [&str; 2] = ["ThreeTogether", "Block"];
+
+/// The derivations of a file as `derive fpcore` makes them, from those without.
+fn with_lines(file: &str, derivation: &Derivation) -> Derivation {
+    let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
+    let formulas = linkage_compiler::formulas(&mechanism).into_iter();
+    let of_it = formulas.filter(|[of, ..]| of == derivation.mechanism);
+    let kernels = of_it.map(|[_, function, lines]| Kernel {
+        function: function.leak(),
+        operations: Operations::default(),
+        lines: lines.leak(),
+    });
+    Derivation { kernels: kernels.collect::<Vec<_>>().leak(), ..*derivation }
+}
+
+/// The formulas of a mechanism by name, each as it was read.
+fn cores(derivation: &Derivation) -> BTreeMap<String, Core> {
+    let all: Vec<Core> = derivation.fpcore().iter().map(|core| Core::read(&core.to_string())).collect();
+    let count = all.len();
+    let cores: BTreeMap<String, Core> = all.into_iter().map(|core| (core.name.clone(), core)).collect();
+    assert_eq!(cores.len(), count, "a name twice");
+    cores
+}
+
+/// The names of coordinates in the order of their fields.
+fn coordinates<F: Fixture>() -> Vec<String> {
+    let count = F::UNKNOWNS.len() + F::INPUTS.len();
+    let places: Vec<f64> = (0..count).map(|place| place as f64).collect();
+    let (unknowns, inputs) = F::parts(&F::named(&places));
+    let mut names = vec![String::new(); count];
+    for (place, name) in unknowns.iter().zip(F::UNKNOWNS).chain(inputs.iter().zip(F::INPUTS)) {
+        names[*place as usize] = name.to_lowercase();
+    }
+    names
+}
+
+/// The sides of a branch as numbers, from its `Debug`: `phi_s: Far` is 1.
+fn sides(branch: &impl Debug) -> Vec<(String, f64)> {
+    let text = format!("{branch:?}");
+    let fields = text.split(['{', '}', ',']).filter_map(|field| field.trim().split_once(": "));
+    let sides = fields.filter(|(_, side)| side.parse::<i32>().is_err());
+    let number = |side: &str| if ["Left", "Far", "Rising"].contains(&side) { 1.0 } else { -1.0 };
+    sides.map(|(name, side)| (format!("{name}_side"), number(side))).collect()
+}
+
+/// Compares one number of a function with its formula, if it has one. Returns true if it was compared.
+fn compare(cores: &BTreeMap<String, Core>, name: &str, data: &BTreeMap<String, f64>, emitted: f64) -> bool {
+    let Some(core) = cores.get(name).filter(|core| core.is_valid(data)) else { return false };
+    let value = core.value(data);
+    // Zeros may differ in their signs: an angle of no turns is the sum of the principal value and zero.
+    assert!(value == emitted, "{name}: {value:e} by its text, {emitted:e} by the function, at {data:?}");
+    true
+}
+
+/// The names and numbers of a list.
+fn numbered<'a>(names: &'a [String], list: &'a [f64]) -> impl Iterator<Item = (&'a str, f64)> {
+    names.iter().map(String::as_str).zip(list.iter().copied())
+}
+
+fn agrees<F: Fixture>(derivation: &Derivation, branches: &[Vec<(String, f64)>]) {
+    let (of, cores) = (derivation.mechanism, cores(&with_lines(F::FILE, derivation)));
+    let names = coordinates::<F>();
+    let parameters: Vec<String> = derivation.parameters.iter().map(|symbol| symbol.name.to_lowercase()).collect();
+    let points: Vec<String> = derivation.points.iter().map(|point| point.name.to_lowercase()).collect();
+    let components: Vec<String> = points.iter().flat_map(|name| [format!("{name}.x"), format!("{name}.y")]).collect();
+    let motions: Vec<String> =
+        points.iter().flat_map(|name| [format!("{name}.acceleration.x"), format!("{name}.acceleration.y")]).collect();
+    let mut rng = SmallRng::seed_from_u64(7);
+    let mut compared = 0;
+    for pose in 0..POSES {
+        let values: Vec<f64> =
+            F::default().parameters().iter().map(|value| value * rng.random_range(0.98..1.02)).collect();
+        let m = F::with_parameters(&values);
+        let mut draw = || -> Vec<f64> { names.iter().map(|_| rng.random_range(-3.0..3.0)).collect() };
+        let [q, rates, bent] = [draw(), draw(), draw()];
+        let mut data: BTreeMap<String, f64> =
+            numbered(&parameters, &values).map(|(name, x)| (name.to_owned(), x)).collect();
+        for (list, ending) in [(&q, ""), (&rates, "_rate"), (&bent, "_acceleration")] {
+            data.extend(numbered(&names, list).map(|(name, x)| (format!("{name}{ending}"), x)));
+        }
+        let mut compare = |function: &str, names: &[String], list: &[f64], data: &BTreeMap<String, f64>| {
+            for (name, emitted) in numbered(names, list) {
+                compared += usize::from(self::compare(&cores, &format!("{of}::{function}.{name}"), data, emitted));
+            }
+        };
+        let [v_rates, v_bent] = [&rates, &bent].map(|list| F::inputs_of(list));
+        let at = m.pose(&q);
+        if let Ok(list) = m.velocity(&at, &v_rates) {
+            compare("velocity", &names, &list, &data);
+        }
+        if let Ok(list) = m.acceleration(&at, &rates, &v_bent) {
+            compare("acceleration", &names, &list, &data);
+        }
+        if let Ok(list) = m.point_accelerations(&at, &rates, &bent) {
+            compare("point_accelerations", &components, &list, &data);
+        }
+        if let Ok(motion) = m.motion(&q, &v_rates, &v_bent) {
+            compare("motion.accelerations", &names, &motion.coordinates[2], &data);
+            compare("motion.points", &motions, &motion.points[2], &data);
+        }
+        let Some(sides) = branches.get(pose % branches.len().max(1)) else { continue };
+        data.extend(sides.iter().cloned());
+        if let Ok(moving) = m.moving(&q, pose % branches.len(), &v_rates, &v_bent, true) {
+            compare("kinematics.rates", &names, &moving.rates, &data);
+            compare("kinematics.accelerations", &names, &moving.accelerations, &data);
+            if let Some([_, _, accelerations]) = moving.points {
+                compare("full_kinematics.points", &motions, &accelerations, &data);
+            }
+        }
+    }
+    println!("| {of} | {} | {compared} |", cores.len());
+    assert_eq!(compared > 0, !WITHOUT.contains(&of), "{of}: {compared} numbers compared");
+}
+
+macro_rules! branches {
+    (newton $Mechanism:ident) => {
+        Vec::new()
+    };
+    ($method:ident $Mechanism:ident) => {
+        <$Mechanism as linkage_gallery::ClosedForm>::all_branches().iter().map(super::sides).collect::<Vec<_>>()
+    };
+}
+
+macro_rules! tests {
+    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
+        mod $file {
+            use linkage_gallery::$file::{$($Mechanism),+};
+
+            #[test]
+            fn the_texts_have_the_bits_of_the_functions() {
+                $(super::agrees::<$Mechanism>(<$Mechanism>::DERIVATION, &branches!($method $Mechanism));)+
+            }
+        }
+    )*};
+}
+
+all_mechanisms!(tests);
+
+/// An iteration, pivoting and user functions have no formula; all else of such a mechanism has one.
+#[test]
+fn functions_without_formulas() {
+    let functions = |file: &str| {
+        let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
+        let formulas = linkage_compiler::formulas(&mechanism);
+        formulas.into_iter().map(|[_, function, _]| function).collect::<Vec<_>>()
+    };
+    for (file, with, without) in [
+        ("double_butterfly", ["residual", "points"], ["velocity", "acceleration"]),
+        ("cam_rocker", ["points", "jacobian_unknowns"], ["velocity", "acceleration"]),
+    ] {
+        let functions = functions(file);
+        assert!(with.iter().all(|name| functions.iter().any(|function| function == name)), "{functions:?}");
+        assert!(without.iter().all(|name| functions.iter().all(|function| function != name)), "{functions:?}");
+    }
+}
