@@ -35,7 +35,8 @@ fn modes_and_dead_points_are_at_their_coordinates() {
     let frame = of_class(&svg, "frame")[0];
     let [x, y, width, height] = ["x", "y", "width", "height"].map(|name| number(&frame, name));
     let pixel = |theta: f64, psi: f64| {
-        let [across, up] = [theta, psi + std::f64::consts::PI].map(|angle| angle.to_degrees().rem_euclid(360.0) / 360.0);
+        let [across, up] =
+            [theta, psi + std::f64::consts::PI].map(|angle| angle.to_degrees().rem_euclid(360.0) / 360.0);
         [x + across * width, y + (1.0 - up) * height]
     };
     let near = |node: &Node, at: [f64; 2]| {

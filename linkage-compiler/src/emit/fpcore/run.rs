@@ -216,7 +216,9 @@ impl Run {
                 self.associated(of, of_type, name, arguments)
             }
             E::Method(receiver, name, arguments) => self.method(of, receiver, (name, arguments), scope),
-            E::Try(value) | E::Borrowed(value) | E::MutablyBorrowed(value) | E::Dereferenced(value) => self.value(of, value, scope),
+            E::Try(value) | E::Borrowed(value) | E::MutablyBorrowed(value) | E::Dereferenced(value) => {
+                self.value(of, value, scope)
+            }
             E::Block(statements, value) => match self.statements(of, statements, scope) {
                 true => self.value(of, value, scope),
                 false => Value::Unknown,
