@@ -2,8 +2,10 @@
 
 use linkage::{AssemblyMode, Branches, PositionError};
 use linkage_gallery::double_butterfly::*;
+use linkage_gallery::slider_triad::*;
 use linkage_gallery::stephenson_far::*;
 use linkage_gallery::stephenson_iii::*;
+use linkage_gallery::swivel_triad::*;
 use linkage_gallery::three_rrr::*;
 use linkage_gallery::two_triads::*;
 
@@ -82,6 +84,50 @@ fn stephenson_from_both_sides() {
     }
     println!("{planted} positions, at most {most} at one input");
     assert!(planted > 80 && most <= 12);
+}
+
+/// Chains with a slider, driven from the rocker, have the positions that they have with the crank driven: those are in
+/// closed form. The last argument is the length.
+macro_rules! from_both_sides {
+    ($near:expr, $far:expr, $slider:ident) => {{
+        let (near, far) = ($near, $far);
+        let (mut planted, mut most) = (0, 0);
+        for step in 0..40 {
+            for one in near.branches(0.15 + 0.157 * f64::from(step)).unwrap() {
+                let p = one.pose.coordinates();
+                let found = listed!(far, p.swing);
+                most = most.max(found.len());
+                let same = found.iter().filter(|(_, q)| {
+                    let pairs = [(q.crank, p.crank), (q.coupler, p.coupler), (q.rod, p.rod)];
+                    (q.$slider - p.$slider).abs() < 1e-6
+                        && pairs.into_iter().all(|(one, other)| is_same_angle(one, other))
+                });
+                assert_eq!(same.count(), 1, "{p:?}");
+                planted += 1;
+                for (_, q) in found {
+                    let mut back = near.branches(q.crank).unwrap().map(|one| one.pose.coordinates());
+                    let is_there =
+                        back.any(|p| is_same_angle(p.swing, q.swing) && (q.$slider - p.$slider).abs() < 1e-6);
+                    assert!(is_there, "{q:?}");
+                }
+            }
+        }
+        println!("{planted} positions, at most {most} at one input");
+        assert!(planted > 80);
+        most
+    }};
+}
+
+/// A length along a given line.
+#[test]
+fn slider_from_both_sides() {
+    assert_eq!(from_both_sides!(SliderTriadNear::default(), SliderTriadFar::default(), slide), 6);
+}
+
+/// A length along a line that turns with an unknown angle.
+#[test]
+fn swivel_from_both_sides() {
+    assert_eq!(from_both_sides!(SwivelTriadNear::default(), SwivelTriadFar::default(), reach), 6);
 }
 
 #[test]

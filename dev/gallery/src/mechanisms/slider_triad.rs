@@ -7,7 +7,7 @@ linkage! {
     /// The dimensions are this gallery's.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism SliderTriad {
-        param a = 2, b = 7, h = -1, tilt = 0.2, px = 5, py = 4, e = 9, f = 5, fx = 12, fy = 3;
+        param a = 3, b = 4, h = -1, tilt = 0.2, px = -2.5, py = 5, e = 5, f = 3, fx = 2, fy = 2.5;
         coordinate crank, coupler, slide, rod, swing;
 
         loop a@crank + b@coupler = (slide, h)@tilt;

@@ -8,7 +8,7 @@ linkage! {
     /// The dimensions are this gallery's.
     #[derive(Debug, Clone, PartialEq)]
     pub mechanism SwivelTriad {
-        param a = 2, d = 6, h = 0.5, px = 5, py = 4, e = 9, f = 5, fx = 12, fy = 3;
+        param a = 4, d = 4.5, h = 0.5, px = 4.5, py = 2.5, e = 8.5, f = 3.5, fx = -0.5, fy = 6;
         coordinate crank, coupler, reach, rod, swing;
 
         loop a@crank + (reach, h)@coupler = d@0;
