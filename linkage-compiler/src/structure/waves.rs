@@ -122,7 +122,7 @@ impl Row {
 /// A product while it is multiplied out.
 #[derive(Debug, Clone)]
 struct Term {
-    /// What is known of it, and what is still to be looked at.
+    /// Its known part, and the factors still to be read.
     factor: NodeId,
     factors: Vec<NodeId>,
     /// The length in it, and the wave with its p and q.

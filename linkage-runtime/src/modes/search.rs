@@ -27,7 +27,7 @@ const TINIEST: f64 = 1e-45;
 
 /// The search for all positions of one group.
 pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
-    /// Of the mechanism and of the group.
+    /// The names of the mechanism and of the group.
     pub names: [&'static str; 2],
     pub loops: &'a Loops<T, L, N>,
     pub are: &'a [Unknown<T>; N],
@@ -151,7 +151,7 @@ where
     /// The loops as complex numbers.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`]; [`PositionError::Undecided`] if a length is too small beside the largest.
+    /// [`PositionError::NotFinite`]; [`PositionError::Undecided`] if a length is too small next to the largest.
     fn numbers(&self) -> Result<Numbers<L>, PositionError> {
         let [mechanism, group] = self.names;
         let complex = |[re, im]: [T; 2]| Number::new(to_f64(re), to_f64(im));
