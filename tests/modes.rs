@@ -2,10 +2,14 @@
 
 use linkage::{AssemblyMode, Branches, PositionError};
 use linkage_gallery::double_butterfly::*;
+use linkage_gallery::slider_triad::*;
 use linkage_gallery::stephenson_far::*;
 use linkage_gallery::stephenson_iii::*;
+use linkage_gallery::swivel_triad::*;
 use linkage_gallery::three_rrr::*;
 use linkage_gallery::two_triads::*;
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
 
 /// The listed positions with their branches: the equations hold, `assemble` finds each by its branch, and so does
 /// `assemble_near` from its coordinates without a number.
@@ -84,6 +88,50 @@ fn stephenson_from_both_sides() {
     assert!(planted > 80 && most <= 12);
 }
 
+/// Chains with a slider, driven from the rocker, have the positions that they have with the crank driven: those are in
+/// closed form. The last argument is the length.
+macro_rules! from_both_sides {
+    ($near:expr, $far:expr, $slider:ident) => {{
+        let (near, far) = ($near, $far);
+        let (mut planted, mut most) = (0, 0);
+        for step in 0..80 {
+            for one in near.branches(0.15 + 0.0785 * f64::from(step)).unwrap() {
+                let p = one.pose.coordinates();
+                let found = listed!(far, p.swing);
+                most = most.max(found.len());
+                let same = found.iter().filter(|(_, q)| {
+                    let pairs = [(q.crank, p.crank), (q.coupler, p.coupler), (q.rod, p.rod)];
+                    (q.$slider - p.$slider).abs() < 1e-6
+                        && pairs.into_iter().all(|(one, other)| is_same_angle(one, other))
+                });
+                assert_eq!(same.count(), 1, "{p:?}");
+                planted += 1;
+                for (_, q) in found {
+                    let mut back = near.branches(q.crank).unwrap().map(|one| one.pose.coordinates());
+                    let is_there =
+                        back.any(|p| is_same_angle(p.swing, q.swing) && (q.$slider - p.$slider).abs() < 1e-6);
+                    assert!(is_there, "{q:?}");
+                }
+            }
+        }
+        println!("{planted} positions, at most {most} at one input");
+        assert!(planted > 120);
+        most
+    }};
+}
+
+/// A length along a given line.
+#[test]
+fn slider_from_both_sides() {
+    assert_eq!(from_both_sides!(SliderTriadNear::default(), SliderTriadFar::default(), slide), 6);
+}
+
+/// A length along a line that turns with an unknown angle.
+#[test]
+fn swivel_from_both_sides() {
+    assert_eq!(from_both_sides!(SwivelTriadNear::default(), SwivelTriadFar::default(), reach), 6);
+}
+
 #[test]
 fn three_legs() {
     let m = ThreeRrr::default();
@@ -145,4 +193,72 @@ fn groups_in_a_row() {
         }
     }
     assert!(most > 1, "the second group has positions for {most} of the first");
+}
+
+linkage::linkage! {
+    /// Two links to one slider along an axis: its length is in two loops.
+    mechanism OneSlider {
+        param a = 2, b = 4, c = 3, d = 5, e = 4, x = 1, y = 2, h = 0.5;
+        input v;
+        unknown p, q, r, s;
+        loop a@v + b@p + c@q = (s, h);
+        loop (s, h) + d@q = (x, y) + e@r;
+    }
+
+    /// A slider on a link and one along an axis.
+    mechanism TwoSliders {
+        param a = 2, b = 3, c = 1, f = 4, x = 1, y = 2;
+        input v;
+        unknown p, q, s, t;
+        loop a@v + b@p + (s, c)@q = (x, y);
+        loop a@v - c@p + f@q = (x, t);
+    }
+
+    /// Three loops with a slider along an axis, and a joint by its coordinates.
+    mechanism ThreeLoops {
+        param a = 2, b = 5, c = 4, d = 6, e = 3, f = 7, g = 2;
+        input v;
+        unknown x, y, p, q, r, t, w, s;
+        loop a@v + b@p = (x, y);
+        loop (x, y) + c@q = d@0 + e@r;
+        loop (x, y) + f@q = (1, 2) + c@t + g@w;
+        loop d@0 + (g, 1)@r + e@w = (s, -1);
+    }
+}
+
+/// Newton's method from random starts has no position that the list has not; each position found is in it.
+macro_rules! is_whole {
+    ($Mechanism:ident, $Coordinates:ident, $Branch:ident, [$($angle:ident)+], [$($length:ident)+]) => {{
+        let m = $Mechanism::default();
+        let mut random = SmallRng::seed_from_u64(3);
+        let (mut counts, mut reached) = (vec![0; 21], 0);
+        for step in 0..30 {
+            let v = 0.21 * f64::from(step);
+            let found = listed!(m, v);
+            counts[found.len()] += 1;
+            for _ in 0..40 {
+                let angle = $Coordinates {
+                    v,
+                    $($angle: random.random_range(-3.1..3.1),)+
+                    $($length: random.random_range(-6.0..6.0),)+
+                };
+                let Ok(near) = m.assemble_near(&angle, $Branch::default()) else { continue };
+                let one = near.coordinates();
+                let is_there = |(_, q): &($Branch, $Coordinates)| {
+                    $(is_same_angle(one.$angle, q.$angle) &&)+ $((one.$length - q.$length).abs() < 1e-6 &&)+ true
+                };
+                assert_eq!(found.iter().filter(|found| is_there(found)).count(), 1, "{one:?} of {found:?}");
+                reached += 1;
+            }
+        }
+        println!("{}: {counts:?} by number of positions, reached {reached} times", stringify!($Mechanism));
+        assert!(reached > 100);
+    }};
+}
+
+#[test]
+fn sliders_on_axes() {
+    is_whole!(OneSlider, OneSliderCoordinates, OneSliderBranch, [p q r], [s]);
+    is_whole!(TwoSliders, TwoSlidersCoordinates, TwoSlidersBranch, [p q], [s t]);
+    is_whole!(ThreeLoops, ThreeLoopsCoordinates, ThreeLoopsBranch, [p q r t w], [x y s]);
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use linkage_compiler::derivation::Derivation;
 use linkage_compiler::graph::{NodeId, SymbolId};
-use linkage_compiler::structure::{Group, Loops};
+use linkage_compiler::structure::{Group, Loops, Obstacle};
 use linkage_compiler::{derive, read};
 use proc_macro2::{TokenStream, TokenTree};
 
@@ -16,7 +16,8 @@ fn gallery(file: &str) -> Derivation {
     let tokens: Vec<TokenTree> =
         fs::read_to_string(path).unwrap().parse::<TokenStream>().unwrap().into_iter().collect();
     let Some(TokenTree::Group(group)) = tokens.last() else { panic!("{file} has no `linkage!`") };
-    derive(&read(group.stream()).unwrap()[0]).remove(0)
+    // With several drivers, the last.
+    derive(&read(group.stream()).unwrap()[0]).pop().unwrap()
 }
 
 /// The derivation of a mechanism with the parameters a to f that are used, the input v and these unknowns.
@@ -44,9 +45,14 @@ impl Numbers {
     }
 }
 
-/// At any angles the magnitudes of the loops are those of the rows, so that both vanish together: the sum of the squares
-/// of all rows. Returns the number of coefficients that are not zero, by block.
 fn checked(derivation: &mut Derivation) -> Vec<usize> {
+    checked_with(derivation, [0.0; 2])
+}
+
+/// At any angles the magnitudes of the loops are those of the rows, so that both vanish together: the sum of the squares
+/// of all rows. From the second loop as written, m times the first was subtracted, by which a length was eliminated.
+/// Returns the number of coefficients that are not zero, by block.
+fn checked_with(derivation: &mut Derivation, m: [f64; 2]) -> Vec<usize> {
     let mut numbers = Numbers(0x9e37_79b9_7f4a_7c15);
     let mut counts = Vec::new();
     for block in derivation.blocks.clone().iter().filter(|block| matches!(block.group, Group::Loops(_))) {
@@ -68,15 +74,29 @@ fn checked(derivation: &mut Derivation) -> Vec<usize> {
             for (factors, angle) in loops.unknowns.iter().zip(&angles) {
                 assert!((combined(factors, &directions) - angle).abs() < 1e-13);
             }
-            let closures = loops.constants.iter().zip(&loops.factors).map(|(constant, factors)| {
-                let mut sum = constant.map(value);
-                for ([real, imaginary], angle) in factors.iter().map(|part| part.map(value)).zip(&directions) {
-                    sum[0] += real * angle.cos() - imaginary * angle.sin();
-                    sum[1] += real * angle.sin() + imaginary * angle.cos();
-                }
-                sum[0].powi(2) + sum[1].powi(2)
-            });
-            let (of_loops, of_rows) = (closures.sum::<f64>(), rows.iter().map(|&row| value(row).powi(2)).sum::<f64>());
+            let closures =
+                loops.constants.iter().zip(&loops.factors).enumerate().map(|(place, (constant, factors))| {
+                    let mut sum = constant.map(value);
+                    let mut add = |[real, imaginary]: [f64; 2], times: f64, angle: f64| {
+                        sum[0] += times * (real * angle.cos() - imaginary * angle.sin());
+                        sum[1] += times * (real * angle.sin() + imaginary * angle.cos());
+                    };
+                    for (part, angle) in factors.iter().zip(&directions) {
+                        add(part.map(value), 1.0, *angle);
+                    }
+                    for (guide, length) in loops.guides.iter().zip(&angles) {
+                        if let Some(guide) = guide.filter(|guide| guide.in_loop == place) {
+                            add(guide.along.map(value), *length, guide.with.map_or(0.0, |with| directions[with]));
+                        }
+                    }
+                    sum
+                });
+            let mut closures: Vec<[f64; 2]> = closures.collect();
+            let [x, y] = closures[0];
+            closures[1][0] += m[0] * x - m[1] * y;
+            closures[1][1] += m[0] * y + m[1] * x;
+            let of_loops: f64 = closures.iter().flatten().map(|part| part.powi(2)).sum();
+            let of_rows: f64 = rows.iter().map(|&row| value(row).powi(2)).sum();
             assert!((of_loops - of_rows).abs() < 1e-12 * of_rows, "{of_loops} {of_rows}");
         }
         let is_there = |factor: &&[NodeId; 2]| factor.iter().any(|&part| !derivation.graph.is_zero(part));
@@ -147,12 +167,104 @@ fn directions_of_links() {
     }
 }
 
+/// The counts are those of the coefficients that are not zero, without the guides.
+#[test]
+fn sliders() {
+    for (unknowns, statements, guides, m, count) in [
+        // Along a given direction, and along an axis.
+        (
+            "p, q, r, s",
+            "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) + s@v;",
+            &[(1, None)][..],
+            [0.0; 2],
+            7,
+        ),
+        (
+            "p, q, r, s",
+            "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) - s@90deg;",
+            &[(1, None)],
+            [0.0; 2],
+            7,
+        ),
+        // Along a link, with an offset, and written as parts; a clockwise angle.
+        (
+            "p, q, r, s",
+            "loop a@v + b@p + (s + f, c)@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) + e@r;",
+            &[(0, Some(1))],
+            [0.0; 2],
+            8,
+        ),
+        (
+            "p, q, r, s",
+            "loop a@v + b@p + s@(-q) = d@0 + e@r; loop a@v + b@p + f@(-q) = (1, 2) + e@r;",
+            &[(0, Some(1))],
+            [0.0; 2],
+            7,
+        ),
+        // Two sliders, one of them with a joint by its coordinates.
+        (
+            "p, q, s, t",
+            "loop a@v + b@p + c@q = (d, 0) + s@q; loop a@v + b@p + f@q = (1, 2) + t@v;",
+            &[(0, Some(1)), (1, None)],
+            [0.0; 2],
+            6,
+        ),
+        (
+            "x, y, p, q, r, s",
+            "loop a@v + b@p = (x, y); loop (x, y) + c@q = d@0 + e@r; loop (x, y) + f@q = (1, 2) + s@0;",
+            &[(1, None)],
+            [0.0; 2],
+            7,
+        ),
+        // A length in two loops, along the same line, against it, and along another.
+        ("p, q, r, s", "loop a@v + b@p + c@q = s@v; loop s@v + f@q = (1, 2) + e@r;", &[(0, None)], [-1.0, 0.0], 7),
+        (
+            "p, q, r, s",
+            "loop a@v + b@p + c@q = s@r; loop d@0 + f@q + b@p = (1, 2) + (2*s)@(r + 90deg);",
+            &[(0, Some(2))],
+            [0.0, 2.0],
+            6,
+        ),
+    ] {
+        let mut derivation = written(unknowns, statements);
+        assert_eq!(groups(&derivation)[0], Group::Loops(2), "{statements}");
+        assert_eq!(guides_of(&mut derivation), guides, "{statements}");
+        assert_eq!(checked_with(&mut derivation, m), [count], "{statements}");
+    }
+    let mut fixed = gallery("slider_triad");
+    assert_eq!(groups(&fixed), [Group::Loops(2)]);
+    assert_eq!(checked(&mut fixed), [2 + 2 + 3]);
+    let mut turning = gallery("swivel_triad");
+    assert_eq!(groups(&turning), [Group::Loops(2)]);
+    assert_eq!(checked(&mut turning), [2 + 2 + 3]);
+}
+
+/// The loop and the direction of each length, in the first group.
+fn guides_of(derivation: &mut Derivation) -> Vec<(usize, Option<usize>)> {
+    let block = derivation.blocks.iter().find(|block| matches!(block.group, Group::Loops(_))).unwrap().clone();
+    let rows = derivation.residual.at(&block.equations);
+    let unknowns = block.unknowns.iter().map(|&place| derivation.coordinates[derivation.unknowns[place]].value);
+    let unknowns: Vec<SymbolId> = unknowns.collect();
+    let loops = Loops::of(&mut derivation.graph, &rows, &unknowns).unwrap();
+    loops.guides.iter().flatten().map(|guide| (guide.in_loop, guide.with)).collect()
+}
+
 #[test]
 fn other_groups_need_a_guess() {
-    let angles = "they are not the angles of links in two or three loops";
+    let angles = Obstacle::NotLoops;
     for (unknowns, statements, count, obstacle) in [
-        // A length.
-        ("p, q, r, s", "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) + s@v;", 4, angles),
+        // Lengths along two lines that turn; two in one loop; a product of two, and a square; and in a function.
+        ("p, q, s, t", "loop a@v + b@p + c@q = s@p; loop b@p + f@q = (1, 2) + t@q;", 4, Obstacle::TwoGuides),
+        ("p, q, r, s", "loop a@v + b@p + s@q = e@r; loop b@p + f@q = (1, 2) + s@r;", 4, Obstacle::TwoGuides),
+        (
+            "p, q, s, t",
+            "loop a@v + b@p + c@q = s@v + t@p; loop b@p + f@q = (1, 2) + (s + t)@v;",
+            4,
+            Obstacle::LengthsInOneLoop,
+        ),
+        ("p, q, s, t", "loop a@v + b@p + c@q = s@v; loop b@p + f@q = (1, 2) + (s*t)@v;", 4, Obstacle::ProductOfLengths),
+        ("p, q, r, s", "loop a@v + b@p + c@q = s@v; loop b@p + f@q = (1, 2) + (s*s)@r;", 4, Obstacle::ProductOfLengths),
+        ("p, q, r, s", "loop a@v + b@p + c@q = s@v; loop b@p + f@q = (1, 2) + sqrt(s)@r;", 4, angles),
         // A direction and its mirror image.
         ("p, q, r, s", "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@(-q) = (1, 2) + c@s;", 4, angles),
         // An angle and twice the angle: five directions.
@@ -171,12 +283,12 @@ fn other_groups_need_a_guess() {
             "loop a@v + b@p + c@q = d@r; loop a@v + b@p + c@s = d@t + (1, 1); loop (2, 3) + e@q + f@s = a@u + b@w; \
              loop (1, 2) + a@r + c@u = d@t + e@z; ",
             8,
-            "it has more than three loops",
+            Obstacle::MoreLoops,
         ),
     ] {
         let derivation = written(unknowns, statements);
-        assert_eq!(groups(&derivation), [Group::Irreducible(count)], "{statements}");
+        assert_eq!(groups(&derivation), [Group::Irreducible(count, obstacle)], "{statements}");
         let found = derivation.blocks.iter().find_map(|block| block.group.obstacle()).unwrap();
-        assert_eq!(found, format!("its {count} unknowns depend on one another, and {obstacle}"));
+        assert_eq!(found, format!("its {count} unknowns depend on one another, and {}", obstacle.text()));
     }
 }

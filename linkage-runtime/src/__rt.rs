@@ -18,7 +18,7 @@ pub use crate::implied::{closes, implied};
 pub use crate::lanes::{Batch, Lanes, Values};
 pub use crate::limits::{Bound, Search, limits};
 pub use crate::linear::{Factorization, is_nonzero, product_of_pivots, regular};
-pub use crate::modes::{Loops, Memory};
+pub use crate::modes::{Loops, Memory, Unknown};
 pub use crate::motion::{
     finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
 };

@@ -83,10 +83,12 @@ macro_rules! all_mechanisms {
             slider_crank_contacts: Machine closed;
             slider_crank_scenes: Crank closed Piston closed;
             slider_named_first: SliderNamedFirst closed;
+            slider_triad: SliderTriadNear closed SliderTriadFar newton;
             stephenson_far: StephensonFar newton;
             stephenson_i: StephensonI closed;
             stephenson_ii: StephensonII newton;
             stephenson_iii: StephensonIII closed;
+            swivel_triad: SwivelTriadNear closed SwivelTriadFar newton;
             three_link_arm: ThreeLinkArm open, orders;
             three_rrr: ThreeRrr newton;
             three_together: ThreeTogether newton;

@@ -66,7 +66,7 @@ impl Choice {
             (Group::Rrp | Group::Rpr | Group::SliderToCircle, _) | (Group::Angle, Some(_)) => Some(Self::Slider),
             (Group::Angle, None) => Some(Self::Slope),
             (
-                Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Loops(_) | Group::Irreducible(_),
+                Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Loops(_) | Group::Irreducible(..),
                 _,
             ) => None,
         }
@@ -194,7 +194,7 @@ impl Derivation {
         let equations = self.residual.at(&block.equations);
         let symbols: Vec<SymbolId> =
             block.unknowns.iter().map(|&place| self.coordinates[self.unknowns[place]].value).collect();
-        if let Some(loops) = Loops::of(&mut self.graph, &equations, &symbols) {
+        if let Ok(loops) = Loops::of(&mut self.graph, &equations, &symbols) {
             let nodes = loops.nodes();
             let solved = assembly.solved(&mut self.graph, &nodes);
             let solved: FxHashMap<NodeId, NodeId> = nodes.into_iter().zip(solved).collect();

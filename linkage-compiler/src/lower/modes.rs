@@ -6,11 +6,12 @@ use super::value::Signed;
 use crate::graph::Number;
 use crate::ids::BlockId;
 use crate::program::{Expression, Pattern, Type};
+use crate::structure::Guide;
 
 impl<'a> Writer<'a, '_> {
     /// All positions of a group, and the unknowns of the one whose number the branch has.
     pub(super) fn modes(&mut self, line: &'a Line) {
-        let Line::Modes { block, targets, constants, factors, unknowns, system } = line else { return };
+        let Line::Modes { block, targets, constants, factors, unknowns, guides, system } = line else { return };
         let common = || [self.error_name(), self.group(*block)].into_iter();
         let loops = [
             ("constants", constants.iter().map(|part| self.complex(part)).collect()),
@@ -18,12 +19,14 @@ impl<'a> Writer<'a, '_> {
         ];
         let loops = loops.map(|(field, values)| (field.to_owned(), Expression::List(values)));
         let loops = Expression::structure(Type::Runtime("Loops", Vec::new()), loops);
-        let (find, take) = (common().chain([loops, of_directions(unknowns)]), common());
+        let are = guides.iter().any(Option::is_some).then(|| list(guides.iter().map(|guide| self.unknown(guide))));
+        let method = if are.is_some() { "modes_with_lengths" } else { "modes" };
+        let (find, take) = (common().chain([loops]).chain(are).chain([of_directions(unknowns)]), common());
         let mode = Expression::name(self.branch).field(self.derivation.blocks[*block].branch(self.derivation));
         let (find, take): (Vec<_>, Vec<_>) = (find.collect(), take.chain([mode]).collect());
         let evaluation = self.evaluation(targets, system);
         let memory = self.kept(*block);
-        let all = memory.method("modes", find.into_iter().chain([evaluation])).tried();
+        let all = memory.method(method, find.into_iter().chain([evaluation])).tried();
         let name = self.names.taken.unique("modes");
         self.let_pattern(Pattern::Name(name.clone()), all);
         let taken = Expression::name(name).method("take", take).tried();
@@ -42,6 +45,16 @@ impl<'a> Writer<'a, '_> {
             1 => memory,
             _ => memory.field(blocks.take_while(|other| *other != block).count().to_string()),
         }
+    }
+
+    /// An unknown as a value of the runtime: an angle, or a length along a guide.
+    fn unknown(&self, guide: &Option<Guide<Signed>>) -> Expression {
+        let Some(Guide { in_loop, along, with }) = guide else { return Expression::Constant("Unknown::Angle") };
+        let with =
+            with.map_or(Expression::Constant("None"), |place| Expression::runtime("Some", [Expression::Count(place)]));
+        let fields = [("in_loop", Expression::Count(*in_loop)), ("along", self.complex(along)), ("with", with)];
+        let fields = fields.map(|(field, value)| (field.to_owned(), value));
+        Expression::structure(Type::Runtime("Unknown::Length", Vec::new()), fields)
     }
 
     fn complex(&self, parts: &[Signed; 2]) -> Expression {

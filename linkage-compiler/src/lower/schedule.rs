@@ -4,6 +4,7 @@ use super::value::{Signed, Value, ValueId};
 use crate::derivation::ChordGeometry;
 use crate::graph::{ExternalId, Function, SymbolId};
 use crate::ids::BlockId;
+use crate::structure::Guide;
 
 /// One line of straight-line code.
 #[derive(Debug, Clone)]
@@ -78,6 +79,8 @@ pub enum Line {
         factors: Vec<Vec<[Signed; 2]>>,
         /// The factor of each direction in each unknown.
         unknowns: Vec<Vec<i64>>,
+        /// The guide of each unknown that is a length.
+        guides: Vec<Option<Guide<Signed>>>,
         /// One evaluation of the block.
         system: Box<Schedule>,
     },

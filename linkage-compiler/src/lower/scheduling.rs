@@ -92,6 +92,11 @@ pub fn schedule(
                     constants: loops.constants.iter().map(part).collect(),
                     factors: loops.factors.iter().map(|factors| factors.iter().map(part).collect()).collect(),
                     unknowns: loops.unknowns.clone(),
+                    guides: loops
+                        .guides
+                        .iter()
+                        .map(|guide| guide.map(|guide| guide.map(|node| translated[&node])))
+                        .collect(),
                     system: Box::new(schedule(graph, &[], system, given, &[], false)),
                 }
             }

@@ -5,7 +5,7 @@
 //! solutions are those of the rows as written: `loop a@phi + b@psi = (x, y); loop (x, y) = d@0 + c@chi;` becomes a dyad
 //! of psi and chi.
 //!
-//! Only blocks without a closed form are changed, and those of two unknowns only if they get one. An unknown that is an
+//! Only blocks without a closed form are changed, loops only into parts of which all positions can be listed, and those of two unknowns only if they get one. An unknown that is an
 //! angle comes last, and only if it is an integer combination of the other angles of its row, so that no half angle
 //! results. Among equals the row with the fewest unknowns is taken: H. M. Markowitz, "The elimination form of the inverse
 //! and its application to linear programming", Management Science 3, 1957.
@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use super::{Block, Class, StructurallySingular, find_slides, order};
+use super::{Block, Class, Group, StructurallySingular, find_slides, order};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
 
@@ -54,9 +54,17 @@ impl System {
         for block in &blocks {
             reduction.split(block.clone());
         }
+        let mut incidence = incidence(reduction.graph, &reduction.rows, unknowns);
+        let mut blocks = if reduction.eliminations.is_empty() { blocks } else { order(&incidence, unknowns.len())? };
+        let joined = reduction.sliders_on_axes(&blocks, loops);
         let Reduction { graph, rows, eliminations, .. } = reduction;
-        let incidence = incidence(graph, &rows, unknowns);
-        let mut blocks = if eliminations.is_empty() { blocks } else { order(&incidence, unknowns.len())? };
+        if !joined.is_empty() {
+            incidence = self::incidence(graph, &rows, unknowns);
+            for (row, unknown) in joined {
+                incidence[row].push(unknown);
+            }
+            blocks = order(&incidence, unknowns.len())?;
+        }
         find_slides(&mut blocks, &incidence, loops, graph, &rows, unknowns);
         Ok(Self { rows, blocks, eliminations })
     }
@@ -101,31 +109,118 @@ impl Reduction<'_> {
     fn split(&mut self, block: Block) {
         let mut open = vec![block];
         while let Some(block) = open.pop() {
-            if self.is_closed(&block) || self.graph.budget().is_spent() {
+            match self.group(&block) {
+                group if group.is_closed() || self.graph.budget().is_spent() => {}
+                group if group.most_modes().is_some() => self.split_loops(&block),
+                _ => open.extend(self.parts_after_elimination(&block)),
+            }
+        }
+    }
+
+    /// Splits a block of which all positions can be listed, such as loops with a slider along an axis, if that is so of
+    /// all its parts. Such a block is small.
+    fn split_loops(&mut self, block: &Block) {
+        let (rows, eliminations) = (self.rows.clone(), self.eliminations.len());
+        if !self.ends(block) {
+            self.rows = rows;
+            self.eliminations.truncate(eliminations);
+        }
+    }
+
+    /// Eliminates unknowns, and returns true if all positions of each part can be listed.
+    fn ends(&mut self, block: &Block) -> bool {
+        let parts = self.parts_after_elimination(block);
+        let is_listed = |reduction: &mut Self, part: &Block| match reduction.group(part) {
+            group if group.is_closed() => true,
+            group if group.most_modes().is_some() => {
+                reduction.split_loops(part);
+                true
+            }
+            _ => reduction.ends(part),
+        };
+        !parts.is_empty() && parts.iter().all(|part| is_listed(self, part))
+    }
+
+    /// The blocks into which a block falls after the elimination of one unknown; none if nothing is gained.
+    fn parts_after_elimination(&mut self, block: &Block) -> Vec<Block> {
+        let Some(pivot) = self.pivot(block) else { return Vec::new() };
+        let rest = Block {
+            equations: block.equations.iter().copied().filter(|&row| row != pivot.row).collect(),
+            unknowns: block.unknowns.iter().copied().filter(|&unknown| unknown != pivot.unknown).collect(),
+            slide: None,
+        };
+        let before = self.rows.at(&rest.equations);
+        let elimination = self.eliminate(&pivot, &rest.equations);
+        let parts = self.parts(&rest).unwrap_or_default();
+        // Rows that depend on one another stay as written, and so do two rows that gain nothing.
+        let is_better = match parts.as_slice() {
+            [] => false,
+            [only] if only.unknowns.len() == 1 => self.is_closed(only),
+            _ => true,
+        };
+        if is_better {
+            self.eliminations.push(elimination);
+            return parts;
+        }
+        for (&row, node) in rest.equations.iter().zip(before) {
+            self.rows[row] = node;
+        }
+        Vec::new()
+    }
+
+    /// Lengths that only one of the two rows of a loop has, along an axis, if all positions of the group can be listed
+    /// when they are solved with it: the other rows, each with its length.
+    fn sliders_on_axes(&mut self, blocks: &Table<BlockId, Block>, loops: &[[RowId; 2]]) -> Vec<(RowId, UnknownId)> {
+        let other = |row: RowId| {
+            loops.iter().find_map(|&[x, y]| match row {
+                _ if row == x => Some(y),
+                _ if row == y => Some(x),
+                _ => None,
+            })
+        };
+        let single: FxHashMap<RowId, UnknownId> = blocks
+            .iter()
+            .filter_map(|block| match (block.equations.as_slice(), block.unknowns.as_slice()) {
+                (&[row], &[unknown]) => Some((row, unknown)),
+                _ => None,
+            })
+            .collect();
+        let mut joined = Vec::new();
+        for block in blocks.iter().filter(|block| block.unknowns.len() > 1) {
+            let axes: Vec<(RowId, RowId, UnknownId)> = block
+                .equations
+                .iter()
+                .filter_map(|&row| other(row).and_then(|other| Some((row, other, *single.get(&other)?))))
+                .collect();
+            if axes.is_empty() || self.group(block).obstacle().is_none() {
                 continue;
             }
-            let Some(pivot) = self.pivot(&block) else { continue };
-            let rest = Block {
-                equations: block.equations.iter().copied().filter(|&row| row != pivot.row).collect(),
-                unknowns: block.unknowns.iter().copied().filter(|&unknown| unknown != pivot.unknown).collect(),
-                slide: None,
-            };
-            let before = self.rows.at(&rest.equations);
-            let elimination = self.eliminate(&pivot, &rest.equations);
-            let parts = self.parts(&rest).unwrap_or_default();
-            // Rows that depend on one another stay as written, and so do two rows that gain nothing.
-            let is_better = match parts.as_slice() {
-                [] => false,
-                [only] if only.unknowns.len() == 1 => self.is_closed(only),
-                _ => true,
-            };
-            if is_better {
-                open.extend(parts);
-                self.eliminations.push(elimination);
+            let mut whole = block.clone();
+            whole.equations.extend(axes.iter().map(|(_, other, _)| *other));
+            whole.unknowns.extend(axes.iter().map(|(.., unknown)| *unknown));
+            whole.equations.sort_unstable();
+            whole.unknowns.sort_unstable();
+            let before = (self.rows.clone(), self.eliminations.clone());
+            axes.iter().for_each(|&(_, other, _)| self.follow(other));
+            if self.group(&whole).most_modes().is_some() {
+                joined.extend(axes.into_iter().map(|(row, _, unknown)| (row, unknown)));
             } else {
-                for (&row, node) in rest.equations.iter().zip(before) {
-                    self.rows[row] = node;
-                }
+                (self.rows, self.eliminations) = before;
+            }
+        }
+        joined
+    }
+
+    /// Puts the values of the eliminated unknowns into a row of another block.
+    fn follow(&mut self, row: RowId) {
+        for place in 0..self.eliminations.len() {
+            let Elimination { unknown, pivot, .. } = self.eliminations[place];
+            let symbol = self.unknowns[unknown];
+            if pivot != row
+                && let Some(factor) = self.factor(self.rows[pivot], symbol)
+            {
+                let more = self.eliminate(&Pivot { row: pivot, unknown, factor }, &[row]).multiples;
+                self.eliminations[place].multiples.extend(more);
             }
         }
     }
@@ -134,9 +229,13 @@ impl Reduction<'_> {
         self.unknowns.at(&block.unknowns)
     }
 
-    fn is_closed(&mut self, block: &Block) -> bool {
+    fn group(&mut self, block: &Block) -> Group {
         let symbols = self.symbols(block);
-        Class::of(self.graph, &self.rows.at(&block.equations), &symbols).group.is_closed()
+        Class::of(self.graph, &self.rows.at(&block.equations), &symbols).group
+    }
+
+    fn is_closed(&mut self, block: &Block) -> bool {
+        self.group(block).is_closed()
     }
 
     fn pivot(&mut self, block: &Block) -> Option<Pivot> {
@@ -214,7 +313,6 @@ impl Reduction<'_> {
 mod tests {
     use super::*;
     use crate::graph::Function;
-    use crate::structure::Group;
 
     /// A graph with symbols by name, and the vector r@(angle).
     struct Plane {

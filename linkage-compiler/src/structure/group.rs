@@ -13,7 +13,7 @@
 use rustc_hash::FxHashMap;
 
 use super::distance::Distance;
-use super::loops::{Loops, MOST_LOOPS};
+use super::loops::{Loops, Obstacle};
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 
 /// The kind of a block.
@@ -41,10 +41,10 @@ pub enum Group {
     Scalar,
     /// Two unknowns in any other way.
     Pair,
-    /// The angles of the links of two or three loops: see [`Loops`].
+    /// The angles and lengths of the links of two or three loops: see [`Loops`].
     Loops(usize),
     /// More than two unknowns that depend on one another in any other way.
-    Irreducible(usize),
+    Irreducible(usize, Obstacle),
 }
 
 impl Group {
@@ -65,7 +65,7 @@ impl Group {
             Self::Pair => "two unknowns".to_owned(),
             Self::Loops(2) => "two loops of links: up to 6 positions".to_owned(),
             Self::Loops(_) => "three loops of links: up to 20 positions".to_owned(),
-            Self::Irreducible(count) => format!("irreducible group of {count} unknowns"),
+            Self::Irreducible(count, _) => format!("irreducible group of {count} unknowns"),
         }
     }
 
@@ -75,12 +75,9 @@ impl Group {
         match self {
             Self::Scalar => Some("its equation is neither linear nor a cos + b sin = c nor a distance".to_owned()),
             Self::Pair => Some("its two equations are not those of a dyad".to_owned()),
-            Self::Irreducible(count) if count > 2 * MOST_LOOPS => {
-                Some(format!("its {count} unknowns depend on one another, and it has more than three loops"))
+            Self::Irreducible(count, obstacle) => {
+                Some(format!("its {count} unknowns depend on one another, and {}", obstacle.text()))
             }
-            Self::Irreducible(count) => Some(format!(
-                "its {count} unknowns depend on one another, and they are not the angles of links in two or three loops"
-            )),
             _ => None,
         }
     }
@@ -88,7 +85,7 @@ impl Group {
     /// True if its position has a closed form.
     #[must_use]
     pub fn is_closed(self) -> bool {
-        !matches!(self, Self::Loops(_) | Self::Scalar | Self::Pair | Self::Irreducible(_))
+        !matches!(self, Self::Loops(_) | Self::Scalar | Self::Pair | Self::Irreducible(..))
     }
 
     /// The most positions at given inputs, of a group of which all are listed by number.
@@ -116,8 +113,8 @@ impl Class {
             (&[row], &[unknown]) => Self::of_one(graph, row, unknown),
             (&[x, y], &[a, b]) => Self::of_pair(graph, [x, y], a, b),
             _ => Self::plain(match Loops::of(graph, rows, unknowns) {
-                Some(loops) => Group::Loops(loops.constants.len()),
-                None => Group::Irreducible(unknowns.len()),
+                Ok(loops) => Group::Loops(loops.constants.len()),
+                Err(obstacle) => Group::Irreducible(unknowns.len(), obstacle),
             }),
         }
     }

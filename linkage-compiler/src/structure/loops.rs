@@ -1,72 +1,129 @@
 //! Blocks whose equations are loops of links: k_i + sum_j c_ij e^(i psi_j) = 0, where each direction psi_j is an integer
-//! combination of the unknown angles.
+//! combination of the unknown angles, and loops of which some have an unknown length s along a guide: s d, or s d
+//! e^(i psi) with one psi for all guides that turn.
 //!
 //! Two rows r and t are those of one loop, r + i t, if each direction turns them in one sense: with
 //! r = sum (p cos psi + q sin psi) + k, the row t has -q cos psi + p sin psi or the negative. That is also so if the rows
 //! come from an elimination, in either order and with either sign: r + i t is then the loop times 1, -1, i or -i, or its
-//! conjugate.
+//! conjugate. A length in several loops is left in one: L_i - (d_i / d_1) L_1 is free of it.
 
-use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use rustc_hash::FxHashSet;
-
-use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
+use super::waves::{Direction, Row, Waves};
+use crate::graph::{Graph, NodeId, Number, SymbolId};
 
 /// The most loops of a group of which all positions can be listed.
 pub const MOST_LOOPS: usize = 3;
 
-/// The largest factor of an unknown in a direction.
-const LARGEST_FACTOR: i64 = 4;
+/// The reason why the positions of a group cannot be listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Obstacle {
+    MoreLoops,
+    TwoGuides,
+    LengthsInOneLoop,
+    ProductOfLengths,
+    UserFunction,
+    NotLoops,
+}
 
-/// The most terms of a row, with its sums multiplied out.
-const MOST_TERMS: usize = 1000;
+impl Obstacle {
+    #[must_use]
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::MoreLoops => "it has more than three loops",
+            Self::TwoGuides => "it has two sliders on two unknown directions",
+            Self::LengthsInOneLoop => "one of its loops has two unknown lengths",
+            Self::ProductOfLengths => "two of them, or the square of one, are multiplied",
+            Self::UserFunction => "a function of the program takes one of them",
+            Self::NotLoops => "they are not the angles and lengths of links in two or three loops",
+        }
+    }
+}
 
-/// The loops of a block, with as many directions as unknowns.
+/// The loops of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Loops {
-    /// The factor of each unknown in each direction.
+    /// The factor of each unknown in each column: a direction in the place of each angle, a length in its own place.
     pub directions: Vec<Vec<i64>>,
-    /// The factor of each direction in each unknown: the inverse.
+    /// The factor of each column in each unknown: the inverse.
     pub unknowns: Vec<Vec<i64>>,
     /// k_i as real and imaginary part, by loop.
     pub constants: Vec<[NodeId; 2]>,
-    /// c_ij, by loop and direction.
+    /// c_ij, by loop and column; zero for lengths.
     pub factors: Vec<Vec<[NodeId; 2]>>,
+    /// The guide of each unknown that is a length.
+    pub guides: Vec<Option<Guide<NodeId>>>,
 }
 
-impl Loops {
-    /// The loops of two or three pairs of rows; `None` if the rows have another form.
-    pub fn of(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Option<Self> {
-        let is_size = |loops: usize| (2..=MOST_LOOPS).contains(&loops);
-        if rows.len() != unknowns.len() || rows.len() % 2 != 0 || !is_size(rows.len() / 2) {
-            return None;
-        }
-        let waves: Option<Vec<Waves>> = rows.iter().map(|&row| Waves::of(graph, row, unknowns)).collect();
-        let pairs = paired(graph, waves?)?;
-        let senses = senses(&pairs)?;
-        let directions: Vec<Vec<i64>> =
-            senses.iter().map(|(of, sense)| of.0.iter().map(|factor| factor * sense).collect()).collect();
-        if directions.len() != unknowns.len() {
-            return None;
-        }
-        let inverse = inverse(&directions)?;
-        let zero = graph.zero();
-        let factors = pairs.iter().map(|pair| {
-            let factor = |of: &Direction| pair.waves.get(of).map_or([zero; 2], |(factor, _)| *factor);
-            senses.keys().map(factor).collect()
-        });
-        let factors = factors.collect();
-        let constants = pairs.iter().map(|pair| pair.constant).collect();
-        Some(Self { directions, unknowns: inverse, constants, factors })
+/// The guide of an unknown length s.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Guide<V> {
+    /// The loop in which the length is.
+    pub in_loop: usize,
+    /// d of s d or s d e^(i psi), as real and imaginary part.
+    pub along: [V; 2],
+    /// The column of psi.
+    pub with: Option<usize>,
+}
+
+impl<V> Guide<V> {
+    pub fn map<W>(self, f: impl FnMut(V) -> W) -> Guide<W> {
+        Guide { in_loop: self.in_loop, along: self.along.map(f), with: self.with }
     }
 }
 
 impl Loops {
-    /// k_i and c_ij, by loop.
+    /// The loops of two or three pairs of rows.
+    ///
+    /// # Errors
+    /// The reason why the rows have another form.
+    pub fn of(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Result<Self, Obstacle> {
+        let size = rows.len() / 2;
+        if unknowns.len() > 2 * MOST_LOOPS {
+            return Err(Obstacle::MoreLoops);
+        }
+        let rows: Vec<Row> = rows.iter().map(|&row| Row::of(graph, row, unknowns)).collect::<Result<_, _>>()?;
+        if rows.len() != unknowns.len() || !rows.len().is_multiple_of(2) || size < 2 {
+            return Err(Obstacle::NotLoops);
+        }
+        let mut pairs = paired(graph, rows).ok_or(Obstacle::NotLoops)?;
+        let senses = senses(&pairs).ok_or(Obstacle::NotLoops)?;
+        let lengths: BTreeSet<usize> = pairs.iter().flat_map(|pair| pair.lengths.keys().copied()).collect();
+        let matrix = columns(&senses, &lengths, unknowns.len()).ok_or(Obstacle::NotLoops)?;
+        let inverse = inverse(&matrix).ok_or(Obstacle::NotLoops)?;
+        let mut guides = vec![None; unknowns.len()];
+        let angles: Vec<usize> = (0..unknowns.len()).filter(|place| !lengths.contains(place)).collect();
+        for &length in &lengths {
+            let (in_loop, guide) = keep_in_one(graph, &mut pairs, length)?;
+            let with = guide.with.map(|of| senses.keys().take_while(|other| **other != of).count());
+            let with = with.and_then(|place| angles.get(place).copied());
+            guides[length] = Some(Guide { in_loop, along: guide.along, with });
+        }
+        if pairs.iter().any(|pair| pair.lengths.len() > 1) {
+            return Err(Obstacle::LengthsInOneLoop);
+        }
+        let turning: BTreeSet<usize> = guides.iter().flatten().filter_map(|guide| guide.with).collect();
+        if turning.len() > 1 {
+            return Err(Obstacle::TwoGuides);
+        }
+        let zero = graph.zero();
+        let factors = pairs.iter().map(|pair| {
+            let mut factors = vec![[zero; 2]; unknowns.len()];
+            for (&place, of) in angles.iter().zip(senses.keys()) {
+                factors[place] = pair.waves.get(of).map_or([zero; 2], |(factor, _)| *factor);
+            }
+            factors
+        });
+        let factors = factors.collect();
+        let constants = pairs.iter().map(|pair| pair.constant).collect();
+        Ok(Self { directions: matrix, unknowns: inverse, constants, factors, guides })
+    }
+
+    /// k_i, c_ij and d, by loop.
     #[must_use]
     pub fn nodes(&self) -> Vec<NodeId> {
-        self.constants.iter().chain(self.factors.iter().flatten()).flatten().copied().collect()
+        let guides = self.guides.iter().flatten().map(|guide| &guide.along);
+        self.constants.iter().chain(self.factors.iter().flatten()).chain(guides).flatten().copied().collect()
     }
 
     /// These loops with other expressions.
@@ -74,112 +131,35 @@ impl Loops {
     pub fn map(self, f: impl Fn(NodeId) -> NodeId) -> Self {
         let constants = self.constants.into_iter().map(|part| part.map(&f)).collect();
         let of_loop = |factors: Vec<[NodeId; 2]>| factors.into_iter().map(|part| part.map(&f)).collect();
-        Self { constants, factors: self.factors.into_iter().map(of_loop).collect(), ..self }
+        let guides = self.guides.into_iter().map(|guide| guide.map(|guide| guide.map(&f))).collect();
+        Self { constants, factors: self.factors.into_iter().map(of_loop).collect(), guides, ..self }
     }
 }
 
-/// The factors of the unknowns, of which the first that is not zero is positive. Plain angles are in the order of the
-/// unknowns.
-type Direction = Reverse<Vec<i64>>;
-
-/// A row as k + sum (p cos psi + q sin psi).
-struct Waves {
-    constant: NodeId,
-    /// p and q, by direction.
-    parts: BTreeMap<Direction, [NodeId; 2]>,
-}
-
-impl Waves {
-    fn of(graph: &mut Graph, row: NodeId, unknowns: &[SymbolId]) -> Option<Self> {
-        let mut holding: FxHashSet<NodeId> = FxHashSet::default();
-        for id in graph.reachable(&[row]) {
-            let itself = graph.as_symbol(id).is_some_and(|symbol| unknowns.contains(&symbol));
-            if itself || graph.children(id).iter().any(|child| holding.contains(child)) {
-                holding.insert(id);
-            }
-        }
-        let (mut constant, mut parts) = (Vec::new(), BTreeMap::<Direction, [Vec<NodeId>; 2]>::new());
-        let mut open = vec![(row, graph.one())];
-        let mut count = 0;
-        while let Some((node, factor)) = open.pop() {
-            count += 1;
-            if count > MOST_TERMS || !graph.budget().spend(1) {
-                return None;
-            }
-            if !holding.contains(&node) {
-                constant.push(graph.multiply(factor, node));
-                continue;
-            }
-            match graph.node(node).clone() {
-                Node::Sum { .. } => {
-                    for (times, term) in graph.terms(node) {
-                        open.push((term, graph.scale(times, factor)));
-                    }
-                }
-                Node::Product { coefficient, factors } => {
-                    let (with, mut still): (Vec<_>, Vec<_>) =
-                        factors.into_iter().partition(|(base, _)| holding.contains(base));
-                    let &[(base, 1)] = with.as_slice() else { return None };
-                    still.extend([(graph.number(coefficient), 1), (factor, 1)]);
-                    open.push((base, graph.product(&still)));
-                }
-                Node::Call(function @ (Function::Cos | Function::Sin), angle) => {
-                    let (direction, offset) = direction(graph, angle[0], unknowns)?;
-                    let waves = shifted(graph, function, direction.1, offset);
-                    let of = parts.entry(direction.0).or_default();
-                    for (part, wave) in of.iter_mut().zip(waves) {
-                        part.push(graph.multiply(factor, wave));
-                    }
-                }
-                _ => return None,
-            }
-        }
-        let constant = total(graph, constant);
-        let parts = parts.into_iter().map(|(of, parts)| (of, parts.map(|part| total(graph, part))));
-        let parts: Vec<(Direction, [NodeId; 2])> = parts.collect();
-        let parts = parts.into_iter().filter(|(_, parts)| !parts.iter().all(|&part| graph.is_zero(part))).collect();
-        Some(Self { constant, parts })
+/// The directions in the places of the angles, and the lengths; `None` if there are not as many directions as angles.
+fn columns(senses: &BTreeMap<Direction, i64>, lengths: &BTreeSet<usize>, unknowns: usize) -> Option<Vec<Vec<i64>>> {
+    // An unknown in a direction is no length.
+    if senses.keys().any(|of| lengths.iter().any(|&length| of.0[length] != 0)) {
+        return None;
     }
-}
-
-fn total(graph: &mut Graph, nodes: Vec<NodeId>) -> NodeId {
-    let terms: Vec<(Number, NodeId)> = nodes.into_iter().map(|node| (Number::ONE, node)).collect();
-    graph.sum(&terms)
-}
-
-/// An angle as sense * direction + offset.
-fn direction(graph: &mut Graph, angle: NodeId, unknowns: &[SymbolId]) -> Option<((Direction, i64), NodeId)> {
-    let (mut factors, mut offset) = (vec![0; unknowns.len()], Vec::new());
-    for (times, term) in graph.terms(angle) {
-        let (times, symbol) = match graph.node(term) {
-            Node::Product { coefficient, factors } if matches!(factors.as_slice(), [(_, 1)]) => {
-                (times.multiply(*coefficient), factors[0].0)
-            }
-            _ => (times, term),
-        };
-        let symbol = graph.as_symbol(symbol);
-        match unknowns.iter().position(|&unknown| Some(unknown) == symbol) {
-            Some(place) => {
-                factors[place] += times.as_integer().filter(|times| times.abs() <= LARGEST_FACTOR)?;
-            }
-            None if graph.symbols_of(&[term]).iter().any(|symbol| unknowns.contains(symbol)) => return None,
-            None => offset.push((times, term)),
+    let mut directions = senses.iter();
+    let mut matrix = Vec::new();
+    for place in 0..unknowns {
+        if lengths.contains(&place) {
+            matrix.push((0..unknowns).map(|other| i64::from(other == place)).collect());
+        } else {
+            let (of, sense) = directions.next()?;
+            matrix.push(of.0.iter().map(|factor| factor * sense).collect());
         }
     }
-    let first = factors.iter().find(|factor| **factor != 0)?;
-    let sense = first.signum();
-    factors.iter_mut().for_each(|factor| *factor *= sense);
-    Some(((Reverse(factors), sense), graph.sum(&offset)))
+    directions.next().is_none().then_some(matrix)
 }
 
-/// p and q of cos or sin of sense * psi + offset.
-fn shifted(graph: &mut Graph, function: Function, sense: i64, offset: NodeId) -> [NodeId; 2] {
-    let [cosine, sine] = [Function::Cos, Function::Sin].map(|function| graph.call(function, &[offset]));
-    let (of_cosine, of_sine) = match function {
-        Function::Cos => (cosine, graph.negate(sine)),
-        _ => (sine, cosine),
-    };
-    [of_cosine, graph.scale(Number::integer(sense), of_sine)]
+/// A length of a loop: d, and the direction with which its guide turns.
+#[derive(Debug, Clone)]
+struct Slide {
+    along: [NodeId; 2],
+    with: Option<Direction>,
 }
 
 /// One loop r + i t, or its conjugate.
@@ -187,41 +167,138 @@ struct Pair {
     constant: [NodeId; 2],
     /// c and the sense in which the direction turns.
     waves: BTreeMap<Direction, ([NodeId; 2], i64)>,
+    lengths: BTreeMap<usize, Vec<Slide>>,
+    /// The sense of the directions of the guides.
+    guides: BTreeMap<Direction, i64>,
 }
 
 impl Pair {
     /// The loop of two rows.
-    fn of(graph: &mut Graph, r: &Waves, t: &Waves) -> Option<Self> {
-        if r.parts.is_empty() || !r.parts.keys().eq(t.parts.keys()) {
-            return None;
+    fn of(graph: &mut Graph, r: &Row, t: &Row) -> Option<Self> {
+        let waves = turned(graph, &r.free, &t.free)?;
+        let (mut lengths, mut guides) = (BTreeMap::new(), BTreeMap::new());
+        let zero = Waves { constant: graph.zero(), parts: BTreeMap::new() };
+        let places: BTreeSet<usize> = r.lengths.keys().chain(t.lengths.keys()).copied().collect();
+        for place in places {
+            let [of_r, of_t] = [r, t].map(|row| row.lengths.get(&place).unwrap_or(&zero));
+            let mut slides = Vec::new();
+            let constant = [of_r.constant, of_t.constant];
+            if !constant.iter().all(|&part| graph.is_zero(part)) {
+                slides.push(Slide { along: constant, with: None });
+            }
+            for (direction, (along, sense)) in turned(graph, of_r, of_t)? {
+                if guides.insert(direction.clone(), sense).is_some_and(|other| other != sense) {
+                    return None;
+                }
+                slides.push(Slide { along, with: Some(direction) });
+            }
+            lengths.insert(place, slides);
         }
-        let mut waves = BTreeMap::new();
-        for (direction, &[p, q]) in &r.parts {
-            let turned = [graph.negate(q), p];
-            let back = [q, graph.negate(p)];
-            let sense = match t.parts[direction] {
-                other if other == turned => 1,
-                other if other == back => -1,
-                _ => return None,
-            };
-            // p cos psi + q sin psi is the real part of (p - i sense q) e^(i sense psi).
-            let imaginary = graph.scale(Number::integer(-sense), q);
-            waves.insert(direction.clone(), ([p, imaginary], sense));
-        }
-        Some(Self { constant: [r.constant, t.constant], waves })
+        let is_turning = !(waves.is_empty() && guides.is_empty());
+        is_turning.then_some(Self { constant: [r.free.constant, t.free.constant], waves, lengths, guides })
+    }
+
+    /// The senses of all directions.
+    fn senses(&self) -> impl Iterator<Item = (&Direction, i64)> {
+        let of_waves = self.waves.iter().map(|(direction, (_, sense))| (direction, *sense));
+        of_waves.chain(self.guides.iter().map(|(direction, sense)| (direction, *sense)))
     }
 
     fn conjugate(&mut self, graph: &mut Graph) {
-        self.constant[1] = graph.negate(self.constant[1]);
-        for ([_, imaginary], sense) in self.waves.values_mut() {
+        let of_waves = self.waves.values_mut().map(|(factor, _)| factor);
+        let of_lengths = self.lengths.values_mut().flatten().map(|slide| &mut slide.along);
+        for [_, imaginary] in std::iter::once(&mut self.constant).chain(of_waves).chain(of_lengths) {
             *imaginary = graph.negate(*imaginary);
-            *sense = -*sense;
+        }
+        let senses = self.waves.values_mut().map(|(_, sense)| sense);
+        senses.chain(self.guides.values_mut()).for_each(|sense| *sense = -*sense);
+    }
+
+    /// Subtracts m times another loop, in which a length has the factor d and in this one m d.
+    fn reduce(&mut self, graph: &mut Graph, times: [NodeId; 2], other: &Self) {
+        self.constant = less(graph, self.constant, times, other.constant);
+        let zero = [graph.zero(); 2];
+        for (direction, (factor, sense)) in &other.waves {
+            let (mine, _) = self.waves.entry(direction.clone()).or_insert((zero, *sense));
+            *mine = less(graph, *mine, times, *factor);
         }
     }
 }
 
+/// c and the sense of each direction of r + i t.
+fn turned(graph: &mut Graph, r: &Waves, t: &Waves) -> Option<BTreeMap<Direction, ([NodeId; 2], i64)>> {
+    if !r.parts.keys().eq(t.parts.keys()) {
+        return None;
+    }
+    let mut waves = BTreeMap::new();
+    for (direction, &[p, q]) in &r.parts {
+        let turned = [graph.negate(q), p];
+        let back = [q, graph.negate(p)];
+        let sense = match t.parts[direction] {
+            other if other == turned => 1,
+            other if other == back => -1,
+            _ => return None,
+        };
+        // p cos psi + q sin psi is the real part of (p - i sense q) e^(i sense psi).
+        let imaginary = graph.scale(Number::integer(-sense), q);
+        waves.insert(direction.clone(), ([p, imaginary], sense));
+    }
+    Some(waves)
+}
+
+/// a - m b.
+fn less(graph: &mut Graph, a: [NodeId; 2], m: [NodeId; 2], b: [NodeId; 2]) -> [NodeId; 2] {
+    let product = times(graph, m, b);
+    [graph.subtract(a[0], product[0]), graph.subtract(a[1], product[1])]
+}
+
+fn times(graph: &mut Graph, [a, b]: [NodeId; 2], [c, d]: [NodeId; 2]) -> [NodeId; 2] {
+    let [ac, bd, ad, bc] = [(a, c), (b, d), (a, d), (b, c)].map(|(one, other)| graph.multiply(one, other));
+    [graph.subtract(ac, bd), graph.add(ad, bc)]
+}
+
+/// a / b: 1 or -1 if the numbers are equal but for the sign.
+fn ratio(graph: &mut Graph, a: [NodeId; 2], b: [NodeId; 2]) -> [NodeId; 2] {
+    for sign in [Number::ONE, Number::MINUS_ONE] {
+        if b.map(|part| graph.scale(sign, part)) == a {
+            return [graph.number(sign), graph.zero()];
+        }
+    }
+    let back = [b[0], graph.negate(b[1])];
+    let squares = b.map(|part| graph.power(part, 2));
+    let size = graph.add(squares[0], squares[1]);
+    times(graph, a, back).map(|part| graph.divide(part, size))
+}
+
+/// Eliminates a length from all loops but one, and returns that one: of the loops with the length, the one with the
+/// fewest lengths.
+fn keep_in_one(graph: &mut Graph, pairs: &mut [Pair], length: usize) -> Result<(usize, Slide), Obstacle> {
+    let with = (0..pairs.len()).filter(|&place| pairs[place].lengths.contains_key(&length));
+    let kept = with.min_by_key(|&place| pairs[place].lengths.len()).ok_or(Obstacle::NotLoops)?;
+    let slide = |pair: &Pair| match pair.lengths.get(&length).map(Vec::as_slice) {
+        Some([slide]) => Ok(slide.clone()),
+        _ => Err(Obstacle::TwoGuides),
+    };
+    if pairs[kept].lengths.len() > 1 {
+        return Err(Obstacle::LengthsInOneLoop);
+    }
+    let guide = slide(&pairs[kept])?;
+    let (before, rest) = pairs.split_at_mut(kept);
+    let Some((pivot, after)) = rest.split_first_mut() else { return Err(Obstacle::NotLoops) };
+    for pair in before.iter_mut().chain(after).filter(|pair| pair.lengths.contains_key(&length)) {
+        let other = slide(pair)?;
+        if other.with != guide.with {
+            return Err(Obstacle::TwoGuides);
+        }
+        let times = ratio(graph, other.along, guide.along);
+        pair.reduce(graph, times, pivot);
+        pair.lengths.remove(&length);
+    }
+    Ok((kept, guide))
+}
+
 /// The loops of all rows, such that each direction turns in one sense.
-fn paired(graph: &mut Graph, mut rows: Vec<Waves>) -> Option<Vec<Pair>> {
+fn paired(graph: &mut Graph, mut rows: Vec<Row>) -> Option<Vec<Pair>> {
     let mut pairs: Vec<Pair> = Vec::new();
     while !rows.is_empty() {
         let first = rows.remove(0);
@@ -232,23 +309,20 @@ fn paired(graph: &mut Graph, mut rows: Vec<Waves>) -> Option<Vec<Pair>> {
     }
     // Most directions turn as they are written.
     for pair in &mut pairs {
-        if pair.waves.values().map(|(_, sense)| sense).sum::<i64>() < 0 {
+        if pair.senses().map(|(_, sense)| sense).sum::<i64>() < 0 {
             pair.conjugate(graph);
         }
     }
     let mut known: BTreeMap<Direction, i64> = BTreeMap::new();
     let mut settled = Vec::new();
     while !pairs.is_empty() {
-        let is_joined = |pair: &Pair| pair.waves.keys().any(|direction| known.contains_key(direction));
+        let is_joined = |pair: &Pair| pair.senses().any(|(direction, _)| known.contains_key(direction));
         let place = pairs.iter().position(is_joined).unwrap_or(0);
         let mut pair = pairs.remove(place);
-        let differs = |(direction, (_, sense)): (&Direction, &([NodeId; 2], i64))| {
-            known.get(direction).is_some_and(|other| other != sense)
-        };
-        if pair.waves.iter().any(differs) {
+        if pair.senses().any(|(direction, sense)| known.get(direction).is_some_and(|other| *other != sense)) {
             pair.conjugate(graph);
         }
-        known.extend(pair.waves.iter().map(|(direction, (_, sense))| (direction.clone(), *sense)));
+        known.extend(pair.senses().map(|(direction, sense)| (direction.clone(), sense)));
         settled.push(pair);
     }
     Some(settled)
@@ -257,8 +331,8 @@ fn paired(graph: &mut Graph, mut rows: Vec<Waves>) -> Option<Vec<Pair>> {
 /// The sense of each direction; `None` if one turns in both.
 fn senses(pairs: &[Pair]) -> Option<BTreeMap<Direction, i64>> {
     let mut senses = BTreeMap::new();
-    for (direction, (_, sense)) in pairs.iter().flat_map(|pair| &pair.waves) {
-        if senses.insert(direction.clone(), *sense).is_some_and(|other| other != *sense) {
+    for (direction, sense) in pairs.iter().flat_map(Pair::senses) {
+        if senses.insert(direction.clone(), sense).is_some_and(|other| other != sense) {
             return None;
         }
     }

@@ -11,11 +11,12 @@ mod group;
 mod loops;
 mod matching;
 mod slide;
+mod waves;
 
 pub use distance::Distance;
 pub use elimination::{Elimination, System, incidence};
 pub use group::{Circles, Class, Group, mirror};
-pub use loops::Loops;
+pub use loops::{Guide, Loops, Obstacle};
 use matching::Matching;
 pub use matching::StructurallySingular;
 pub use slide::{Slide, find_slides};

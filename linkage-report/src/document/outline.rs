@@ -126,7 +126,7 @@ pub(crate) mod words {
         "The derivatives of the constraint equations with respect to the unknowns and the inputs:";
     pub(crate) const LEAD_DETERMINANT: &str = "All blocks together:";
     pub(crate) const LEAD_POSITION: &str = "The position, each formula in terms of those before it:";
-    pub(crate) const LEAD_NEWTON: &str = "The position has no closed form: Newton's method finds it.";
+    pub(crate) const LEAD_NEWTON: &str = "The position has no closed form: Newton's method finds it from a guess, and the list of branches has all positions of loops of links.";
     pub(crate) const LEAD_RATIOS: &str = "Differentiated once, the constraint equations give";
     pub(crate) const LEAD_VELOCITY: &str = "so that";
     pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the constraint equations give";

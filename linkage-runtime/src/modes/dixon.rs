@@ -75,7 +75,7 @@ fn alternating(exponent: u32) -> f64 {
 /// The holomorphic and the antiholomorphic columns of one choice.
 struct Columnwise {
     holomorphic: Minors,
-    /// Of the conjugates of the antiholomorphic columns.
+    /// The determinants of the conjugates of the antiholomorphic columns.
     conjugate: Minors,
     /// The product of the factors of the equations with a length, with the sign of the order of their columns.
     factor: Number,

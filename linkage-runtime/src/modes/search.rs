@@ -25,7 +25,7 @@ const SAME: f64 = 1e-6;
 
 /// The search for all positions of one group.
 pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
-    /// Of the mechanism and of the group.
+    /// The names of the mechanism and of the group.
     pub names: [&'static str; 2],
     pub loops: &'a Loops<T, L, N>,
     pub are: &'a [Unknown<T>; N],

@@ -17,7 +17,7 @@ use super::pose;
 use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::model::{Coordinate, Mechanism, Request};
-use crate::program::{Position, Program, TypeNames};
+use crate::program::{Modes, Position, Program, TypeNames};
 use branch::branch;
 use by_name::{by_name, conversions, coordinates, described, orders};
 use derives::serde_alias;
@@ -169,10 +169,21 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     tokens
 }
 
-/// A doc comment that says which groups have no closed form.
+/// A doc comment that says which groups have no closed form, and where their positions come from.
 fn obstacles(position: &Position, name: &Ident) -> Option<TokenStream> {
-    let obstacles = position.obstacles();
-    let text = format!("\n\n {} [`{name}::assemble_near`] finds its position from a guess.", obstacles.join(" "));
-    let text = comment(&text);
-    (!obstacles.is_empty()).then(|| quote!(#[doc = #text]))
+    let (mut sentences, from_guess) = (position.obstacles(), format!("[`{name}::assemble_near`]"));
+    sentences.extend(position.modes.iter().map(|Modes { unknowns, most, .. }| {
+        let unknowns = unknowns.replace(", ", "`, `");
+        format!("The group of `{unknowns}` has no closed form, but a list of its positions, at most {most}.")
+    }));
+    let from_inputs = match position.has_few_branches() {
+        true => format!("[`{name}::branches`] and [`{name}::assemble`] find"),
+        false => format!("[`{name}::assemble`] finds"),
+    };
+    let way = match position.is_listed() {
+        true => format!("{from_inputs} them without a guess, {from_guess} follows one along a motion."),
+        false => format!("{from_guess} finds its position from a guess."),
+    };
+    let text = comment(&format!("\n\n {} {way}", sentences.join(" ")));
+    (!sentences.is_empty()).then(|| quote!(#[doc = #text]))
 }
