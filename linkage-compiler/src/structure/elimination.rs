@@ -120,6 +120,9 @@ impl Reduction<'_> {
     /// Splits a block of which all positions can be listed, such as loops with a slider along an axis, if that is so of
     /// all its parts. Such a block is small.
     fn split_loops(&mut self, block: &Block) {
+        if self.pivot(block).is_none() {
+            return;
+        }
         let (rows, eliminations) = (self.rows.clone(), self.eliminations.len());
         if !self.ends(block) {
             self.rows = rows;
@@ -171,13 +174,7 @@ impl Reduction<'_> {
     /// Lengths that only one of the two rows of a loop has, along an axis, if all positions of the group can be listed
     /// when they are solved with it: the other rows, each with its length.
     fn sliders_on_axes(&mut self, blocks: &Table<BlockId, Block>, loops: &[[RowId; 2]]) -> Vec<(RowId, UnknownId)> {
-        let other = |row: RowId| {
-            loops.iter().find_map(|&[x, y]| match row {
-                _ if row == x => Some(y),
-                _ if row == y => Some(x),
-                _ => None,
-            })
-        };
+        let other: FxHashMap<RowId, RowId> = loops.iter().flat_map(|&[x, y]| [(x, y), (y, x)]).collect();
         let single: FxHashMap<RowId, UnknownId> = blocks
             .iter()
             .filter_map(|block| match (block.equations.as_slice(), block.unknowns.as_slice()) {
@@ -190,7 +187,7 @@ impl Reduction<'_> {
             let axes: Vec<(RowId, RowId, UnknownId)> = block
                 .equations
                 .iter()
-                .filter_map(|&row| other(row).and_then(|other| Some((row, other, *single.get(&other)?))))
+                .filter_map(|&row| other.get(&row).and_then(|other| Some((row, *other, *single.get(other)?))))
                 .collect();
             if axes.is_empty() || self.group(block).obstacle().is_none() {
                 continue;
