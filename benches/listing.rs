@@ -1,4 +1,4 @@
-//! Microseconds for a position by number, which needs no guess, beside Newton's method from a guess one degree away:
+//! Microseconds for a position by number, which needs no guess, and by Newton's method from a guess one degree away:
 //! medians of alternating rounds.
 //!
 //! `cargo bench --bench listing`

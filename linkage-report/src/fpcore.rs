@@ -26,7 +26,7 @@ use linkage_runtime::derivation::Kernel;
 /// }
 /// let all = Crank::<f64>::DERIVATION.fpcore();
 /// let pin = all.iter().find(|core| core.name() == "Crank::points.pin.x").ok_or("no formula")?;
-/// let expected = r#"(FPCore (r phi)
+/// let expected = r#"(FPCore (phi r)
 ///   :name "Crank::points.pin.x"
 ///   :precision binary64
 ///   (let* ([cos_phi (cos phi)])

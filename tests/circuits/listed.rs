@@ -137,7 +137,7 @@ fn groups_of_two_and_three_loops_by_small_steps() {
 fn positions_of_the_double_butterfly_along_the_turn() {
     let m = DoubleButterfly::default();
     let starts: Vec<f64> = (0..12).map(|step| 0.2 + TAU / 12.0 * f64::from(step)).collect();
-    let found = Circuits::over(&m, &starts, CircuitOptions::default()).unwrap();
+    let found = Circuits::over(&m, starts, CircuitOptions::default()).unwrap();
     let meetings = found.motions.iter().flat_map(|motion| motion.dead_points().collect::<Vec<_>>());
     let mut dead_points: Vec<f64> = meetings.map(|meeting| meeting.point.input.rem_euclid(TAU)).collect();
     dead_points.sort_by(f64::total_cmp);

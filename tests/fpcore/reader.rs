@@ -27,7 +27,7 @@ pub trait Arithmetic: Clone {
     fn is_less(&self, other: &Self) -> bool;
 }
 
-/// What an expression may be.
+/// The value of an expression.
 #[derive(Clone)]
 pub enum Value<T> {
     Number(T),
