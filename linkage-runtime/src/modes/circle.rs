@@ -71,11 +71,11 @@ impl<const TERMS: usize> TrigonometricPolynomial<TERMS> {
     /// within rounding error, or not real.
     pub fn of(degree: usize, value: impl Fn(Number) -> Number) -> Option<Self> {
         let count = 2 * degree + 1;
-        let root = |k: usize| direction(core::f64::consts::TAU * k as f64 / count as f64);
-        let mut values = [Number::default(); TERMS];
-        let values = values.get_mut(..count)?;
-        for (k, sample) in values.iter_mut().enumerate() {
-            *sample = value(root(k));
+        let (mut roots, mut values) = ([Number::default(); TERMS], [Number::default(); TERMS]);
+        let (roots, values) = (roots.get_mut(..count)?, values.get_mut(..count)?);
+        for (k, (root, sample)) in roots.iter_mut().zip(values.iter_mut()).enumerate() {
+            *root = direction(core::f64::consts::TAU * k as f64 / count as f64);
+            *sample = value(*root);
         }
         let largest = |part: fn(&Number) -> f64| values.iter().map(|sample| part(sample).abs()).fold(0.0, f64::max);
         let (real, imaginary) = (largest(|value| value.re), largest(|value| value.im));
@@ -85,7 +85,7 @@ impl<const TERMS: usize> TrigonometricPolynomial<TERMS> {
         for (k, coefficient) in coefficients.get_mut(..=degree)?.iter_mut().enumerate() {
             let term = |(j, sample): (usize, &Number)| {
                 let sample = if is_imaginary { sample.im } else { sample.re };
-                root(j * k % count).conj() * sample
+                roots[j * k % count].conj() * sample
             };
             *coefficient = values.iter().enumerate().map(term).sum::<Number>() / count as f64;
         }

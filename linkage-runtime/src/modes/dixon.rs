@@ -31,6 +31,7 @@ const ONE: Number = Number { re: 1.0, im: 0.0 };
 pub const COLUMNS: usize = 7;
 
 /// The determinants of some rows of c.
+#[derive(Clone)]
 struct Minors {
     /// Their number.
     rows: usize,
@@ -105,12 +106,12 @@ impl Columnwise {
                 conjugates += 1;
             }
         }
-        Self {
-            holomorphic: Minors::of(plain().chain(chosen(true)), directions),
-            conjugate: Minors::of(chosen(false).chain(plain()), directions),
-            factor,
-            power,
-        }
+        let holomorphic = Minors::of(plain().chain(chosen(true)), directions);
+        let conjugate = match guided {
+            [] => holomorphic.clone(),
+            _ => Minors::of(chosen(false).chain(plain()), directions),
+        };
+        Self { holomorphic, conjugate, factor, power }
     }
 
     /// The sign of the Laplace expansion by the holomorphic columns with these rows, and of the antiholomorphic columns
@@ -141,6 +142,17 @@ struct Term {
     value: Number,
 }
 
+impl Term {
+    /// Adds the term and its mirror image.
+    fn add_to<const SIZE: usize>(&self, matrix: &mut [[Number; SIZE]; SIZE], power: Number) {
+        let part = self.value * power;
+        matrix[self.row][self.column] += part;
+        if self.row != self.column {
+            matrix[self.column][self.row] += part;
+        }
+    }
+}
+
 /// The most terms of W: 70 of three loops without lengths.
 const TERMS: usize = 96;
 
@@ -153,9 +165,11 @@ pub struct Dixon<const SIZE: usize> {
     /// The set of directions of each row.
     sets: [Columns; SIZE],
     size: usize,
-    /// The terms on and below the diagonal.
+    /// The terms, those off the diagonal once.
     terms: [Term; TERMS],
     count: usize,
+    /// The sum of the terms without x.
+    constant: [[Number; SIZE]; SIZE],
     /// The factor of each row and column that balances the matrix.
     balance: [f64; SIZE],
 }
@@ -167,13 +181,24 @@ impl<const SIZE: usize> Dixon<SIZE> {
     /// The determinant is the sum over the choices of one of both in each.
     pub fn new(rows: &[[Number; COLUMNS]], guided: &[Guided], directions: usize, kept: usize) -> Option<Self> {
         let none = Term { row: 0, column: 0, power: 0, value: ZERO };
-        let mut dixon =
-            Self { directions, kept, sets: [0; SIZE], size: 0, terms: [none; TERMS], count: 0, balance: [1.0; SIZE] };
+        let mut dixon = Self {
+            directions,
+            kept,
+            sets: [0; SIZE],
+            size: 0,
+            terms: [none; TERMS],
+            count: 0,
+            constant: [[ZERO; SIZE]; SIZE],
+            balance: [1.0; SIZE],
+        };
         for choice in 0..1usize << guided.len() {
             dixon.add(&Columnwise::of(rows, guided, directions, choice))?;
         }
         dixon.drop_zeros();
         dixon.balance();
+        let mut constant = [[ZERO; SIZE]; SIZE];
+        dixon.terms().iter().filter(|term| term.power == 0).for_each(|term| term.add_to(&mut constant, ONE));
+        dixon.constant = constant;
         Some(dixon)
     }
 
@@ -252,9 +277,9 @@ impl<const SIZE: usize> Dixon<SIZE> {
         }
     }
 
-    /// Powers of two that bring the largest entry of each row near 1: three times by the root of the largest.
+    /// Powers of two that bring the largest entry of each row near 1: twice by the root of the largest.
     fn balance(&mut self) {
-        for _ in 0..3 {
+        for _ in 0..2 {
             let mut largest = [0.0_f64; SIZE];
             for term in self.terms() {
                 for place in [term.row, term.column] {
@@ -287,13 +312,9 @@ impl<const SIZE: usize> Dixon<SIZE> {
     /// W at x, on the unit circle.
     fn at(&self, x: Number) -> [[Number; SIZE]; SIZE] {
         let powers = [x.conj() * x.conj(), x.conj(), ONE, x, x * x];
-        let mut matrix = [[ZERO; SIZE]; SIZE];
-        for &Term { row, column, power, value } in self.terms() {
-            let part = value * powers[(power + 2) as usize];
-            matrix[row][column] += part;
-            if row != column {
-                matrix[column][row] += part;
-            }
+        let mut matrix = self.constant;
+        for term in self.terms().iter().filter(|term| term.power != 0) {
+            term.add_to(&mut matrix, powers[(term.power + 2) as usize]);
         }
         matrix
     }
@@ -304,8 +325,8 @@ impl<const SIZE: usize> Dixon<SIZE> {
         let mut matrix = self.at(x);
         let mut determinant = ONE;
         for step in 0..size {
-            let pivot =
-                (step..size).max_by(|&one, &other| size_of(matrix[one][step]).total_cmp(&size_of(matrix[other][step])));
+            let size_at = |row: usize| matrix[row][step].l1_norm();
+            let pivot = (step..size).max_by(|&one, &other| size_at(one).total_cmp(&size_at(other)));
             let Some(pivot) = pivot else { break };
             if pivot != step {
                 matrix.swap(pivot, step);
@@ -343,7 +364,7 @@ impl<const SIZE: usize> Dixon<SIZE> {
                 let lower = self.sets.iter().take(self.size).position(|set| *set == without);
                 let Some(lower) = lower else { continue };
                 let product = vector[upper] * vector[lower].conj();
-                let size = size_of(product);
+                let size = product.l1_norm();
                 if size > best.0 {
                     best = (size, product.conj());
                 }
