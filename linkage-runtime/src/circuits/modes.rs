@@ -50,7 +50,7 @@ impl<'a, M: Branches<V = D<1>>> Modes<'a, M> {
         self.positions.iter().position(|mode| self.are_equal(mode, position))
     }
 
-    /// True if two positions differ by rounding errors and whole turns, and are on the same side of a dead point.
+    /// True if two positions are the same up to rounding errors and whole turns, and no dead point is between them.
     pub(super) fn are_equal(&self, one: &M::Coordinates, other: &M::Coordinates) -> bool {
         self.distance(one, other) <= nearly_zero() && {
             let [one, other] = [one, other].map(|q| self.mechanism.pose_at(q));
@@ -58,7 +58,7 @@ impl<'a, M: Branches<V = D<1>>> Modes<'a, M> {
         }
     }
 
-    /// True if two positions where a group is singular differ by rounding errors and whole turns.
+    /// True if two singular positions are the same up to rounding errors and whole turns.
     pub(super) fn are_near(&self, one: &M::Coordinates, other: &M::Coordinates) -> bool {
         self.distance(one, other) <= nearly_zero()
     }

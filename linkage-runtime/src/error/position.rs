@@ -93,7 +93,7 @@ pub enum PositionError {
         /// The number of positions.
         count: usize,
     },
-    /// Positions of a group are so near to each other that rounding error hides how many there are.
+    /// The number of positions of a group cannot be determined: some are nearer to each other than rounding error.
     Undecided {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,

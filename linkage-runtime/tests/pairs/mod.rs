@@ -1,6 +1,6 @@
 //! Arithmetic with pairs of doubles, and a reference for elementary functions.
 
-#![allow(dead_code, reason = "each test uses a part")]
+#![allow(dead_code, reason = "compiled into each test file, which calls some of these functions")]
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,5 +1,5 @@
 //! A four-bar of two scalars, and a sweep of it in which some rows cannot be assembled.
-#![allow(dead_code, reason = "each test uses a part")]
+#![allow(dead_code, reason = "compiled into each test file, which calls some of these functions")]
 
 use std::fmt::Debug;
 use std::fs;

@@ -361,7 +361,7 @@ fn quadratic<T: Real>([f, by]: [T; 2], r: [T; 2], slope: [T; 2]) -> [Option<T>; 
     let rest = r[0] * r[0] + r[1] * r[1] - f * f;
     let discriminant = half * half - square * rest;
     if discriminant < T::zero() {
-        // A double root may be lost by rounding error: it is at the vertex of the parabola.
+        // A rounding error can make the discriminant of a double root negative. The double root is the vertex.
         return [(!square.is_zero()).then(|| -half / square), None];
     }
     let root = discriminant.sqrt();

@@ -95,7 +95,8 @@ pub(super) fn motion<T: Real, V: Dim, C: Dim>(
     Ok(ContactMotion { acceleration, forces, are_unique })
 }
 
-/// For each held contact the distance of its force from its bounds, plus the rounding error of this distance.
+/// The margin of each held contact: how much its force can change before the contact slips. The rounding error is added,
+/// so that a force at its bound has a margin of zero or more.
 ///
 /// The forces of redundant held contacts are not unique. They have the margins of the motions that could begin; the limits
 /// of each are those at the forces of its own slip. A margin is negative if and only if no admissible forces were found.

@@ -33,7 +33,7 @@ impl<T: Real, C: Dim> Reaction<T, C> {
         [0, 1].map(|k| self.base[k] + self.by[k].dot(forces))
     }
 
-    /// R. A joint without load has R = 0 within rounding error; then this returns exactly zero.
+    /// The reaction R. It is set to zero if it is no larger than its rounding error: the joint then carries no load.
     pub(super) fn load(&self, forces: &Column<T, C>) -> [T; 2] {
         let reaction = self.at(forces);
         let is_unloaded = self.factor * length(reaction) <= self.rounding(forces);
