@@ -21,6 +21,8 @@ pub use linkage_dynamics::{
     Accelerations, Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Coordinates, Energy, Equations, Inputs,
     Mode, MotionError, Power, Prescribed, Rates, ReactionRow, Scene, StateColumn, Unreduced, contact, simulation,
 };
+#[cfg(feature = "interval")]
+pub use linkage_interval::Interval;
 #[cfg(feature = "drawing")]
 pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]
@@ -29,10 +31,10 @@ pub use linkage_report::{Document, FpCore, Table, sheet};
 pub use linkage_runtime::circuits;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
-    AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Column, D, Dim, Elbow, Group, InputError, Limits, Matrix,
-    Mechanism, OutputMotion, PathError, PerInput, PerUnknown, PointMotion, PositionError, Real, Slider, Slope,
-    Solution, accuracy, continuation, derivation, extremes, lanes, limits, nalgebra, position, real, singularity,
-    skeleton,
+    AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Dim, Elbow, Formulas, Group,
+    InputError, Limits, Matrix, Mechanism, Number, OutputMotion, PathError, PerInput, PerUnknown, PointMotion,
+    PositionError, Real, Slider, Slope, Solution, accuracy, continuation, derivation, extremes, lanes, limits,
+    nalgebra, position, real, singularity, skeleton,
 };
 
 /// An example without a `scene`, a crank and slider: the rate function solves for the position, with the last

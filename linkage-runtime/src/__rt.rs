@@ -27,9 +27,9 @@ pub use crate::scalar::{largest, unit};
 pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::{
-    AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Column, D, Elbow, Group, InputError, Limits, Matrix,
-    Mechanism, OutputMotion, PointMotion, PositionError, Real, Slider, Slope, Solution, lane, newton,
-    newton_any_branch, real,
+    AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Elbow, Formulas, Group, InputError,
+    Limits, Matrix, Mechanism, Number, OutputMotion, PointMotion, PositionError, Real, Slider, Slope, Solution, lane,
+    newton, newton_any_branch, real,
 };
 
 /// The types of emitted derivations.

@@ -1,0 +1,86 @@
+//! The formulas of a mechanism over numbers of any kind.
+
+use crate::{Column, Dim, Mechanism, Number};
+
+/// The formulas of a mechanism without a comparison: over intervals, each result contains the results for all numbers of
+/// the intervals.
+///
+/// `linkage!` implements it for the mechanism over every [`Number`] with `derive intervals;`.
+pub trait Formulas: Sized {
+    /// The type of lengths and angles.
+    type Number: Number;
+    /// The number of parameters.
+    type P: Dim;
+    /// The number of unknowns.
+    type U: Dim;
+    /// The number of inputs.
+    type V: Dim;
+    /// The number of quantities: two components of each point, then the outputs.
+    type Q: Dim;
+
+    /// The mechanism with these parameters, in declared order.
+    fn with_parameters(parameters: Column<Self::Number, Self::P>) -> Self;
+    /// Psi, the residual of the closure equations.
+    fn residual(
+        &self,
+        unknowns: &Column<Self::Number, Self::U>,
+        inputs: &Column<Self::Number, Self::V>,
+    ) -> Column<Self::Number, Self::U>;
+    /// The columns of J, the derivatives of Psi by each unknown.
+    fn jacobian_unknowns(
+        &self,
+        unknowns: &Column<Self::Number, Self::U>,
+        inputs: &Column<Self::Number, Self::V>,
+    ) -> Column<Column<Self::Number, Self::U>, Self::U>;
+    /// The columns of A, the derivatives of Psi by each input.
+    fn jacobian_inputs(
+        &self,
+        unknowns: &Column<Self::Number, Self::U>,
+        inputs: &Column<Self::Number, Self::V>,
+    ) -> Column<Column<Self::Number, Self::U>, Self::V>;
+    /// The quadratic velocity term (Psi_q q')_q q'.
+    fn gamma(
+        &self,
+        unknowns: &Column<Self::Number, Self::U>,
+        inputs: &Column<Self::Number, Self::V>,
+        unknown_rates: &Column<Self::Number, Self::U>,
+        input_rates: &Column<Self::Number, Self::V>,
+    ) -> Column<Self::Number, Self::U>;
+    /// The coordinates of the points, x and y of each, then the outputs.
+    fn quantities(
+        &self,
+        unknowns: &Column<Self::Number, Self::U>,
+        inputs: &Column<Self::Number, Self::V>,
+    ) -> Column<Self::Number, Self::Q>;
+}
+
+/// A mechanism whose motions can be certified: its formulas exist over all kinds of numbers.
+///
+/// `linkage!` implements it for the mechanism over `f64` with `derive intervals;`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no formulas over intervals",
+    note = "add `derive intervals;` to its mechanism"
+)]
+pub trait Certifiable: Mechanism<Scalar = f64> {
+    /// The number of parameters.
+    type P: Dim;
+    /// The number of quantities: two components of each point, then the outputs.
+    type Q: Dim;
+    /// The mechanism over another kind of number.
+    type Over<N: Number>: Formulas<Number = N, P = Self::P, U = Self::U, V = Self::V, Q = Self::Q>;
+
+    /// The names of the parameters.
+    const PARAMETERS: &'static [&'static str];
+    /// The names of the quantities: `c_x`, `c_y` for a point `C`, then those of the outputs.
+    const QUANTITIES: &'static [&'static str];
+    /// For each unknown the number of full turns after which all formulas repeat; zero if there is none: for a length,
+    /// and for an angle that enters otherwise than by sine and cosine of its multiples.
+    const UNKNOWN_PERIODS: &'static [u32];
+    /// The same for each input.
+    const INPUT_PERIODS: &'static [u32];
+    /// The name of the first user function in the equations of each group.
+    const USER_FUNCTIONS: &'static [Option<&'static str>];
+
+    /// The values of the parameters.
+    fn parameters(&self) -> Column<f64, Self::P>;
+}
