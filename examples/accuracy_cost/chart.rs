@@ -8,7 +8,7 @@ use crate::price::frontier::Prices;
 use crate::{METHODS, QUANTITIES};
 
 /// The size of a panel, in pixels.
-const SIZE: [f64; 2] = [340.0, 240.0];
+pub const SIZE: [f64; 2] = [340.0, 240.0];
 
 /// Colours for light and dark mode, and the text on them.
 pub const STYLE: &str = ".front{fill:none;stroke:#d9730d;stroke-width:2}\

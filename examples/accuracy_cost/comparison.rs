@@ -3,6 +3,7 @@
 use linkage::PositionError;
 
 use crate::dominance::dominated;
+use crate::motion::Motion;
 use crate::oracle::Poses;
 use crate::price::frontier::{Price, Prices, frontier};
 
@@ -14,17 +15,28 @@ pub const QUANTITIES: [&str; 3] = ["position", "velocity", "acceleration"];
 pub struct Point {
     pub pose: String,
     pub angles_given: bool,
+    /// The dead points between which the inputs lie.
+    pub dead: Vec<f64>,
     pub order: usize,
+}
+
+impl Point {
+    /// True if the inputs lie along a motion.
+    pub fn is_motion(&self) -> bool {
+        ["turn", "range"].contains(&&*self.pose)
+    }
 }
 
 /// One method at one point.
 pub struct Work {
     pub method: &'static str,
     pub point: Point,
-    /// The largest error over its cases, or the error value of the method.
-    pub error: Result<f64, PositionError>,
-    /// Evaluations per pass.
-    pub cases: usize,
+    /// The error of each case, or the error value of the method.
+    pub errors: Vec<Result<f64, PositionError>>,
+    /// The input of each case.
+    pub inputs: Vec<f64>,
+    /// Nanoseconds by the operations of one evaluation.
+    pub predicted: Option<f64>,
     /// Evaluates all cases once and drops the results.
     pub pass: Box<dyn Fn()>,
 }
@@ -34,22 +46,36 @@ pub struct Comparison {
     pub mechanism: &'static str,
     pub points: Vec<Point>,
     pub prices: Vec<Prices>,
+    /// The predicted nanoseconds, by method and point.
+    pub predicted: Vec<Vec<Option<f64>>>,
+    /// The errors along motions.
+    pub motions: Vec<Motion>,
     /// The errors of methods that failed: method, point, error.
     pub failures: Vec<(usize, usize, PositionError)>,
     /// For each method, one that dominates it on all mechanisms, or None.
     pub dominated: Vec<Option<usize>>,
 }
 
-/// The largest of some errors; a NaN returned as Ok is turned into an error.
-pub fn largest(errors: impl Iterator<Item = Result<f64, PositionError>>) -> Result<f64, PositionError> {
-    let largest = errors.collect::<Result<Vec<f64>, PositionError>>()?.into_iter().fold(0.0, f64::max);
-    let silent = PositionError::NotFinite { mechanism: "the mechanism", quantity: "a result returned as Ok" };
-    if largest.is_finite() { Ok(largest) } else { Err(silent) }
+impl Work {
+    /// The largest error, or the first error value; a NaN returned as Ok is turned into an error.
+    fn error(&self) -> Result<f64, PositionError> {
+        let mut largest = 0.0_f64;
+        for error in &self.errors {
+            largest = largest.max(error.clone()?);
+        }
+        let silent = PositionError::NotFinite { mechanism: "the mechanism", quantity: "a result returned as Ok" };
+        if largest.is_finite() { Ok(largest) } else { Err(silent) }
+    }
 }
 
 pub fn points(poses: &Poses) -> impl Iterator<Item = Point> {
     let first = usize::from(poses.angles_given);
-    (first..3).map(|order| Point { pose: poses.pose.clone(), angles_given: poses.angles_given, order })
+    (first..3).map(|order| Point {
+        pose: poses.pose.clone(),
+        angles_given: poses.angles_given,
+        dead: poses.dead.clone(),
+        order,
+    })
 }
 
 impl Comparison {
@@ -61,6 +87,9 @@ impl Comparison {
         rounds: usize,
         span: f64,
     ) -> Self {
+        let (along, works) = works.into_iter().partition(|work| work.point.is_motion());
+        let motions = Motion::all(along);
+        let works: Vec<Work> = works;
         let mut points: Vec<Point> = Vec::new();
         for work in &works {
             if !points.contains(&work.point) {
@@ -73,23 +102,25 @@ impl Comparison {
             works.iter().map(|work| (span / seconds(&*work.pass, 2)).ceil().max(1.0) as usize).collect();
         for _ in 0..rounds {
             for ((work, times), &passes) in works.iter().zip(&mut times).zip(&passes) {
-                if work.error.is_ok() {
-                    times.push(1e9 * seconds(&*work.pass, passes) / work.cases as f64);
+                if work.errors.iter().all(Result::is_ok) {
+                    times.push(1e9 * seconds(&*work.pass, passes) / work.inputs.len() as f64);
                 }
             }
         }
         let mut prices = vec![vec![None; points.len()]; methods.len()];
+        let mut predicted = vec![vec![None; points.len()]; methods.len()];
         let mut failures = Vec::new();
         for (work, mut times) in works.into_iter().zip(times) {
             let method = methods.iter().position(|name| *name == work.method).expect("a method of the list");
             let point = points.iter().position(|point| *point == work.point).expect("a point of the list");
             times.sort_by(f64::total_cmp);
-            match work.error {
+            predicted[method][point] = work.predicted;
+            match work.error() {
                 Ok(error) => prices[method][point] = Some(Price { error, time: times[times.len() / 2] }),
                 Err(error) => failures.push((method, point, error)),
             }
         }
-        Self { mechanism, points, prices, failures, dominated: vec![None; methods.len()] }
+        Self { mechanism, points, prices, predicted, motions, failures, dominated: vec![None; methods.len()] }
     }
 
     /// Error and time of each method at one point.

@@ -11,10 +11,13 @@ mod dominance;
 #[macro_use]
 mod methods;
 mod comparison;
+mod motion;
 mod oracle;
 #[path = "../output/mod.rs"]
 mod output;
 mod page;
+mod predicted;
+mod prediction;
 #[path = "../price/mod.rs"]
 mod price;
 
@@ -23,6 +26,7 @@ mod four_bar;
 mod jansen;
 
 use comparison::{Comparison, Point, QUANTITIES, Work};
+use prediction::Machine;
 use price::frontier;
 
 /// All methods, in the order of the tables.
@@ -45,15 +49,19 @@ const WANTED: f64 = 1e-6;
 fn main() -> Result<(), Box<dyn Error>> {
     let is_patient = std::env::args().any(|argument| argument == "--patient");
     let (rounds, span) = if is_patient { (61, 4e-4) } else { (7, 2e-5) };
+    let machine = Machine::measured();
     let open = |name, works: Vec<Work>| Comparison::measure(name, &METHODS, works, rounds, span);
     let mut comparisons = [
-        open("four-bar", four_bar::works()),
-        open("Jansen leg", jansen::works()),
-        open("double butterfly", double_butterfly::works()),
+        open("four-bar", four_bar::works(&machine)),
+        open("Jansen leg", jansen::works(&machine)),
+        open("double butterfly", double_butterfly::works(&machine)),
     ];
     comparison::compare(&mut comparisons);
     for comparison in &comparisons {
         print(comparison);
+    }
+    for comparison in &comparisons {
+        print_motions(comparison);
     }
     println!("Over all three:");
     for (name, by) in METHODS.iter().zip(&comparisons[0].dominated) {
@@ -92,6 +100,20 @@ fn print(comparison: &Comparison) {
                 println!("      {:<20} {error}", METHODS[method]);
             }
         }
+    }
+}
+
+/// Prints the largest error of each method along each motion, and its time beside that of its operations.
+fn print_motions(comparison: &Comparison) {
+    for motion in &comparison.motions {
+        let errors = METHODS.iter().enumerate().filter_map(|(method, name)| Some((name, motion.largest(method)?)));
+        let errors: Vec<String> = errors.map(|(name, error)| format!("{name} {error:.0e}")).collect();
+        println!("The {}, {}: {}", comparison.mechanism, motion.title(), errors.join(", "));
+    }
+    println!("The {}, nanoseconds of position and velocity: predicted by operations, measured", comparison.mechanism);
+    for (name, predicted, measured) in predicted::times(comparison) {
+        let predicted = predicted.map_or_else(String::new, |predicted| format!("{predicted:.0}"));
+        println!("    {name:<20} {predicted:>9} {measured:9.0}");
     }
 }
 

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use linkage::accuracy::{Newton, PositionMethod, Reached};
 use linkage::{Assembly, D, Mechanism, PerUnknown, PositionError, Real, position};
 
-use super::comparison::{Point, Work, largest};
+use super::comparison::{Point, Work};
 use super::oracle::Case;
 
 /// A position found as coordinates.
@@ -59,15 +59,17 @@ pub fn along<R: PositionMethod<M> + 'static, M: Mechanism<V = D<1>> + 'static>(
     point: Point,
     starts: Vec<(Case, M, R::From)>,
     rates: Rates<M>,
+    predicted: Option<f64>,
 ) -> Work {
     let order = point.order;
     let method_at = |m: &M, from: &R::From, input: M::Scalar| R::position(m, from, M::Inputs::from([input].into()));
     let starts = starts.into_iter().map(|(case, m, from)| (scalar(case.input), case, m, from)).collect::<Vec<_>>();
-    let error = largest(starts.iter().map(|(input, case, m, from)| {
+    let errors = starts.iter().map(|(input, case, m, from)| {
         let found = rates(m, method_at(m, from, *input)?.borrow(), order)?;
         Ok(case.error(order, found.as_slice()))
-    }));
-    let cases = starts.len();
+    });
+    let errors = errors.collect();
+    let inputs = starts.iter().map(|(_, case, ..)| case.input).collect();
     let pass = move || {
         for (input, _, m, from) in &starts {
             let Ok(position) = method_at(m, from, black_box(*input)) else { continue };
@@ -78,7 +80,7 @@ pub fn along<R: PositionMethod<M> + 'static, M: Mechanism<V = D<1>> + 'static>(
             }
         }
     };
-    Work { method, point, error, cases, pass: Box::new(pass) }
+    Work { method, point, errors, inputs, predicted, pass: Box::new(pass) }
 }
 
 /// The work of computing rates at given angles.
@@ -91,18 +93,19 @@ pub fn given<M: Mechanism<V = D<1>> + 'static>(
     let order = point.order;
     let starts = starts.into_iter().map(|(m, case)| (m, coordinates::<M>(&case.unknowns, case.input), case));
     let starts: Vec<_> = starts.collect();
-    let error = largest(starts.iter().map(|(m, q, case)| {
+    let errors = starts.iter().map(|(m, q, case)| {
         let found = rates(m, &m.pose_at(q), order)?;
         Ok(case.error(order, found.as_slice()))
-    }));
-    let cases = starts.len();
+    });
+    let errors = errors.collect();
+    let inputs = starts.iter().map(|(.., case)| case.input).collect();
     let pass = move || {
         for (m, q, _) in &starts {
             let pose = m.pose_at(black_box(q));
             let _ = black_box(rates(m, &pose, order));
         }
     };
-    Work { method, point, error, cases, pass: Box::new(pass) }
+    Work { method, point, errors, inputs, predicted: None, pass: Box::new(pass) }
 }
 
 /// Reference values as coordinates.
@@ -145,7 +148,7 @@ pub fn less(right: [f64; 2], column: [f64; 2], rate: f64) -> [f64; 2] {
 
 /// Defines `works()` for a mechanism: each method at each of its points.
 macro_rules! works {
-    ($Mechanism:ident, $U:literal, $(closed, products $products:ident)? $(newton $steps:literal)?) => {
+    ($Mechanism:ident, $U:literal, $(closed, products $products:ident)? $(newton $steps:literal, factorised $block:literal)?) => {
         use linkage::accuracy::{Newton, Table};
         use linkage::nalgebra::SVector;
         use linkage::{Column, Mechanism, PerUnknown, PositionError, Real};
@@ -154,6 +157,7 @@ macro_rules! works {
         use super::methods::{self, Shared, ToTolerance, near};
         use super::oracle::{Case, poses_of};
         use super::comparison::{Work, points};
+        use super::prediction::{Counts, Machine};
 
         type Pose<T> = <$Mechanism<T> as Mechanism>::Pose;
         type Unknowns<T> = PerUnknown<$Mechanism<T>>;
@@ -188,7 +192,9 @@ macro_rules! works {
             }
         )?
 
-        pub fn works() -> Vec<Work> {
+        pub fn works(machine: &Machine) -> Vec<Work> {
+            let factorised = 0 $(+ $block)?;
+            let counts = Counts { derivation: &<$Mechanism<f64>>::DERIVATION, factorised };
             let name = module_path!().rsplit("::").next().expect("a module");
             let cases = |index: usize| poses_of(name).swap_remove(index).cases.into_iter();
             let mut works = Vec::new();
@@ -212,40 +218,48 @@ macro_rules! works {
                         continue;
                     }
                     macro_rules! from_input {
-                        ($method:literal, $R:ty, $T:ty, $from:expr, $rates:expr) => {{
+                        ($method:literal, $R:ty, $T:ty, $from:expr, $rates:expr, $operations:expr) => {{
                             let all = cases(index).map(|case| {
                                 let m = mechanism::<$T>(&case);
                                 let from = $from(&case, &m);
                                 (case, m, from)
                             });
-                            works.push(methods::along::<$R, _>($method, at(), all.collect(), $rates));
+                            let predicted = $operations.map(|operations| machine.time::<$T>(operations));
+                            works.push(methods::along::<$R, _>($method, at(), all.collect(), $rates, predicted));
                         }};
                     }
+                    let newton = |steps| Some(counts.newton(steps, point.order));
                     $(
-                        from_input!("f32", ClosedForm, f32, branch, emitted);
-                        from_input!("f64", ClosedForm, f64, branch, emitted);
-                        from_input!("double-double", ClosedForm, DoubleDouble, branch, emitted);
+                        let operations = Some(counts.closed(point.order));
+                        from_input!("f32", ClosedForm, f32, branch, emitted, operations);
+                        from_input!("f64", ClosedForm, f64, branch, emitted, operations);
+                        from_input!("double-double", ClosedForm, DoubleDouble, branch, emitted, operations);
                         if point.order > 0 {
                             let _ = $products;
-                            from_input!("f64, products", ClosedForm, f64, branch, in_products);
+                            let operations = Some(counts.products(point.order));
+                            from_input!("f64, products", ClosedForm, f64, branch, in_products, operations);
                         }
                     )?
                     $(
-                        from_input!("f32", Newton<3>, f32, near, emitted);
-                        from_input!("double-double", Newton<$steps>, DoubleDouble, near, emitted);
+                        from_input!("f32", Newton<3>, f32, near, emitted, newton(3));
+                        from_input!("double-double", Newton<$steps>, DoubleDouble, near, emitted, newton($steps));
                     )?
-                    from_input!("Newton, 1 step", Newton<1>, f64, near, emitted);
-                    from_input!("Newton, 2 steps", Newton<2>, f64, near, emitted);
-                    from_input!("Newton, 3 steps", Newton<3>, f64, near, emitted);
-                    from_input!("Newton to tolerance", ToTolerance, f64, near, emitted);
-                    if poses.pose == "benign" {
+                    from_input!("Newton, 1 step", Newton<1>, f64, near, emitted, newton(1));
+                    from_input!("Newton, 2 steps", Newton<2>, f64, near, emitted, newton(2));
+                    from_input!("Newton, 3 steps", Newton<3>, f64, near, emitted, newton(3));
+                    // The number of its steps is not known beforehand.
+                    from_input!("Newton to tolerance", ToTolerance, f64, near, emitted, None);
+                    // A table covers a turn.
+                    if ["benign", "turn"].contains(&&*poses.pose) {
                         macro_rules! table {
                             ($method:literal, $N:literal) => {{
                                 type Entries = Table<$Mechanism, $N>;
                                 let m = mechanism::<f64>(&poses.cases[0]);
                                 let start = near(&poses.cases[0], &m).coordinates;
                                 let table = std::rc::Rc::new(Entries::turn(&m, &start).expect("a whole turn"));
-                                from_input!($method, Shared<Entries>, f64, |_: &Case, _: &$Mechanism| table.clone(), emitted);
+                                let shared = |_: &Case, _: &$Mechanism| table.clone();
+                                let operations = Some(counts.table(point.order));
+                                from_input!($method, Shared<Entries>, f64, shared, emitted, operations);
                             }};
                         }
                         table!("table of 64", 65);

@@ -24,10 +24,12 @@ pub struct Case {
 
 /// Poses of a mechanism with the same conditioning.
 pub struct Poses {
-    /// `benign` (well conditioned), or the sine of the transmission angle.
+    /// `benign` (well conditioned), the sine of the transmission angle, or where the inputs lie: `turn`, `range`.
     pub pose: String,
     /// True if the unknowns are given, false if they follow from the input.
     pub angles_given: bool,
+    /// The dead points between which the inputs lie.
+    pub dead: Vec<f64>,
     pub cases: Vec<Case>,
 }
 
@@ -37,6 +39,7 @@ pub fn poses_of(mechanism: &str) -> Vec<Poses> {
     rows.map(|row| Poses {
         pose: row["pose"].as_str().expect("a name").to_owned(),
         angles_given: row["given"] == "angles",
+        dead: row["dead"].as_array().map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_f64).collect()),
         cases: row["cases"].as_array().expect("a list").iter().map(case).collect(),
     })
     .collect()

@@ -4,20 +4,22 @@ use std::fmt::Write;
 
 use crate::comparison::Comparison;
 use crate::price::{self, axes};
-use crate::{METHODS, WANTED, answer, chart, describe};
+use crate::{METHODS, WANTED, answer, chart, describe, motion, predicted};
 
 pub fn html(comparisons: &[Comparison]) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Accuracy and time of position methods</title>\n\
-         <style>{}{}{}</style>\n</head>\n<body>\n<header>\n<h1>Accuracy and time of position methods</h1>\n\
+         <style>{}{}{}{}{}</style>\n</head>\n<body>\n<header>\n<h1>Accuracy and time of position methods</h1>\n\
          <p>The largest error against 45 digits and the median time of one evaluation; the methods are timed alternately. \
          Orange: clearly more accurate than every faster method. The error of positions is in radians; that of \
          velocities is relative to the largest one, that of accelerations to the larger of the largest one and the square of the \
-         largest velocity.</p>\n<ol class=\"methods\">",
+         largest velocity. Along a motion a line is broken where its method returns an error; dashed: dead points.</p>\n<ol class=\"methods\">",
         price::STYLE,
         axes::STYLE,
-        chart::STYLE
+        chart::STYLE,
+        motion::STYLE,
+        predicted::STYLE
     );
     let mut push = |text: std::fmt::Arguments| {
         // Writing to a string does not fail.
@@ -33,7 +35,17 @@ pub fn html(comparisons: &[Comparison]) -> String {
         for panel in chart::panels(comparison) {
             push(format_args!("<figure>{}</figure>", chart::figure(&panel)));
         }
-        push(format_args!("</div>\n<h3>Fastest with error {WANTED:.0e}</h3>\n<ul>"));
+        push(format_args!("</div>\n<h3>Errors along a motion</h3>\n<div class=\"charts\">"));
+        for motion in &comparison.motions {
+            push(format_args!("<figure>{}</figure>", chart::figure(&motion.panel(&comparison.dominated))));
+        }
+        push(format_args!(
+            "</div>\n<h3>Predicted and measured time</h3>\n<p>The prediction is the number of operations of each kind times \
+             the measured time of one, in two chains of dependent operations. Checks and memory are not in it.</p>\n\
+             <div class=\"charts\"><figure>{}</figure></div>\n",
+            chart::figure(&predicted::panel(comparison))
+        ));
+        push(format_args!("<h3>Fastest with error {WANTED:.0e}</h3>\n<ul>"));
         for point in comparison.points.iter().filter(|point| point.pose == "benign" && !point.angles_given) {
             let text = answer(comparison, point);
             push(format_args!("<li>{}</li>", text.split_once(": ").map_or(&*text, |(_, text)| text)));

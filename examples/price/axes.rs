@@ -84,7 +84,7 @@ impl Axes {
 }
 
 /// The exponents of the largest power of ten below all values and the smallest above.
-fn decades(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
+pub fn decades(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
     let low = values.clone().fold(f64::INFINITY, f64::min).log10().floor();
     let high = values.fold(0.0, f64::max).log10().ceil();
     [low, high.max(low + 1.0)]

@@ -5,7 +5,8 @@ Nothing is differentiated by formula: the closures, written here by hand as comp
 differences whose errors are below 1e-45. Inputs and angles are doubles, exactly those that a program is given.
 
 "inputs": an input, the position there, and a position before it. "angles": any angles, closed or not, and what the
-formulas give there. Near singular, sin of the angle between the first two links of the four-bar's and the leg's first
+formulas give there. "turn": evenly over a turn of the crank; "range": denser towards the dead points at its ends,
+which are listed. Near singular, sin of the angle between the first two links of the four-bar's and the leg's first
 dyad is 1e-3, 1e-6 and 1e-9; of the butterfly, whose crank turns all the way, |det J| beside the product of the sizes of
 its columns.
 
@@ -222,6 +223,52 @@ def given_angles(case):
     return at_angles(closures, [mpf(x) for x in case["parameters"]], u, mpf(case["input"]))
 
 
+def over_a_turn(closures, count):
+    p, guess, v, _ = MECHANISMS[closures]
+    v, u = mpf(v), [mpf(x) for x in guess.split()]
+    cases = []
+    for place in range(count):
+        there = 2 * pi * place / (count - 1)
+        before = there - DEGREE
+        u, v = follow(closures, p, u, v, before, max(2, int(abs(before - v) * 10))), before
+        cases.append(from_input(closures, p, u, before, there))
+    return cases
+
+
+# A rocker drives the four-bar between the positions where coupler and crank are in line; the butterfly is on a branch
+# whose crank does not turn. With each, the position in the middle, and positions near the dead points.
+RANGES = {
+    four_bar: (numbers("80 70 50 20"), "-0.645 -2.406 0.67", ("-1.03 2.13 0.3804", "-0.95 -0.99 0.9624")),
+    double_butterfly: (MECHANISMS[double_butterfly][0], "-0.21163 -2.40725 -2.01856 1.54648 -1.31196 -0.57797 0",
+                       ("0.023487 -2.37031 -2.182203 1.028434 -1.445191 -0.122147 -1.353964",
+                        "0.076544 -2.364323 -2.299399 0.968955 -1.556556 -0.182221 4.560977")),
+}
+
+
+def dead_point(closures, p, near):
+    """The input at which J is singular."""
+    def singular(*q):
+        rows, j, _ = jacobian(closures, p, list(q[:-1]), q[-1])
+        return list(rows) + [determinant(j)]
+    return findroot(singular, near, tol=mpf(10) ** -60, maxsteps=100)[len(near) - 1]
+
+
+def between_dead_points(closures, count):
+    p, middle, ends = RANGES[closures]
+    low, high = [dead_point(closures, p, numbers(end)) for end in ends]
+    places = [(low + high - (high - low) * cos(pi * (place + mpf("0.5")) / count)) / 2 for place in range(count)]
+    *start, input = numbers(middle)
+    cases = []
+    for side in (-1, 1):
+        u, v = solve(closures, p, start, input), input
+        for there in sorted((place for place in places if side * (place - input) >= 0), key=lambda place: side * place):
+            # A degree nearer to the middle.
+            before = there - side * DEGREE
+            u, v = follow(closures, p, u, v, before, 6), before
+            cases.append(from_input(closures, p, u, before, there))
+    return [float(low), float(high)], sorted(cases, key=lambda case: case["input"])
+
+
 rows = []
 for closures, count in ((four_bar, 24), (jansen, 12), (double_butterfly, 12)):
     name = closures.__name__
@@ -234,4 +281,8 @@ for closures, count in ((four_bar, 24), (jansen, 12), (double_butterfly, 12)):
             rows.append({"mechanism": name, "pose": sine, "given": "input", "cases": folded(closures, mpf(sine))})
         cases = near_singular(closures, mpf(sine), 6)
         rows.append({"mechanism": name, "pose": sine, "given": "angles", "cases": cases})
+    rows.append({"mechanism": name, "pose": "turn", "given": "input", "dead": [], "cases": over_a_turn(closures, 37)})
+    if closures in RANGES:
+        dead, cases = between_dead_points(closures, 36)
+        rows.append({"mechanism": name, "pose": "range", "given": "input", "dead": dead, "cases": cases})
 print("[\n" + ",\n".join(json.dumps(row) for row in rows) + "\n]")
