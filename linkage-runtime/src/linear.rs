@@ -3,6 +3,7 @@
 use core::mem;
 
 use crate::jacobian::ulp::{ZERO_ULPS, ulps};
+use crate::native::{self, native};
 use crate::scalar::{largest, smallest, to_f64};
 use crate::{PositionError, Real, real};
 
@@ -204,7 +205,15 @@ fn real_count(count: usize) -> f64 {
 }
 
 /// A power of two near `value`; scaling by it is exact.
+#[inline]
 pub(crate) fn power_of_two_below<T: Real>(value: T) -> T {
+    native!(value => native::power_of_two_below).flatten().unwrap_or_else(|| by_logarithm(value))
+}
+
+/// The power of two for other scalars, and for numbers without one below.
+#[cold]
+#[inline(never)]
+fn by_logarithm<T: Real>(value: T) -> T {
     let two = real::<T>(2.0);
     let exponent = value.log2().floor();
     let power = two.powf(exponent);

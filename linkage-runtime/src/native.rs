@@ -21,6 +21,10 @@ pub(crate) trait Native:
 
     const ZERO: Self;
     const ONE: Self;
+    /// The least number with all digits.
+    const LEAST: Self;
+    /// The bits of the exponent.
+    const EXPONENT: Self::Bits;
 
     fn bits(self) -> Self::Bits;
     fn of_bits(bits: Self::Bits) -> Self;
@@ -29,12 +33,14 @@ pub(crate) trait Native:
 }
 
 macro_rules! floats {
-    ($float:ident, $bits:ident) => {
+    ($float:ident, $bits:ident, $exponent:literal) => {
         impl Native for $float {
             type Bits = $bits;
 
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
+            const LEAST: Self = $float::MIN_POSITIVE;
+            const EXPONENT: $bits = $exponent;
 
             #[inline(always)]
             fn bits(self) -> $bits {
@@ -59,8 +65,8 @@ macro_rules! floats {
     };
 }
 
-floats!(f64, u64);
-floats!(f32, u32);
+floats!(f64, u64, 0x7ff0_0000_0000_0000);
+floats!(f32, u32, 0x7f80_0000);
 
 /// `native!(arguments => function)`: the result of the function for `f64` or `f32`, if the arguments are of that type. The
 /// type is known at compile time, so that the tests cost nothing. A macro, since calls of function arguments are not
@@ -78,6 +84,14 @@ macro_rules! native {
     }};
 }
 pub(crate) use native;
+
+/// The largest power of two that is not above a value; none for a value that is not positive, not finite or subnormal.
+#[inline(always)]
+pub(crate) fn power_of_two_below<F: Native>(value: F) -> Option<F> {
+    let power = F::of_bits(value.bits() & F::EXPONENT);
+    let is_normal = value >= F::LEAST && power.bits() != F::EXPONENT;
+    is_normal.then_some(power)
+}
 
 /// The value as another type, if that is its own.
 #[inline(always)]
