@@ -14,6 +14,9 @@
 
 use crate::native::Native;
 
+/// An upper bound of the relative error of `arctangent2` for `f64`, if `is_regular`, in 2^-53.
+pub const ARCTANGENT_ERROR: f64 = 2.0;
+
 /// A scalar with an arctangent of this module.
 pub(crate) trait Arctangent: Native {
     /// The least and largest magnitude, other than zero, that is computed here, the first also the least quotient: no

@@ -5,6 +5,14 @@ use nalgebra::ComplexField;
 
 use crate::native::Native;
 
+/// An upper bound of the relative error of the hypotenuse of two `f64`, in 2^-53, unless it overflows or is below the
+/// least normal number, where a rounding error of 2^-1075 is added.
+///
+/// Let u' = u / (1 + u), u = 2^-53, which bounds the relative error of every rounded result. The sum of squares has two
+/// such errors, whose root has about one, and the root is rounded: (1 + u')^2 - 1 = (2u + 3u^2) / (1 + u)^2, which is
+/// below 2u by nearly u^2. In the range a square that underflows adds at most 2^-115 to that.
+pub const HYPOTENUSE_ERROR: f64 = 2.0;
+
 /// A scalar with a hypotenuse of this module.
 pub(crate) trait Length: Native + ComplexField {
     /// The least and largest sum of squares that is computed here: it does not overflow, and a square that underflows

@@ -26,6 +26,10 @@ use num_traits::{One, WrappingAdd, WrappingNeg, Zero};
 
 use crate::native::Native;
 
+/// An upper bound of the relative error of the sine and cosine of an `f64` up to `LIMIT`, in 2^-53. Beyond it they are
+/// the platform's, which have no bound here.
+pub const SINE_ERROR: f64 = 2.0;
+
 /// A scalar with a sine and cosine of this module.
 pub(crate) trait Angle: Native {
     /// The largest |x| that is computed here; the standard library computes the others.
