@@ -1,6 +1,8 @@
 //! Internal functions that `linkage-dynamics` uses. Not part of the interface.
 
-pub use crate::arctangent::ARCTANGENT_ERROR;
+pub use crate::arctangent::{
+    ARCTANGENT_COEFFICIENTS, ARCTANGENT_ERROR, QUARTER_PI, arctangent_kernel, arctangent_polynomial,
+};
 pub use crate::chord::{CANCELLATION, COINCIDENT_ULPS, smallest_product};
 pub use crate::error::{all_finite, finite};
 pub use crate::hypotenuse::HYPOTENUSE_ERROR;
@@ -9,7 +11,7 @@ pub use crate::linear::{Factorization, product_of_pivots, same_signs};
 pub use crate::newton::{Constraints, search};
 pub use crate::position::hadamard_ratio;
 pub use crate::scalar::{arithmetic, larger, largest, smallest, to_f64};
-pub use crate::sine::SINE_ERROR;
+pub use crate::sine::{HALF_PI, SINE_COEFFICIENTS, SINE_ERROR, sine_kernel, sine_polynomials};
 #[cfg(feature = "serde")]
 pub use crate::written::{array, columns};
 
