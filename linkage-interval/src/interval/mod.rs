@@ -11,7 +11,62 @@ use rounding::sum;
 
 /// The real numbers from `least` to `most`. A bound is a double or infinite, never NaN, and the interval is never empty.
 ///
-/// Every operation encloses: its result contains the results for all numbers of its operands. An interval has no order.
+/// Every operation and function encloses: its result contains the results for all numbers of its operands for which it is
+/// defined. If it is undefined for some, as are a quotient by an interval with zero, the root of one with negative numbers
+/// and the tangent of one with a pole, the result is [`ENTIRE`](Self::ENTIRE).
+///
+/// ```
+/// use linkage_interval::Interval;
+/// use linkage_runtime::Number;
+///
+/// // The coupler angle's law of cosines, with lengths to a tenth.
+/// let [a, b, c] = [4.0, 5.0, 6.0].map(|length| Interval::around(length, 0.1).unwrap());
+/// let cosine = (a.square() + b.square() - c.square()) / (a * b * 2.0.into());
+/// let angle = cosine.acos();
+/// assert!(angle.contains((0.125_f64).acos()) && angle.width() < 0.17);
+/// ```
+///
+/// An interval has no order, and is no scalar of code that compares:
+///
+/// ```compile_fail,E0369
+/// use linkage_interval::Interval;
+///
+/// let is_below = Interval::from(1.0) < Interval::from(2.0);
+/// ```
+///
+/// ```compile_fail,E0277
+/// use linkage_interval::Interval;
+/// use linkage_runtime::Real;
+///
+/// fn scalar<T: Real>(_: T) {}
+/// scalar(Interval::from(1.0));
+/// ```
+///
+/// # Accuracy
+///
+/// The result for single numbers has at most this many doubles between its bounds, in 1e6 evaluations of each against 48
+/// digits. Where a magnitude is outside 2^-900 to 2^900 there is one more.
+///
+/// | function                        | doubles |
+/// |---------------------------------|---------|
+/// | `+`, `-`, `abs`                 | 0       |
+/// | `*`, `/`, `square`, `sqrt`      | 0       |
+/// | `sine`, `cosine`                | ?       |
+/// | `tan`                           | ?       |
+/// | `atan`, `arctangent2`           | ?       |
+/// | `asin`, `acos`                  | ?       |
+/// | `exp`                           | ?       |
+/// | `ln`                            | ?       |
+/// | `hypotenuse`                    | ?       |
+///
+/// The bounds of `+ - * /`, `square` and `sqrt` are the nearest there are, so that smaller operands give results inside
+/// those of larger ones. The bounds of the functions may be beyond those of larger operands by so many doubles.
+///
+/// # Trust
+///
+/// The bounds rest on IEEE 754: + - * / and the square root are rounded to nearest. No function of a C library is called.
+/// The errors of sine, cosine and arctangent are [proved](linkage_runtime::Real) by the tests from that; exponential
+/// function and logarithm are series of intervals. Beyond 1e5 the sine and cosine are -1 to 1 and the tangent unknown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     least: f64,
@@ -30,11 +85,12 @@ impl Interval {
         has_numbers.then_some(Self { least, most })
     }
 
-    /// The interval of `middle` plus and minus `radius`, rounded outward; `None` for NaN and a negative radius.
+    /// The interval of `middle` plus and minus `radius`, rounded outward; `None` for NaN, an infinite middle and a negative
+    /// radius.
     #[must_use]
     pub fn around(middle: f64, radius: f64) -> Option<Self> {
-        let is_length = radius >= 0.0;
-        is_length.then(|| Self::new(sum(middle, -radius).down(), sum(middle, radius).up())).flatten()
+        let has_numbers = middle.is_finite() && radius >= 0.0;
+        has_numbers.then(|| Self::new(sum(middle, -radius).down(), sum(middle, radius).up())).flatten()
     }
 
     /// The lower bound: the smallest number, or minus infinity.
@@ -77,10 +133,10 @@ impl Interval {
         if self.contains(0.0) { 0.0 } else { self.least.abs().min(self.most.abs()) }
     }
 
-    /// True if this number is inside.
+    /// True if this number is inside. Infinity is none.
     #[must_use]
     pub fn contains(self, number: f64) -> bool {
-        self.least <= number && number <= self.most
+        number.is_finite() && self.least <= number && number <= self.most
     }
 
     /// True if all numbers are in the other interval.
