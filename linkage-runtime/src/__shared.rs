@@ -1,7 +1,7 @@
 //! Internal functions that `linkage-dynamics` uses. Not part of the interface.
 
 pub use crate::arctangent::{
-    ARCTANGENT_COEFFICIENTS, ARCTANGENT_ERROR, QUARTER_PI, arctangent_kernel, arctangent_polynomial,
+    ARCTANGENT_COEFFICIENTS, ARCTANGENT_ERROR, QUARTER_PI, arctangent_polynomial, arctangent_rest, turned,
 };
 pub use crate::chord::{CANCELLATION, COINCIDENT_ULPS, smallest_product};
 pub use crate::error::{all_finite, finite};

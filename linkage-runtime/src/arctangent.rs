@@ -15,7 +15,7 @@
 //! For `f64` no error is larger than 0.98 ulp, or 1.25 2^-53 of the exact angle. `linkage-interval/tests/kernels` proves
 //! that from the rounding to nearest of + - * and /, as for the sine: the sum of the error of the quotient t + t_rest,
 //! which is below 2^-74 of it, the error of the polynomial against the power series, the rounding errors of
-//! `arctangent_kernel` over intervals that cover t, and what it leaves out, t_rest t^4 and t_rest^2.
+//! `arctangent_rest` and `turned` over intervals that cover t, and what it leaves out, t_rest t^4 and t_rest^2.
 
 use crate::native::{Arithmetic, Native};
 
@@ -136,28 +136,28 @@ pub(crate) fn arctangent2<F: Arctangent>((y, x): (F, F)) -> F {
     let product_rest = ((above - t_upper * below_upper) - t_upper * below_lower) - t_lower * below_upper;
     let remainder = (product_rest - t_lower * below_lower) + (above_rest - t * below_rest);
     let t_rest = remainder * inverse;
+    let rest = arctangent_rest(t, t_rest, F::polynomial);
     // The angle is `eighths` pi/4 plus or minus that.
     let eighths = if is_middle { F::ONE } else { F::ZERO };
     let eighths = if is_steep { F::TWO - eighths } else { eighths };
     let is_left = x < F::ZERO;
     let eighths = if is_left { F::FOUR - eighths } else { eighths };
     let is_opposed = is_steep != is_left;
-    let (t, t_rest) = if is_opposed { (-t, -t_rest) } else { (t, t_rest) };
-    arctangent_kernel(t, t_rest, eighths, F::QUARTER_PI, F::polynomial).with_sign_of(y)
+    let (t, rest) = if is_opposed { (-t, -rest) } else { (t, rest) };
+    turned(t, rest, eighths, F::QUARTER_PI).with_sign_of(y)
 }
 
-/// `eighths` pi/4 + atan(t + t_rest), in the arithmetic of floats or of their rounding errors.
+/// atan(t + t_rest) - t, in the arithmetic of floats or of their rounding errors.
 #[inline(always)]
-pub fn arctangent_kernel<T: Arithmetic>(
-    t: T,
-    t_rest: T,
-    eighths: T,
-    [quarter_pi, quarter_pi_rest]: [T; 2],
-    polynomial: impl FnOnce(T) -> T,
-) -> T {
-    // atan(t + t_rest) = t + rest; the derivative of atan is 1 - t^2 to t^4.
+pub fn arctangent_rest<T: Arithmetic>(t: T, t_rest: T, polynomial: impl FnOnce(T) -> T) -> T {
+    // The derivative of atan is 1 - t^2 to t^4.
     let z = t * t;
-    let rest = t_rest - z * (t * polynomial(z) + t_rest);
+    t_rest - z * (t * polynomial(z) + t_rest)
+}
+
+/// `eighths` pi/4 + t + rest, as `arctangent_rest`.
+#[inline(always)]
+pub fn turned<T: Arithmetic>(t: T, rest: T, eighths: T, [quarter_pi, quarter_pi_rest]: [T; 2]) -> T {
     let base = eighths * quarter_pi;
     let angle = base + t;
     let angle_rest = ((base - angle) + t) + (eighths * quarter_pi_rest + rest);

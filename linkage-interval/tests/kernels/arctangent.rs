@@ -17,7 +17,7 @@ use dashu_float::ops::Abs;
 use dashu_float::round::mode::HalfEven;
 use linkage_interval::Interval;
 use linkage_runtime::__shared::{
-    ARCTANGENT_COEFFICIENTS, ARCTANGENT_ERROR, QUARTER_PI, arctangent_kernel, arctangent_polynomial,
+    ARCTANGENT_COEFFICIENTS, ARCTANGENT_ERROR, QUARTER_PI, arctangent_polynomial, arctangent_rest, turned,
 };
 use linkage_runtime::Number;
 
@@ -44,7 +44,9 @@ fn bounds(polynomial: &Approximation, eighths: f64, t: Interval) -> [f64; 2] {
         let coefficients = ARCTANGENT_COEFFICIENTS.map(Tracked::constant);
         let [t, t_rest] = [t, within(t_rest)].map(Tracked::exactly);
         let (eighths, quarter_pi) = (Tracked::constant(eighths), QUARTER_PI.map(Tracked::constant));
-        arctangent_kernel(t, t_rest, eighths, quarter_pi, |z| arctangent_polynomial(z, coefficients))
+        // That of -t is the negative.
+        let rest = arctangent_rest(t, t_rest, |z| arctangent_polynomial(z, coefficients));
+        turned(t, rest, eighths, quarter_pi)
     });
     let of_polynomial = Interval::from(polynomial.bound(t * t));
     let rest = Interval::from(t_rest);
