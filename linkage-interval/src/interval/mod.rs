@@ -45,7 +45,7 @@ use rounding::sum;
 /// # Accuracy
 ///
 /// The result for single numbers has at most this many doubles between its bounds, in 1e6 evaluations of each against 48
-/// digits. Where a magnitude is outside 2^-900 to 2^900 there is one more.
+/// digits. Where a magnitude is outside 2^-900 to 2^900, `*`, `/`, `square` and `sqrt` have one more.
 ///
 /// | function                        | doubles |
 /// |---------------------------------|---------|
@@ -59,8 +59,8 @@ use rounding::sum;
 /// | `ln`                            | ?       |
 /// | `hypotenuse`                    | ?       |
 ///
-/// The bounds of `+ - * /`, `square` and `sqrt` are the nearest there are, so that smaller operands give results inside
-/// those of larger ones. The bounds of the functions may be beyond those of larger operands by so many doubles.
+/// The bounds of `+ - * /`, `square` and `sqrt` are the nearest there are, so that parts of operands give parts of the
+/// result. The bounds of the other functions for a part may be beyond those for the whole by so many doubles.
 ///
 /// # Trust
 ///
