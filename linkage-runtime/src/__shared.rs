@@ -1,12 +1,17 @@
 //! Internal functions that `linkage-dynamics` uses. Not part of the interface.
 
+pub use crate::arctangent::{
+    ARCTANGENT_COEFFICIENTS, ARCTANGENT_ERROR, QUARTER_PI, arctangent_polynomial, arctangent_rest, turned,
+};
 pub use crate::chord::{CANCELLATION, COINCIDENT_ULPS, smallest_product};
 pub use crate::error::{all_finite, finite};
+pub use crate::hypotenuse::HYPOTENUSE_ERROR;
 pub use crate::jacobian::ulp::ZERO_ULPS;
 pub use crate::linear::{Factorization, product_of_pivots, same_signs};
 pub use crate::newton::{Constraints, search};
 pub use crate::position::hadamard_ratio;
 pub use crate::scalar::{arithmetic, larger, largest, smallest, to_f64};
+pub use crate::sine::{HALF_PI, SINE_COEFFICIENTS, SINE_ERROR, sine_kernel, sine_polynomials};
 #[cfg(feature = "serde")]
 pub use crate::written::{array, columns};
 

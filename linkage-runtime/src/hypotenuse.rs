@@ -1,9 +1,23 @@
 //! The root of a sum of two squares, for `f64` and `f32`, without branches. The largest error found by
 //! `tests/arctangent.rs` in 6e7 arguments is 1.20 ulp.
+//!
+//! None is larger than 1.23 ulp. Let u be half an ulp of 1, and scale the sides by a power of two so that the sum of
+//! squares s is from 1 to 4 and an ulp of the root is 2u. The rounding errors of the squares and their sum divided by
+//! 2 sqrt s are those of the root, to which u is added. A number from 1/2 to 1, 1 to 2 or 2 to 4 has a rounding error of
+//! at most u/2, u or 2u. So the quotient is largest for squares of 2 and 1: (2u + u + 2u) / (2 sqrt 3) = 1.444u. For a
+//! square of 2 and one of 1/2 it is 1.424u, for two of 1 or for one of 2 alone 1.415u, and for s below 2 at most 1.021u.
 
 use nalgebra::ComplexField;
 
 use crate::native::Native;
+
+/// An upper bound of the relative error of the hypotenuse of two `f64`, in 2^-53, unless it overflows or is below the
+/// least normal number, where a rounding error of 2^-1075 is added.
+///
+/// Let u' = u / (1 + u), u = 2^-53, which bounds the relative error of every rounded result. The sum of squares has two
+/// such errors, whose root has about one, and the root is rounded: (1 + u')^2 - 1 = (2u + 3u^2) / (1 + u)^2, which is
+/// below 2u by nearly u^2. In the range a square that underflows adds at most 2^-115 to that.
+pub const HYPOTENUSE_ERROR: f64 = 2.0;
 
 /// A scalar with a hypotenuse of this module.
 pub(crate) trait Length: Native + ComplexField {

@@ -5,17 +5,16 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_traits::{PrimInt, WrappingAdd, WrappingNeg};
 
-/// `f64` or `f32`.
-pub(crate) trait Native:
-    Copy
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + 'static
+/// The operations of the polynomials: those of floats, or of bounds of their rounding errors.
+pub trait Arithmetic: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {}
+
+impl<T> Arithmetic for T where
+    T: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
+}
+
+/// `f64` or `f32`.
+pub(crate) trait Native: Arithmetic + PartialOrd + Div<Output = Self> + 'static {
     /// The unsigned integer of the same width.
     type Bits: PrimInt + WrappingAdd + WrappingNeg;
 

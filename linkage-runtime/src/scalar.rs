@@ -12,7 +12,7 @@ use crate::{hypotenuse, lane, sine};
 )]
 pub trait Real: RealField + Copy {
     /// The sine and cosine of an angle in radians: for `f64` up to 1e5 and `f32` up to 1e4 inlined and within
-    /// 0.85 ulp, else the scalar's own.
+    /// 0.89 ulp, else the scalar's own.
     #[inline(always)]
     #[must_use]
     fn sine_cosine(self) -> (Self, Self) {
@@ -50,7 +50,7 @@ pub trait Real: RealField + Copy {
     }
 
     /// The angle of (x, y) with the x axis, from -pi to pi, where `self` is y: for `f64` and `f32` inlined and within
-    /// 0.75 ulp, else the scalar's own, which also serves zero and extreme arguments.
+    /// 0.98 ulp (the largest error found is 0.73), else the scalar's own, which also serves zero and extreme arguments.
     #[inline(always)]
     #[must_use]
     fn arctangent2(self, x: Self) -> Self {

@@ -14,7 +14,7 @@ use num_dual::Dual64;
 
 use pairs::{Pair, float_ulps, plus, random, reference, times, two_product, ulps};
 
-/// The largest documented errors, in units of the last place.
+/// A little more than the largest errors found, in units of the last place; the proved bounds are 0.98 and 1.23.
 const ANGLE_ULPS: f64 = 0.75;
 const LENGTH_ULPS: f64 = 1.25;
 

@@ -14,7 +14,7 @@ use num_dual::{Dual2_64, Dual64};
 
 use pairs::{float_ulps, random, reference, ulps};
 
-/// The largest documented error, in units of the last place.
+/// A little more than the largest error found, in units of the last place; the proved bound is 0.89.
 const ULPS: f64 = 0.85;
 
 /// The largest |x| that is not left to the standard library.
