@@ -1,0 +1,6 @@
+//! Certified motions.
+#![cfg(test)]
+
+mod loops;
+mod shapes;
+mod turns;
