@@ -1,8 +1,11 @@
 //! Certified motions.
 mod certificate;
 mod curve;
+mod dead_point;
 mod error;
+mod extremes;
 mod expansion;
+mod jet;
 mod matrix;
 mod motion;
 mod series;
@@ -13,7 +16,10 @@ mod turn;
 use linkage_runtime::{Certifiable, Column};
 
 pub use certificate::{Certificate, End};
+pub use curve::Curve;
+pub use dead_point::DeadPoint;
 pub use error::CertifyError;
+pub use extremes::Enclosure;
 pub use series::Series;
 pub use tube::Tube;
 
@@ -112,4 +118,12 @@ pub fn turn<M: Certifiable>(mechanism: &M, start: &M::Coordinates) -> Result<Cer
 /// Those of [`Certify::range`].
 pub fn range<M: Certifiable>(mechanism: &M, start: &M::Coordinates, to: f64) -> Result<Certificate<M>, CertifyError> {
     Certify::new(mechanism).range(start, to)
+}
+
+/// Certifies the motion through a position as a closed curve: [`Certify::curve`] without options.
+///
+/// # Errors
+/// Those of [`Certify::curve`].
+pub fn curve<M: Certifiable>(mechanism: &M, start: &M::Coordinates) -> Result<Curve<M>, CertifyError> {
+    Certify::new(mechanism).curve(start)
 }

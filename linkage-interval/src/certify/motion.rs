@@ -44,6 +44,11 @@ impl<'a, M: Certifiable> Motion<'a, M> {
         Self { system, tubes: Vec::new(), joint, step: FIRST_STEP, tests: 0, most_tests }
     }
 
+    /// The number of tests that may follow.
+    pub(super) fn tests_left(&self) -> usize {
+        self.most_tests.saturating_sub(self.tests)
+    }
+
     /// The value of a coordinate at the end of the last tube.
     fn at(&self, coordinate: usize) -> Interval {
         self.joint.get(coordinate).copied().unwrap_or(Interval::ENTIRE)
@@ -85,10 +90,11 @@ impl<'a, M: Certifiable> Motion<'a, M> {
             let range = Interval::from(beyond).hull(from);
             let guess = expansion.float_at(range.middle());
             let tube = Tube::certify(self.system, parameter, &guess, range, &floor);
-            if let Some(tube) = tube.filter(|tube| tube.contains(&self.joint))
+            if let Some(mut tube) = tube.filter(|tube| tube.contains(&self.joint))
                 && let Some(part) = tube.part(self.system, Dimensions::All, to.into())
             {
                 self.joint = part.q;
+                tube.is_backward = direction < 0.0;
                 self.tubes.push(tube);
                 self.step = (self.step * LONGER).min(LONGEST_STEP);
                 return Ok(());

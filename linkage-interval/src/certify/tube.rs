@@ -1,6 +1,6 @@
 //! A tube about a part of the motion, and the test that certifies it.
 
-use linkage_runtime::{Certifiable, Number};
+use linkage_runtime::Certifiable;
 
 use super::expansion::{Expansion, Linear, others, with_parameter};
 use super::matrix::{apply, symmetric};
@@ -31,6 +31,8 @@ const SHRINKING_STEPS: usize = 4;
 pub struct Tube {
     pub(super) expansion: Expansion,
     pub(super) range: Interval,
+    /// True if the motion goes from the end of the range to its start.
+    pub(super) is_backward: bool,
     /// The radii of all coordinates but the parameter.
     radius: Vec<f64>,
 }
@@ -67,7 +69,7 @@ impl Tube {
             if !radius.iter().zip(&scales).all(|(radius, scale)| *radius <= LARGEST_RADIUS * scale) {
                 return None;
             }
-            let tube = Self { expansion: expansion.clone(), range, radius };
+            let tube = Self { expansion: expansion.clone(), range, is_backward: false, radius };
             let z: Vec<Interval> = tube.radius.iter().map(|&radius| symmetric(radius)).collect();
             let linear = tube.expansion.linear(system, Dimensions::All, &tube.over(range));
             let k: Vec<Interval> = b.iter().zip(apply(&linear.defect, &z)).map(|(&b, part)| part - b).collect();

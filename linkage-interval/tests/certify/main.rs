@@ -1,6 +1,8 @@
 //! Certified motions.
 #![cfg(test)]
 
+mod curves;
+mod extremes;
 mod loops;
 mod shapes;
 mod turns;
