@@ -127,15 +127,31 @@ fn advance<M: Certifiable>(motion: &mut Motion<'_, M>, along: &[f64]) -> Result<
     Ok(Heading::of(motion, &heading.rates).ok_or_else(|| lost(motion))?.rates)
 }
 
+/// The start moved by full turns.
+pub(super) struct Returned {
+    turns: Vec<i64>,
+    input_turns: i64,
+    pub(super) moved: Vec<Interval>,
+}
+
+impl Returned {
+    /// True if the tube reaches the start behind the joint at which it begins: before it, the start would be that of the
+    /// motion itself.
+    fn is_beyond(&self, tube: &Tube, joint: &[Interval]) -> bool {
+        let places = self.moved.get(tube.expansion.parameter).zip(joint.get(tube.expansion.parameter));
+        places.is_some_and(|(&start, &joint)| start.intersection(joint).is_none())
+    }
+}
+
 /// The full turns of the unknowns and of the input after which a box lies in a tube, if it does.
-fn returned<M: Certifiable>(tube: &Tube, start: &[Interval]) -> Option<(Vec<i64>, i64)> {
+pub(super) fn returned<M: Certifiable>(tube: &Tube, start: &[Interval]) -> Option<Returned> {
     let at = tube.over(tube.range);
     let period = f64::from(M::INPUT_PERIODS.first().copied().unwrap_or_default());
     let apart = at.last()?.middle() - start.last()?.middle();
     let turns = if period > 0.0 { (apart / (std::f64::consts::TAU * period)).round() * period } else { 0.0 };
     let input_turns = if turns.abs() < 9e15 { turns as i64 } else { 0 };
     let (turns, moved) = moved_by_turns::<M>(&at, start, input_turns);
-    tube.contains(&moved).then_some((turns, input_turns))
+    tube.contains(&moved).then_some(Returned { turns, input_turns, moved })
 }
 
 impl<M: Certifiable> Certify<'_, M> {
@@ -157,12 +173,14 @@ impl<M: Certifiable> Certify<'_, M> {
             *input = 1.0;
         }
         let (turns, input_turns) = loop {
+            let before = motion.joint.clone();
             along = advance(&mut motion, &along)?;
             self.check_emitted_at(&motion)?;
             if let [_, .., last] = motion.tubes.as_slice()
-                && let Some(turns) = returned::<M>(last, &first)
+                && let Some(returned) = returned::<M>(last, &first)
+                && returned.is_beyond(last, &before)
             {
-                break turns;
+                break (returned.turns, returned.input_turns);
             }
         };
         let (tubes, tests) = (motion.tubes, motion.tests);

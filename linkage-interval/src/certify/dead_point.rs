@@ -2,6 +2,7 @@
 
 use linkage_runtime::{Certifiable, Column};
 
+use super::curve::returned;
 use super::error::CertifyError;
 use super::jet::Measure;
 use super::motion::{nearest_group, unknowns_of};
@@ -116,8 +117,10 @@ pub(super) fn dead_points<M: Certifiable>(
             found.reverse();
         }
         for point in found {
-            // In the overlap of two tubes a dead point is found twice.
-            if !all.last().is_some_and(|last| intersect(&last.q, &point.q)) {
+            // In the overlap of two tubes a dead point is found twice, near the start perhaps after full turns.
+            let again = all.last().is_some_and(|last| intersect(&last.q, &point.q));
+            let first = all.first().and_then(|first| returned::<M>(tube, &first.q));
+            if !again && !first.is_some_and(|first| intersect(&first.moved, &point.q)) {
                 all.push(point);
             }
         }

@@ -11,7 +11,7 @@ use std::collections::BinaryHeap;
 use linkage_runtime::{Certifiable, Column, Dim};
 
 use super::certificate::Certificate;
-use super::jet::Measure;
+use super::jet::{Jet, Measure};
 use super::system::System;
 use super::tube::Tube;
 use crate::Interval;
@@ -23,7 +23,7 @@ const RELATIVE_WIDTH: f64 = 1e-9;
 const OF_TOLERANCES: f64 = 0.01;
 
 /// The most boxes of one search. Smooth quantities take about a hundred.
-const MOST_BOXES: usize = 5000;
+const MOST_BOXES: usize = 3000;
 
 /// The smallest and the largest value of a quantity over a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,11 +47,12 @@ impl Enclosure {
     }
 }
 
-/// A part of a tube with an upper bound of the values in it.
+/// A part of a tube with an upper bound of the values in it, and the jet if it has bounds.
 struct Open {
     bound: f64,
     tube: usize,
     c: Interval,
+    jet: Option<Jet>,
 }
 
 impl PartialEq for Open {
@@ -71,12 +72,13 @@ impl Ord for Open {
     }
 }
 
-/// The search for the largest value of a measure times a sign.
+/// The search for the largest value of a measure or of its negative.
 struct Search<'a, M: Certifiable> {
     system: &'a System<M>,
     tubes: &'a [Tube],
     measure: Measure,
-    sign: f64,
+    /// True for the smallest value: the largest of the negative.
+    is_least: bool,
     open: BinaryHeap<Open>,
     /// The largest lower and upper bound of the values at points.
     attained: Option<Interval>,
@@ -85,42 +87,32 @@ struct Search<'a, M: Certifiable> {
 }
 
 impl<M: Certifiable> Search<'_, M> {
-    /// The values, the derivative and the second derivative over a part of a tube.
-    fn evaluate(&mut self, tube: usize, c: Interval) -> Option<[Interval; 3]> {
+    /// The jet over a part of a tube; the value in its middle counts as found.
+    fn evaluate(&mut self, tube: usize, c: Interval) -> Option<Jet> {
         self.evaluations += 1;
         let jet = self.measure.jet(self.system, self.tubes.get(tube)?, c)?;
-        let sign = Interval::from(self.sign);
-        Some([jet.value, jet.first, jet.second].map(|x| if self.sign < 0.0 { sign * x } else { x }))
-    }
-
-    /// Evaluates a point.
-    fn visit(&mut self, tube: usize, c: f64) -> Option<[Interval; 3]> {
-        let jet = self.evaluate(tube, c.into())?;
-        let [value, ..] = jet;
-        self.magnitude = self.magnitude.max(value.magnitude());
-        self.attained = Some(self.attained.map_or(value, |known| {
-            let (least, most) = (known.least().max(value.least()), known.most().max(value.most()));
+        let signed = |x: Interval| if self.is_least { -x } else { x };
+        let Jet { value, first, second, middle, slope } = jet;
+        let [value, first, second, middle, slope] = [value, first, second, middle, slope].map(signed);
+        self.magnitude = self.magnitude.max(middle.magnitude());
+        self.attained = Some(self.attained.map_or(middle, |known| {
+            let (least, most) = (known.least().max(middle.least()), known.most().max(middle.most()));
             Interval::new(least, most).unwrap_or(known)
         }));
-        Some(jet)
+        Some(Jet { value, first, second, middle, slope })
     }
 
     fn push(&mut self, tube: usize, c: Interval) {
         let jet = self.evaluate(tube, c);
-        self.visit(tube, c.middle());
-        let Some([value, first, _]) = jet else {
-            self.open.push(Open { bound: f64::INFINITY, tube, c });
-            return;
-        };
-        if first.contains(0.0) {
-            self.open.push(Open { bound: value.most(), tube, c });
-            return;
+        let bound = jet.map_or(f64::INFINITY, |jet| jet.value.most());
+        if let Some(jet) = jet.filter(|jet| !jet.first.contains(0.0)) {
+            // Monotone: the largest value is at an end.
+            let end = if jet.first.least() > 0.0 { c.most() } else { c.least() };
+            if !self.is_worth(bound) || self.evaluate(tube, end.into()).is_some() {
+                return;
+            }
         }
-        // Monotone: the largest value is at an end.
-        let end = if first.least() > 0.0 { c.most() } else { c.least() };
-        if self.is_worth(value.most()) && self.visit(tube, end).is_none() {
-            self.open.push(Open { bound: value.most(), tube, c });
-        }
+        self.open.push(Open { bound, tube, c, jet });
     }
 
     /// True if a bound is larger than all values found.
@@ -133,48 +125,31 @@ impl<M: Certifiable> Search<'_, M> {
         RELATIVE_WIDTH * self.magnitude + OF_TOLERANCES * spread
     }
 
-    /// Divides a part of a tube at its stationary point or in the middle; false if it is too narrow.
-    fn divide(&mut self, Open { tube, c, .. }: &Open) -> bool {
-        let (tube, c) = (*tube, *c);
+    /// Divides a part of a tube in the middle, or reduces it to its stationary point and its ends; false if it is too
+    /// narrow.
+    fn divide(&mut self, &Open { tube, c, jet, .. }: &Open) -> bool {
         let middle = c.middle();
-        if let Some(narrow) = self.stationary(tube, c) {
-            let ends = [c.least(), c.most()].map(|end| self.visit(tube, end).is_some());
-            if ends == [true; 2] {
-                if let Some(narrow) = narrow {
-                    self.push(tube, narrow);
-                }
+        if let Some(jet) = jet.filter(|jet| !jet.second.contains(0.0)) {
+            // Newton's method: f' = 0 in m - f'(m) / f''(C) only.
+            let narrow = c.intersection(Interval::from(middle) - jet.slope / jet.second);
+            if narrow.is_none_or(|narrow| narrow.width() < 0.5 * c.width())
+                && [c.least(), c.most()].into_iter().all(|end| self.evaluate(tube, end.into()).is_some())
+            {
+                narrow.into_iter().for_each(|narrow| self.push(tube, narrow));
                 return true;
             }
         }
-        let halves = [Interval::new(c.least(), middle), Interval::new(middle, c.most())];
         if middle <= c.least() || middle >= c.most() {
             return false;
         }
-        for half in halves.into_iter().flatten() {
-            self.push(tube, half);
-        }
+        let halves = [Interval::new(c.least(), middle), Interval::new(middle, c.most())];
+        halves.into_iter().flatten().for_each(|half| self.push(tube, half));
         true
-    }
-
-    /// A part less than half as wide that contains all stationary points, or none if there are none; `None` if the
-    /// second derivative may be zero, or Newton's step narrows too little.
-    #[expect(clippy::option_option, reason = "no narrower part is not the absence of stationary points")]
-    fn stationary(&mut self, tube: usize, c: Interval) -> Option<Option<Interval>> {
-        let [_, _, second] = self.evaluate(tube, c)?;
-        let [_, first, _] = self.visit(tube, c.middle())?;
-        if second.contains(0.0) {
-            return None;
-        }
-        let narrow = c.intersection(Interval::from(c.middle()) - first / second);
-        narrow.is_none_or(|narrow| narrow.width() < 0.5 * c.width()).then_some(narrow)
     }
 
     /// Runs the search: an interval that contains the largest value, and whether it is as narrow as asked for.
     fn run(mut self) -> (Interval, bool, usize, f64) {
         for (place, tube) in self.tubes.iter().enumerate() {
-            for end in [tube.range.least(), tube.range.most()] {
-                self.visit(place, end);
-            }
             self.push(place, tube.range);
         }
         let mut bound = f64::NEG_INFINITY;
@@ -194,9 +169,9 @@ impl<M: Certifiable> Search<'_, M> {
 
 /// The extremes of a measure over tubes.
 pub(super) fn enclosure<M: Certifiable>(system: &System<M>, tubes: &[Tube], measure: Measure) -> Enclosure {
-    let [least, largest] = [-1.0, 1.0].map(|sign| {
+    let [least, largest] = [true, false].map(|is_least| {
         let (open, attained) = (BinaryHeap::new(), None);
-        Search { system, tubes, measure, sign, open, attained, magnitude: 0.0, evaluations: 0 }.run()
+        Search { system, tubes, measure, is_least, open, attained, magnitude: 0.0, evaluations: 0 }.run()
     });
     Enclosure {
         least: -least.0,

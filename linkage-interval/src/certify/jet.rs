@@ -18,15 +18,24 @@ pub(super) enum Measure {
     QuantityRate(usize),
 }
 
-/// A measure over an interval of the parameter.
+/// A measure over an interval of the parameter, for all dimensions.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Jet {
-    /// Its values for all dimensions.
+    /// Its values.
     pub(super) value: Interval,
     /// Its derivative by the parameter of the tube.
     pub(super) first: Interval,
     /// Its second derivative; all real numbers if it is not computed.
     pub(super) second: Interval,
-    /// The differences of its values from those of the nominal dimensions, bounded by the mean-value theorem.
+    /// The values in the middle of the interval.
+    pub(super) middle: Interval,
+    /// The derivative there.
+    pub(super) slope: Interval,
+}
+
+/// A measure over a box, and the differences of its values from those of the nominal dimensions.
+struct Bounds {
+    series: Series<Interval>,
     by_tolerances: Interval,
 }
 
@@ -38,12 +47,12 @@ impl Measure {
         tube: &Tube,
         dimensions: Dimensions,
         c: Interval,
-    ) -> Option<Jet> {
+    ) -> Option<Bounds> {
         let part = tube.part(system, dimensions, c)?;
         let rates = part.expansion.rates(system, &part.linear)?;
         let accelerations = part.expansion.accelerations(system, dimensions, &part.linear, &part.q, &rates)?;
         let mut by_tolerances = Interval::zero();
-        let jet = match self {
+        let series = match self {
             Self::Rate(place) => {
                 let (value, first) = (*rates.get(place)?, *accelerations.get(place)?);
                 Series { value, first, second: Interval::ENTIRE }
@@ -60,23 +69,37 @@ impl Measure {
                 }
             }
         };
-        Some(Jet { value: jet.value, first: jet.first, second: jet.second, by_tolerances })
+        Some(Bounds { series, by_tolerances })
     }
 
-    /// The jet over an interval c, its value by the mean-value form in c and in the parameters:
-    /// f(m) + f'(C) (C - m) + the sum of f_p (p - p0), where m is the middle of c.
-    pub(super) fn jet<M: Certifiable>(self, system: &System<M>, tube: &Tube, c: Interval) -> Option<Jet> {
-        let mut jet = self.over(system, tube, Dimensions::All, c)?;
-        if c.width() > 0.0 || system.has_tolerances() {
-            let middle = Interval::from(c.middle());
-            // A rate has no derivatives by the parameters here.
-            let dimensions =
-                if matches!(self, Self::Quantity(_)) { Dimensions::Nominal } else { Dimensions::All };
-            let at = self.over(system, tube, dimensions, middle)?;
-            let form = at.value + jet.first * (c - middle) + jet.by_tolerances;
-            jet.value = jet.value.intersection(form)?;
+    /// The measure in the middle of an interval for the nominal dimensions and for all. A rate has no derivatives by the
+    /// parameters here, so that its nominal values are those for all.
+    fn in_middle<M: Certifiable>(self, system: &System<M>, tube: &Tube, c: f64) -> Option<[Series<Interval>; 2]> {
+        let all = self.over(system, tube, Dimensions::All, c.into())?;
+        if !system.has_tolerances() || !matches!(self, Self::Quantity(_)) {
+            return Some([all.series; 2]);
         }
-        Some(jet)
+        let nominal = self.over(system, tube, Dimensions::Nominal, c.into())?.series;
+        let value = all.series.value.intersection(nominal.value + all.by_tolerances)?;
+        Some([nominal, Series { value, ..all.series }])
+    }
+
+    /// The jet over an interval c with middle m, its values by the mean-value form f(m) + f'(C) (C - m), by Taylor's
+    /// f(m) + f'(m) (C - m) + f''(C) (C - m)^2 / 2, and by the mean-value form in the parameters.
+    pub(super) fn jet<M: Certifiable>(self, system: &System<M>, tube: &Tube, c: Interval) -> Option<Jet> {
+        let m = c.middle();
+        let [nominal, all] = self.in_middle(system, tube, m)?;
+        let (middle, slope) = (all.value, all.first);
+        if c.width() == 0.0 {
+            return Some(Jet { value: middle, first: slope, second: all.second, middle, slope });
+        }
+        let Bounds { series: Series { value, first, second }, by_tolerances } =
+            self.over(system, tube, Dimensions::All, c)?;
+        let s = c - Interval::from(m);
+        let mean = nominal.value + first * s;
+        let taylor = nominal.value + nominal.first * s + second * s.square() * Interval::from(0.5);
+        let value = value.intersection(mean.intersection(taylor)? + by_tolerances)?;
+        Some(Jet { value, first, second, middle, slope })
     }
 }
 

@@ -31,6 +31,8 @@ pub(super) struct Motion<'a, M: Certifiable> {
     pub(super) tubes: Vec<Tube>,
     /// The box of the position at the end of the last tube.
     pub(super) joint: Vec<Interval>,
+    /// The parameter of the last tube, and its direction.
+    heading: Option<(usize, f64)>,
     /// The step relative to the scale of the parameter.
     step: f64,
     /// The number of tests so far, and the most.
@@ -41,7 +43,7 @@ pub(super) struct Motion<'a, M: Certifiable> {
 impl<'a, M: Certifiable> Motion<'a, M> {
     /// A motion from a certified box.
     pub(super) fn new(system: &'a System<M>, joint: Vec<Interval>, most_tests: usize) -> Self {
-        Self { system, tubes: Vec::new(), joint, step: FIRST_STEP, tests: 0, most_tests }
+        Self { system, tubes: Vec::new(), joint, heading: None, step: FIRST_STEP, tests: 0, most_tests }
     }
 
     /// The number of tests that may follow.
@@ -90,18 +92,35 @@ impl<'a, M: Certifiable> Motion<'a, M> {
             let range = Interval::from(beyond).hull(from);
             let guess = expansion.float_at(range.middle());
             let tube = Tube::certify(self.system, parameter, &guess, range, &floor);
-            if let Some(mut tube) = tube.filter(|tube| tube.contains(&self.joint))
+            if let Some(mut tube) = tube.filter(|tube| tube.contains(&self.joint) && self.goes_on(tube, direction))
                 && let Some(part) = tube.part(self.system, Dimensions::All, to.into())
             {
                 self.joint = part.q;
                 tube.is_backward = direction < 0.0;
                 self.tubes.push(tube);
+                self.heading = Some((parameter, direction));
                 self.step = (self.step * LONGER).min(LONGEST_STEP);
                 return Ok(());
             }
             self.step *= SHORTER;
             if self.step < SHORTEST_STEP {
                 return Err(self.stopped(expansion.over(range).last().copied().unwrap_or(Interval::ENTIRE)));
+            }
+        }
+    }
+
+    /// True if a tube leads away from the tubes before: in it the parameter of the last tube goes on in its direction at
+    /// the joint. Otherwise the motion would return on itself, and seem to be closed.
+    fn goes_on(&self, tube: &Tube, direction: f64) -> bool {
+        let parameter = tube.expansion.parameter;
+        match self.heading {
+            None => true,
+            Some((last, before)) if last == parameter => before == direction,
+            Some((last, before)) => {
+                let part = tube.part(self.system, Dimensions::All, self.at(parameter));
+                let rates = part.and_then(|part| part.expansion.rates(self.system, &part.linear));
+                let rate = rates.and_then(|rates| rates.get(last).copied());
+                rate.is_some_and(|rate| !rate.contains(0.0) && rate.middle().signum() == before * direction)
             }
         }
     }

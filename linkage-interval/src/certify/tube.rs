@@ -23,6 +23,9 @@ const TRIALS: usize = 3;
 /// The most steps that shrink the box of a position: the error is squared in each.
 const SHRINKING_STEPS: usize = 4;
 
+/// A part of the width of a box that needs no further step.
+const NEGLIGIBLE: f64 = 0.05;
+
 /// A box that moves: for each value c of one coordinate in a range there is exactly one position in the box at c, and J
 /// by the other coordinates is regular in all of it.
 ///
@@ -113,7 +116,10 @@ impl Tube {
         for step in 1.. {
             let linear = expansion.linear(system, dimensions, &q);
             let z: Vec<Interval> = others(parameter, &q).zip(others(parameter, &center)).map(|(&q, &p)| q - p).collect();
-            let k = b.iter().zip(apply(&linear.defect, &z)).map(|(&b, part)| part - b);
+            let errors = apply(&linear.defect, &z);
+            // Smaller errors than the residual would make the box no smaller.
+            let is_last = errors.iter().zip(&b).all(|(error, b)| error.magnitude() <= NEGLIGIBLE * b.width());
+            let k = b.iter().zip(errors).map(|(&b, part)| part - b);
             let next = others(parameter, &center).zip(k).map(|(&center, k)| center + k);
             let next: Vec<Interval> = others(parameter, &q)
                 .zip(next)
@@ -121,7 +127,7 @@ impl Tube {
                 .collect::<Option<_>>()?;
             q = with_parameter(parameter, next, c);
             let width = q.iter().zip(&system.scales).map(|(q, scale)| q.width() / scale).fold(0.0, f64::max);
-            if step == SHRINKING_STEPS || width > 0.9 * last {
+            if is_last || step == SHRINKING_STEPS || width > 0.9 * last {
                 return Some(Part { expansion, linear, q });
             }
             last = width;

@@ -45,7 +45,7 @@ fn double_butterfly_all_eight() {
 #[test]
 fn jansen() {
     let jansen = Loops::<Jansen, f64>::new([38.0, 41.5, 39.3, 40.1, 55.8, 39.4, 36.7, 65.7, 49.0, 50.0, 61.9, 7.8, 15.0]);
-    let start = Loops::<Jansen, f64>::at([1.9, 2.9, 3.3, 4.0, 4.2, 4.0, 4.5, 3.4, 0.7, 5.2], 0.0);
+    let start = Loops::<Jansen, f64>::at([1.22704, 2.46589, 2.73271, -2.7142, -1.28584, -2.31548, -1.16473, 2.64571, -1.32367, -1.90792], 0.0);
     let time = std::time::Instant::now();
     match certify::turn(&jansen, &start) {
         Ok(certificate) => println!("{} {} {:?} {:?} {:?}", certificate.boxes(), certificate.tests(), certificate.end(), time.elapsed(), certificate.start()),

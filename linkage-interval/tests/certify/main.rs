@@ -5,4 +5,5 @@ mod curves;
 mod extremes;
 mod loops;
 mod shapes;
+mod tolerances;
 mod turns;
