@@ -1,5 +1,7 @@
 //! The certificate of a motion.
 
+use std::f64::consts::TAU;
+
 use linkage_runtime::{Certifiable, Column, Dim, Number};
 
 use super::motion::unknowns_of;
@@ -104,28 +106,38 @@ impl<M: Certifiable> Certificate<M> {
     }
 }
 
-/// The multiples of full turns nearest to the differences of two boxes in the unknowns whose formulas repeat, and the
-/// second box moved by them.
-pub(super) fn moved_by_turns<M: Certifiable>(
-    end: &[Interval],
-    start: &[Interval],
-    input_turns: i64,
-) -> (Vec<i64>, Vec<Interval>) {
-    let two_pi = Interval::pi() + Interval::pi();
-    let moved = |x: Interval, turns: i64| {
-        if turns == 0 { x } else { x + two_pi * Interval::from(turns as f64) }
-    };
-    let turns_of = |((end, start), &period): ((&Interval, &Interval), &u32)| {
-        if period == 0 {
-            return 0;
-        }
-        let period = f64::from(period);
-        let turns = ((end.middle() - start.middle()) / (two_pi.middle() * period)).round() * period;
-        // 2^53 turns: all whole numbers are doubles up to there.
-        if turns.abs() < 9e15 { turns as i64 } else { 0 }
-    };
-    let turns: Vec<i64> = end.iter().zip(start).zip(M::UNKNOWN_PERIODS).map(turns_of).collect();
-    let all = turns.iter().copied().chain([input_turns]);
-    let q = start.iter().zip(all).map(|(&x, turns)| moved(x, turns)).collect();
-    (turns, q)
+/// A box moved by full turns of the coordinates whose formulas repeat.
+pub(super) struct Moved {
+    /// The turns of the unknowns.
+    pub(super) turns: Vec<i64>,
+    pub(super) input_turns: i64,
+    pub(super) q: Vec<Interval>,
+}
+
+impl Moved {
+    /// Moves a box by the turns that bring it nearest to another.
+    pub(super) fn near<M: Certifiable>(system: &System<M>, start: &[Interval], end: &[Interval]) -> Self {
+        let input = M::U::COUNT;
+        let turns_of = |place: usize| {
+            let period = if place == input { system.input_period() } else { M::UNKNOWN_PERIODS.get(place).copied() };
+            let apart = end.get(place).zip(start.get(place)).map(|(end, start)| end.middle() - start.middle());
+            full_turns(apart.unwrap_or_default(), period.unwrap_or_default())
+        };
+        let two_pi = Interval::pi() + Interval::pi();
+        let moved = |(place, &x): (usize, &Interval)| match turns_of(place) {
+            0 => x,
+            turns => x + two_pi * Interval::from(turns as f64),
+        };
+        let q = start.iter().enumerate().map(moved).collect();
+        Self { turns: (0..input).map(turns_of).collect(), input_turns: turns_of(input), q }
+    }
+}
+
+/// The multiple of a period, in full turns, nearest to an angle; 0 without a period.
+fn full_turns(angle: f64, period: u32) -> i64 {
+    /// Up to here all whole numbers are doubles.
+    const MOST_TURNS: f64 = 9e15;
+    let period = f64::from(period);
+    let turns = if period > 0.0 { (angle / (TAU * period)).round() * period } else { 0.0 };
+    if turns.abs() < MOST_TURNS { turns as i64 } else { 0 }
 }

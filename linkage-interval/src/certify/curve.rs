@@ -7,7 +7,7 @@
 use linkage_runtime::{Certifiable, Column, Number};
 
 use super::Certify;
-use super::certificate::moved_by_turns;
+use super::certificate::Moved;
 use super::dead_point::{DeadPoint, dead_points};
 use super::error::CertifyError;
 use super::extremes::{Enclosure, enclosure};
@@ -80,10 +80,9 @@ impl<M: Certifiable> Curve<M> {
     /// True if a position is on the curve: if the box of the one position near it lies in a tube, up to full turns.
     #[must_use]
     pub fn passes(&self, position: &M::Coordinates) -> bool {
-        let (unknowns, inputs) = M::parts(position);
-        let q: Vec<f64> = unknowns.iter().chain(inputs.iter()).copied().collect();
-        let guess = certified_position(&self.system, self.system.count(), &q);
-        guess.is_some_and(|q| self.tubes.iter().any(|tube| returned::<M>(tube, &q).is_some()))
+        let guess = self.system.position(position);
+        let q = guess.and_then(|guess| certified_position(&self.system, self.system.count(), &guess));
+        q.is_some_and(|q| self.tubes.iter().any(|tube| returned(&self.system, tube, &q).is_some()))
     }
 
     /// Encloses the smallest and the largest value of each coordinate of a point and each output over the curve.
@@ -127,31 +126,17 @@ fn advance<M: Certifiable>(motion: &mut Motion<'_, M>, along: &[f64]) -> Result<
     Ok(Heading::of(motion, &heading.rates).ok_or_else(|| lost(motion))?.rates)
 }
 
-/// The start moved by full turns.
-pub(super) struct Returned {
-    turns: Vec<i64>,
-    input_turns: i64,
-    pub(super) moved: Vec<Interval>,
+/// A box moved by full turns into a tube, if it lies in it then.
+pub(super) fn returned<M: Certifiable>(system: &System<M>, tube: &Tube, start: &[Interval]) -> Option<Moved> {
+    let moved = Moved::near(system, start, &tube.over(tube.range));
+    tube.contains(&moved.q).then_some(moved)
 }
 
-impl Returned {
-    /// True if the tube reaches the start behind the joint at which it begins: before it, the start would be that of the
-    /// motion itself.
-    fn is_beyond(&self, tube: &Tube, joint: &[Interval]) -> bool {
-        let places = self.moved.get(tube.expansion.parameter).zip(joint.get(tube.expansion.parameter));
-        places.is_some_and(|(&start, &joint)| start.intersection(joint).is_none())
-    }
-}
-
-/// The full turns of the unknowns and of the input after which a box lies in a tube, if it does.
-pub(super) fn returned<M: Certifiable>(tube: &Tube, start: &[Interval]) -> Option<Returned> {
-    let at = tube.over(tube.range);
-    let period = f64::from(M::INPUT_PERIODS.first().copied().unwrap_or_default());
-    let apart = at.last()?.middle() - start.last()?.middle();
-    let turns = if period > 0.0 { (apart / (std::f64::consts::TAU * period)).round() * period } else { 0.0 };
-    let input_turns = if turns.abs() < 9e15 { turns as i64 } else { 0 };
-    let (turns, moved) = moved_by_turns::<M>(&at, start, input_turns);
-    tube.contains(&moved).then_some(Returned { turns, input_turns, moved })
+/// True if a tube reaches the start, moved by full turns, behind the joint at which it begins: before it, the start would
+/// be that of the motion itself.
+fn is_beyond(tube: &Tube, start: &Moved, joint: &[Interval]) -> bool {
+    let places = start.q.get(tube.expansion.parameter).zip(joint.get(tube.expansion.parameter));
+    places.is_some_and(|(&start, &joint)| start.intersection(joint).is_none())
 }
 
 impl<M: Certifiable> Certify<'_, M> {
@@ -162,7 +147,7 @@ impl<M: Certifiable> Certify<'_, M> {
     /// Those of [`CertifyError`] but `DeadPoint`; [`CertifyError::Exhausted`] also for a curve that never closes.
     pub fn curve(&self, start: &M::Coordinates) -> Result<Curve<M>, CertifyError> {
         let system = self.system(start)?;
-        let guess = self.position(start);
+        let guess = system.position(start).ok_or_else(|| self.invalid("the start"))?;
         self.check_emitted(&system, &guess)?;
         let no_position = || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(&system, &guess) };
         let at = |parameter| certified_position(&system, parameter, &guess);
@@ -177,10 +162,10 @@ impl<M: Certifiable> Certify<'_, M> {
             along = advance(&mut motion, &along)?;
             self.check_emitted_at(&motion)?;
             if let [_, .., last] = motion.tubes.as_slice()
-                && let Some(returned) = returned::<M>(last, &first)
-                && returned.is_beyond(last, &before)
+                && let Some(moved) = returned(&system, last, &first)
+                && is_beyond(last, &moved, &before)
             {
-                break (returned.turns, returned.input_turns);
+                break (moved.turns, moved.input_turns);
             }
         };
         let (tubes, tests) = (motion.tubes, motion.tests);

@@ -119,8 +119,8 @@ pub(super) fn dead_points<M: Certifiable>(
         for point in found {
             // In the overlap of two tubes a dead point is found twice, near the start perhaps after full turns.
             let again = all.last().is_some_and(|last| intersect(&last.q, &point.q));
-            let first = all.first().and_then(|first| returned::<M>(tube, &first.q));
-            if !again && !first.is_some_and(|first| intersect(&first.moved, &point.q)) {
+            let first = all.first().and_then(|first| returned(system, tube, &first.q));
+            if !again && !first.is_some_and(|first| intersect(&first.q, &point.q)) {
                 all.push(point);
             }
         }

@@ -87,12 +87,6 @@ impl<'a, M: Certifiable> Certify<'a, M> {
         CertifyError::Invalid { mechanism: M::NAME, what }
     }
 
-    /// The unknowns and the moving input.
-    fn position(&self, q: &M::Coordinates) -> Vec<f64> {
-        let (unknowns, inputs) = M::parts(q);
-        unknowns.iter().chain(inputs.iter().skip(self.input).take(1)).copied().collect()
-    }
-
     fn system(&self, start: &M::Coordinates) -> Result<System<M>, CertifyError> {
         let of_group = |(group, function): (&linkage_runtime::Group, &Option<&'static str>)| {
             function.map(|function| CertifyError::UserFunction { mechanism: M::NAME, group: group.name, function })

@@ -95,6 +95,19 @@ impl<M: Certifiable> System<M> {
         M::U::COUNT
     }
 
+    /// The unknowns and the moving input of a position; `None` if its other inputs are not those of the system.
+    pub(super) fn position(&self, q: &M::Coordinates) -> Option<Vec<f64>> {
+        let (unknowns, inputs) = M::parts(q);
+        let mut fixed = inputs.iter().zip(&self.inputs).enumerate().filter(|&(place, _)| place != self.moving);
+        let moving = *inputs.iter().nth(self.moving)?;
+        fixed.all(|(_, (one, other))| one == other).then(|| unknowns.iter().copied().chain([moving]).collect())
+    }
+
+    /// The number of turns of the input after which the formulas repeat; zero if they do not.
+    pub(super) fn input_period(&self) -> Option<u32> {
+        M::INPUT_PERIODS.get(self.moving).copied()
+    }
+
     /// True if a parameter has a tolerance.
     pub(super) fn has_tolerances(&self) -> bool {
         !self.tolerances.is_empty()

@@ -2,7 +2,7 @@
 
 use linkage_runtime::{Certifiable, Number};
 
-use super::certificate::{Certificate, End, moved_by_turns};
+use super::certificate::{Certificate, End, Moved};
 use super::error::CertifyError;
 use super::motion::{Motion, certified_position, nearest_group};
 use super::system::System;
@@ -48,7 +48,7 @@ impl<M: Certifiable> Certify<'_, M> {
     fn over_inputs(&self, start: &M::Coordinates, from: f64, to: Interval) -> Result<Certificate<M>, CertifyError> {
         let system = self.system(start)?;
         let input = system.count();
-        let guess = self.position(start);
+        let guess = system.position(start).ok_or_else(|| self.invalid("the start"))?;
         self.check_emitted(&system, &guess)?;
         let no_position =
             || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(&system, &guess) };
@@ -75,17 +75,20 @@ impl<M: Certifiable> Certify<'_, M> {
         let Some(last) = tubes.last() else { return End::Open };
         let at_end = last.over(last.range);
         let reached = |position: &[Interval]| {
-            let (turns, moved) = moved_by_turns::<M>(&at_end, position, turns);
-            last.contains(&moved).then_some(turns)
+            let moved = Moved::near(system, position, &at_end);
+            (moved.input_turns == turns && last.contains(&moved.q)).then_some(moved.turns)
         };
         if let Some(turns) = reached(start) {
             return End::Closed { turns };
         }
-        let others = self.positions.iter().enumerate().filter_map(|(position, coordinates)| {
-            let other = certified_position(system, system.count(), &self.position(coordinates))?;
+        let mut others = self.positions.iter().enumerate().filter_map(|(position, coordinates)| {
+            let guess = system.position(coordinates)?;
+            // At the start input only.
+            let is_at_start = guess.last().copied() == start.last().map(|input| input.middle());
+            let other = is_at_start.then(|| certified_position(system, system.count(), &guess))??;
             Some(End::Arrives { position, turns: reached(&other)? })
         });
-        others.into_iter().next().unwrap_or(End::Open)
+        others.next().unwrap_or(End::Open)
     }
 }
 

@@ -63,6 +63,43 @@ impl Shape for SliderCrank {
     const GROUPS: &'static [Group] = &[Group { name: "rod, slider", equations: &[0, 1], unknowns: &[0, 1] }];
 }
 
+/// A four-bar whose rocker drives a second dyad: angles of coupler, rocker, rod, second rocker. Parameters: ground, crank,
+/// coupler, rocker, the arm of the rocker along and across it, rod, second rocker, the second ground along and across.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SixBar;
+impl Shape for SixBar {
+    type P = D<10>;
+    type U = D<4>;
+    type Q = D<4>;
+    const LOOPS: &'static [&'static [Term]] = &[
+        &[ground(0, 0), crank(1), link(2, 0), minus(3, 1)],
+        &[link(4, 1), across(link(4, 1), 5), link(6, 2), minus(7, 3), ground(8, 0), ground(9, 1)],
+    ];
+    const POINTS: &'static [&'static [Term]] = &[&[link(4, 1), across(link(4, 1), 5), link(6, 2)]];
+    const OUTPUTS: &'static [(usize, usize)] = &[(0, 1), (2, 3)];
+    const UNKNOWN_ANGLES: &'static [bool] = &[true; 4];
+    const UNKNOWN_PERIODS: &'static [u32] = &[1; 4];
+    const GROUPS: &'static [Group] = &[
+        Group { name: "coupler, rocker", equations: &[0, 1], unknowns: &[0, 1] },
+        Group { name: "rod, second", equations: &[2, 3], unknowns: &[2, 3] },
+    ];
+    const USER_FUNCTIONS: &'static [Option<&'static str>] = &[None, None];
+}
+
+/// A four-bar whose equations have a user function.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UserFunction;
+impl Shape for UserFunction {
+    type P = D<4>;
+    type U = D<2>;
+    type Q = D<0>;
+    const LOOPS: &'static [&'static [Term]] = FourBar::LOOPS;
+    const UNKNOWN_ANGLES: &'static [bool] = FourBar::UNKNOWN_ANGLES;
+    const UNKNOWN_PERIODS: &'static [u32] = FourBar::UNKNOWN_PERIODS;
+    const GROUPS: &'static [Group] = FourBar::GROUPS;
+    const USER_FUNCTIONS: &'static [Option<&'static str>] = &[Some("lift")];
+}
+
 /// Jansen's leg: angles of b, j, d, e, c, k, f, g, h, i; parameters a to m in order without the letters' gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jansen;
