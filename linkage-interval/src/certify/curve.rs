@@ -13,7 +13,7 @@ use super::error::CertifyError;
 use super::extremes::{Enclosure, enclosure};
 use super::jet::Measure;
 use super::motion::{Motion, certified_position, nearest_group, unknowns_of};
-use super::system::System;
+use super::system::{Dimensions, System};
 use super::tube::Tube;
 use crate::Interval;
 
@@ -24,6 +24,10 @@ const OVERLAP: f64 = 0.02;
 /// The most tubes from where the input cannot go on to its dead point: the last step of the input was so short that five
 /// were enough in all cases run.
 const TUBES_TO_DEAD_POINT: usize = 40;
+
+/// The number of tubes from the last one of the input back to the start of the search for its dead point: it is then
+/// about a hundred times as far away.
+const TUBES_BACK: usize = 12;
 
 /// A proof that a motion is one smooth curve, through dead points of the input, that is at its start again.
 ///
@@ -176,13 +180,18 @@ impl<M: Certifiable> Certify<'_, M> {
 
 /// The error of a dead point ahead of a motion of which the input cannot go on.
 pub(super) fn dead_point_ahead<M: Certifiable>(motion: &Motion<'_, M>, direction: f64) -> Option<CertifyError> {
-    let mut ahead = Motion::new(motion.system, motion.joint.clone(), motion.tests_left());
+    // Where the motion stopped, the sign of the rate of the input is uncertain.
+    let before = motion.tubes.iter().rev().nth(TUBES_BACK).or(motion.tubes.first());
+    let begin = |tube: &Tube| Some(tube.part(motion.system, Dimensions::All, tube.range.middle().into())?.q);
+    let joint = before.and_then(begin).unwrap_or_else(|| motion.joint.clone());
+    let mut ahead = Motion::new(motion.system, joint, motion.tests_left());
     let mut along = vec![0.0; motion.joint.len()];
     *along.last_mut()? = direction;
     for _ in 0..TUBES_TO_DEAD_POINT {
         along = advance(&mut ahead, &along).ok()?;
-        if let Some(DeadPoint { group, input, .. }) = dead_points(motion.system, &ahead.tubes).ok()?.first() {
-            return Some(CertifyError::DeadPoint { mechanism: M::NAME, group, limit: *input });
+        if let Some(DeadPoint { group, input, is_largest, .. }) = dead_points(motion.system, &ahead.tubes).ok()?.first() {
+            let is_first = *is_largest == (direction > 0.0);
+            return is_first.then_some(CertifyError::DeadPoint { mechanism: M::NAME, group, limit: *input });
         }
         // Only the last tube is searched again.
         ahead.tubes.clear();

@@ -82,7 +82,7 @@ fn four_bars_turn_as_grashofs_limits_say() {
             }
             (Err(CertifyError::DeadPoint { limit, .. }), Some(expected)) => {
                 // The closed formula loses half of the digits where cos = 1.
-                assert!((limit.middle() - expected).abs() < 1e-7, "{lengths:?} {limit:?} {expected}");
+                assert!((limit.middle() - expected).abs() < 1e-7, "{lengths:?} {limit:?} {expected} {input} {side}");
                 dead += 1;
             }
             (Err(CertifyError::Singular { .. } | CertifyError::NoPosition { .. }), _) => open += 1,
