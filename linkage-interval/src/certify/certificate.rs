@@ -98,12 +98,6 @@ impl<M: Certifiable> Certificate<M> {
         });
         parts.reduce(|one, other| Column::from_fn(|place| one[place].hull(other[place])))
     }
-
-    /// The number of unknowns.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        M::U::COUNT
-    }
 }
 
 /// A box moved by full turns of the coordinates whose formulas repeat.

@@ -156,7 +156,7 @@ impl<M: Certifiable> Certify<'_, M> {
         let no_position = || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(&system, &guess) };
         let at = |parameter| certified_position(&system, parameter, &guess);
         let first = (0..guess.len()).rev().find_map(at).ok_or_else(no_position)?;
-        let mut motion = Motion::new(&system, first.clone(), self.most_boxes);
+        let mut motion = Motion::new(&system, first.clone(), self.most_tests);
         let mut along = vec![0.0; guess.len()];
         if let Some(input) = along.last_mut() {
             *input = 1.0;
@@ -189,7 +189,8 @@ pub(super) fn dead_point_ahead<M: Certifiable>(motion: &Motion<'_, M>, direction
     *along.last_mut()? = direction;
     for _ in 0..TUBES_TO_DEAD_POINT {
         along = advance(&mut ahead, &along).ok()?;
-        if let Some(DeadPoint { group, input, is_largest, .. }) = dead_points(motion.system, &ahead.tubes).ok()?.first() {
+        if let Some(DeadPoint { group, input, is_largest, .. }) = dead_points(motion.system, &ahead.tubes).ok()?.first()
+        {
             let is_first = *is_largest == (direction > 0.0);
             return is_first.then_some(CertifyError::DeadPoint { mechanism: M::NAME, group, limit: *input });
         }

@@ -72,7 +72,9 @@ pub enum CertifyError {
 impl fmt::Display for CertifyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Invalid { mechanism, what } => write!(f, "{what} of {mechanism} is invalid: not finite or out of range"),
+            Self::Invalid { mechanism, what } => {
+                write!(f, "{what} of {mechanism} is invalid: not finite or out of range")
+            }
             Self::UserFunction { mechanism, group, function } => write!(
                 f,
                 "group {group} of {mechanism} has the user function {function}, which has no values over intervals"
@@ -99,7 +101,10 @@ impl fmt::Display for CertifyError {
                 write!(f, "the emitted {what} of {mechanism} contradicts the derivatives of Psi")
             }
             Self::Exhausted { mechanism, boxes, input } => {
-                write!(f, "the motion of {mechanism} is certified up to the input {input} by {boxes} boxes, the most allowed")
+                write!(
+                    f,
+                    "the motion of {mechanism} is certified up to the input {input} by {boxes} boxes, the most allowed"
+                )
             }
         }
     }

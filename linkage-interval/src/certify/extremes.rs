@@ -162,7 +162,8 @@ impl<M: Certifiable> Search<'_, M> {
         }
         let attained = self.attained.unwrap_or(Interval::ENTIRE);
         let largest = Interval::new(attained.least(), attained.most().max(bound)).unwrap_or(Interval::ENTIRE);
-        let is_sharp = largest.width() <= (1.0 + OF_TOLERANCES) * attained.width() + 2.0 * RELATIVE_WIDTH * self.magnitude;
+        let is_sharp =
+            largest.width() <= (1.0 + OF_TOLERANCES) * attained.width() + 2.0 * RELATIVE_WIDTH * self.magnitude;
         (largest, is_sharp, self.evaluations, self.magnitude)
     }
 }
@@ -173,12 +174,7 @@ pub(super) fn enclosure<M: Certifiable>(system: &System<M>, tubes: &[Tube], meas
         let (open, attained) = (BinaryHeap::new(), None);
         Search { system, tubes, measure, is_least, open, attained, magnitude: 0.0, evaluations: 0 }.run()
     });
-    Enclosure {
-        least: -least.0,
-        largest: largest.0,
-        is_sharp: least.1 && largest.1,
-        evaluations: least.2 + largest.2,
-    }
+    Enclosure { least: -least.0, largest: largest.0, is_sharp: least.1 && largest.1, evaluations: least.2 + largest.2 }
 }
 
 impl<M: Certifiable> Certificate<M> {

@@ -48,7 +48,11 @@ pub(super) fn times(y: &[Vec<f64>], c: &[Interval]) -> Vec<Interval> {
 
 /// The sum of the products of two sequences.
 pub(super) fn dot(one: impl IntoIterator<Item = Interval>, other: &[Interval]) -> Interval {
-    one.into_iter().zip(other).map(|(one, &other)| one * other).reduce(|sum, part| sum + part).unwrap_or(Interval::zero())
+    one.into_iter()
+        .zip(other)
+        .map(|(one, &other)| one * other)
+        .reduce(|sum, part| sum + part)
+        .unwrap_or(Interval::zero())
 }
 
 /// The rows of I - Y J, where J is given by its columns.

@@ -9,6 +9,18 @@ use linkage_runtime::Number;
 /// Formulas over it compute derivatives along a line or a curve from the formulas alone: with q + t w in place of q, the
 /// first derivative of Psi is J w, the second the quadratic velocity term (Psi_q w)_q w. Over intervals each of the three
 /// contains the value for all numbers of the operands.
+///
+/// ```
+/// use linkage_interval::certify::Series;
+/// use linkage_runtime::Number;
+///
+/// // x^2 sin x at x = 1 + t.
+/// let x = Series::line(1.0, 1.0);
+/// let f = x.square() * x.sine();
+/// assert_eq!(f.value, 1_f64.sin());
+/// assert!((f.first - (2.0 * 1_f64.sin() + 1_f64.cos())).abs() < 1e-15);
+/// assert!((f.second - (1_f64.sin() + 4.0 * 1_f64.cos())).abs() < 1e-15);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Series<N> {
     /// The value at t = 0.
@@ -46,21 +58,13 @@ fn double<N: Number>(x: N) -> N {
 impl<N: Number> Add for Series<N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self {
-            value: self.value + other.value,
-            first: self.first + other.first,
-            second: self.second + other.second,
-        }
+        Self { value: self.value + other.value, first: self.first + other.first, second: self.second + other.second }
     }
 }
 impl<N: Number> Sub for Series<N> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        Self {
-            value: self.value - other.value,
-            first: self.first - other.first,
-            second: self.second - other.second,
-        }
+        Self { value: self.value - other.value, first: self.first - other.first, second: self.second - other.second }
     }
 }
 impl<N: Number> Neg for Series<N> {

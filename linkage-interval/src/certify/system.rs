@@ -76,7 +76,8 @@ impl<M: Certifiable> System<M> {
         });
         let scales = ScalesOf::<M>::of(mechanism, &mechanism.pose_at(start));
         let scale_or_one = |scale: f64| if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
-        let coordinates = scales.coordinates.unknowns.iter().chain(scales.coordinates.inputs.iter().skip(moving).take(1));
+        let coordinates =
+            scales.coordinates.unknowns.iter().chain(scales.coordinates.inputs.iter().skip(moving).take(1));
         Ok(Self {
             tolerances: tolerances.collect(),
             floats: M::Over::with_parameters(middles.map(Series::constant)),
@@ -186,7 +187,8 @@ impl<M: Certifiable> System<M> {
     /// do not cancel.
     pub(super) fn check_emitted(&self, q: &[Interval]) -> Result<(), CertifyError> {
         let factors = (0_u32..).map(|place| 1.0 + f64::from(place) / 3.0);
-        let rates: Vec<Interval> = self.scales.iter().zip(factors).map(|(scale, factor)| (scale * factor).into()).collect();
+        let rates: Vec<Interval> =
+            self.scales.iter().zip(factors).map(|(scale, factor)| (scale * factor).into()).collect();
         let contradiction = |what| CertifyError::Contradiction { mechanism: M::NAME, what };
         let (unknowns, inputs) = self.split(q);
         let own = self.jacobian(Dimensions::All, q);
@@ -203,8 +205,7 @@ impl<M: Certifiable> System<M> {
         let own: Vec<_> = self.psi(Dimensions::All, &along).iter().map(|psi| psi.second).collect();
         let (unknown_rates, _) = self.split(&rates);
         let input_rate = rates.last().copied().unwrap_or(Interval::zero());
-        let input_rates =
-            Column::from_fn(|place| if place == self.moving { input_rate } else { Interval::zero() });
+        let input_rates = Column::from_fn(|place| if place == self.moving { input_rate } else { Interval::zero() });
         let gamma = self.emitted.gamma(&unknowns, &inputs, &unknown_rates, &input_rates);
         if intersect(&own, gamma.as_slice()) { Ok(()) } else { Err(contradiction("gamma")) }
     }

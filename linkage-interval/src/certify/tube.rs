@@ -31,7 +31,7 @@ const NEGLIGIBLE: f64 = 0.05;
 ///
 /// The box is p(c) plus and minus the radius, p(c) = q + (c - c0) w + (c - c0)^2 a / 2.
 #[derive(Debug, Clone)]
-pub struct Tube {
+pub(super) struct Tube {
     pub(super) expansion: Expansion,
     pub(super) range: Interval,
     /// True if the motion goes from the end of the range to its start.
@@ -97,7 +97,8 @@ impl Tube {
         let Some(&c) = q.get(self.expansion.parameter) else { return false };
         let center = self.expansion.over(c);
         let places = others(self.expansion.parameter, q).zip(others(self.expansion.parameter, &center));
-        let within = |((&q, &center), &radius): ((&Interval, &Interval), &f64)| (q - center).is_within(symmetric(radius));
+        let within =
+            |((&q, &center), &radius): ((&Interval, &Interval), &f64)| (q - center).is_within(symmetric(radius));
         c.is_within(self.range) && places.zip(&self.radius).all(within)
     }
 
@@ -115,16 +116,15 @@ impl Tube {
         let mut last = f64::INFINITY;
         for step in 1.. {
             let linear = expansion.linear(system, dimensions, &q);
-            let z: Vec<Interval> = others(parameter, &q).zip(others(parameter, &center)).map(|(&q, &p)| q - p).collect();
+            let z: Vec<Interval> =
+                others(parameter, &q).zip(others(parameter, &center)).map(|(&q, &p)| q - p).collect();
             let errors = apply(&linear.defect, &z);
             // Smaller errors than the residual would make the box no smaller.
             let is_last = errors.iter().zip(&b).all(|(error, b)| error.magnitude() <= NEGLIGIBLE * b.width());
             let k = b.iter().zip(errors).map(|(&b, part)| part - b);
             let next = others(parameter, &center).zip(k).map(|(&center, k)| center + k);
-            let next: Vec<Interval> = others(parameter, &q)
-                .zip(next)
-                .map(|(q, next)| q.intersection(next))
-                .collect::<Option<_>>()?;
+            let next: Vec<Interval> =
+                others(parameter, &q).zip(next).map(|(q, next)| q.intersection(next)).collect::<Option<_>>()?;
             q = with_parameter(parameter, next, c);
             let width = q.iter().zip(&system.scales).map(|(q, scale)| q.width() / scale).fold(0.0, f64::max);
             if is_last || step == SHRINKING_STEPS || width > 0.9 * last {

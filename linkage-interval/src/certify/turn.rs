@@ -50,11 +50,10 @@ impl<M: Certifiable> Certify<'_, M> {
         let input = system.count();
         let guess = system.position(start).ok_or_else(|| self.invalid("the start"))?;
         self.check_emitted(&system, &guess)?;
-        let no_position =
-            || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(&system, &guess) };
+        let no_position = || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(&system, &guess) };
         let first = certified_position(&system, input, &guess).ok_or_else(no_position)?;
         let (direction, end) = if to.middle() > from { (1.0, to.most()) } else { (-1.0, to.least()) };
-        let mut motion = Motion::new(&system, first.clone(), self.most_boxes);
+        let mut motion = Motion::new(&system, first.clone(), self.most_tests);
         while motion.input().middle() != end {
             match motion.advance(input, direction, Some(end), 0.0) {
                 Err(error @ CertifyError::Singular { .. }) => {

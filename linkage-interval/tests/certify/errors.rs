@@ -16,9 +16,11 @@ fn error_of<S: Shape<P = <FourBar as Shape>::P, U = <FourBar as Shape>::U>>(leng
 
 #[test]
 fn derivatives_that_contradict_psi_are_an_error() {
-    for (error, expected) in
-        [(error_of::<WrongJ>(LENGTHS), "J"), (error_of::<WrongA>(LENGTHS), "A"), (error_of::<WrongGamma>(LENGTHS), "gamma")]
-    {
+    for (error, expected) in [
+        (error_of::<WrongJ>(LENGTHS), "J"),
+        (error_of::<WrongA>(LENGTHS), "A"),
+        (error_of::<WrongGamma>(LENGTHS), "gamma"),
+    ] {
         assert_eq!(error, CertifyError::Contradiction { mechanism: "Loops", what: expected });
     }
 }
@@ -32,10 +34,16 @@ fn a_user_function_has_no_enclosure() {
 #[test]
 fn numbers_that_are_not_finite_are_an_error() {
     for wrong in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(error_of::<FourBar>([wrong, 40.0, 120.0, 80.0]), CertifyError::Invalid { what: "the parameters", .. }));
+        assert!(matches!(
+            error_of::<FourBar>([wrong, 40.0, 120.0, 80.0]),
+            CertifyError::Invalid { what: "the parameters", .. }
+        ));
         let four_bar = Loops::<FourBar, f64>::new(LENGTHS);
         let start = Loops::<FourBar, f64>::at([0.35, wrong], 0.7);
-        assert!(matches!(certify::turn(&four_bar, &start).err(), Some(CertifyError::Invalid { what: "the start", .. })));
+        assert!(matches!(
+            certify::turn(&four_bar, &start).err(),
+            Some(CertifyError::Invalid { what: "the start", .. })
+        ));
         let start = Loops::<FourBar, f64>::at([0.35, 1.0], 0.7);
         for to in [wrong, 0.7] {
             let error = certify::range(&four_bar, &start, to).err();
@@ -47,7 +55,10 @@ fn numbers_that_are_not_finite_are_an_error() {
 #[test]
 fn a_four_bar_that_cannot_be_assembled_has_no_position() {
     for lengths in [[100.0, 1.0, 20.0, 30.0], [0.0; 4], [100.0, 40.0, 0.0, 80.0]] {
-        assert!(matches!(error_of::<FourBar>(lengths), CertifyError::NoPosition { group: "phi, psi", .. }), "{lengths:?}");
+        assert!(
+            matches!(error_of::<FourBar>(lengths), CertifyError::NoPosition { group: "phi, psi", .. }),
+            "{lengths:?}"
+        );
     }
 }
 
@@ -55,7 +66,8 @@ fn a_four_bar_that_cannot_be_assembled_has_no_position() {
 fn a_length_of_any_sign_makes_a_group_singular() {
     let four_bar = Loops::<FourBar, f64>::new(LENGTHS);
     let start = Loops::<FourBar, f64>::at([0.35, 1.0], 0.7);
-    let all = Column::from([[100.0; 2], [40.0; 2], [-1.0, 121.0], [80.0; 2]]).map(|[a, b]| Interval::new(a, b).unwrap());
+    let all =
+        Column::from([[100.0; 2], [40.0; 2], [-1.0, 121.0], [80.0; 2]]).map(|[a, b]| Interval::new(a, b).unwrap());
     let error = Certify::new(&four_bar).parameters(all).turn(&start).err();
     assert!(matches!(error, Some(CertifyError::NoPosition { group: "phi, psi", .. })), "{error:?}");
 }
@@ -64,6 +76,6 @@ fn a_length_of_any_sign_makes_a_group_singular() {
 fn the_work_is_bounded() {
     let four_bar = Loops::<FourBar, f64>::new(LENGTHS);
     let start = Loops::<FourBar, f64>::at([0.35, 1.0], 0.7);
-    let error = Certify::new(&four_bar).most_boxes(5).turn(&start).err();
+    let error = Certify::new(&four_bar).most_tests(5).turn(&start).err();
     assert!(matches!(error, Some(CertifyError::Exhausted { boxes: 1..=5, input, .. }) if input > 0.7), "{error:?}");
 }

@@ -12,6 +12,8 @@ pub enum Angle {
     Fixed,
     Input,
     Unknown(usize),
+    /// Twice an unknown.
+    Twice(usize),
 }
 
 /// The length of a vector.
@@ -57,7 +59,7 @@ pub struct Loops<S: Shape, N: Number> {
     shape: PhantomData<S>,
 }
 
-/// A vector with its two partial derivatives by length and angle, and the rates of both.
+/// A vector with its factors.
 struct Vector<N> {
     xy: [N; 2],
     /// The unit vector, and the same turned by a quarter turn.
@@ -83,6 +85,7 @@ impl<S: Shape, N: Number> Loops<S, N> {
             Angle::Fixed => (N::zero(), N::one()),
             Angle::Input => v.sine_cosine(),
             Angle::Unknown(place) => u[place].sine_cosine(),
+            Angle::Twice(place) => (u[place] + u[place]).sine_cosine(),
         };
         let direction = match quarters % 4 {
             0 => [cosine, sine],
@@ -107,15 +110,16 @@ impl<S: Shape, N: Number> Loops<S, N> {
             for term in *terms {
                 let vector = self.vector(term, u, v);
                 let by_angle = match (variable, term.2) {
-                    (Angle::Input, Angle::Input) => true,
-                    (Angle::Unknown(one), Angle::Unknown(other)) => one == other,
-                    _ => false,
+                    (Angle::Input, Angle::Input) => Some(N::one()),
+                    (Angle::Unknown(one), Angle::Unknown(other)) if one == other => Some(N::one()),
+                    (Angle::Unknown(one), Angle::Twice(other)) if one == other => Some(N::exactly(2.0)),
+                    _ => None,
                 };
                 let by_length = matches!((variable, term.1), (Angle::Unknown(a), Length::Unknown(b)) if a == b);
                 for axis in 0..2 {
                     let place = 2 * row + axis;
-                    if by_angle {
-                        column[place] = column[place] + vector.factor * vector.length * vector.across[axis];
+                    if let Some(turns) = by_angle {
+                        column[place] = column[place] + turns * vector.factor * vector.length * vector.across[axis];
                     }
                     if by_length {
                         column[place] = column[place] + vector.factor * vector.direction[axis];
@@ -166,6 +170,7 @@ impl<S: Shape, N: Number> Formulas for Loops<S, N> {
                     Angle::Fixed => N::zero(),
                     Angle::Input => dv[0],
                     Angle::Unknown(place) => du[place],
+                    Angle::Twice(place) => du[place] + du[place],
                 };
                 let growth = match term.1 {
                     Length::Parameter(_) => N::zero(),

@@ -1,11 +1,11 @@
 //! Certified motions.
-#![cfg(test)]
 
 mod curves;
 mod errors;
 mod extremes;
 mod loops;
-mod shapes;
 mod random;
+mod series;
+mod shapes;
 mod tolerances;
 mod turns;

@@ -76,7 +76,10 @@ fn four_bars_turn_as_grashofs_limits_say() {
                     let input = random.between(input, input + TAU);
                     let exact = four_bar(lengths, side, input).unwrap();
                     let found = certificate.unknowns_at(exactly(input)).unwrap();
-                    assert!(exact.iter().zip(&found).all(|(&angle, &box_)| is_angle_in(angle, box_, 1e-9)), "{lengths:?}");
+                    assert!(
+                        exact.iter().zip(&found).all(|(&angle, &box_)| is_angle_in(angle, box_, 1e-9)),
+                        "{lengths:?}"
+                    );
                 }
                 closed += 1;
             }
@@ -126,7 +129,10 @@ fn positions_of_six_bars_are_in_their_tubes() {
             }
             Err(CertifyError::DeadPoint { limit, .. }) => {
                 let inside = (limit.middle() - input).signum();
-                assert!(position(limit.least() - 1e-7 * inside).is_some() && position(limit.most() + 1e-7 * inside).is_none());
+                assert!(
+                    position(limit.least() - 1e-7 * inside).is_some()
+                        && position(limit.most() + 1e-7 * inside).is_none()
+                );
                 dead += 1;
             }
             Err(error) => panic!("{first:?} {second:?} {error}"),

@@ -86,6 +86,19 @@ impl Shape for SixBar {
     const USER_FUNCTIONS: &'static [Option<&'static str>] = &[None, None];
 }
 
+/// A crank whose angle is twice that of a slotted link: crank = s at 2 u. Unknowns u and s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSpeed;
+impl Shape for HalfSpeed {
+    type P = D<1>;
+    type U = D<2>;
+    type Q = D<0>;
+    const LOOPS: &'static [&'static [Term]] = &[&[crank(0), (-1.0, Length::Unknown(1), Angle::Twice(0), 0)]];
+    const UNKNOWN_ANGLES: &'static [bool] = &[true, false];
+    const UNKNOWN_PERIODS: &'static [u32] = &[1, 0];
+    const GROUPS: &'static [Group] = &[Group { name: "u, s", equations: &[0, 1], unknowns: &[0, 1] }];
+}
+
 /// A four-bar whose equations have a user function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UserFunction;
@@ -108,9 +121,21 @@ impl Shape for Jansen {
     type U = D<10>;
     type Q = D<2>;
     const LOOPS: &'static [&'static [Term]] = &[
-        &[crank(12), link(9, 1), (1.0, Length::Parameter(0), Angle::Fixed, 0), (1.0, Length::Parameter(11), Angle::Fixed, 1), minus(1, 0)],
+        &[
+            crank(12),
+            link(9, 1),
+            (1.0, Length::Parameter(0), Angle::Fixed, 0),
+            (1.0, Length::Parameter(11), Angle::Fixed, 1),
+            minus(1, 0),
+        ],
         &[link(1, 0), link(4, 3), minus(3, 2)],
-        &[crank(12), link(10, 5), (1.0, Length::Parameter(0), Angle::Fixed, 0), (1.0, Length::Parameter(11), Angle::Fixed, 1), minus(2, 4)],
+        &[
+            crank(12),
+            link(10, 5),
+            (1.0, Length::Parameter(0), Angle::Fixed, 0),
+            (1.0, Length::Parameter(11), Angle::Fixed, 1),
+            minus(2, 4),
+        ],
         &[link(3, 2), link(5, 6), minus(2, 4), minus(6, 7)],
         &[link(6, 7), link(7, 8), minus(8, 9)],
     ];
@@ -161,8 +186,11 @@ impl Shape for DoubleButterfly {
     const POINTS: &'static [&'static [Term]] = &[&[crank(1), link(2, 0)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true; 6];
     const UNKNOWN_PERIODS: &'static [u32] = &[1; 6];
-    const GROUPS: &'static [Group] =
-        &[Group { name: "coupler, upper, rocker, lower, link, strut", equations: &[0, 1, 2, 3, 4, 5], unknowns: &[0, 1, 2, 3, 4, 5] }];
+    const GROUPS: &'static [Group] = &[Group {
+        name: "coupler, upper, rocker, lower, link, strut",
+        equations: &[0, 1, 2, 3, 4, 5],
+        unknowns: &[0, 1, 2, 3, 4, 5],
+    }];
 }
 
 /// Its dimensions.
