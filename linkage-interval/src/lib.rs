@@ -2,6 +2,7 @@
 
 #![warn(missing_docs)]
 
+pub mod certify;
 mod interval;
 
 pub use interval::Interval;

@@ -1,0 +1,137 @@
+//! The certificate of a motion.
+
+use std::f64::consts::TAU;
+
+use linkage_runtime::{Certifiable, Column, Dim, Number};
+
+use super::motion::unknowns_of;
+use super::system::{Dimensions, System};
+use super::tube::Tube;
+use crate::Interval;
+
+/// The end of a certified motion over full turns of its input.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum End {
+    /// The motion is at its start again, after these full turns of the unknowns: it is closed, without a jump, a gap or
+    /// a dead point.
+    Closed {
+        /// The full turns of each unknown.
+        turns: Vec<i64>,
+    },
+    /// The motion arrives at another of the positions given, after these full turns of the unknowns.
+    Arrives {
+        /// The number of the position among those given.
+        position: usize,
+        /// The full turns of each unknown.
+        turns: Vec<i64>,
+    },
+    /// The motion covers the range and ends at no position given.
+    Open,
+}
+
+/// A proof that one motion exists and is continuous and regular over a range of its input.
+///
+/// For each value of the input there is exactly one position in the tube that covers it, the determinant of J is not
+/// zero there, and the positions are one motion, continuously differentiable. With tolerances this holds for each
+/// mechanism whose parameters are within them.
+pub struct Certificate<M: Certifiable> {
+    pub(super) system: System<M>,
+    pub(super) tubes: Vec<Tube>,
+    pub(super) end: End,
+    pub(super) tests: usize,
+    pub(super) inputs: Interval,
+    pub(super) start: Vec<Interval>,
+}
+
+impl<M: Certifiable> Certificate<M> {
+    /// The range of the input.
+    #[must_use]
+    pub fn inputs(&self) -> Interval {
+        self.inputs
+    }
+
+    /// The end of the motion.
+    #[must_use]
+    pub fn end(&self) -> &End {
+        &self.end
+    }
+
+    /// True if the motion is at its start again.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        matches!(self.end, End::Closed { .. })
+    }
+
+    /// The number of tubes.
+    #[must_use]
+    pub fn boxes(&self) -> usize {
+        self.tubes.len()
+    }
+
+    /// The number of tests for them, those that failed included.
+    #[must_use]
+    pub fn tests(&self) -> usize {
+        self.tests
+    }
+
+    /// The start: the enclosure of the unknowns at the first input.
+    #[must_use]
+    pub fn start(&self) -> Column<Interval, M::U> {
+        unknowns_of::<M>(&self.start)
+    }
+
+    /// The tubes in the order of the motion: the inputs of each, and a box that contains the unknowns at all of them.
+    pub fn tubes(&self) -> impl Iterator<Item = (Interval, Column<Interval, M::U>)> + '_ {
+        self.tubes.iter().map(|tube| (tube.range, unknowns_of::<M>(&tube.over(tube.range))))
+    }
+
+    /// Encloses the unknowns at an input, or at all inputs of an interval; `None` outside the range.
+    #[must_use]
+    pub fn unknowns_at(&self, input: Interval) -> Option<Column<Interval, M::U>> {
+        if !input.is_within(self.inputs) {
+            return None;
+        }
+        let parts = self.tubes.iter().filter_map(|tube| {
+            let c = input.intersection(tube.range)?;
+            let part = tube.part(&self.system, Dimensions::All, c);
+            Some(unknowns_of::<M>(&part.map_or_else(|| tube.over(c), |part| part.q)))
+        });
+        parts.reduce(|one, other| Column::from_fn(|place| one[place].hull(other[place])))
+    }
+}
+
+/// A box moved by full turns of the coordinates whose formulas repeat.
+pub(super) struct Moved {
+    /// The turns of the unknowns.
+    pub(super) turns: Vec<i64>,
+    pub(super) input_turns: i64,
+    pub(super) q: Vec<Interval>,
+}
+
+impl Moved {
+    /// Moves a box by the turns that bring it nearest to another.
+    pub(super) fn near<M: Certifiable>(system: &System<M>, start: &[Interval], end: &[Interval]) -> Self {
+        let input = M::U::COUNT;
+        let turns_of = |place: usize| {
+            let period = if place == input { system.input_period() } else { M::UNKNOWN_PERIODS.get(place).copied() };
+            let apart = end.get(place).zip(start.get(place)).map(|(end, start)| end.middle() - start.middle());
+            full_turns(apart.unwrap_or_default(), period.unwrap_or_default())
+        };
+        let two_pi = Interval::pi() + Interval::pi();
+        let moved = |(place, &x): (usize, &Interval)| match turns_of(place) {
+            0 => x,
+            turns => x + two_pi * Interval::from(turns as f64),
+        };
+        let q = start.iter().enumerate().map(moved).collect();
+        Self { turns: (0..input).map(turns_of).collect(), input_turns: turns_of(input), q }
+    }
+}
+
+/// The multiple of a period, in full turns, nearest to an angle; 0 without a period.
+fn full_turns(angle: f64, period: u32) -> i64 {
+    /// Up to here all whole numbers are doubles.
+    const MOST_TURNS: f64 = 9e15;
+    let period = f64::from(period);
+    let turns = if period > 0.0 { (angle / (TAU * period)).round() * period } else { 0.0 };
+    if turns.abs() < MOST_TURNS { turns as i64 } else { 0 }
+}

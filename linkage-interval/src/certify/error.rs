@@ -1,0 +1,113 @@
+//! The error of certificates.
+
+use std::fmt;
+
+use crate::Interval;
+
+/// The reason why a motion has no certificate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum CertifyError {
+    /// A number or an index given is invalid: NaN, infinite, or outside its range.
+    Invalid {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The name of the number.
+        what: &'static str,
+    },
+    /// Nothing is known of a user function over an interval.
+    UserFunction {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group with the function in its equations.
+        group: &'static str,
+        /// The function.
+        function: &'static str,
+    },
+    /// The start is near no position that can be certified: Newton's method does not converge, or the position is
+    /// singular, or the tolerances are too wide.
+    NoPosition {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group nearest to a singularity there.
+        group: &'static str,
+    },
+    /// The input turns back at a dead point.
+    DeadPoint {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group that is singular there.
+        group: &'static str,
+        /// It contains the limit of the input.
+        limit: Interval,
+    },
+    /// Even the shortest step fails in this interval of the input: it contains a change point, where motions cross, or
+    /// other motions or singularities are too near. With tolerances some mechanisms of the box may reach one.
+    Singular {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group nearest to a singularity.
+        group: &'static str,
+        /// The inputs of the step.
+        input: Interval,
+    },
+    /// Two enclosures of one derivative have no number in common: the emitted formula is not the derivative of Psi.
+    Contradiction {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The derivative: J, A or gamma.
+        what: &'static str,
+    },
+    /// The bound of the work is reached.
+    Exhausted {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The number of boxes certified or tested.
+        boxes: usize,
+        /// The input up to which the motion is certified.
+        input: f64,
+    },
+}
+
+impl fmt::Display for CertifyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Invalid { mechanism, what } => {
+                write!(f, "{what} of {mechanism} is invalid: not finite or out of range")
+            }
+            Self::UserFunction { mechanism, group, function } => write!(
+                f,
+                "group {group} of {mechanism} has the user function {function}, which has no values over intervals"
+            ),
+            Self::NoPosition { mechanism, group } => write!(
+                f,
+                "no position of {mechanism} can be certified at the start: group {group} is nearest to a singularity"
+            ),
+            Self::DeadPoint { mechanism, group, limit } => write!(
+                f,
+                "the input of {mechanism} turns back between {:?} and {:?}: group {group} is at a dead point; \
+                 `curve` passes it",
+                limit.least(),
+                limit.most()
+            ),
+            Self::Singular { mechanism, group, input } => write!(
+                f,
+                "the motion of {mechanism} cannot be certified between the inputs {:?} and {:?}: group {group} is \
+                 singular there or nearly so",
+                input.least(),
+                input.most()
+            ),
+            Self::Contradiction { mechanism, what } => {
+                write!(f, "the emitted {what} of {mechanism} contradicts the derivatives of Psi")
+            }
+            Self::Exhausted { mechanism, boxes, input } => {
+                write!(
+                    f,
+                    "the motion of {mechanism} is certified up to the input {input} by {boxes} boxes, the most allowed"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for CertifyError {}

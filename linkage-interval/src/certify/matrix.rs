@@ -1,0 +1,101 @@
+//! Linear systems with interval coefficients, by a float inverse Y of the middle: J x = c, or (I - Y J) x = x - Y c.
+
+use linkage_runtime::Number;
+
+use crate::Interval;
+
+/// The rows of the inverse of a matrix given by its columns; `None` if it is singular or not finite.
+///
+/// Gauss-Jordan elimination; `rows` are the scales of the rows, so that the pivots do not depend on units.
+pub(super) fn inverse(columns: &[&[f64]], rows: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let count = columns.len();
+    let mut work: Vec<Vec<f64>> = rows
+        .iter()
+        .enumerate()
+        .map(|(row, scale)| {
+            let unit = (0..count).map(|other| if other == row { 1.0 } else { 0.0 });
+            columns.iter().filter_map(|column| column.get(row)).map(|entry| entry / scale).chain(unit).collect()
+        })
+        .collect();
+    for step in 0..count {
+        let pivot = (step..count).max_by(|&one, &other| work[one][step].abs().total_cmp(&work[other][step].abs()))?;
+        work.swap(step, pivot);
+        let divisor = work[step][step];
+        if !divisor.is_finite() || divisor == 0.0 {
+            return None;
+        }
+        work[step].iter_mut().for_each(|entry| *entry /= divisor);
+        let leading = work[step].clone();
+        for (_, row) in work.iter_mut().enumerate().filter(|&(row, _)| row != step) {
+            let factor = row[step];
+            row.iter_mut().zip(&leading).for_each(|(entry, leading)| *entry -= factor * leading);
+        }
+    }
+    let inverse: Vec<Vec<f64>> =
+        work.iter().map(|row| row[count..].iter().zip(rows).map(|(entry, scale)| entry / scale).collect()).collect();
+    inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)
+}
+
+/// Y c for floats.
+pub(super) fn product(y: &[Vec<f64>], c: &[f64]) -> Vec<f64> {
+    y.iter().map(|row| row.iter().zip(c).map(|(y, c)| y * c).sum()).collect()
+}
+
+/// Y c.
+pub(super) fn times(y: &[Vec<f64>], c: &[Interval]) -> Vec<Interval> {
+    y.iter().map(|row| dot(row.iter().map(|&y| Interval::from(y)), c)).collect()
+}
+
+/// The sum of the products of two sequences.
+pub(super) fn dot(one: impl IntoIterator<Item = Interval>, other: &[Interval]) -> Interval {
+    one.into_iter()
+        .zip(other)
+        .map(|(one, &other)| one * other)
+        .reduce(|sum, part| sum + part)
+        .unwrap_or(Interval::zero())
+}
+
+/// The rows of I - Y J, where J is given by its columns.
+pub(super) fn defect(y: &[Vec<f64>], columns: &[&[Interval]]) -> Vec<Vec<Interval>> {
+    let of_row = |(row, y): (usize, &Vec<f64>)| {
+        let of_column = |(column, entries): (usize, &&[Interval])| {
+            let unit = if column == row { Interval::one() } else { Interval::zero() };
+            unit - dot(y.iter().map(|&y| Interval::from(y)), entries)
+        };
+        columns.iter().enumerate().map(of_column).collect()
+    };
+    y.iter().enumerate().map(of_row).collect()
+}
+
+/// D x.
+pub(super) fn apply(defect: &[Vec<Interval>], x: &[Interval]) -> Vec<Interval> {
+    defect.iter().map(|row| dot(row.iter().copied(), x)).collect()
+}
+
+/// The solution e of e = c + D e for all D and c of these intervals; `None` if D is too large.
+///
+/// In the norm max |e_i| / s_i with d = |D| < 1: |e| <= |c| / (1 - d). Two steps of e = c + D e then give each entry its
+/// own bounds. Source: S. M. Rump, "Verification methods", Acta Numerica 19 (2010), section 10.
+pub(super) fn fixed_point(defect: &[Vec<Interval>], c: &[Interval], scales: &[f64]) -> Option<Vec<Interval>> {
+    let relative = |entries: &[Interval]| {
+        let parts = entries.iter().zip(scales).map(|(entry, &scale)| (entry.abs() / Interval::from(scale)).most());
+        parts.fold(0.0, f64::max)
+    };
+    let whole: Vec<Interval> = scales.iter().map(|&scale| symmetric(scale)).collect();
+    let d = relative(&apply(defect, &whole));
+    if !(d < 1.0) {
+        return None;
+    }
+    let bound = Interval::from(relative(c)) / (Interval::one() - Interval::from(d));
+    let mut e: Vec<Interval> = whole.iter().map(|&unit| unit * bound).collect();
+    for _ in 0..2 {
+        let next: Vec<Interval> = apply(defect, &e).iter().zip(c).map(|(&part, &c)| c + part).collect();
+        e = e.iter().zip(next).map(|(&old, new)| old.intersection(new)).collect::<Option<_>>()?;
+    }
+    e.iter().all(|entry| entry.magnitude().is_finite()).then_some(e)
+}
+
+/// The numbers of magnitude up to this radius.
+pub(super) fn symmetric(radius: f64) -> Interval {
+    Interval::new(-radius, radius).unwrap_or(Interval::ENTIRE)
+}

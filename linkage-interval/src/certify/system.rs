@@ -1,0 +1,222 @@
+//! The formulas of a mechanism with one moving input, over all kinds of numbers that a certificate needs.
+//!
+//! The coordinates are q = (u, v): the unknowns, then the moving input. All derivatives come from Psi alone, by
+//! [`Series`]; the emitted J, A and gamma are only compared with them.
+
+use linkage_runtime::jacobian::ScalesOf;
+use linkage_runtime::{Certifiable, Column, Dim, Formulas, Number};
+
+use super::error::CertifyError;
+use super::series::Series;
+use crate::Interval;
+
+/// A parameter with a tolerance: the formulas with its derivative, and the difference of its values from the middle.
+struct Tolerance<F> {
+    by: F,
+    difference: Interval,
+}
+
+/// The mechanism with its parameters exact, or with all values of their tolerances.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Dimensions {
+    /// The middle of each tolerance.
+    Nominal,
+    /// All of them.
+    All,
+}
+
+/// The formulas of a mechanism, its fixed inputs and its scales.
+pub(super) struct System<M: Certifiable> {
+    floats: M::Over<Series<f64>>,
+    nominal: M::Over<Series<Interval>>,
+    all: M::Over<Series<Interval>>,
+    emitted: M::Over<Interval>,
+    tolerances: Vec<Tolerance<M::Over<Series<Interval>>>>,
+    inputs: Vec<f64>,
+    moving: usize,
+    /// The scales of the residuals.
+    pub(super) rows: Vec<f64>,
+    /// The scales of the coordinates: 1 for an angle.
+    pub(super) scales: Vec<f64>,
+}
+
+impl<M: Certifiable> System<M> {
+    /// The system of a mechanism whose other inputs stay at those of `start`.
+    pub(super) fn new(
+        mechanism: &M,
+        start: &M::Coordinates,
+        moving: usize,
+        parameters: &[Interval],
+    ) -> Result<Self, CertifyError> {
+        let invalid = |what| CertifyError::Invalid { mechanism: M::NAME, what };
+        let (unknowns, inputs) = M::parts(start);
+        if moving >= inputs.iter().count() {
+            return Err(invalid("the index of the input"));
+        }
+        if !unknowns.iter().chain(inputs.iter()).all(|number| number.is_finite()) {
+            return Err(invalid("the start"));
+        }
+        let middles = mechanism.parameters();
+        if middles.iter().any(|value| !value.is_finite()) || parameters.len() != middles.iter().count() {
+            return Err(invalid("the parameters"));
+        }
+        if middles.iter().zip(parameters).any(|(&middle, all)| !all.contains(middle) || !all.width().is_finite()) {
+            return Err(invalid("a tolerance"));
+        }
+        let lift = |values: &dyn Fn(usize) -> Series<Interval>| {
+            M::Over::<Series<Interval>>::with_parameters(Column::from_fn(values))
+        };
+        let own = |place: usize| parameters.get(place).copied().unwrap_or(Interval::ENTIRE);
+        let tolerances = parameters.iter().zip(middles.iter()).enumerate().filter(|(_, (all, _))| all.width() > 0.0);
+        let tolerances = tolerances.map(|(place, (&all, &middle))| Tolerance {
+            by: lift(&|other| {
+                if other == place { Series::line(own(other), Interval::one()) } else { Series::constant(own(other)) }
+            }),
+            difference: all - Interval::from(middle),
+        });
+        let scales = ScalesOf::<M>::of(mechanism, &mechanism.pose_at(start));
+        let scale_or_one = |scale: f64| if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
+        let coordinates =
+            scales.coordinates.unknowns.iter().chain(scales.coordinates.inputs.iter().skip(moving).take(1));
+        Ok(Self {
+            tolerances: tolerances.collect(),
+            floats: M::Over::with_parameters(middles.map(Series::constant)),
+            nominal: M::Over::with_parameters(middles.map(|value| Series::constant(value.into()))),
+            all: lift(&|place| Series::constant(own(place))),
+            emitted: M::Over::with_parameters(Column::from_fn(own)),
+            inputs: inputs.iter().copied().collect(),
+            moving,
+            rows: scales.residuals.iter().map(|&scale| scale_or_one(scale)).collect(),
+            scales: coordinates.map(|&scale| scale_or_one(scale)).collect(),
+        })
+    }
+
+    /// The number of unknowns.
+    pub(super) fn count(&self) -> usize {
+        M::U::COUNT
+    }
+
+    /// The unknowns and the moving input of a position; `None` if its other inputs are not those of the system.
+    pub(super) fn position(&self, q: &M::Coordinates) -> Option<Vec<f64>> {
+        let (unknowns, inputs) = M::parts(q);
+        let mut fixed = inputs.iter().zip(&self.inputs).enumerate().filter(|&(place, _)| place != self.moving);
+        let moving = *inputs.iter().nth(self.moving)?;
+        fixed.all(|(_, (one, other))| one == other).then(|| unknowns.iter().copied().chain([moving]).collect())
+    }
+
+    /// The number of turns of the input after which the formulas repeat; zero if they do not.
+    pub(super) fn input_period(&self) -> Option<u32> {
+        M::INPUT_PERIODS.get(self.moving).copied()
+    }
+
+    /// True if a parameter has a tolerance.
+    pub(super) fn has_tolerances(&self) -> bool {
+        !self.tolerances.is_empty()
+    }
+
+    /// Splits q into u and all inputs.
+    fn split<N: Number>(&self, q: &[N]) -> (Column<N, M::U>, Column<N, M::V>) {
+        let at = |place: usize| q.get(place).copied().unwrap_or_else(N::unknown);
+        let fixed = |place: usize| self.inputs.get(place).map_or_else(N::unknown, |&value| N::exactly(value));
+        let input = |place| if place == self.moving { at(M::U::COUNT) } else { fixed(place) };
+        (Column::from_fn(at), Column::from_fn(input))
+    }
+
+    fn formulas(&self, dimensions: Dimensions) -> &M::Over<Series<Interval>> {
+        match dimensions {
+            Dimensions::Nominal => &self.nominal,
+            Dimensions::All => &self.all,
+        }
+    }
+
+    /// Psi and its two derivatives along a curve.
+    pub(super) fn psi(&self, dimensions: Dimensions, q: &[Series<Interval>]) -> Vec<Series<Interval>> {
+        let (unknowns, inputs) = self.split(q);
+        self.formulas(dimensions).residual(&unknowns, &inputs).iter().copied().collect()
+    }
+
+    /// Psi and its two derivatives along a curve, without enclosure.
+    pub(super) fn float_psi(&self, q: &[Series<f64>]) -> Vec<Series<f64>> {
+        let (unknowns, inputs) = self.split(q);
+        self.floats.residual(&unknowns, &inputs).iter().copied().collect()
+    }
+
+    /// The quantities and their two derivatives along a curve.
+    pub(super) fn quantities(&self, dimensions: Dimensions, q: &[Series<Interval>]) -> Vec<Series<Interval>> {
+        let (unknowns, inputs) = self.split(q);
+        self.formulas(dimensions).quantities(&unknowns, &inputs).iter().copied().collect()
+    }
+
+    /// For each tolerance the derivative of Psi by the parameter, and the difference of its values from the middle.
+    pub(super) fn by_parameters(&self, q: &[Interval]) -> Vec<(Vec<Interval>, Interval)> {
+        let q: Vec<_> = q.iter().map(|&x| Series::constant(x)).collect();
+        let (unknowns, inputs) = self.split(&q);
+        let by = |tolerance: &Tolerance<M::Over<Series<Interval>>>| {
+            let psi = tolerance.by.residual(&unknowns, &inputs);
+            (psi.iter().map(|psi| psi.first).collect(), tolerance.difference)
+        };
+        self.tolerances.iter().map(by).collect()
+    }
+
+    /// For each tolerance the derivative of the quantities by the parameter while the unknowns have these rates.
+    pub(super) fn quantities_by_parameters(&self, q: &[Interval], rates: &[Vec<Interval>]) -> Vec<Vec<Interval>> {
+        let by = |(tolerance, rates): (&Tolerance<M::Over<Series<Interval>>>, &Vec<Interval>)| {
+            let q: Vec<_> = q.iter().zip(rates).map(|(&x, &rate)| Series::line(x, rate)).collect();
+            let (unknowns, inputs) = self.split(&q);
+            tolerance.by.quantities(&unknowns, &inputs).iter().map(|quantity| quantity.first).collect()
+        };
+        self.tolerances.iter().zip(rates).map(by).collect()
+    }
+
+    /// The columns of [J A], the derivatives of Psi by each coordinate.
+    pub(super) fn jacobian(&self, dimensions: Dimensions, q: &[Interval]) -> Vec<Vec<Interval>> {
+        let column = |column| self.psi(dimensions, &unit_line(q, column)).iter().map(|psi| psi.first).collect();
+        (0..q.len()).map(column).collect()
+    }
+
+    /// The columns of [J A] at a point, without enclosure.
+    pub(super) fn float_jacobian(&self, q: &[f64]) -> Vec<Vec<f64>> {
+        let column = |column| self.float_psi(&unit_line(q, column)).iter().map(|psi| psi.first).collect();
+        (0..q.len()).map(column).collect()
+    }
+
+    /// Compares the emitted J, A and gamma with the derivatives of Psi over a box. Both contain the true values, so
+    /// that they intersect if the emitted formulas are right.
+    ///
+    /// The rates of gamma are the scales of the coordinates, each times another factor, so that terms of opposite sign
+    /// do not cancel.
+    pub(super) fn check_emitted(&self, q: &[Interval]) -> Result<(), CertifyError> {
+        let factors = (0_u32..).map(|place| 1.0 + f64::from(place) / 3.0);
+        let rates: Vec<Interval> =
+            self.scales.iter().zip(factors).map(|(scale, factor)| (scale * factor).into()).collect();
+        let contradiction = |what| CertifyError::Contradiction { mechanism: M::NAME, what };
+        let (unknowns, inputs) = self.split(q);
+        let own = self.jacobian(Dimensions::All, q);
+        let j = self.emitted.jacobian_unknowns(&unknowns, &inputs);
+        let a = self.emitted.jacobian_inputs(&unknowns, &inputs);
+        let (of_unknowns, of_input) = own.split_at(M::U::COUNT);
+        if !of_unknowns.iter().zip(j.iter()).all(|(own, emitted)| intersect(own, emitted.as_slice())) {
+            return Err(contradiction("J"));
+        }
+        if !of_input.iter().zip(a.iter().skip(self.moving)).all(|(own, emitted)| intersect(own, emitted.as_slice())) {
+            return Err(contradiction("A"));
+        }
+        let along: Vec<_> = q.iter().zip(&rates).map(|(&x, &rate)| Series::line(x, rate)).collect();
+        let own: Vec<_> = self.psi(Dimensions::All, &along).iter().map(|psi| psi.second).collect();
+        let (unknown_rates, _) = self.split(&rates);
+        let input_rate = rates.last().copied().unwrap_or(Interval::zero());
+        let input_rates = Column::from_fn(|place| if place == self.moving { input_rate } else { Interval::zero() });
+        let gamma = self.emitted.gamma(&unknowns, &inputs, &unknown_rates, &input_rates);
+        if intersect(&own, gamma.as_slice()) { Ok(()) } else { Err(contradiction("gamma")) }
+    }
+}
+
+/// q + t e, where e is the unit vector of a coordinate.
+fn unit_line<N: Number>(q: &[N], moving: usize) -> Vec<Series<N>> {
+    let rate = |place| if place == moving { N::one() } else { N::zero() };
+    q.iter().enumerate().map(|(place, &x)| Series::line(x, rate(place))).collect()
+}
+
+fn intersect(these: &[Interval], those: &[Interval]) -> bool {
+    these.iter().zip(those).all(|(&this, &that)| this.intersection(that).is_some())
+}

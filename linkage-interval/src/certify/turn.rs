@@ -1,0 +1,104 @@
+//! Motions as functions of the input.
+
+use linkage_runtime::{Certifiable, Number};
+
+use super::certificate::{Certificate, End, Moved};
+use super::error::CertifyError;
+use super::motion::{Motion, certified_position, nearest_group};
+use super::system::System;
+use super::{Certify, curve};
+use crate::Interval;
+
+impl<M: Certifiable> Certify<'_, M> {
+    /// Certifies the motion over full turns of the input, one unless [`turns`](Self::turns) says otherwise.
+    ///
+    /// # Errors
+    /// [`CertifyError::DeadPoint`] if the input turns back, and the others of [`CertifyError`].
+    pub fn turn(&self, start: &M::Coordinates) -> Result<Certificate<M>, CertifyError> {
+        let period = M::INPUT_PERIODS.get(self.input).copied().unwrap_or_default();
+        if M::INPUT_ANGLES.get(self.input) != Some(&true) || self.turns == 0 {
+            return Err(self.invalid("a turn of the input"));
+        }
+        let from = self.start_input(start)?;
+        let turns = i64::from(self.turns);
+        let to = Interval::from(from) + (Interval::pi() + Interval::pi()) * Interval::from(f64::from(self.turns));
+        let mut certificate = self.over_inputs(start, from, to)?;
+        if period > 0 && turns % i64::from(period) == 0 {
+            certificate.end = self.end(&certificate, turns);
+        }
+        Ok(certificate)
+    }
+
+    /// Certifies the motion from the start to another value of the input.
+    ///
+    /// # Errors
+    /// [`CertifyError::DeadPoint`] if the input turns back before, and the others of [`CertifyError`].
+    pub fn range(&self, start: &M::Coordinates, to: f64) -> Result<Certificate<M>, CertifyError> {
+        let from = self.start_input(start)?;
+        if !to.is_finite() || to == from {
+            return Err(self.invalid("the range of the input"));
+        }
+        self.over_inputs(start, from, to.into())
+    }
+
+    fn start_input(&self, start: &M::Coordinates) -> Result<f64, CertifyError> {
+        M::parts(start).1.iter().nth(self.input).copied().ok_or_else(|| self.invalid("the index of the input"))
+    }
+
+    fn over_inputs(&self, start: &M::Coordinates, from: f64, to: Interval) -> Result<Certificate<M>, CertifyError> {
+        let system = self.system(start)?;
+        let input = system.count();
+        let guess = system.position(start).ok_or_else(|| self.invalid("the start"))?;
+        self.check_emitted(&system, &guess)?;
+        let no_position = || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(&system, &guess) };
+        let first = certified_position(&system, input, &guess).ok_or_else(no_position)?;
+        let (direction, end) = if to.middle() > from { (1.0, to.most()) } else { (-1.0, to.least()) };
+        let mut motion = Motion::new(&system, first.clone(), self.most_tests);
+        while motion.input().middle() != end {
+            match motion.advance(input, direction, Some(end), 0.0) {
+                Err(error @ CertifyError::Singular { .. }) => {
+                    return Err(curve::dead_point_ahead(&motion, direction).unwrap_or(error));
+                }
+                result => result?,
+            }
+            self.check_emitted_at(&motion)?;
+        }
+        let (tubes, tests) = (motion.tubes, motion.tests);
+        let inputs = Interval::from(from).hull(end.into());
+        Ok(Certificate { system, tubes, end: End::Open, tests, inputs, start: first })
+    }
+
+    /// The first position, of the start and those given, that is at the end of full turns.
+    fn end(&self, certificate: &Certificate<M>, turns: i64) -> End {
+        let Certificate { system, tubes, start, .. } = certificate;
+        let Some(last) = tubes.last() else { return End::Open };
+        let at_end = last.over(last.range);
+        let reached = |position: &[Interval]| {
+            let moved = Moved::near(system, position, &at_end);
+            (moved.input_turns == turns && last.contains(&moved.q)).then_some(moved.turns)
+        };
+        if let Some(turns) = reached(start) {
+            return End::Closed { turns };
+        }
+        let mut others = self.positions.iter().enumerate().filter_map(|(position, coordinates)| {
+            let guess = system.position(coordinates)?;
+            // At the start input only.
+            let is_at_start = guess.last().copied() == start.last().map(|input| input.middle());
+            let other = is_at_start.then(|| certified_position(system, system.count(), &guess))??;
+            Some(End::Arrives { position, turns: reached(&other)? })
+        });
+        others.next().unwrap_or(End::Open)
+    }
+}
+
+impl<M: Certifiable> Certify<'_, M> {
+    /// Compares the emitted derivatives with those of Psi at the end of a motion.
+    pub(super) fn check_emitted_at(&self, motion: &Motion<'_, M>) -> Result<(), CertifyError> {
+        motion.system.check_emitted(&motion.joint)
+    }
+
+    pub(super) fn check_emitted(&self, system: &System<M>, guess: &[f64]) -> Result<(), CertifyError> {
+        let point: Vec<Interval> = guess.iter().map(|&x| x.into()).collect();
+        system.check_emitted(&point)
+    }
+}
