@@ -17,6 +17,7 @@ mod names;
 mod operations;
 mod plan;
 mod pose;
+mod precise;
 mod position;
 mod quantities;
 mod rates;
