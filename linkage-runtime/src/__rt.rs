@@ -27,7 +27,7 @@ pub use crate::scalar::{largest, unit};
 pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::wide::{
-    Wide, rounded_by_name, rounded_matrices, rounded_matrix, widened, widened_by_name, widened_direction, widened_matrix,
+    Wide, rounded, rounded_by_name, rounded_each, widened, widened_by_name, widened_direction, widened_matrix,
 };
 pub use crate::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Elbow, Formulas, Group, InputError,

@@ -6,11 +6,11 @@
 //! once.
 
 use linkage_double::DoubleDouble;
-use nalgebra::{SMatrix, SVector, UnitComplex};
+use nalgebra::{Point2, SMatrix, SVector, UnitComplex};
 
 use crate::native::is_native;
 use crate::scalar::{to_f64, unit};
-use crate::{Real, real};
+use crate::{OutputMotion, PointMotion, Real, real};
 
 /// The scalar of twice the precision: it takes `f32` and `f64` exactly.
 pub type Wide = DoubleDouble;
@@ -53,23 +53,56 @@ where
     SVector::from(by_name).map(widened).into()
 }
 
-/// The matrix rounded; `None` if a number is not finite.
-#[must_use]
-pub fn rounded_matrix<T: Real, const R: usize, const C: usize>(wide: SMatrix<Wide, R, C>) -> Option<SMatrix<T, R, C>> {
-    let rounded = wide.map(|entry| real::<T>(entry.high()));
-    rounded.iter().all(T::is_finite).then_some(rounded)
+/// A result in twice the precision that can be rounded to `To`.
+pub trait Rounded<To> {
+    /// The rounded result; clears the flag if a number is not finite.
+    fn rounded(self, is_finite: &mut bool) -> To;
 }
 
-/// The matrices rounded, as [`rounded_matrix`].
-#[must_use]
-pub fn rounded_matrices<T: Real, const R: usize, const C: usize, const N: usize>(
-    wide: [SMatrix<Wide, R, C>; N],
-) -> Option<[SMatrix<T, R, C>; N]> {
-    let rounded = wide.map(|wide| rounded_matrix(wide).unwrap_or_else(|| SMatrix::repeat(real(f64::NAN))));
-    rounded.iter().flatten().all(T::is_finite).then_some(rounded)
+impl<T: Real> Rounded<T> for Wide {
+    fn rounded(self, is_finite: &mut bool) -> T {
+        let rounded = real::<T>(self.high());
+        *is_finite &= rounded.is_finite();
+        rounded
+    }
 }
 
-/// The numbers by name rounded, as [`rounded_matrix`].
+impl<T: Real, const R: usize, const C: usize> Rounded<SMatrix<T, R, C>> for SMatrix<Wide, R, C> {
+    fn rounded(self, is_finite: &mut bool) -> SMatrix<T, R, C> {
+        self.map(|entry| entry.rounded(is_finite))
+    }
+}
+
+impl<A: Rounded<B>, B, const N: usize> Rounded<[B; N]> for [A; N] {
+    fn rounded(self, is_finite: &mut bool) -> [B; N] {
+        self.map(|item| item.rounded(is_finite))
+    }
+}
+
+impl<T: Real> Rounded<PointMotion<T>> for PointMotion<Wide> {
+    fn rounded(self, is_finite: &mut bool) -> PointMotion<T> {
+        let Self { position, velocity, acceleration } = self;
+        let [position, velocity, acceleration] = [position.coords, velocity, acceleration].rounded(is_finite);
+        PointMotion { position: Point2::from(position), velocity, acceleration }
+    }
+}
+
+impl<T: Real> Rounded<OutputMotion<T>> for OutputMotion<Wide> {
+    fn rounded(self, is_finite: &mut bool) -> OutputMotion<T> {
+        let [value, velocity, acceleration] = [self.value, self.velocity, self.acceleration].rounded(is_finite);
+        OutputMotion { value, velocity, acceleration }
+    }
+}
+
+/// The matrix or the matrices rounded; `None` if a number is not finite.
+#[must_use]
+pub fn rounded<A: Rounded<B>, B>(wide: A) -> Option<B> {
+    let mut is_finite = true;
+    let rounded = wide.rounded(&mut is_finite);
+    is_finite.then_some(rounded)
+}
+
+/// The numbers by name rounded, as [`rounded`].
 #[must_use]
 pub fn rounded_by_name<T, A, B, const N: usize>(wide: A) -> Option<B>
 where
@@ -77,5 +110,16 @@ where
     SVector<Wide, N>: From<A>,
     B: From<SVector<T, N>>,
 {
-    rounded_matrix(SVector::from(wide)).map(B::from)
+    rounded(SVector::from(wide)).map(B::from)
+}
+
+/// A value for each point or output rounded, as [`rounded`].
+#[must_use]
+pub fn rounded_each<X, Y, A, B, const N: usize>(wide: A) -> Option<B>
+where
+    X: Rounded<Y>,
+    [X; N]: From<A>,
+    B: From<[Y; N]>,
+{
+    rounded(<[X; N]>::from(wide)).map(B::from)
 }

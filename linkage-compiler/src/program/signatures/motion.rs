@@ -5,24 +5,12 @@ use super::form::{fallible, layer, public_inlined, total};
 use crate::program::branch::Position;
 use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
-use crate::program::names::{Arguments, Order};
+use crate::program::names::Order;
 
 impl Signatures<'_> {
     pub fn velocity(&self) -> Function<Body> {
         let arguments = [self.pose(), self.inputs_by(Order::Rate)];
         public_inlined(fallible("velocity", arguments, self.coordinates_type(Order::Rate)))
-    }
-
-    /// The rates and accelerations at a pose in twice the precision.
-    pub fn precise_kinematics(&self) -> Function<Body> {
-        let inputs = |name: &String| {
-            Argument { name: name.clone(), passed: Passed::ByValue(Type::Own(self.types.inputs.clone())) }
-        };
-        let Arguments { input_rates, input_accelerations, .. } = &self.arguments;
-        let arguments = [self.pose(), inputs(input_rates), inputs(input_accelerations)];
-        let both = [Order::Rate, Order::Acceleration].map(|order| self.coordinates_type(order));
-        let returns = Type::Around("Option", Box::new(Type::Tuple(both.to_vec())));
-        Function { access: Access::Cold, ..total("precise_kinematics", arguments, returns) }
     }
 
     pub fn gamma(&self) -> Function<Body> {
