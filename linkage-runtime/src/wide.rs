@@ -1,9 +1,10 @@
 //! Twice the precision for groups that are nearly singular.
 //!
-//! A factorisation loses as many digits as its smallest pivot is small: with pivot p the solution has a relative error
-//! of about eps / p, most of it from the rounded entries of J, so that iterative refinement with these entries regains
-//! nothing. The emitted functions, generic over their scalar, then compute in [`Wide`] from the stored angles, and round
-//! once.
+//! With a smallest pivot p the solution of a factorised system has a relative error of about eps / p (N. J. Higham,
+//! "Accuracy and Stability of Numerical Algorithms", ch. 9). Most of it comes from the entries of J, rounded before, so that
+//! iterative refinement with these entries regains nothing. The emitted functions, generic over their scalar, then compute
+//! in [`Wide`] from the angles of the pose as numbers, and round once. Whether J is singular is decided before, in the
+//! scalar of the caller.
 
 use linkage_double::DoubleDouble;
 use nalgebra::{Point2, SMatrix, SVector, UnitComplex};
@@ -12,13 +13,19 @@ use crate::native::is_native;
 use crate::scalar::{to_f64, unit};
 use crate::{OutputMotion, PointMotion, Real, real};
 
-/// The scalar of twice the precision: it takes `f32` and `f64` exactly.
+/// The scalar of twice the precision: `f32` and `f64` convert to it exactly. One for both, so that a mechanism is compiled
+/// for one more scalar only.
 pub type Wide = DoubleDouble;
 
-/// The smallest pivot of an equilibrated block, at most about 1, below which it is solved in twice the precision.
+/// The pivot of an equilibrated block, whose entries are at most about 1, below which it is solved in twice the precision.
+///
+/// Solutions lose up to six bits above it. Of the positions of the double butterfly and of Stephenson II in equal steps
+/// along all their motions to dead points, 3 of 19 436 and 9 of 8234 lie below it; twice as many below its double, half
+/// as many below its half.
 const SMALLEST_PIVOT: f64 = 0.015_625;
 
-/// True if a group with this smallest pivot loses digits that [`Wide`] keeps: that of another scalar has its own digits.
+/// True if a group with this smallest pivot loses digits that [`Wide`] keeps: false for scalars other than `f32` and `f64`,
+/// known at compile time.
 #[inline]
 pub(crate) fn loses_digits<T: Real>(smallest_pivot: T) -> bool {
     is_native::<T>() && smallest_pivot < real(SMALLEST_PIVOT)
