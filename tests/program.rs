@@ -74,6 +74,8 @@ snapshots! {
     kinematics: "four_bar" "FourBar" ["kinematics", "full_kinematics", "kinematics_by_parts"];
     kinematics_of_five_groups: "klann" "Klann" ["kinematics"];
     kinematics_by_newton: "double_butterfly" "DoubleButterfly" ["kinematics_near"];
+    kinematics_in_twice_the_precision: "double_butterfly" "DoubleButterfly"
+        ["velocity_ratios", "precise_velocity_ratios", "precise_kinematics", "widened", "widened_pose", "at_numbers"];
     motion: "four_bar" "FourBar" ["motion"];
     motion_with_a_user_function: "cam_rocker" "CamRocker" ["motion"];
     lanes: "inverted_slider_crank" "InvertedSliderCrank" ["kinematics_in_lane", "quantities_in_lane"];

@@ -59,8 +59,9 @@ fn integer(x: f64) -> Option<i32> {
 
 /// The sum of x^n/n! for n from `first` to `last` in steps of `step`, with alternating signs if `sign` is -1, divided
 /// by x^first; `power` is x^step.
+#[inline(always)]
 fn series(power: DoubleDouble, first: usize, step: usize, last: usize, sign: f64) -> DoubleDouble {
-    let terms = INVERSE_FACTORIALS[first..=last].iter().step_by(step).rev();
+    let terms = INVERSE_FACTORIALS.get(first..=last).unwrap_or_default().iter().step_by(step).rev();
     terms.fold(ZERO, |sum, &term| term + sum * power * DoubleDouble::from(sign))
 }
 

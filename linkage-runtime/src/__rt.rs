@@ -26,6 +26,9 @@ pub use crate::position::newton_group;
 pub use crate::scalar::{largest, unit};
 pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
+pub use crate::wide::{
+    Wide, rounded, rounded_by_name, rounded_each, widened, widened_by_name, widened_direction, widened_matrix,
+};
 pub use crate::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Elbow, Formulas, Group, InputError,
     Limits, Matrix, Mechanism, Number, OutputMotion, PointMotion, PositionError, Real, Slider, Slope, Solution, lane,

@@ -57,6 +57,7 @@ mod sine;
 pub mod singularity;
 pub mod skeleton;
 mod turn;
+mod wide;
 #[cfg(feature = "serde")]
 mod written;
 

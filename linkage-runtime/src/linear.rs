@@ -5,6 +5,7 @@ use core::mem;
 use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::native::{self, native};
 use crate::scalar::{largest, smallest, to_f64};
+use crate::wide::loses_digits;
 use crate::{PositionError, Real, real};
 
 /// Returns an error if the determinant of a group of unknowns is zero to rounding error, relative to `scale`, the
@@ -55,6 +56,8 @@ pub struct Factorization<T: Real, const N: usize> {
     factors: Factors<T, N>,
     rows: [T; N],
     columns: [T; N],
+    /// True if [`refined`](Self::refined) asks for more digits.
+    loses_digits: bool,
 }
 
 impl<T: Real, const N: usize> Factorization<T, N> {
@@ -89,7 +92,8 @@ impl<T: Real, const N: usize> Factorization<T, N> {
         let factors = Factors::of(columns);
         let smallest = smallest(factors.pivots());
         if smallest > ulps(ZERO_ULPS * real_count(N)) {
-            Ok(Self { factors, rows: row_factors, columns: column_factors })
+            let loses_digits = loses_digits(smallest);
+            Ok(Self { factors, rows: row_factors, columns: column_factors, loses_digits })
         } else {
             Err(PositionError::Singular { mechanism, group, regularity: to_f64(smallest) })
         }
@@ -106,6 +110,15 @@ impl<T: Real, const N: usize> Factorization<T, N> {
             *entry *= *factor;
         }
         x
+    }
+
+    /// A result of solutions, or the `precise` one if there is one and the smallest pivot makes rounding errors large.
+    #[inline(always)]
+    pub fn refined<X>(&self, rough: X, precise: impl FnOnce() -> Option<X>) -> X {
+        if self.loses_digits {
+            return precise().unwrap_or(rough);
+        }
+        rough
     }
 }
 

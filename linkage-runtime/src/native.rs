@@ -1,6 +1,6 @@
 //! The scalars with functions of this crate: `f64` and `f32`.
 
-use core::any::Any;
+use core::any::{Any, TypeId};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_traits::{PrimInt, WrappingAdd, WrappingNeg};
@@ -96,4 +96,11 @@ pub(crate) fn power_of_two_below<F: Native>(value: F) -> Option<F> {
 #[inline(always)]
 pub(crate) fn same<A: Copy + 'static, B: Copy + 'static>(value: A) -> Option<B> {
     (&value as &dyn Any).downcast_ref().copied()
+}
+
+/// True for `f64` and `f32`, known at compile time.
+#[inline(always)]
+pub(crate) fn is_native<T: 'static>() -> bool {
+    let id = TypeId::of::<T>();
+    id == TypeId::of::<f64>() || id == TypeId::of::<f32>()
 }

@@ -12,6 +12,7 @@ mod freudenstein_roth;
 mod locked_second_group;
 mod many_turns;
 mod near_change_point;
+mod near_dead_points;
 mod near_parallel_links;
 mod needle_triangle;
 mod oblique_guides;

@@ -207,9 +207,11 @@ impl ToTokens for Statement {
                 several => quote!(if !(#(#several)&&*) { #(#inside)* }),
             },
             // Lowering has replaced these by calls.
-            Self::Check { .. } | Self::CheckPosition | Self::CheckKinematics { .. } | Self::LetAccepted(..) => {
-                TokenStream::new()
-            }
+            Self::Check { .. }
+            | Self::CheckPosition
+            | Self::CheckKinematics { .. }
+            | Self::LetAccepted(..)
+            | Self::Refine(..) => TokenStream::new(),
         });
     }
 }
@@ -250,6 +252,10 @@ impl ToTokens for Type {
             Self::Own(name) => {
                 let name = ident(name);
                 quote!(#name<T>)
+            }
+            Self::Wide(name) => {
+                let name = ident(name);
+                quote!(#name<__rt::Wide>)
             }
             Self::Bare(name) => ident(name).into_token_stream(),
             Self::Each(name, item) => {

@@ -55,6 +55,9 @@ fn statement(statement: &Statement) -> String {
             format!("unless {}: {}", expressions(conditions), inside.join("; "))
         }
         Statement::Check { what, values, .. } => format!("check {what}: {}", expressions(values)),
+        Statement::Refine(to, rough, precise) => {
+            format!("{} = {}, or {}", pattern(to), expression(rough), expression(precise))
+        }
         Statement::CheckPosition => "check the position".to_owned(),
         Statement::LetAccepted(to, _) => format!("{} = all checks", pattern(to)),
         Statement::CheckKinematics { otherwise, .. } => format!("check all, else return {}", expression(otherwise)),

@@ -30,6 +30,15 @@ impl Finished<'_> {
                 let values = self.expressions(unproven);
                 out.extend(check(&what, values, detail));
             }
+            Statement::Refine(to, rough, precise) => {
+                let (rough, precise) = (self.expression(rough), self.expression(precise));
+                let value = formulas.factors.iter().fold(rough, |rough, factors| {
+                    let value = Box::new(precise.clone());
+                    let precise = Expression::Closure { arguments: vec![], statements: vec![], value, moves: false };
+                    Expression::name(factors).method("refined", [rough, precise])
+                });
+                out.push(Statement::Let(self.pattern(to), value));
+            }
             Statement::CheckPosition => self.check_position(formulas, out),
             Statement::CheckKinematics { conditions, otherwise } => {
                 self.check_kinematics(conditions, otherwise, formulas, out);

@@ -138,6 +138,8 @@ pub(super) struct Formulas<'a> {
     pub(super) dyads: Vec<Option<BlockId>>,
     /// The names of the flags that are true if the triangle of a dyad is well conditioned.
     pub(super) well_conditioned: Vec<String>,
+    /// The names of the factorisations that solve groups.
+    pub(super) factors: Vec<String>,
     /// The checks of a kernel that only flags failed ones.
     pub(super) flags: Vec<Expression>,
     is_branch_free: bool,
@@ -155,6 +157,7 @@ impl<'a> Formulas<'a> {
             is_proven: Vec::new(),
             dyads: Vec::new(),
             well_conditioned: Vec::new(),
+            factors: Vec::new(),
             flags: Vec::new(),
             is_branch_free: true,
             taken: Taken::new(context.reserved),
@@ -193,7 +196,7 @@ impl<'a> Formulas<'a> {
         writer.well_conditioned = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
         writer.write();
         let results = writer.all_signed(&schedule.results);
-        let Writer { mut statements, names, externals, well_conditioned, flags, .. } = writer;
+        let Writer { mut statements, names, externals, well_conditioned, flags, factors, .. } = writer;
         parameters_where_used(&mut statements);
         let mut taken = names.taken;
         let results = kernel.results.iter().zip(results).map(|(output, result)| match &output.name {
@@ -213,6 +216,7 @@ impl<'a> Formulas<'a> {
             is_proven,
             dyads,
             well_conditioned,
+            factors: factors.into_values().collect(),
             flags,
             is_branch_free,
             taken,

@@ -29,7 +29,7 @@ pub(super) struct Writer<'a, 'n> {
     /// The checks, if a failed one is only flagged.
     pub(super) flags: Vec<Expression>,
     /// The factorisations, by block.
-    factors: BTreeMap<BlockId, String>,
+    pub(super) factors: BTreeMap<BlockId, String>,
 }
 
 impl<'a, 'n> Writer<'a, 'n> {
@@ -167,7 +167,9 @@ impl<'a, 'n> Writer<'a, 'n> {
                         self.statements.push(Statement::LetElse(pattern, call.method("ok", []), otherwise.clone()));
                     }
                 }
-                self.factors.insert(*block, name);
+                if is_used {
+                    self.factors.insert(*block, name);
+                }
             }
             Line::Solve { block, targets, right } => {
                 let right = Expression::List(self.all_signed(right));

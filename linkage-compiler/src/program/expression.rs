@@ -78,6 +78,8 @@ pub enum Statement {
     LetElse(Pattern, Expression, Expression),
     /// `if !(all conditions) { … }`
     Unless(Vec<Expression>, Vec<Statement>),
+    /// Binds a value, or a precise one if the factorisation of a group loses digits.
+    Refine(Pattern, Expression, Expression),
     /// Returns an error if a value is not finite; `detail` is a function that finds a more precise error.
     Check { what: String, values: Vec<Expression>, detail: Option<Expression> },
     /// Returns an error if a number of a position is not finite; numbers that a well-conditioned triangle guarantees
@@ -119,6 +121,8 @@ pub enum Type {
     Itself,
     /// A type of the mechanism over the scalar: `Name<T>`.
     Own(String),
+    /// A type of the mechanism over the scalar of twice the precision: `Name<Wide>`.
+    Wide(String),
     /// A type of the mechanism without a scalar: `Name`.
     Bare(String),
     /// One quantity for each of the points or outputs: `Name<Item>`.
@@ -334,7 +338,7 @@ impl Statement {
     pub fn each_name<'e>(&'e self, visit: &mut dyn FnMut(&'e str)) {
         match self {
             Self::Let(_, value) | Self::Do(value) | Self::Return(value) => value.each_name(visit),
-            Self::LetElse(_, value, otherwise) => {
+            Self::LetElse(_, value, otherwise) | Self::Refine(_, value, otherwise) => {
                 value.each_name(visit);
                 otherwise.each_name(visit);
             }

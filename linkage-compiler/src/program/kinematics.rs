@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
-use super::function::{Body, Failure, Kernel, Source, results};
+use super::function::{Body, Failure, Kernel, Source, Value, results};
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
@@ -25,11 +25,15 @@ impl Plan<'_, '_> {
         let arguments = [from, &names.branch, &names.input_rates, &names.input_accelerations];
         let otherwise = Expression::call("kinematics_by_parts", arguments.map(Expression::name));
         let (kernel, conditions) = self.kinematics_kernel(Failure::Return(otherwise.clone()));
+        let is_factorised = kernel.is_factorised();
         let value = self.kinematics_of_results(&kernel);
         let mut body = Body::of(kernel, value);
         body.before = self.before_kinematics();
         body.calls.push("kinematics_by_parts".to_owned());
         body.after.push(Statement::CheckKinematics { conditions, otherwise });
+        if is_factorised {
+            self.refine_kinematics(&mut body);
+        }
         let doc = lines([
             "The position, the rates q' and the accelerations q'' of all coordinates in one computation, from the inputs, their",
             "rates v' and their accelerations v''.",
@@ -39,6 +43,25 @@ impl Plan<'_, '_> {
         if self.signatures.has_quantities() {
             self.full_kinematics();
         }
+    }
+
+    /// Refines the rates and accelerations of `kinematics`.
+    fn refine_kinematics(&mut self, body: &mut Body) {
+        self.precise_kinematics();
+        let names = &self.signatures.arguments;
+        let Value::Plain(Expression::Struct(of, members, _)) = &body.value else { return };
+        let [(_, pose), (_, rates), (_, accelerations)] = members.as_slice() else { return };
+        let name = |name: &String| Expression::name(name);
+        let precise = [name(&names.pose).borrowed(), name(&names.input_rates), name(&names.input_accelerations)];
+        let precise = Expression::call("precise_kinematics", precise);
+        let both = [&names.rates, &names.accelerations].map(|name| Pattern::Name(name.clone()));
+        let rough = Expression::Tuple(vec![rates.clone(), accelerations.clone()]);
+        body.after.push(Statement::Let(Pattern::Name(names.pose.clone()), pose.clone()));
+        body.after.push(Statement::Refine(Pattern::Tuple(both.to_vec()), rough, precise));
+        let of_names = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
+        let of_names = of_names.map(|(field, value)| (field.to_owned(), name(value)));
+        body.value = Value::Plain(Expression::structure(of.clone(), of_names));
+        body.calls.push("precise_kinematics".to_owned());
     }
 
     /// The pose, the rates and the accelerations from the results of the kernel.

@@ -18,6 +18,7 @@ mod operations;
 mod plan;
 mod pose;
 mod position;
+mod precise;
 mod quantities;
 mod rates;
 mod ratio_derivatives;

@@ -111,6 +111,7 @@ impl<'d, 'a> Plan<'d, 'a> {
     /// Adds a function with its doc comment and its body.
     pub(super) fn add(&mut self, signature: Function<Body>, doc: Vec<String>, body: Body) {
         let doc = if self.signatures.is_open() { without_singular(doc) } else { doc };
+        let body = self.refined(&signature, body);
         self.functions.push(Function { doc, body: Some(body), ..signature });
     }
 

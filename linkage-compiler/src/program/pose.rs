@@ -89,6 +89,10 @@ impl PosePlan {
         let directions: BTreeMap<NodeId, String> = angles.iter().map(|&angle| (angle, unique(name(angle)))).collect();
         let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
         bare.extend(graph.needed_as_numbers(&numeric));
+        // Near a dead point the functions need the angles of groups that are solved by factorisation in full.
+        let factorised = derivation.blocks.iter().filter(|block| block.determinant.is_none());
+        let factorised = factorised.flat_map(|block| derivation.unknowns.at(&block.unknowns));
+        bare.extend(factorised.map(|unknown| derivation.coordinates[unknown].value));
         bare.extend(derivation.inputs.iter().map(|&input| derivation.coordinates[input].value));
         let mut values = Vec::new();
         for (index, coordinate) in derivation.coordinates.enumerated() {

@@ -48,6 +48,7 @@ const REMEMBERING: &str = "assemble_remembering";
 impl Plan<'_, '_> {
     pub(super) fn position(&mut self) {
         self.pose_at();
+        self.widening();
         if self.signatures.is_open() {
             // The inputs are the position: nothing is solved, and there are no branches.
             self.assemble();

@@ -127,7 +127,8 @@ impl Run {
             Statement::Check { .. }
             | Statement::CheckPosition
             | Statement::CheckKinematics { .. }
-            | Statement::LetAccepted(..) => {}
+            | Statement::LetAccepted(..)
+            | Statement::Refine(..) => {}
         }
         true
     }
